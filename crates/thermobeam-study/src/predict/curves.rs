@@ -242,12 +242,12 @@ impl Curves {
 pub(super) fn curves(
     scene: &Scene,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let curves = match scene.method {
-        Method::OneStep(_) => by_one_step(scene, rows, at, work),
-        Method::Dg(stepping) => by_dg(scene, stepping, rows, at, work),
+        Method::OneStep(_) => by_one_step(scene, rows, times, work),
+        Method::Dg(stepping) => by_dg(scene, stepping, rows, times, work),
     }?;
     work.ran(&curves.cost);
     Ok(curves)
@@ -279,7 +279,7 @@ fn by_dg(
     scene: &Scene,
     stepping: dg::Stepping,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
@@ -300,8 +300,8 @@ fn by_dg(
         solves = done;
         let (from, to) = (simulation.old_level().t, simulation.t());
         curves.include(simulation.tip_range());
-        if let Some(at) = at {
-            while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
+        if let Some(times) = times {
+            while let Some(&t) = times.get(passed).filter(|t| **t <= to) {
                 rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
@@ -361,7 +361,7 @@ fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
 fn by_one_step(
     scene: &Scene,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
@@ -375,10 +375,10 @@ fn by_one_step(
         let n = driver.work().steps;
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
-        let is_read = match at {
+        let is_read = match times {
             None => n.is_multiple_of(every) || n == steps,
             // Up to rounding, steps of half the length end there.
-            Some(at) => at
+            Some(times) => times
                 .get(curves.times.len())
                 .is_some_and(|time| t >= time - 0.5 * simulation.dt()),
         };

@@ -59,7 +59,7 @@ impl DgMotion {
         Coefficients { beam, obstacles }: Coefficients,
         mesh: Mesh,
         degree: usize,
-        by: dg::Stepping,
+        stepping: dg::Stepping,
     ) -> Result<Self, SetupError> {
         // A clamped end that is too hot is so from the start: the initial data must match it, or
         // the first step fails.
@@ -88,12 +88,18 @@ impl DgMotion {
             initial,
         };
         let simulation = match loads {
-            None => dg::Simulation::new(problem, by),
-            Some(theory) => dg::Simulation::with_load(problem, by, |space| {
+            None => dg::Simulation::new(problem, stepping),
+            Some(theory) => dg::Simulation::with_load(problem, stepping, |space| {
                 any_order::load(exact, &theory.beam, theory.obstacles, space, defect)
             }),
         }?;
-        Ok(Self::of(simulation, loads.is_some(), &beam, obstacles, by))
+        Ok(Self::of(
+            simulation,
+            loads.is_some(),
+            &beam,
+            obstacles,
+            stepping,
+        ))
     }
 
     pub(super) fn of(
@@ -101,12 +107,12 @@ impl DgMotion {
         is_loaded: bool,
         beam: &Beam,
         obstacles: Option<Obstacles>,
-        by: dg::Stepping,
+        stepping: dg::Stepping,
     ) -> Self {
         Self {
             level: simulation.level().clone(),
             // The blocks of a step are dense in time.
-            patience: Patience::new(simulation.space().blocks() * (by.degree + 1).pow(2)),
+            patience: Patience::new(simulation.space().blocks() * (stepping.degree + 1).pow(2)),
             simulation,
             theta_a: beam.theta_a,
             obstacles,

@@ -422,7 +422,7 @@ fn finite_at_nodes(
     function: &Expression,
     mesh: &Mesh,
 ) -> Result<(), InputError> {
-    let values = mesh.nodes().iter().map(|&at| (at, function.eval(at)));
+    let values = mesh.nodes().iter().map(|&x| (x, function.eval(x)));
     match values.into_iter().find(|(_, value)| !value.is_finite()) {
         None => Ok(()),
         Some((at, found)) => {
@@ -443,17 +443,17 @@ fn meets(
     field: &Field<'_>,
     function: &Expression,
     key: &str,
-    at: f64,
+    x: f64,
     expected: f64,
 ) -> Result<(), InputError> {
-    let found = function.eval(at);
+    let found = function.eval(x);
     // The rounding error takes thousands of evaluations, too expensive for every case of a sweep.
     if found == expected || (found - expected).abs() <= function.roundoff(1.0) {
         return Ok(());
     }
     Err(field.refuse(
-        format!("{key}({at}) = {found:?}"),
-        format!("{key}({at}) = {expected:?}, the boundary condition"),
+        format!("{key}({x}) = {found:?}"),
+        format!("{key}({x}) = {expected:?}, the boundary condition"),
     ))
 }
 

@@ -189,7 +189,7 @@ impl<S: Plantable> Detects<S> {
         }
         let pairs = self.studies.iter().zip(&row.judged);
         let others: Vec<String> = pairs
-            .filter(|(_, judged)| !judged.as_ref().is_ok_and(|it| it.verdict.is_pass()))
+            .filter(|(_, judged)| !judged.as_ref().is_ok_and(|judged| judged.verdict.is_pass()))
             .map(|(study, _)| study.header.id.clone())
             .collect();
         let not = if others.is_empty() {

@@ -297,8 +297,8 @@ impl Ends<'_> {
     }
 
     /// Two numbers of the finest end, of u and of φ; NaN if that run failed.
-    fn numbers(&self, of: fn(&AtRest) -> [f64; 2]) -> [f64; 2] {
-        self.finest().map_or([f64::NAN; 2], of)
+    fn numbers(&self, numbers: fn(&AtRest) -> [f64; 2]) -> [f64; 2] {
+        self.finest().map_or([f64::NAN; 2], numbers)
     }
 
     /// The larger error on the finest mesh.

@@ -193,7 +193,7 @@ impl AtRest {
         mesh: &Mesh,
         t: f64,
         level: &Level,
-        meant: impl Fn(&Equilibrium) -> bool,
+        is_candidate: impl Fn(&Equilibrium) -> bool,
     ) -> Result<Self, CaseFailure> {
         let states = exact_states(scene)?;
         Ok(Self {
@@ -203,7 +203,7 @@ impl AtRest {
             is_complete: completeness(&scene.beam, scene.obstacles.as_ref())
                 == Completeness::Complete,
             stable: states.iter().filter(|state| state.stable).count(),
-            nearest: Nearest::of(mesh, level, states.into_iter().filter(meant)),
+            nearest: Nearest::of(mesh, level, states.into_iter().filter(is_candidate)),
         })
     }
 

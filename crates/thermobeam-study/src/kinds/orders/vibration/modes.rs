@@ -155,13 +155,13 @@ impl Modes {
     /// after the other. All schemes treat the temperature by Crank-Nicolson.
     pub(super) fn moved(
         &self,
-        by: Option<SchemeFormulas>,
+        scheme: Option<SchemeFormulas>,
         dt: f64,
     ) -> impl FnMut(usize, &mut Factors) {
         let mut level = 0;
         let mut states: Vec<[f64; 2]> = self.vibrations.iter().map(|start| start.state).collect();
         move |n, factors| {
-            let Some(scheme) = by else {
+            let Some(scheme) = scheme else {
                 return factors.at(&self.exact, n as f64 * dt);
             };
             for _ in level..n {

@@ -254,7 +254,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     }
     let limit = extrapolated(&study.meshes, &forces);
     let mut checks = vec![discrete_limit(limit)];
-    checks.extend(scenes.iter().flat_map(|of| of.checks(study)));
+    checks.extend(scenes.iter().flat_map(|scene| scene.checks(study)));
     let errors = forces
         .iter()
         .map(|force| force.map(|force| (force - BUCKLING).abs()));
@@ -271,10 +271,10 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     let rates = levels.judge();
     let events: Vec<String> = scenes
         .iter()
-        .map(|of| format!("{:.6}", of.event()))
+        .map(|scene| format!("{:.6}", scene.event()))
         .collect();
     let headline = format!("buckling and lift-off at β = {}", events.join(", "));
-    let ends = scenes.iter().flat_map(|of| &of.rests);
+    let ends = scenes.iter().flat_map(|scene| &scene.rests);
     let left_out: Vec<_> = ends
         .map(|(_, rest)| rest.is_none().then_some(NO_RESULT))
         .collect();
@@ -291,7 +291,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
             forces_over_meshes(&study.meshes, &forces, limit),
             rests(study, &scenes),
         ],
-        figures: scenes.iter().flat_map(|of| of.figures()).collect(),
+        figures: scenes.iter().flat_map(|scene| scene.figures()).collect(),
         quantities: scenes.iter().map(OfScene::guarded_event).collect(),
         ..Findings::default()
     }
@@ -362,14 +362,17 @@ fn forces_over_meshes(meshes: &[usize], forces: &[Option<f64>], limit: f64) -> L
 
 fn rests(study: &Bifurcation, scenes: &[OfScene<'_>]) -> Listing {
     let mut head = vec!["β".to_owned()];
-    for of in scenes {
-        head.extend([format!("u(1) at rest, {}", of.name()), "exact".to_owned()]);
+    for scene in scenes {
+        head.extend([
+            format!("u(1) at rest, {}", scene.name()),
+            "exact".to_owned(),
+        ]);
     }
     let mut rows = vec![];
     for (place, beta) in study.rest.betas.iter().enumerate() {
         let mut row = vec![beta.to_string()];
-        for of in scenes {
-            let tips = of.rests[place]
+        for scene in scenes {
+            let tips = scene.rests[place]
                 .1
                 .map_or([f64::NAN; 2], |rest| [rest.tip[0], rest.exact_tip()[0]]);
             row.extend(tips.map(|tip| decimals(tip, 8)));

@@ -251,9 +251,9 @@ impl ExactExperiments {
         let mut rows = vec![];
         for (k, how) in self.discretisations.iter().enumerate() {
             let stepping = &how.stepping;
-            let steps = scenes
-                .iter()
-                .map(|of| of.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string()));
+            let steps = scenes.iter().map(|runs| {
+                runs.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string())
+            });
             let mut row: Vec<String> = [how.elements, how.degree, stepping.degree]
                 .map(|count| count.to_string())
                 .to_vec();
@@ -282,7 +282,7 @@ impl ExactExperiments {
             "the free end bounces, faster for larger β",
             plots::Axis::linear("displacement u(1, t) (dimensionless)"),
             &figures::obstacle_lines(obstacles),
-            |of| of.tip(),
+            |runs| runs.tip(),
         );
         let caption = format!(
             "The free end of every experiment by dG; two discretisations agree within {agreement:.1e}."
@@ -294,7 +294,7 @@ impl ExactExperiments {
                 "the error jumps where contact begins",
                 plots::Axis::log("error of u(1, t) (dimensionless)"),
                 &[],
-                |of| of.error_over_time(),
+                |runs| runs.error_over_time(),
             );
             let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of \
                            the free end.";

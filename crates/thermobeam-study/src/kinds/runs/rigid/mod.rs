@@ -318,7 +318,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
     let mut driver = Driver::new(problem, stepping)?;
     let mut contraction = None;
     let mut iterations = 0;
-    let ended = run_to(&mut driver, scene.t_end, |driver, report| {
+    let outcome = run_to(&mut driver, scene.t_end, |driver, report| {
         iterations += report.iterations;
         // While the tip enters or leaves contact the law is not linear, and two increments show
         // nothing.
@@ -327,7 +327,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
             contraction = Some(contraction.map_or(measured, |most| max_or_nan(most, measured)));
         }
     });
-    let failed_at = match ended {
+    let failed_at = match outcome {
         Ok(()) => None,
         Err(RunError::Step(error)) => {
             contraction = match error.failure {

@@ -44,22 +44,34 @@ pub(super) enum Rows {
     Tip,
     /// u(1), φ(1) and the energy.
     Numbers,
-    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of
-    /// a weight.
-    Norm(Vec<(f64, f64)>),
+    /// Integrands of the norm of Theorem 3.4 at these points.
+    Norm(Vec<NormPoint>),
+}
+
+/// A Gauss point of the norm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NormPoint {
+    x: f64,
+    /// The square root of its weight.
+    root_weight: f64,
 }
 
 impl Rows {
     /// The points for the norm: `count` Gauss points in each element.
     pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
         let gauss = dg::Space::gauss(count);
-        let points = nodes.windows(2).flat_map(|x| {
-            let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
-            gauss
-                .iter()
-                .map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
-        });
-        Self::Norm(points.collect())
+        let mut points = vec![];
+        for x in nodes.windows(2) {
+            let middle = 0.5 * (x[0] + x[1]);
+            let half = 0.5 * (x[1] - x[0]);
+            for (xi, weight) in &gauss {
+                points.push(NormPoint {
+                    x: middle + half * xi,
+                    root_weight: (half * weight).sqrt(),
+                });
+            }
+        }
+        Self::Norm(points)
     }
 
     /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares
@@ -101,7 +113,7 @@ impl Rows {
     /// The points of the norm in a space.
     fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
         match self {
-            Self::Norm(points) => points.iter().map(|(x, _)| space.locate(*x)).collect(),
+            Self::Norm(points) => points.iter().map(|point| space.locate(point.x)).collect(),
             _ => vec![],
         }
     }
@@ -126,10 +138,10 @@ impl Rows {
             );
             return row.push(simulation.energy(level).total());
         };
-        for ((_, weight), point) in points.iter().zip(located) {
+        for (NormPoint { root_weight, .. }, point) in points.iter().zip(located) {
             let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
                 level.values_and_slopes_at(space, point);
-            Self::push(row, *weight, [u_x, phi, phi_x, v, w, theta]);
+            Self::push(row, *root_weight, [u_x, phi, phi_x, v, w, theta]);
         }
     }
 
@@ -149,7 +161,7 @@ impl Rows {
             return;
         };
         let mut i = 0;
-        for &(x, weight) in points {
+        for &NormPoint { x, root_weight } in points {
             while nodes[i + 1] < x {
                 i += 1;
             }
@@ -159,7 +171,7 @@ impl Rows {
             let [v, w, theta] = [&level.v, &level.w, &level.theta].map(|y| value(y));
             Self::push(
                 row,
-                weight,
+                root_weight,
                 [
                     slope(&level.u),
                     value(&level.phi),

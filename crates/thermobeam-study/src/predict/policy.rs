@@ -1,8 +1,9 @@
 //! The tuned constants of a search for a discretisation.
 
-/// How a search refines, and when it ends. The values are from experience: they change the cost of a
-/// search and the discretisation that it finds, while every run is still judged by its differences
-/// to two finer ones.
+/// How a search refines, and when it ends.
+///
+/// The values are from experience. They change the cost of a search and the discretisation that it
+/// finds. Whatever they are, a run is accepted for its differences to two finer ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Policy {
     /// Share of the target allowed for each of the two differences.
@@ -14,8 +15,8 @@ pub(super) struct Policy {
     /// Below this difference a stalled round has reached round-off: that of the solver's stopping
     /// rule, 1e-14 per step.
     pub(super) round_off: f64,
-    /// Least factor by which each degree lowers the error in x, measured in the worst scene: a front
-    /// after an impact.
+    /// Least factor by which each degree lowers the error in x, measured in the worst scene: a
+    /// front after an impact.
     pub(super) fall_per_degree: f64,
     /// Rate of the error inside steps near a contact event, where u_tt behaves like t^(1/2).
     pub(super) event_rate: f64,
@@ -24,8 +25,8 @@ pub(super) struct Policy {
     pub(super) start_rate: f64,
     /// Smallest and largest divisor of `restart_dt` in one round.
     pub(super) start_divisors: [f64; 2],
-    /// A layer at x = 1 is resolved if its width is at least this multiple of length / p², the finest
-    /// detail of an element.
+    /// A layer at x = 1 is resolved if its width is at least this multiple of length / p², the
+    /// finest detail of an element.
     pub(super) resolved_layer: f64,
     /// Smallest and largest factor of all steps in one round: a large difference gives no reliable
     /// factor.
@@ -37,8 +38,8 @@ pub(super) struct Policy {
     pub(super) finer_degrees: usize,
     /// Growth of steps below which it is kept: slower growth would never reach dt.
     pub(super) least_growth: f64,
-    /// Elements longer than this part of the longest are halved; shorter ones wait until the lengths
-    /// are closer.
+    /// Elements longer than this part of the longest are halved; shorter ones wait until the
+    /// lengths are closer.
     pub(super) long_element: f64,
     /// Degrees added in one round.
     pub(super) most_degrees: usize,

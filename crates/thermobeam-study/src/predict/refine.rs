@@ -40,9 +40,11 @@ impl Policy {
         })
     }
 
-    /// The scene with only space refined, and with only steps refined: p + 4 or the longest elements
-    /// halved, and all steps halved, with even shorter first steps, since the error there falls more
-    /// slowly; for a one-step scheme twice the elements, and dt/2.
+    /// The scene with only space refined, and with only steps refined.
+    ///
+    /// For dG: p + 4 or the longest elements halved, and all steps halved, with even shorter first
+    /// steps, since the error there falls more slowly. For a one-step scheme: twice the elements,
+    /// and dt/2.
     pub(super) fn finer(&self, scene: &Scene) -> [Result<Scene, Reason>; 2] {
         let Method::Dg(stepping) = scene.method else {
             let (elements, steps) = (scene.mesh.elements(), scene.steps());

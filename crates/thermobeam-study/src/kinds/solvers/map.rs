@@ -332,7 +332,7 @@ pub struct Boundary {
 }
 
 impl Map {
-    /// The dt in the map at which the predicted factor α is `limit`; `None` if it crosses it nowhere.
+    /// The dt in the map at which the predicted factor α is `limit`; `None` if there is none.
     fn dt_of_alpha(
         &self,
         problem: &Problem,

@@ -45,22 +45,34 @@ pub(super) enum Rows {
     Tip,
     /// u(1), φ(1) and the energy.
     Numbers,
-    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of
-    /// a weight.
-    Norm(Vec<(f64, f64)>),
+    /// Integrands of the norm of Theorem 3.4 at these points.
+    Norm(Vec<NormPoint>),
+}
+
+/// A Gauss point of the norm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NormPoint {
+    x: f64,
+    /// The square root of its weight.
+    root_weight: f64,
 }
 
 impl Rows {
     /// The points for the norm: `count` Gauss points in each element.
     pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
         let gauss = dg::Space::gauss(count);
-        let points = nodes.windows(2).flat_map(|x| {
-            let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
-            gauss
-                .iter()
-                .map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
-        });
-        Self::Norm(points.collect())
+        let mut points = vec![];
+        for x in nodes.windows(2) {
+            let middle = 0.5 * (x[0] + x[1]);
+            let half = 0.5 * (x[1] - x[0]);
+            for (xi, weight) in &gauss {
+                points.push(NormPoint {
+                    x: middle + half * xi,
+                    root_weight: (half * weight).sqrt(),
+                });
+            }
+        }
+        Self::Norm(points)
     }
 
     /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares
@@ -102,7 +114,7 @@ impl Rows {
     /// The points of the norm in a space.
     fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
         match self {
-            Self::Norm(points) => points.iter().map(|(x, _)| space.locate(*x)).collect(),
+            Self::Norm(points) => points.iter().map(|point| space.locate(point.x)).collect(),
             _ => vec![],
         }
     }
@@ -127,10 +139,10 @@ impl Rows {
             );
             return row.push(simulation.energy(level).total());
         };
-        for ((_, weight), point) in points.iter().zip(located) {
+        for (NormPoint { root_weight, .. }, point) in points.iter().zip(located) {
             let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
                 level.values_and_slopes_at(space, point);
-            Self::push(row, *weight, [u_x, phi, phi_x, v, w, theta]);
+            Self::push(row, *root_weight, [u_x, phi, phi_x, v, w, theta]);
         }
     }
 
@@ -150,7 +162,7 @@ impl Rows {
             return;
         };
         let mut i = 0;
-        for &(x, weight) in points {
+        for &NormPoint { x, root_weight } in points {
             while nodes[i + 1] < x {
                 i += 1;
             }
@@ -160,7 +172,7 @@ impl Rows {
             let [v, w, theta] = [&level.v, &level.w, &level.theta].map(|y| value(y));
             Self::push(
                 row,
-                weight,
+                root_weight,
                 [
                     slope(&level.u),
                     value(&level.phi),
@@ -243,12 +255,12 @@ impl Curves {
 pub(super) fn curves(
     scene: &Scene,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let curves = match scene.method {
-        Method::OneStep(_) => by_one_step(scene, rows, at, work),
-        Method::Dg(stepping) => by_dg(scene, stepping, rows, at, work),
+        Method::OneStep(_) => by_one_step(scene, rows, times, work),
+        Method::Dg(stepping) => by_dg(scene, stepping, rows, times, work),
     }?;
     work.ran(&curves.cost);
     Ok(curves)
@@ -269,10 +281,10 @@ fn run_within<M: ObservableMotion>(
             ControlFlow::Continue(())
         })
     };
-    let ended = run(motion, until, &[], &mut [&mut watch]);
+    let outcome = run(motion, until, &[], &mut [&mut watch]);
     match reason {
         Some(reason) => Err(reason),
-        None => ended.map_err(Reason::of_run),
+        None => outcome.map_err(Reason::of_run),
     }
 }
 
@@ -280,7 +292,7 @@ fn by_dg(
     scene: &Scene,
     stepping: DgStepping,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
@@ -301,8 +313,8 @@ fn by_dg(
         solves = done;
         let (from, to) = (simulation.old_level().t, simulation.t());
         curves.include(simulation.tip_range());
-        if let Some(at) = at {
-            while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
+        if let Some(times) = times {
+            while let Some(&t) = times.get(passed).filter(|t| **t <= to) {
                 rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
@@ -362,7 +374,7 @@ fn instances(simulation: &Dg, early: f64) -> [Instance; POINTS] {
 fn by_one_step(
     scene: &Scene,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
@@ -376,10 +388,10 @@ fn by_one_step(
         let n = driver.work().steps;
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
-        let is_read = match at {
+        let is_read = match times {
             None => n.is_multiple_of(every) || n == steps,
             // Up to rounding, steps of half the length end there.
-            Some(at) => at
+            Some(times) => times
                 .get(curves.times.len())
                 .is_some_and(|time| t >= time - 0.5 * simulation.dt()),
         };

@@ -87,22 +87,26 @@ impl Datum {
     /// interval becomes shorter, down to [`SHORTEST`]. The interval is the half over which the
     /// field changes more.
     fn jump(&self, [mut from, mut to]: [f64; 2], least: f64) -> Option<f64> {
-        let change = |from: f64, to: f64| (self.function.eval(to) - self.function.eval(from)).abs();
         // An element may be short itself, because of the jump.
-        let mut before = change(from, to);
+        let mut before = self.change(from, to);
         while to - from > SHORTEST {
             if to - from > STEEP * SHORTEST {
-                before = change(from, to);
+                before = self.change(from, to);
             }
             let middle = 0.5 * (from + to);
-            if change(from, middle) > change(middle, to) {
+            if self.change(from, middle) > self.change(middle, to) {
                 to = middle;
             } else {
                 from = middle;
             }
         }
-        let stays = change(from, to);
-        (stays > least && stays > 0.5 * before).then_some(0.5 * (from + to))
+        let last = self.change(from, to);
+        (last > least && last > 0.5 * before).then_some(0.5 * (from + to))
+    }
+
+    /// By how much the field at one point differs from that at another.
+    fn change(&self, from: f64, to: f64) -> f64 {
+        (self.function.eval(to) - self.function.eval(from)).abs()
     }
 }
 
@@ -161,12 +165,12 @@ impl Data {
             .collect();
         // A function such as x/abs(x) has no value at its jump, which is then inside a short
         // element.
-        let is_defined = |x: f64| {
-            fields
-                .iter()
-                .all(|datum| datum.function.eval(x).is_finite())
-        };
-        kinks.retain(|&x| (SHORTEST..=1.0 - SHORTEST).contains(&x) && is_defined(x));
+        kinks.retain(|&x| {
+            (SHORTEST..=1.0 - SHORTEST).contains(&x)
+                && fields
+                    .iter()
+                    .all(|datum| datum.function.eval(x).is_finite())
+        });
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|next, x| *next - *x < SHORTEST);
         let mut kept = scene.listed.clone();
@@ -393,12 +397,8 @@ fn on(scene: &Scene, nodes: Vec<f64>, wanted: &Wanted) -> Result<Scene, Unreacha
 /// Adds a node, unless one is closer than `least`.
 pub(super) fn add_node(nodes: &mut Vec<f64>, x: f64, least: f64) {
     let index = nodes.partition_point(|node| *node < x);
-    let is_close = |node: &f64| (x - node).abs() < least;
-    if !nodes[index.saturating_sub(1)..]
-        .iter()
-        .take(2)
-        .any(is_close)
-    {
+    let mut neighbours = nodes[index.saturating_sub(1)..].iter().take(2);
+    if !neighbours.any(|node| (x - node).abs() < least) {
         nodes.insert(index, x);
     }
 }

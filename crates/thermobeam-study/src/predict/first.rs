@@ -77,12 +77,16 @@ fn short_waves(beam: &Beam) -> [f64; 2] {
 /// The nodes, with equidistant nodes added wherever they are further apart than `length`.
 fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
     let length = length.max(SHORTEST);
-    let between = |x: &[f64]| {
-        let (from, to) = (x[0], x[1]);
+    let mut divided = vec![];
+    for ends in nodes.windows(2) {
+        let [from, to] = [ends[0], ends[1]];
         let parts = ((to - from) / length).ceil().max(1.0);
-        (0..parts as usize).map(move |part| from + (to - from) * (part as f64 / parts))
-    };
-    nodes.windows(2).flat_map(between).chain([1.0]).collect()
+        for part in 0..parts as usize {
+            divided.push(from + (to - from) * (part as f64 / parts));
+        }
+    }
+    divided.push(1.0);
+    divided
 }
 
 /// Nodes that are kept, and those others that are not close to them, measured by their distance

@@ -53,7 +53,7 @@ impl DgMotion {
         Coefficients { beam, obstacles }: Coefficients,
         mesh: Mesh,
         degree: usize,
-        by: DgStepping,
+        stepping: DgStepping,
     ) -> Result<Self, SetupError> {
         // A clamped end that is too hot is so from the start: the initial data must match it, or
         // the first step fails.
@@ -68,10 +68,10 @@ impl DgMotion {
         };
         // The value at x = 0 stays: the solver refuses initial data that contradict the boundary
         // conditions.
-        let planted =
-            move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
         let initial = InitialFunctions {
-            theta: Box::new(planted),
+            theta: Box::new(move |x| {
+                theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x)
+            }),
             ..start
         };
         let problem = DgProblem {
@@ -82,24 +82,24 @@ impl DgMotion {
             initial,
         };
         let simulation = match loads {
-            None => Dg::new(problem, by),
-            Some(theory) => Dg::with_load(problem, by, |space| {
+            None => Dg::new(problem, stepping),
+            Some(theory) => Dg::with_load(problem, stepping, |space| {
                 any_order::load(exact, &theory.beam, theory.obstacles, space, defect)
             }),
         }?;
-        Ok(Self::of(simulation, &beam, obstacles, by))
+        Ok(Self::of(simulation, &beam, obstacles, stepping))
     }
 
     pub(super) fn of(
         simulation: Dg,
         beam: &Beam,
         obstacles: Option<Obstacles>,
-        by: DgStepping,
+        stepping: DgStepping,
     ) -> Self {
         Self {
             level: simulation.level().clone(),
             // The blocks of a step are dense in time.
-            patience: Patience::new(simulation.space().blocks() * (by.degree + 1).pow(2)),
+            patience: Patience::new(simulation.space().blocks() * (stepping.degree + 1).pow(2)),
             simulation,
             theta_a: beam.theta_a,
             obstacles,

@@ -150,13 +150,14 @@ impl<'l> Driver<'l> {
             is_loaded: false,
         };
         // Both energies are rounded, and contain the constant of Kirchhoff's term.
-        let rounded = |now: EnergySize| EnergySize {
-            rounding: now.rounding + ROUNDED * initial.abs(),
-            ..now
-        };
-        energy
-            .sound(|| rounded(self.snapshot().energy_size()))
-            .err()
+        let outcome = energy.sound(|| {
+            let size = self.snapshot().energy_size();
+            EnergySize {
+                rounding: size.rounding + ROUNDED * initial.abs(),
+                ..size
+            }
+        });
+        outcome.err()
     }
 }
 

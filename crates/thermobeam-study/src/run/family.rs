@@ -202,7 +202,7 @@ impl Family {
             initial,
         };
         OnMesh {
-            of: self,
+            family: self,
             problem,
             sources,
         }
@@ -211,7 +211,7 @@ impl Family {
 
 /// A problem on a mesh, shared by runs with different steps.
 pub struct OnMesh<'a> {
-    of: &'a Family,
+    family: &'a Family,
     problem: Problem,
     sources: Option<Arc<Sources>>,
 }
@@ -224,7 +224,7 @@ impl OnMesh<'_> {
 
     /// Final time.
     pub(crate) fn t_end(&self) -> f64 {
-        self.of.t_end
+        self.family.t_end
     }
 
     /// Starts at t = 0 with a scheme and `steps` steps to do.
@@ -237,7 +237,7 @@ impl OnMesh<'_> {
         settings: Settings,
         steps: usize,
     ) -> Result<impl ObservableMotion, CaseFailure> {
-        let dt = self.of.t_end / steps as f64;
+        let dt = self.family.t_end / steps as f64;
         let stepping = Stepping {
             scheme,
             settings,
@@ -245,12 +245,12 @@ impl OnMesh<'_> {
             loaded: self.sources.is_some(),
         };
         let driver = Driver::new(self.problem.clone(), stepping)?;
-        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else {
+        let (Some(sources), Some(exact)) = (&self.sources, self.family.exact()) else {
             return Ok(driver);
         };
         let sources = sources.clone();
         let exact = exact.clone();
-        let obstacles = self.of.obstacles;
+        let obstacles = self.family.obstacles;
         let mut factors = Factors::default();
         Ok(driver.loaded(move |t, load| {
             factors.at(&exact, t);

@@ -85,22 +85,26 @@ pub fn motion(scene: &Scene) -> Result<Box<AnyMotion>, RunError> {
 /// A scene's initial data on any mesh, with boundary values set as in [`problem`].
 pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> one_step::InitialValues {
     let nodes = mesh.nodes();
-    let at_nodes = |function: &Option<Expression>, start: f64| -> Vec<f64> {
-        let value = |&x: &f64| function.as_ref().map_or(0.0, |function| function.eval(x));
-        let mut values: Vec<f64> = nodes.iter().map(value).collect();
-        values[0] = start;
-        values
-    };
     let initial = &scene.initial;
-    let mut theta = at_nodes(&initial.theta, scene.beam.theta_a);
+    let mut theta = nodal_values(nodes, &initial.theta, scene.beam.theta_a);
     theta[nodes.len() - 1] = 0.0;
     one_step::InitialValues {
-        u: at_nodes(&initial.u, 0.0),
-        u_t: at_nodes(&initial.u_t, 0.0),
-        phi: at_nodes(&initial.phi, 0.0),
-        phi_t: at_nodes(&initial.phi_t, 0.0),
+        u: nodal_values(nodes, &initial.u, 0.0),
+        u_t: nodal_values(nodes, &initial.u_t, 0.0),
+        phi: nodal_values(nodes, &initial.phi, 0.0),
+        phi_t: nodal_values(nodes, &initial.phi_t, 0.0),
         theta,
     }
+}
+
+/// A function at the nodes, with this value at the first one; zero if it is not given.
+fn nodal_values(nodes: &[f64], function: &Option<Expression>, first: f64) -> Vec<f64> {
+    let mut values = match function {
+        Some(function) => nodes.iter().map(|&x| function.eval(x)).collect(),
+        None => vec![0.0; nodes.len()],
+    };
+    values[0] = first;
+    values
 }
 
 /// A scene, ready to run.
@@ -123,12 +127,12 @@ impl Simulator {
 
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
-        let mut told = |motion: &mut AnyMotion, _: &Report| {
+        let mut watch = |motion: &mut AnyMotion, _: &Report| {
             let Work { t, steps, .. } = motion.work();
             progress(steps, t);
             Ok(ControlFlow::Continue(()))
         };
-        self.watched(recording, &[], &mut told)
+        self.watched(recording, &[], &mut watch)
     }
 
     /// Runs to the end; `read` receives the motion at each of these times, which increase.

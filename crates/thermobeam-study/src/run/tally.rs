@@ -307,15 +307,16 @@ impl Watch for Run {
             motion.balance()?
         };
         let extremes = motion.motion().tip_range();
-        let unsound = |unsound| {
-            let Work { t, steps, .. } = motion.work();
-            RunError::unsound(steps, t, report.dt, unsound)
-        };
-        self.add(report, &balance, extremes, || {
+        let outcome = self.add(report, &balance, extremes, || {
             motion.snapshot().energy_size()
-        })
-        .map_err(unsound)?;
-        Ok(ControlFlow::Continue(()))
+        });
+        match outcome {
+            Ok(()) => Ok(ControlFlow::Continue(())),
+            Err(unsound) => {
+                let Work { t, steps, .. } = motion.work();
+                Err(RunError::unsound(steps, t, report.dt, unsound))
+            }
+        }
     }
 }
 

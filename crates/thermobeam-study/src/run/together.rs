@@ -67,8 +67,10 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
         common.settings,
     )?;
     let mut level = Level::new(common.elements + 1);
-    let lane = |(k, scene)| LaneRun::new(k, scene, driver.ensemble(), &mut level);
-    let mut lanes: Vec<LaneRun<'_>> = scenes.iter().enumerate().map(lane).collect();
+    let mut lanes = vec![];
+    for (k, scene) in scenes.iter().enumerate() {
+        lanes.push(LaneRun::new(k, scene, driver.ensemble(), &mut level));
+    }
     driver.run(common.steps, |ensemble, balances| {
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
@@ -80,16 +82,17 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
         }
     })?;
     let share = driver.wall() / scenes.len() as u32;
-    let ended = |mut lane: LaneRun<'_>| {
+    let mut runs = vec![];
+    for mut lane in lanes {
         if lane.run.failure.is_none() {
             lane.end(driver.ensemble(), &mut level);
         }
-        Run {
+        runs.push(Run {
             wall: share,
             ..lane.run
-        }
-    };
-    Ok(lanes.into_iter().map(ended).collect())
+        });
+    }
+    Ok(runs)
 }
 
 /// One of the scenes.
@@ -117,21 +120,22 @@ impl<'s> LaneRun<'s> {
         let k = self.k;
         let dt = self.scene.dt();
         let step = ensemble.steps();
-        let outcome = ensemble.report(k).map_err(RunError::from).and_then(|done| {
-            let report = Report::new(done, None);
-            let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
-            let now = || {
-                ensemble.observe(k, level);
-                let case = &ensemble.cases()[k];
-                EnergySize {
-                    terms: case.energy_scale(level),
-                    rounding: case.rounding(level, level).total(),
-                }
-            };
-            self.run
-                .add(&report, balance, [ensemble.tip(k); 2], now)
-                .map_err(unsound)
-        });
+        let outcome = ensemble
+            .report(k)
+            .map_err(RunError::from)
+            .and_then(|solve| {
+                let report = Report::new(solve, None);
+                let tip = [ensemble.tip(k); 2];
+                let outcome = self.run.add(&report, balance, tip, || {
+                    ensemble.observe(k, level);
+                    let case = &ensemble.cases()[k];
+                    EnergySize {
+                        terms: case.energy_scale(level),
+                        rounding: case.rounding(level, level).total(),
+                    }
+                });
+                outcome.map_err(|unsound| RunError::unsound(step, step as f64 * dt, dt, unsound))
+            });
         if let Err(failure) = outcome {
             self.end(ensemble, level);
             self.run.failure = Some(failure);

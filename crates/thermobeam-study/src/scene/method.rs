@@ -229,9 +229,8 @@ fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
     }
     let candidates =
         [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
-    let distance = |candidate: f64| (candidate - dt).abs();
     let [low, high] = candidates;
-    let (steps, nearest) = if distance(low.1) <= distance(high.1) {
+    let (steps, nearest) = if (low.1 - dt).abs() <= (high.1 - dt).abs() {
         low
     } else {
         high

@@ -13,6 +13,7 @@ use crate::error::reference::combine;
 use crate::error::{AnyOrderEvaluator, Errors, Evaluator};
 use crate::kinds::prelude::*;
 use crate::run::family::Spent;
+use crate::run::snapshot::equidistant_time;
 
 /// A method of solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -313,24 +314,21 @@ impl Degrees {
             }
             Audience::Levels(_) | Audience::Nobody => None,
         };
-        let time = |k: usize| {
-            if k == times {
-                family.t_end
-            } else {
-                family.t_end * k as f64 / times as f64
-            }
-        };
         let mut level = motion.simulation().level().clone();
         let mut errors = Errors::default();
         let mut index = 0;
         let mut seconds = 0.0;
         let mut begun = clock();
         run_to(&mut motion, family.t_end, |motion, _| {
-            if motion.work().t < time(index + 1) {
+            if motion.work().t < equidistant_time(family.t_end, index + 1, times) {
                 return;
             }
             seconds += clock() - begun;
-            while index < times && motion.simulation().level_into(time(index + 1), &mut level) {
+            while index < times {
+                let t = equidistant_time(family.t_end, index + 1, times);
+                if !motion.simulation().level_into(t, &mut level) {
+                    break;
+                }
                 if let Some(evaluator) = &mut evaluator {
                     errors = errors.worst(evaluator.measure(&level, index));
                 }

@@ -419,10 +419,12 @@ impl Errors {
 
 /// The error in the fields over the degree; NaN if the run failed.
 fn points(runs: &[Ran<Resolution, Errors>]) -> Vec<(f64, f64)> {
-    let error = |run: &Ran<_, Errors>| run.ok().and_then(|errors| errors.of("fields"));
-    runs.iter()
-        .map(|run| (run.case.data.degree as f64, error(run).unwrap_or(f64::NAN)))
-        .collect()
+    let mut points = vec![];
+    for run in runs {
+        let error = run.ok().and_then(|errors| errors.of("fields"));
+        points.push((run.case.data.degree as f64, error.unwrap_or(f64::NAN)));
+    }
+    points
 }
 
 /// Whether every run starts from the projection (3.6) of its initial data; with none, completion

@@ -1,7 +1,5 @@
 //! What the free end does: recorded step by step, by any method.
 
-use thermobeam::dg::ContactEvent;
-
 use super::*;
 use crate::run::Loaded;
 
@@ -159,9 +157,10 @@ impl Recorder {
     /// interpolated.
     fn first_contact(&self, motion: &AnyMotion, phase: Phase, obstacles: Obstacles) -> Option<f64> {
         if let Some((_, events)) = motion.snapshot().contact() {
-            let touches =
-                |event: &&ContactEvent| event.to == phase && event.t <= self.observed.t_end;
-            return events.iter().find(touches).map(|event| event.t);
+            let touch = events
+                .iter()
+                .find(|event| event.to == phase && event.t <= self.observed.t_end);
+            return touch.map(|event| event.t);
         }
         let Obstacles { g1, g2, .. } = obstacles;
         let passings = match phase {
@@ -173,18 +172,27 @@ impl Recorder {
 
     /// The motion so far.
     pub(super) fn finish(self, motion: &AnyMotion, obstacles: Option<Obstacles>) -> Trace {
-        let first = |phase: Phase| self.first_contact(motion, phase, obstacles?);
+        let (first_upper, first_lower) = match obstacles {
+            Some(obstacles) => (
+                self.first_contact(motion, Phase::Upper, obstacles),
+                self.first_contact(motion, Phase::Lower, obstacles),
+            ),
+            None => (None, None),
+        };
         let crossings = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0);
         let count = crossings.len();
         let frequency =
             (count >= 2).then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0]));
+        let mut largest = f64::NEG_INFINITY;
+        let mut smallest = f64::INFINITY;
         // The start is not a step.
-        let rotations = || self.levels.iter().skip(1).map(|level| level.phi);
-        let largest = rotations().fold(f64::NEG_INFINITY, max_or_nan);
-        let smallest = rotations().fold(f64::INFINITY, min_or_nan);
+        for level in self.levels.iter().skip(1) {
+            largest = max_or_nan(largest, level.phi);
+            smallest = min_or_nan(smallest, level.phi);
+        }
         Trace {
-            first_upper: first(Phase::Upper),
-            first_lower: first(Phase::Lower),
+            first_upper,
+            first_lower,
             crossings: count,
             frequency,
             phi_amplitude: largest - smallest,

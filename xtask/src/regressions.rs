@@ -85,12 +85,15 @@ fn chosen<'r>(
     arguments: &Arguments,
     all: &'r [Regression],
 ) -> Result<Vec<&'r Regression>, Unusable> {
-    let is_chosen = |one: &&Regression| {
-        let has =
-            |part: &String| one.name.contains(part.as_str()) || one.file.contains(part.as_str());
-        arguments.only.is_empty() || arguments.only.iter().any(has)
-    };
-    let chosen: Vec<&Regression> = all.iter().filter(is_chosen).collect();
+    let mut chosen = vec![];
+    for mistake in all {
+        let mut parts = arguments.only.iter();
+        if arguments.only.is_empty()
+            || parts.any(|part| mistake.name.contains(part) || mistake.file.contains(part))
+        {
+            chosen.push(mistake);
+        }
+    }
     if chosen.is_empty() {
         return Err(Unusable::because(&format!(
             "no regression with {} in its name",
@@ -208,14 +211,14 @@ fn plant<'r, 't>(
 }
 
 fn print_list(chosen: &[&Regression]) -> Outcome {
-    let row = |one: &&Regression| {
-        vec![
-            one.name.clone(),
-            one.file.clone(),
-            one.noticed_by().to_owned(),
-        ]
-    };
-    let rows = chosen.iter().map(row).collect::<Vec<_>>();
+    let mut rows = vec![];
+    for mistake in chosen {
+        rows.push(vec![
+            mistake.name.clone(),
+            mistake.file.clone(),
+            mistake.noticed_by().to_owned(),
+        ]);
+    }
     screen::print(&screen::table(
         &["mistake", "file", "to be noticed by"],
         &rows,

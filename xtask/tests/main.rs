@@ -1,12 +1,12 @@
-//! The tests of the tools, the map, the links and the workflow, in one program.
+//! The tests of the tools, the workflows, the manifests, and those that read the sources, in one program.
 
 mod action;
 mod bench;
 mod dev;
-mod links;
-mod map;
+mod manifests;
 mod quick_tier;
 mod readme;
+mod release;
 mod reworded;
-mod texts;
+mod sources;
 mod workflow;

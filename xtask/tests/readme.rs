@@ -1,5 +1,5 @@
-//! The README of the project shows what the commands print, and no README shows output that no test
-//! compares.
+//! The READMEs show what the commands print and what the reports say, and no README shows output
+//! that no test compares.
 
 #[path = "../../crates/convergence-study/tests/readme/blocks.rs"]
 mod blocks;
@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use blocks::{Printed, missing, printed};
+
+/// The page of the beam's program.
+const BEAM: &str = "crates/thermobeam-cli/README.md";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -33,19 +36,21 @@ fn is_reported(line: &str, report: &str) -> bool {
         .collect();
     match cells[..] {
         ["study", "verdict", "seconds", "key numbers"] => true,
-        [id, verdict, _, numbers] => report.lines().any(|row| {
-            let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-            row.starts_with(&format!("| [{id}]("))
-                && cells.contains(&verdict)
-                && cells.contains(&numbers)
-        }),
+        [id, verdict, _, numbers] => {
+            // An item of the list may go on in the next line.
+            let text = report.replace("\n  ", " ");
+            text.lines().any(|item| {
+                item.starts_with(&format!("- **{verdict}** [{id}]("))
+                    && item.ends_with(&format!(" ({numbers})"))
+            })
+        }
         _ => false,
     }
 }
 
 #[test]
 fn every_block_of_output_is_what_the_command_prints() {
-    let blocks = printed(&read("README.md"));
+    let blocks = printed(&read(BEAM));
     assert_eq!(blocks.len(), 2);
     for Printed { command, lines } in blocks {
         assert_eq!(command[..2], ["cargo", "xtask"]);
@@ -75,7 +80,7 @@ fn every_block_of_output_is_what_the_command_prints() {
 
 #[test]
 fn a_line_that_verify_does_not_report_is_found() {
-    let report = "**pass**: all 2 studies pass\n\n| [a-b](#a-b) | claim | pass | velocity 2.000 (order 2) |\n";
+    let report = "**pass**: all 2 studies pass\n\n- **pass** [a-b](#a-b): claim (velocity\n  2.000 (order 2))\n";
     for line in [
         "a-b   pass   1.24  velocity 2.000 (order 2)",
         "pass: all 2 studies pass",
@@ -118,22 +123,22 @@ fn no_other_readme_shows_output() {
     with_output.sort();
     assert_eq!(
         with_output,
-        ["README.md", "crates/convergence-study/README.md"].map(PathBuf::from)
+        ["README.md", "crates/convergence-study/README.md", BEAM].map(PathBuf::from)
     );
 }
 
 /// The error of the paper's figures in the README is that of the record of the full tier.
 #[test]
 fn the_error_of_the_papers_figures_is_that_of_the_record() {
-    let readme = read("README.md");
+    let readme = read("README.md").replace('\n', " ");
     let (_, after) = readme
         .split_once("the figures are off by up to ")
         .expect("a sentence on the figures");
     let number = after.split(' ').next().expect("a number");
-    let record = read("reports/full/README.md");
+    let record = read("reports/full/README.md").replace("\n  ", " ");
     let row = record
         .lines()
-        .find(|line| line.starts_with("| The paper's figures"))
+        .find(|line| line.starts_with("- **The paper's figures"))
         .expect("a row of the first table");
     assert!(
         row.contains(&format!("off by up to {number} in u(1, t)")),
@@ -141,11 +146,11 @@ fn the_error_of_the_papers_figures_is_that_of_the_record() {
     );
 }
 
-/// The table of run times in the README is that of the benchmark, row by row, and says how long a
+/// The table of run times on the page of the program is that of the benchmark, row by row, and says how long a
 /// run may take.
 #[test]
 fn the_run_times_are_those_of_the_benchmark() {
-    let readme = read("README.md");
+    let readme = read(BEAM);
     let report = read("reports/bench.md");
     let (_, after) = readme
         .split_once("\n| error in")
@@ -168,4 +173,68 @@ fn the_run_times_are_those_of_the_benchmark() {
 
 fn is_row(line: &str, report: &str) -> bool {
     report.lines().any(|row| row == line)
+}
+
+#[test]
+fn no_table_of_a_committed_report_is_wider_than_120_columns() {
+    let mut lines = 0;
+    for path in ["reports/README.md", "reports/full/README.md"] {
+        let report = read(path);
+        for line in report.lines().filter(|line| line.starts_with('|')) {
+            assert!(line.chars().count() <= 120, "{path}: {line}");
+            lines += 1;
+        }
+    }
+    assert!(lines > 1000, "{lines} lines of tables");
+}
+
+#[test]
+fn the_rates_of_the_theorem_are_those_of_the_report() {
+    let readme = read("README.md").replace('\n', " ");
+    let report = read("reports/README.md").replace("\n  ", " ");
+    for axis in ["h", "dt"] {
+        let words = format!("- **Theorem 3.4, in {axis}**: rate ");
+        let (_, rate) = report.split_once(&words).expect("a statement");
+        let (rate, _) = rate.split_once(" from levels").expect("its levels");
+        let stated = format!("{rate} in {}", axis.replace("dt", "δt"));
+        assert!(readme.contains(&stated), "{stated}");
+    }
+}
+
+#[test]
+fn how_often_the_rule_decides_and_errs_is_what_its_page_says() {
+    let readme = read("README.md").replace('\n', " ");
+    let rule = read("crates/convergence-judge/src/judge/verdict/RULE.md");
+    let row = |head: &str| {
+        let line = rule.lines().find(|line| line.starts_with(head));
+        let cells = line.unwrap_or_else(|| panic!("{head}")).split('|').skip(2);
+        cells.map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
+    };
+    let [levels, shares, wrong] = [
+        "| levels | 3 | 4 |",
+        "| true claims that pass; fail |",
+        "| claims half an order off that pass |",
+    ]
+    .map(row);
+    let at = |count: &str| {
+        let place = levels.iter().position(|level| level == count).unwrap();
+        let (pass, fail) = shares[place].split_once("; ").unwrap();
+        [pass.to_owned(), fail.to_owned(), wrong[place].clone()]
+    };
+    let [pass, fail, off] = at("4");
+    for sentence in [
+        format!("{pass} % of the true claims pass, {fail} % fail"),
+        format!("half an order off, {off} % pass"),
+    ] {
+        assert!(readme.contains(&sentence), "{sentence}");
+    }
+    let [pass, fail, off] = at("8");
+    let sentence = format!("At eight levels it is {pass}, {fail} and {off} %");
+    assert!(readme.contains(&sentence), "{sentence}");
+}
+
+#[test]
+fn the_first_page_is_short() {
+    let lines = read("README.md").lines().count();
+    assert!(lines <= 140, "{lines} lines");
 }

@@ -1,7 +1,6 @@
 //! Error bars of values whose limit is known: how often they hold the error, alongside the grid
 //! convergence index.
 
-use convergence_harness::judge::fit::Level;
 use convergence_harness::judge::richardson::{Estimator, Value};
 use convergence_harness::judge::verdict::FEWEST_LEVELS;
 
@@ -43,16 +42,18 @@ impl Bars {
     }
 
     fn cells(&self) -> Vec<Cell> {
-        let length = |column: &str, lengths: &[f64]| Cell {
-            column: column.to_owned(),
-            value: median(lengths),
-        };
         vec![
             self.refused.cell("refused"),
             self.bar_holds.cell("bar holds it"),
             self.index_holds.cell("index holds it"),
-            length("half-width of the bar", &self.bar_lengths),
-            length("of the index", &self.index_lengths),
+            Cell {
+                column: "half-width of the bar".to_owned(),
+                value: median(&self.bar_lengths),
+            },
+            Cell {
+                column: "of the index".to_owned(),
+                value: median(&self.index_lengths),
+            },
         ]
     }
 }
@@ -80,23 +81,23 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         let (law, random) = (&LAWS[k % LAWS.len()], draw.next()?);
         let count = FEWEST_LEVELS + random.below(LEVEL_COUNTS);
         let table = law.draw_at(&steps(random, count), random);
-        let (limit, sign) = (random.within([-1.0, 1.0]), [1.0, -1.0][random.below(2)]);
-        let value = |level: &Level| Value {
-            step: level.step,
-            value: limit + sign * level.error,
-        };
-        let values: Vec<Value> = table.levels.iter().map(value).collect();
+        let limit = random.within([-1.0, 1.0]);
+        let sign = [1.0, -1.0][random.below(2)];
+        let mut values = vec![];
+        for level in &table.levels {
+            values.push(Value {
+                step: level.step,
+                value: limit + sign * level.error,
+            });
+        }
         let estimate = estimator.estimate(&values, table.shown);
-        let (bar, index) = (
-            estimate.bar.ok().map(|bar| bar.error_interval),
-            estimate.gci.ok().map(|gci| gci.half_width),
-        );
-        let count_in =
-            |bars: &mut Bars| bars.count(bar, index, sign * table.levels[count - 1].error);
-        count_in(&mut of_laws[k % LAWS.len()]);
+        let bar = estimate.bar.ok().map(|bar| bar.error_interval);
+        let index = estimate.gci.ok().map(|gci| gci.half_width);
+        let error = sign * table.levels[count - 1].error;
+        of_laws[k % LAWS.len()].count(bar, index, error);
         if is_declared(law, &NO_BAR) {
-            count_in(&mut of_counts[count - FEWEST_LEVELS]);
-            count_in(&mut of_all);
+            of_counts[count - FEWEST_LEVELS].count(bar, index, error);
+            of_all.count(bar, index, error);
         }
     }
     let title = "Error bars and grid convergence index on values of known limit: how often they hold the true error; half-widths are medians, as shares of it";
@@ -124,14 +125,14 @@ fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet,
         let mut holds = Share::default();
         for _ in 0..tables {
             let random = draw.next()?;
-            let mut value = |k: usize| {
+            let mut values = vec![];
+            for k in 0..count {
                 let step = 0.5_f64.powi(k as i32 + 1);
-                Value {
+                values.push(Value {
                     step,
                     value: 1.0 + step * step * (1.0 + 0.02 * random.normal()),
-                }
-            };
-            let values: Vec<Value> = (0..count).map(&mut value).collect();
+                });
+            }
             let bar = estimator.estimate(&values, 2.0).bar;
             refused.count(bar.is_err());
             if let Ok(bar) = bar {

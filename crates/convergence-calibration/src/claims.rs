@@ -2,7 +2,7 @@
 
 use convergence_harness::judge::claims;
 use convergence_harness::judge::verdict::{
-    DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reason, Verdict,
+    DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading, Reason, Verdict,
 };
 
 use crate::draw::{CalibrationError, Draw};
@@ -99,23 +99,29 @@ struct OtherClaims {
     wrong_constant_passes: Share,
 }
 
+/// Whether the claim of at least this order passes.
+fn passes_at_least(judge: &Judge, reading: &Reading<'_>, order: f64) -> bool {
+    claims::at_least(judge.judge_read(reading, order))
+        .verdict
+        .is_pass()
+}
+
 impl OtherClaims {
     fn count(&mut self, law: &Law, table: &Table, judge: &Judge) {
         let reading = judge.read(&table.levels);
-        let least = |order: f64| {
-            claims::at_least(judge.judge_read(&reading, order))
-                .verdict
-                .is_pass()
-        };
         let half = 2.0 * DEFAULT_TOLERANCE;
         let Some(order) = table.order else {
-            self.too_much_passes.count(least(table.shown + half));
+            self.too_much_passes
+                .count(passes_at_least(judge, &reading, table.shown + half));
             return;
         };
+        let too_much = table.shown.max(order) + half;
         self.too_much_passes
-            .count(least(table.shown.max(order) + half));
-        self.order_passes.count(least(order));
-        self.less_passes.count(least(order - half));
+            .count(passes_at_least(judge, &reading, too_much));
+        self.order_passes
+            .count(passes_at_least(judge, &reading, order));
+        self.less_passes
+            .count(passes_at_least(judge, &reading, order - half));
         let rate = judge.judge_read(&reading, order);
         if HAS_CONSTANT.contains(&law.name) && rate.verdict.is_pass() {
             if let Some([low, high]) = claims::constant(&table.levels, &rate) {
@@ -123,14 +129,11 @@ impl OtherClaims {
                 self.interval_holds_constant
                     .count(low <= 1.0 + 1e-12 && 1.0 - 1e-12 <= high);
             }
-            let within =
-                |between| claims::with_constant(&table.levels, rate.clone(), between).verdict;
-            self.right_constant_passes
-                .count(within([0.8, 1.25]).is_pass());
-            self.right_constant_fails
-                .count(within([0.8, 1.25]) == Verdict::Fail);
-            self.wrong_constant_passes
-                .count(within([1.25, 2.0]).is_pass());
+            let right = claims::with_constant(&table.levels, rate.clone(), [0.8, 1.25]).verdict;
+            let wrong = claims::with_constant(&table.levels, rate, [1.25, 2.0]).verdict;
+            self.right_constant_passes.count(right.is_pass());
+            self.right_constant_fails.count(right == Verdict::Fail);
+            self.wrong_constant_passes.count(wrong.is_pass());
         }
     }
 

@@ -32,21 +32,23 @@ struct Law {
     power: f64,
 }
 
+/// Steps that are halved from level to level; the first is random.
+fn halved_steps(levels: usize, random: &mut SplitMix) -> Vec<f64> {
+    let first = [0.5, 0.25, 0.125][random.below(3)];
+    (0..levels)
+        .map(|k| first * 0.5_f64.powi(k as i32))
+        .collect()
+}
+
 impl Law {
     fn draw(levels: usize, hidden: bool, random: &mut SplitMix) -> Self {
-        let mut halved = || {
-            let first = [0.5, 0.25, 0.125][random.below(3)];
-            (0..levels)
-                .map(|k| first * 0.5_f64.powi(k as i32))
-                .collect::<Vec<f64>>()
-        };
-        let (h, dt) = (halved(), halved());
-        let mut order = || ORDERS[random.below(ORDERS.len())];
-        let orders = [order(), order()];
         let mut law = Self {
-            h,
-            dt,
-            orders,
+            h: halved_steps(levels, random),
+            dt: halved_steps(levels, random),
+            orders: [
+                ORDERS[random.below(ORDERS.len())],
+                ORDERS[random.below(ORDERS.len())],
+            ],
             pollution: [random.within([-0.8, 2.0]), random.within([-0.8, 2.0])],
             exponent: [1.0, random.within([0.5, 2.0])][random.below(2)],
             hidden: hidden.then(|| 10.0_f64.powf(random.within([-2.0, 0.0]))),
@@ -72,14 +74,15 @@ impl Law {
 
     /// The errors, each of them changed.
     fn errors(&self, mut change: impl FnMut(f64) -> f64) -> Vec<f64> {
-        let power = |error: f64| error.powf(self.power);
-        let error =
-            |h: f64, dt: f64| (power(self.space(h)) + power(self.time(dt))).powf(1.0 / self.power);
-        self.h
-            .iter()
-            .flat_map(|&h| self.dt.iter().map(move |&dt| (h, dt)))
-            .map(|(h, dt)| change(error(h, dt)))
-            .collect()
+        let mut errors = vec![];
+        for &h in &self.h {
+            for &dt in &self.dt {
+                let [space, time] =
+                    [self.space(h), self.time(dt)].map(|error| error.powf(self.power));
+                errors.push(change((space + time).powf(1.0 / self.power)));
+            }
+        }
+        errors
     }
 
     /// Both orders, judged by the way of adding that describes the errors better.

@@ -29,18 +29,19 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
     let main = |h: f64| h.powf(p) * (1.0 + a * h.powf(r));
     // b H^q = share (main + b H^q)
     let b = sign * main(finest) * share / (1.0 - sign * share) / finest.powf(q);
-    let level = |k: usize| {
-        let step = 0.5_f64.powi(k as i32);
-        Level {
-            step,
-            error: main(step) + b * step.powf(q),
-        }
-    };
-    Table {
-        levels: (0..levels).map(level).collect(),
+    let mut table = Table {
+        levels: vec![],
         shown: p,
         order: (q > 0.0).then_some(q),
+    };
+    for k in 0..levels {
+        let step = 0.5_f64.powi(k as i32);
+        table.levels.push(Level {
+            step,
+            error: main(step) + b * step.powf(q),
+        });
     }
+    table
 }
 
 /// Eight errors of second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`: a in [-0.9, 3], r = 1
@@ -55,12 +56,13 @@ pub(crate) fn wrong_limit(random: &mut SplitMix) -> Table {
 /// Eight errors h^p (1 + a h) + b h^(p - 1): a and b of either sign, |a| from 0.1 to 10, the last
 /// term 10 to 22 % of the finest error of the others.
 pub(crate) fn three_terms(random: &mut SplitMix) -> Table {
-    let (p, mut sign) = (random.within([1.0, 4.0]), || [1.0, -1.0][random.below(2)]);
-    let (one, other) = (sign(), sign());
-    let a = one * log_uniform([0.1, 10.0], random);
+    let p = random.within([1.0, 4.0]);
+    let sign_of_a = [1.0, -1.0][random.below(2)];
+    let sign_of_b = [1.0, -1.0][random.below(2)];
+    let a = sign_of_a * log_uniform([0.1, 10.0], random);
     let main = |h: f64| h.powf(p) * (1.0 + a * h);
     let finest = 0.5_f64.powi(7);
-    let b = other * main(finest).abs() * random.within([0.1, 0.22]) * finest.powf(1.0 - p);
+    let b = sign_of_b * main(finest).abs() * random.within([0.1, 0.22]) * finest.powf(1.0 - p);
     eight(p, Some(p - 1.0), |h| (main(h) + b * h.powf(p - 1.0)).abs())
 }
 

@@ -42,12 +42,12 @@ pub(crate) fn is_declared(law: &Law, not: &[&str]) -> bool {
 pub(crate) fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
     let fixed = [Some(2.0), Some(2.0), Some(1.5), Some(3.0), None][random.below(5)];
     let mut step = 1.0;
-    let mut next = || {
-        let here = step;
+    let mut steps = vec![];
+    for _ in 0..count {
+        steps.push(step);
         step /= fixed.unwrap_or_else(|| random.within([1.4, 2.5]));
-        here
-    };
-    (0..count).map(|_| next()).collect()
+    }
+    steps
 }
 
 /// Verdicts on claims, and how often the interval holds the order.

@@ -140,37 +140,38 @@ impl Expectation {
             bounds: [least, most],
         } = self;
         let sheet_of_key = sheets.iter().find(|known| known.key == sheet);
-        let is_meant = |known: &&Row| {
-            row.as_ref()
-                .map_or(known.declared, |name| *name == known.name)
-        };
-        let rows = sheet_of_key.iter().flat_map(|sheet| &sheet.rows);
-        let values: Vec<(&Row, f64)> = rows
-            .filter(is_meant)
-            .filter_map(|row| Some((row, row.value(column)?)))
-            .collect();
-        if values.is_empty() {
-            let columns = |sheet: &Sheet| format!("columns: {}", sheet.columns().join("; "));
-            let there = sheet_of_key.map_or_else(|| "no such sheet".to_owned(), columns);
-            let row = row.as_deref().unwrap_or("each declared");
-            let claim = format!("{sheet} has {column} of {row}");
-            let check = Check::that(false, claim, there);
-            return vec![check.about(Subject::of(column).in_case(sheet))];
-        }
         let bound = if least.is_finite() {
             format!("at least {least}")
         } else {
             format!("at most {most}")
         };
-        let check = |(row, value): (&Row, f64)| {
-            Check::that(
-                *least <= value && value <= *most,
-                format!("{column}: {bound}"),
-                text(value),
-            )
-            .about(Subject::of(column).in_case(format!("{sheet}, {}", row.name)))
-        };
-        values.into_iter().map(check).collect()
+        let mut checks = vec![];
+        for known in sheet_of_key.iter().flat_map(|sheet| &sheet.rows) {
+            let is_selected = match row {
+                Some(name) => *name == known.name,
+                None => known.declared,
+            };
+            if let Some(value) = known.value(column).filter(|_| is_selected) {
+                let check = Check::that(
+                    *least <= value && value <= *most,
+                    format!("{column}: {bound}"),
+                    text(value),
+                );
+                let case = format!("{sheet}, {}", known.name);
+                checks.push(check.about(Subject::of(column).in_case(case)));
+            }
+        }
+        if checks.is_empty() {
+            let evidence = match sheet_of_key {
+                Some(sheet) => format!("columns: {}", sheet.columns().join("; ")),
+                None => "no such sheet".to_owned(),
+            };
+            let row = row.as_deref().unwrap_or("each declared");
+            let claim = format!("{sheet} has {column} of {row}");
+            let check = Check::that(false, claim, evidence);
+            checks.push(check.about(Subject::of(column).in_case(sheet)));
+        }
+        checks
     }
 }
 
@@ -196,16 +197,14 @@ impl Kind for Calibration {
     type Found = Vec<Sheet>;
 
     fn cases(&self) -> Vec<Case<Measure>> {
-        let case = |&data: &Measure| {
+        let mut cases = vec![];
+        for &data in &self.measures {
             let Measure { of, tables, .. } = data;
+            let label = format!("{}, {tables} tables of each law", of.name);
             let cost = of.cost * tables * ELEMENTS_OF_A_TABLE;
-            Case::new(
-                format!("{}, {tables} tables of each law", of.name),
-                cost as f64,
-                data,
-            )
-        };
-        self.measures.iter().map(case).collect()
+            cases.push(Case::new(label, cost as f64, data));
+        }
+        cases
     }
 
     fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
@@ -259,21 +258,19 @@ fn text(value: f64) -> String {
 }
 
 fn table(sheet: &Sheet) -> Table {
-    let name = |row: &Row| {
-        if row.declared {
+    let mut rows = vec![];
+    for row in &sheet.rows {
+        let mut cells = vec![if row.declared {
             row.name.clone()
         } else {
             format!("({})", row.name)
-        }
-    };
-    let cells = |row: &Row| {
-        std::iter::once(name(row))
-            .chain(row.cells.iter().map(|cell| text(cell.value)))
-            .collect()
-    };
+        }];
+        cells.extend(row.cells.iter().map(|cell| text(cell.value)));
+        rows.push(cells);
+    }
     let columns = sheet.columns().into_iter().map(str::to_owned);
     let head = std::iter::once(String::new()).chain(columns);
-    Table::new(&sheet.title, head, sheet.rows.iter().map(cells))
+    Table::new(&sheet.title, head, rows)
 }
 
 /// A curve for each rule of a sheet.
@@ -289,8 +286,10 @@ fn figure(
     note: String,
     points: fn(&Row) -> Vec<(f64, f64)>,
 ) -> Figure {
-    let curve = |row: &Row| plots::Series::new(row.name.clone(), points(row));
-    let curves: Vec<plots::Series> = sheet.rows.iter().map(curve).collect();
+    let mut curves = vec![];
+    for row in &sheet.rows {
+        curves.push(plots::Series::new(row.name.clone(), points(row)));
+    }
     let figure = Xy {
         title: Some(title.to_owned()),
         x,
@@ -304,32 +303,35 @@ fn figure(
 
 /// True claims that pass, and wrong ones, in per cent, at each tolerance.
 fn trade(row: &Row) -> Vec<(f64, f64)> {
-    let percent = |column: String| 100.0 * row.value(&column).unwrap_or(f64::NAN);
     CLAIMS
         .map(|(tolerance, off)| {
             (
-                percent(true_pass(tolerance)),
-                percent(wrong_pass(tolerance, off)),
+                percent(row, &true_pass(tolerance)),
+                percent(row, &wrong_pass(tolerance, off)),
             )
         })
         .to_vec()
 }
 
+/// A share in per cent; NaN if the row does not have it.
+fn percent(row: &Row, column: &str) -> f64 {
+    100.0 * row.value(column).unwrap_or(f64::NAN)
+}
+
 /// Tables that pass, by the share of the hidden term, both in per cent.
 fn hidden(row: &Row) -> Vec<(f64, f64)> {
-    let passes = |share: f64| 100.0 * row.value(&hidden_part(share)).unwrap_or(f64::NAN);
     HIDDEN_SHARES
-        .map(|share| (100.0 * share, passes(share)))
+        .map(|share| (100.0 * share, percent(row, &hidden_part(share))))
         .to_vec()
 }
 
 /// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order
 /// goes unnoticed.
 fn figures(sheets: &[Sheet]) -> Vec<Figure> {
-    let sheet = |key: &str| sheets.iter().find(|sheet| sheet.key == key);
     let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
-    let of_rules = sheet("rules").map(|sheet| {
-        figure(
+    let mut figures = vec![];
+    if let Some(sheet) = sheets.iter().find(|sheet| sheet.key == "rules") {
+        figures.push(figure(
             sheet,
             "The rule seldom passes a wrong claim",
             "What each rule pays for the true claims it passes: wrong claims that pass, too.",
@@ -342,10 +344,10 @@ fn figures(sheets: &[Sheet]) -> Vec<Figure> {
                 "tolerances {first}, {second}, {third} from left to right; better: right and down"
             ),
             trade,
-        )
-    });
-    let of_hidden = sheet("hidden-8").map(|sheet| {
-        figure(
+        ));
+    }
+    if let Some(sheet) = sheets.iter().find(|sheet| sheet.key == "hidden-8") {
+        figures.push(figure(
             sheet,
             "The rule seldom passes a table that hides a lower order",
             "How often a term of lower order goes unnoticed, by its share of the finest error.",
@@ -356,7 +358,7 @@ fn figures(sheets: &[Sheet]) -> Vec<Figure> {
             [4.0, 21.0],
             "better: down".to_owned(),
             hidden,
-        )
-    });
-    of_rules.into_iter().chain(of_hidden).collect()
+        ));
+    }
+    figures
 }

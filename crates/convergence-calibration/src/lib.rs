@@ -104,21 +104,25 @@ fn wrong(table: &Table, off: f64) -> [f64; 2] {
 /// # Errors
 /// [`CalibrationError`].
 pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError> {
-    let draw = |part: u64| Draw::new(seed.wrapping_add(part));
     let usual = "4 to 8 levels, ratios 1.5 to 3";
     let wide = "3 to 12 levels, ratios 1.1 to 4";
     let hidden_tables = HIDDEN_TABLES * tables;
     Ok(vec![
-        rules("rules", usual, USUAL, tables, &mut draw(0))?,
-        rules("rules-wide", wide, WIDE, tables, &mut draw(1))?,
-        levels("levels", &LAWS, 10 * tables, &mut draw(2))?,
-        levels("held-out", &HELD_OUT, 10 * tables, &mut draw(7))?,
-        three(40 * tables, &mut draw(8))?,
-        intervals(20 * tables, &mut draw(3))?,
-        hidden("hidden-6", 0.1, 6, hidden_tables, &mut draw(4))?,
-        hidden("hidden-8", 0.1, 8, hidden_tables, &mut draw(4))?,
-        hidden("hidden-wide", 0.2, 8, hidden_tables, &mut draw(4))?,
-        limits(hidden_tables, &mut draw(5))?,
-        other_claims(10 * tables, &mut draw(6))?,
+        rules("rules", usual, USUAL, tables, &mut draw(seed, 0))?,
+        rules("rules-wide", wide, WIDE, tables, &mut draw(seed, 1))?,
+        levels("levels", &LAWS, 10 * tables, &mut draw(seed, 2))?,
+        levels("held-out", &HELD_OUT, 10 * tables, &mut draw(seed, 7))?,
+        three(40 * tables, &mut draw(seed, 8))?,
+        intervals(20 * tables, &mut draw(seed, 3))?,
+        hidden("hidden-6", 0.1, 6, hidden_tables, &mut draw(seed, 4))?,
+        hidden("hidden-8", 0.1, 8, hidden_tables, &mut draw(seed, 4))?,
+        hidden("hidden-wide", 0.2, 8, hidden_tables, &mut draw(seed, 4))?,
+        limits(hidden_tables, &mut draw(seed, 5))?,
+        other_claims(10 * tables, &mut draw(seed, 6))?,
     ])
+}
+
+/// The random numbers of a part of the sheets.
+fn draw(seed: u64, part: u64) -> Draw {
+    Draw::new(seed.wrapping_add(part))
 }

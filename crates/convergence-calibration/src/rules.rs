@@ -93,20 +93,13 @@ impl<'a> Evidence<'a> {
 
     /// The verdict of a rule on this order.
     fn decide(&self, rule: Rule, judge: &Judge, order: f64) -> Verdict {
-        let inside = |rate: f64, [low, high]: [f64; 2]| {
-            if order - low <= rate && rate <= order + high {
-                Verdict::Pass
-            } else {
-                Verdict::Fail
-            }
-        };
         let band = [judge.tolerance(); 2];
         match rule {
             Rule::Ours => judge.decide(self.all(), order),
             Rule::LevelsAdded => self.added(judge, order).0,
-            Rule::LeastSquares => inside(self.line, band),
-            Rule::LastPair => inside(self.last, band),
-            Rule::Physverify if self.has_fallen => inside(self.four, [0.3, 1.0]),
+            Rule::LeastSquares => in_band(self.line, order, band),
+            Rule::LastPair => in_band(self.last, order, band),
+            Rule::Physverify if self.has_fallen => in_band(self.four, order, [0.3, 1.0]),
             Rule::Physverify => Verdict::Fail,
         }
     }
@@ -196,18 +189,29 @@ pub(crate) fn rules(
             }
         }
     }
-    let row = |(rule, verdicts): (Rule, &[Verdicts; CLAIMS.len()])| {
-        let cells = CLAIMS
-            .into_iter()
-            .zip(verdicts)
-            .flat_map(|((tolerance, off), verdicts)| verdicts.cells(tolerance, off));
-        Row::new(rule.name(), rule == Rule::Ours, cells.collect())
-    };
+    let mut rows = vec![];
+    for (rule, verdicts) in Rule::ALL.into_iter().zip(&counted) {
+        let mut cells = vec![];
+        for ((tolerance, off), verdicts) in CLAIMS.into_iter().zip(verdicts) {
+            cells.extend(verdicts.cells(tolerance, off));
+        }
+        rows.push(Row::new(rule.name(), rule == Rule::Ours, cells));
+    }
     Ok(Sheet {
         key,
         title: format!("Share of claims that pass or fail, 29 error laws, {meshes_in_words}"),
-        rows: Rule::ALL.into_iter().zip(&counted).map(row).collect(),
+        rows,
     })
+}
+
+/// The verdict of a rule that compares a rate with an order: by how much it may be lower, and
+/// higher.
+fn in_band(rate: f64, order: f64, [lower, higher]: [f64; 2]) -> Verdict {
+    if order - lower <= rate && rate <= order + higher {
+        Verdict::Pass
+    } else {
+        Verdict::Fail
+    }
 }
 
 /// A number of levels, or to how many levels are added.
@@ -260,10 +264,9 @@ struct AtLevels {
 impl AtLevels {
     fn count(&mut self, law: &Law, table: &Table, judge: &Judge, look: &Look) {
         let evidence = Evidence::new(judge, &table.levels);
-        let decide = |order: f64| evidence.decide(look.rule, judge, order);
         let is_added = look.rule == Rule::LevelsAdded;
         if let Some(order) = table.order {
-            let verdict = decide(order);
+            let verdict = evidence.decide(look.rule, judge, order);
             self.true_pass.count(verdict.is_pass());
             self.true_fail.count(verdict == Verdict::Fail);
             self.levels.add(if is_added {
@@ -280,16 +283,17 @@ impl AtLevels {
             }
         }
         for claim in wrong(table, 2.0 * DEFAULT_TOLERANCE) {
-            let passes = decide(claim).is_pass();
+            let passes = evidence.decide(look.rule, judge, claim).is_pass();
             self.wrong_pass.count(passes);
             if (claim - table.shown).abs() > DEFAULT_TOLERANCE {
                 self.visibly_wrong_pass.count(passes);
             }
         }
         if look.levels > FEWEST_LEVELS && !is_added {
+            let with = evidence.decide(look.rule, judge, table.shown);
             let without = judge.decide(&judge.read(&table.levels[1..]), table.shown);
             self.passes_without_coarsest
-                .count(without.is_pass() && !decide(table.shown).is_pass());
+                .count(without.is_pass() && !with.is_pass());
         }
     }
 

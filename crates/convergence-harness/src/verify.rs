@@ -278,6 +278,9 @@ fn diagnosed(
     let name = request.scope.name();
     let mut record = Record::new(name, &command, verdict, Some(changes), finished);
     record.diagnosis = diagnose(project, &record.studies, changes, mistakes);
+    if let Some(diagnosis) = &mut record.diagnosis {
+        diagnosis.add_repetition(project, changes);
+    }
     record
 }
 

@@ -1,7 +1,6 @@
 //! The tests of the harness, in one program.
 
 mod asserted;
-mod circles;
 #[cfg(feature = "reports")]
 mod compare;
 #[cfg(feature = "files")]
@@ -10,7 +9,6 @@ mod error_table;
 mod explain;
 mod fit;
 mod grid;
-mod layering;
 #[cfg(feature = "reports")]
 mod plots;
 mod richardson;

@@ -1,17 +1,21 @@
 //! Judges tables of errors.
 
-use convergence_harness::input::error_table::{Choice, RateTable};
 use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::richardson::{Estimate, Estimator, Value};
-use convergence_harness::judge::shown::{self, Shown};
-use convergence_harness::judge::verdict::RateVerdict;
+use convergence_harness::judge::shown::{self, MOST_PLACES, Shown};
+use convergence_harness::judge::verdict::{
+    DEFAULT_TOLERANCE, RateVerdict, Verdict, judged_in_words,
+};
 use convergence_harness::study::over_levels::{ErrorColumn, Levels};
 use convergence_harness::study::{Axis, Claim, Refinement};
-use pyo3::exceptions::{PyAssertionError, PyTypeError};
+use convergence_harness::text::number::{committed_rate, decimals, order_text};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::values::{self, Claims, refuse};
+use crate::values::{self, Order};
+
+/// The arguments that make a [`Judgement`] again.
+type Arguments = (String, String, Vec<f64>, Vec<f64>, Option<Order>, f64, f64);
 
 /// The judgement of one error: the verdict, and the numbers behind it.
 ///
@@ -19,15 +23,24 @@ use crate::values::{self, Claims, refuse};
 /// its two ends (95 %), or None; pairwise: the rates between neighbouring levels, one fewer than
 /// levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
 /// order: the claimed order, or None; table(): step, error and rate of each level, coarse to fine,
-/// as a pandas DataFrame if pandas is available, otherwise as a dict of lists. It has no truth
-/// value. In a notebook it is shown as a table and a picture.
+/// as a pandas DataFrame if pandas is available, otherwise as a dict of lists; to_dict(): all of it
+/// in types that JSON knows. It has no truth value. In a notebook it is shown as a table and a
+/// picture.
 #[pyclass(frozen, module = "convergence_study")]
 pub(crate) struct Judgement {
     pub(crate) name: String,
     pub(crate) step: String,
     pub(crate) levels: Vec<Level>,
+    /// Its order is NaN without a claim.
+    pub(crate) claim: Claim,
+    pub(crate) floor: f64,
     pub(crate) rate: RateVerdict,
 }
+
+/// Decimals of the rate in the first line of a failing test.
+const FEW_PLACES: usize = 3;
+/// What is said where theory claims nothing.
+const UNCLAIMED: &str = "no order is claimed";
 
 impl Judgement {
     fn shown(&self) -> Shown<'_> {
@@ -39,6 +52,47 @@ impl Judgement {
         }
     }
 
+    fn is_claimed(&self) -> bool {
+        !self.claim.order.is_nan()
+    }
+
+    /// `error: fail: 1.000, claimed 2 ± 0.25: too low`, for a rate in words.
+    fn line(&self, rate: &str) -> String {
+        let is_pass = self.rate.verdict.is_pass();
+        let claim = if self.claim.at_least {
+            self.claim.to_string()
+        } else {
+            self.rate.claim()
+        };
+        let why = match self.claim {
+            Claim {
+                at_least: true,
+                order,
+                tolerance,
+                ..
+            } if is_pass => {
+                format!("at least {}", order_text(committed_rate(order - tolerance)))
+            }
+            _ if is_pass => self.rate.excludes(),
+            _ => self.rate.because.clone(),
+        };
+        let rate = if self.is_claimed() {
+            judged_in_words(rate, &claim, &why)
+        } else {
+            format!("{rate}: {UNCLAIMED}")
+        };
+        format!("{}: {}: {rate}", self.name, self.rate.verdict)
+    }
+
+    /// The line with few decimals: the summary of a failing test.
+    fn headline(&self) -> String {
+        let rate = self.rate.fitted.map_or_else(
+            || self.rate.rate_in_words(FEW_PLACES),
+            |rate| decimals(rate, FEW_PLACES),
+        );
+        self.line(&rate)
+    }
+
     /// A picture of the errors over the steps, with the rate and the claimed order.
     fn picture(&self) -> String {
         let refinement = |level: &Level| Refinement {
@@ -46,8 +100,7 @@ impl Judgement {
             parameters: vec![],
             step: level.step,
         };
-        let claim = Some(Claim::new(self.rate.order, self.rate.tolerance))
-            .filter(|claim| claim.order.is_finite());
+        let claim = Some(self.claim).filter(|_| self.is_claimed());
         let errors = self.levels.iter().map(|level| Some(level.error)).collect();
         let axis = if self.step == "dt" {
             Axis::Time
@@ -75,6 +128,54 @@ impl Judgement {
 
 #[pymethods]
 impl Judgement {
+    /// Judges levels, coarse to fine; `copy` and `pickle` repeat the judgement.
+    #[new]
+    #[pyo3(signature = (name, step, h, errors, order=None, tolerance=DEFAULT_TOLERANCE, floor=0.0))]
+    fn new(
+        name: String,
+        step: String,
+        h: &Bound<'_, PyAny>,
+        errors: &Bound<'_, PyAny>,
+        order: Option<&Bound<'_, PyAny>>,
+        tolerance: f64,
+        floor: f64,
+    ) -> PyResult<Self> {
+        let claim = values::claim(order, tolerance)?;
+        let judge = values::judge_with(tolerance, floor)?;
+        let levels = values::levels(h, "errors", errors)?;
+        Ok(Self {
+            rate: claim.judge(&judge, &levels),
+            name,
+            step,
+            levels,
+            claim,
+            floor,
+        })
+    }
+
+    fn __getnewargs__(&self) -> Arguments {
+        (
+            self.name.clone(),
+            self.step.clone(),
+            self.levels.iter().map(|level| level.step).collect(),
+            self.levels.iter().map(|level| level.error).collect(),
+            values::order_of(&self.claim),
+            self.claim.tolerance,
+            self.floor,
+        )
+    }
+
+    /// Whether the steps must be counts, as for `rates`: whole numbers, and where they grow, errors
+    /// fall more often than they grow.
+    fn _are_counts(&self) -> bool {
+        let is_whole = |level: &Level| level.step >= 1.0 && level.step.fract() == 0.0;
+        let grows = |pair: &[Level]| match pair[1].error.partial_cmp(&pair[0].error) {
+            Some(order) => order as i32,
+            None => 0,
+        };
+        self.levels.iter().all(is_whole) && self.levels.windows(2).map(grows).sum::<i32>() > 0
+    }
+
     #[getter]
     fn name(&self) -> &str {
         &self.name
@@ -112,12 +213,35 @@ impl Judgement {
 
     #[getter]
     fn reason(&self) -> &str {
-        &self.rate.reason
+        if self.is_claimed() {
+            &self.rate.reason
+        } else {
+            UNCLAIMED
+        }
     }
 
     #[getter]
     fn advice(&self) -> Option<String> {
-        self.rate.advice()
+        if self.is_claimed() {
+            self.rate.advice()
+        } else {
+            Some("Claim what theory says: order=2, for example.".to_owned())
+        }
+    }
+
+    pub(crate) fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
+        let fields = [
+            "name", "verdict", "order", "rate", "interval", "code", "reason", "advice",
+        ];
+        let dict = attributes(slf, &fields)?;
+        let own = slf.get();
+        let pairwise = own.rate.pairwise.iter().copied().map(finite);
+        dict.set_item("pairwise", pairwise.collect::<Vec<_>>())?;
+        let steps = own.levels.iter().map(|level| finite(level.step));
+        dict.set_item("steps", steps.collect::<Vec<_>>())?;
+        let errors = own.levels.iter().map(|level| finite(level.error));
+        dict.set_item("errors", errors.collect::<Vec<_>>())?;
+        Ok(dict)
     }
 
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -140,7 +264,7 @@ impl Judgement {
     }
 
     fn __repr__(&self) -> String {
-        shown::explained(&self.step, &[self.shown()], 0.0)
+        explained(&[self])
     }
 
     fn _repr_html_(&self) -> String {
@@ -172,248 +296,66 @@ pub(crate) fn frame<'py>(
     }
 }
 
-/// The judged errors of one or several columns, and whether they come from a data frame.
-fn judged(
-    h: &Bound<'_, PyAny>,
-    errors: Option<&Bound<'_, PyAny>>,
-    order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
-) -> PyResult<(Vec<Judgement>, bool)> {
-    let judge = values::judge_with(tolerance)?;
-    let judgement = |step: &str, name: &str, levels: Vec<Level>, claim: Claim| {
-        let rate = claim.judge(&judge, &levels);
-        Judgement {
-            name: name.to_owned(),
-            step: step.to_owned(),
-            levels,
-            rate,
-        }
-    };
-    let claims = match errors {
-        Some(errors) => {
-            let claim = values::claim(order, tolerance)?;
-            return Ok((
-                vec![judgement(
-                    "h",
-                    "error",
-                    values::levels(h, "errors", errors)?,
-                    claim,
-                )],
-                false,
-            ));
-        }
-        None => Claims::read(order, tolerance)?,
-    };
-    let table = table(h, &claims.names())?;
-    let known = || {
-        table
-            .columns
-            .iter()
-            .map(|column| column.name.as_str())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let of = |name: &str, claim: &Claim| {
-        let unknown = || {
-            refuse(format!(
-                "order: expected names of columns of errors, {}; found `{name}`",
-                known()
-            ))
-        };
-        let column = table.column(name).ok_or_else(unknown)?;
-        Ok(judgement(
-            &table.step,
-            &column.name,
-            column.levels.clone(),
-            *claim,
-        ))
-    };
-    let found = match &claims {
-        Claims::ForAll(claim) => table
-            .columns
-            .iter()
-            .map(|column| of(&column.name, claim))
-            .collect::<PyResult<_>>()?,
-        Claims::Named(named) => named
-            .iter()
-            .map(|(name, claim)| of(name, claim))
-            .collect::<PyResult<_>>()?,
-    };
-    Ok((found, true))
+/// The attributes of an object by name.
+pub(crate) fn attributes<'py, T>(
+    object: &Bound<'py, T>,
+    names: &[&str],
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(object.py());
+    for name in names {
+        dict.set_item(name, object.as_any().getattr(*name)?)?;
+    }
+    Ok(dict)
 }
 
-/// A data frame, read like text by `convergence-study rates`, with all digits.
-fn table(table: &Bound<'_, PyAny>, claimed: &[String]) -> PyResult<RateTable> {
-    let Some(columns) = values::columns(table, claimed)? else {
-        return Err(refuse(
-            "errors: expected the errors at the steps h, or a data frame in place of h",
-        ));
-    };
-    let rows = columns
+/// A number for JSON, which has none for NaN and infinity.
+pub(crate) fn finite(number: f64) -> Option<f64> {
+    Some(number).filter(|number| number.is_finite())
+}
+
+/// The table of errors with their rates, and a line with advice for each.
+pub(crate) fn explained(judgements: &[&Judgement]) -> String {
+    let first = judgements.first();
+    let step = first.map_or("h", |judgement| &judgement.step);
+    let floor = first.map_or(0.0, |judgement| judgement.floor);
+    let columns: Vec<Shown<'_>> = judgements.iter().map(|one| one.shown()).collect();
+    let mut text = shown::table(step, &columns, floor);
+    for judgement in judgements {
+        let rate = judgement.rate.rate_in_words(MOST_PLACES);
+        text += &(judgement.line(&rate) + "\n");
+        if let Some(advice) = judgement.advice() {
+            let code = if judgement.is_claimed() {
+                judgement.code()
+            } else {
+                "order"
+            };
+            text += &format!("  {code}: {advice}\n");
+        }
+    }
+    text
+}
+
+/// The verdict that a failing test is about, in a line: the first failure, else the first that is
+/// no pass; `None` if all pass.
+pub(crate) fn headline(judgements: &[&Judgement]) -> Option<String> {
+    let open = judgements
         .iter()
-        .map(|(_, numbers)| numbers.len())
-        .max()
-        .unwrap_or(0);
-    if let Some((name, numbers)) = columns.iter().find(|(_, numbers)| numbers.len() != rows) {
-        return Err(refuse(format!(
-            "{name}: expected {rows} numbers, as other columns have; found {}",
-            numbers.len()
-        )));
-    }
-    let names: Vec<String> = columns
-        .iter()
-        .map(|(name, _)| format!("\"{}\"", name.replace('"', "'")))
-        .collect();
-    let mut text = names.join(",") + "\n";
-    for row in 0..rows {
-        let cells: Vec<String> = columns
-            .iter()
-            .map(|(_, numbers)| format!("{:?}", numbers[row]))
-            .collect();
-        text += &(cells.join(",") + "\n");
-    }
-    let choice = Choice {
-        claimed: claimed.to_vec(),
-        ..Choice::default()
+        .filter(|judgement| !judgement.rate.verdict.is_pass());
+    let first_of_the_worst = open.min_by_key(|judgement| judgement.rate.verdict != Verdict::Fail);
+    Some(first_of_the_worst?.headline())
+}
+
+/// The message of a failed assertion on judgements; `None` if it holds.
+#[pyfunction]
+pub(crate) fn failure(
+    judgements: Vec<PyRef<'_, Judgement>>,
+    allow_inconclusive: bool,
+) -> Option<String> {
+    let judgements: Vec<&Judgement> = judgements.iter().map(|judgement| &**judgement).collect();
+    let Some(headline) = headline(&judgements) else {
+        return judgements.is_empty().then(|| UNCLAIMED.to_owned());
     };
-    RateTable::parse_with(&text, "the data frame", &choice).map_err(refuse)
-}
-
-/// Judges errors against the order that theory claims.
-///
-/// h: the steps, in any order, positive; errors: the same number of errors, in any unit. Lists,
-/// arrays and series are accepted. Or h is a data frame, or a dict of lists, with a column of steps
-/// and columns of errors, which are recognised as `convergence-study rates` does; errors is then
-/// None. order: a number > 0, or ">= 2" for a minimum order; for a data frame also a dict of names
-/// and orders; None for no claim, which is never a pass. tolerance: allowed deviation of the rate
-/// from the order, 0 < tolerance < 0.5.
-///
-/// Returns a Judgement; for a data frame a dict of them by name. Raises ValueError, which names the
-/// argument, if the input is not a table of numbers. NaN among the errors is a finding, not bad
-/// input.
-#[pyfunction]
-#[pyo3(signature = (h, errors=None, order=None, tolerance=0.25))]
-pub(crate) fn judge<'py>(
-    py: Python<'py>,
-    h: &Bound<'py, PyAny>,
-    errors: Option<&Bound<'py, PyAny>>,
-    order: Option<&Bound<'py, PyAny>>,
-    tolerance: f64,
-) -> PyResult<Bound<'py, PyAny>> {
-    let (found, is_frame) = judged(h, errors, order, tolerance)?;
-    let by_name = PyDict::new(py);
-    for judgement in found {
-        if !is_frame {
-            return Ok(Bound::new(py, judgement)?.into_any());
-        }
-        by_name.set_item(judgement.name.clone(), Bound::new(py, judgement)?)?;
-    }
-    Ok(by_name.into_any())
-}
-
-/// Does nothing if the order is confirmed; arguments as for judge.
-///
-/// Raises AssertionError with the table, the rate, its interval, the reason and what to do, unless
-/// every verdict is a pass: inconclusive is not. Raises ValueError as judge does.
-#[pyfunction]
-#[pyo3(signature = (h, errors=None, order=None, tolerance=0.25))]
-pub(crate) fn assert_order(
-    h: &Bound<'_, PyAny>,
-    errors: Option<&Bound<'_, PyAny>>,
-    order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
-) -> PyResult<()> {
-    let (found, _) = judged(h, errors, order, tolerance)?;
-    if !found.is_empty()
-        && found
-            .iter()
-            .all(|judgement| judgement.rate.verdict.is_pass())
-    {
-        return Ok(());
-    }
-    let step = found.first().map_or("h", |judgement| &judgement.step);
-    let columns: Vec<Shown<'_>> = found.iter().map(Judgement::shown).collect();
-    let text = shown::explained(step, &columns, 0.0);
-    Err(PyAssertionError::new_err(format!(
-        "the order is not confirmed\n{text}"
-    )))
-}
-
-/// The limit of values at h = 0.
-///
-/// value: the limit; interval: its two ends; error: that of the finest value, with its sign; gci:
-/// half the width of the grid convergence index about the finest value; all in the unit of the
-/// values, and None if there is no such number. order: the observed order; verdict: on the claimed
-/// order; reason: why there is no limit, or how the order was found.
-#[pyclass(frozen, get_all, module = "convergence_study")]
-pub(crate) struct Limit {
-    value: Option<f64>,
-    interval: Option<(f64, f64)>,
-    error: Option<f64>,
-    order: Option<f64>,
-    gci: Option<f64>,
-    verdict: &'static str,
-    reason: String,
-}
-
-impl Limit {
-    fn new(Estimate { bar, gci, judged }: Estimate) -> Self {
-        let reason = bar
-            .as_ref()
-            .map_or_else(ToString::to_string, |_| judged.reason.clone());
-        let bar = bar.ok();
-        Self {
-            value: bar.as_ref().map(|bar| bar.extrapolated),
-            interval: bar.as_ref().map(|bar| bar.limit.into()),
-            error: bar.as_ref().map(|bar| bar.error),
-            order: judged.fitted,
-            gci: gci.ok().map(|gci| gci.half_width),
-            verdict: judged.verdict.name(),
-            reason,
-        }
-    }
-}
-
-#[pymethods]
-impl Limit {
-    fn __repr__(&self) -> String {
-        match (self.value, self.interval) {
-            (Some(value), Some((low, high))) => {
-                format!("limit {value:?} ({low:?} to {high:?}): {}", self.reason)
-            }
-            _ => format!("no limit: {}", self.reason),
-        }
-    }
-}
-
-/// The limit at h = 0 of values without a known exact value, with its interval, the observed order
-/// and the grid convergence index.
-///
-/// h: the steps, in any order, positive; values: the same number of values, at least three, in any
-/// unit. order: the theoretical order, or None: then the observed order replaces it. tolerance as
-/// for judge. Returns a Limit. Raises ValueError, which names the argument.
-#[pyfunction]
-#[pyo3(signature = (h, values, order=None, tolerance=0.25))]
-pub(crate) fn limit(
-    h: &Bound<'_, PyAny>,
-    values: &Bound<'_, PyAny>,
-    order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
-) -> PyResult<Limit> {
-    let claim = values::claim(order, tolerance)?;
-    let levels = values::levels(h, "values", values)?;
-    let values: Vec<Value> = levels
-        .iter()
-        .map(|level| Value {
-            step: level.step,
-            value: level.error,
-        })
-        .collect();
-    let estimator = Estimator::new(tolerance).map_err(refuse)?;
-    let estimate = if order.is_none() {
-        estimator.estimate_unclaimed(&values)
-    } else {
-        estimator.estimate(&values, claim.order)
-    };
-    Ok(Limit::new(estimate))
+    let verdict = Verdict::worst(judgements.iter().map(|judgement| judgement.rate.verdict));
+    let is_allowed = allow_inconclusive && verdict == Verdict::Inconclusive;
+    (!is_allowed).then(|| format!("{headline}\n{}", explained(&judgements)))
 }

@@ -4,8 +4,12 @@
 //! There is no rule here: the code that confirms an order is shared with Rust and the command line.
 
 mod judged;
+mod levels;
+mod limit;
+mod results;
 mod session;
 mod studied;
+mod table;
 mod values;
 
 use std::ffi::OsString;
@@ -36,12 +40,23 @@ fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -
 
 #[pymodule]
 mod _native {
+    use pyo3::prelude::*;
+
     #[pymodule_export]
-    use super::judged::{Judgement, Limit, assert_order, judge, limit};
+    use super::judged::{Judgement, failure};
+    #[pymodule_export]
+    use super::limit::{Limit, limit};
     #[pymodule_export]
     use super::run_program;
     #[pymodule_export]
-    use super::session::finish;
+    use super::session::{finish, guarded};
     #[pymodule_export]
-    use super::studied::{Study, of_table, study};
+    use super::studied::{Study, study, study_of};
+    #[pymodule_export]
+    use super::table::judge_table;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

@@ -1,83 +1,158 @@
 //! The studies of a pytest run: comparison with the baseline, a new baseline, the report.
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::project::Project;
 use convergence_harness::run::{self, Finished};
-use convergence_harness::store::{Baseline, Record, atomic};
+use convergence_harness::store::{Baseline, Change, Movement, Record, atomic};
+use convergence_harness::study::Header;
 use convergence_harness::verify;
 use pyo3::prelude::*;
 
+use crate::results::TEST;
 use crate::studied::Study;
 use crate::values::refuse;
 
 const PROJECT: Project = Project::new("pytest", "pytest");
 
+/// The studies that the baseline guards, each with the test that it belongs to: empty if unknown.
+#[pyfunction]
+pub(crate) fn guarded(baseline: PathBuf) -> PyResult<Vec<(String, String)>> {
+    let numbers = Baseline::read(&baseline).map_err(refuse)?;
+    let ids: BTreeSet<String> = numbers
+        .compare(&[], Some(&[]))
+        .into_iter()
+        .map(|change| change.study)
+        .collect();
+    let with_test = |id: String| {
+        let test = numbers
+            .claim(&id, TEST)
+            .and_then(|claim| claim.value.clone());
+        (id, test.unwrap_or_default())
+    };
+    Ok(ids.into_iter().map(with_test).collect())
+}
+
+/// What pytest is asked to do with the studies of a run.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Request {
+    /// The file of the baseline; numbers are guarded if it exists or is to be created.
+    baseline: PathBuf,
+    /// Whether to accept the numbers and claims.
+    bless: bool,
+    /// Why claims have changed.
+    reason: Option<String>,
+    /// The folder of the report.
+    report: Option<PathBuf>,
+    /// Guarded studies whose tests no longer exist.
+    gone: Vec<String>,
+}
+
+impl Request {
+    /// The guarded studies that this run says nothing about.
+    fn not_judged(&self, numbers: &Baseline, known: &[Header]) -> Vec<Header> {
+        let changes = numbers.compare(&[], Some(known));
+        let ids: BTreeSet<String> = changes
+            .into_iter()
+            .filter(is_deleted)
+            .map(|change| change.study)
+            .filter(|id| !self.gone.contains(id))
+            .collect();
+        ids.into_iter().map(|id| Header::new(id, "")).collect()
+    }
+
+    /// The differences between the baseline and the studies of this run.
+    fn changes(&self, numbers: &Baseline, studies: &[Finished]) -> Vec<Change> {
+        let known = headers(studies);
+        let mut changes = numbers.compare(studies, Some(&known));
+        let is_known = |id: &String| known.iter().any(|header| header.id == *id);
+        changes.retain(|change| is_known(&change.study) || self.gone.contains(&change.study));
+        changes
+    }
+
+    /// Accepts the studies into the baseline.
+    ///
+    /// * Returns why not, if it is refused.
+    fn bless(&self, numbers: &mut Baseline, studies: &[Finished]) -> PyResult<Option<String>> {
+        let mut known = headers(studies);
+        known.extend(self.not_judged(numbers, &known));
+        if let Err(refusal) = numbers.bless(studies, Some(&known), self.reason.as_deref()) {
+            let words = "--convergence-bless --convergence-reason";
+            return Ok(Some(refusal.to_string().replace("--bless --reason", words)));
+        }
+        if let Some(folder) = self.baseline.parent() {
+            atomic::prepare_folder(folder)?;
+        }
+        numbers.write(&self.baseline).map_err(refuse)?;
+        Ok(None)
+    }
+}
+
+fn headers(studies: &[Finished]) -> Vec<Header> {
+    studies.iter().map(|study| study.header.clone()).collect()
+}
+
+fn is_deleted(change: &Change) -> bool {
+    matches!(
+        change.movement,
+        Movement::VanishedFile { .. } | Movement::Vanished { .. }
+    )
+}
+
 /// Compares the studies of a run with the baseline, accepts them as the new baseline on request,
 /// and writes the report.
 ///
-/// * `studies`: each with a flag that allows it to be inconclusive; then the baseline has none of
-///   its numbers.
-/// * `baseline`: its file; numbers are guarded if it exists or is to be created.
-/// * `reason`: why claims have changed.
+/// * `studies`: the baseline has no numbers of those that may be inconclusive.
 /// * Returns lines to print, and whether everything agrees with the baseline.
 #[pyfunction]
 pub(crate) fn finish(
-    studies: Vec<(PyRef<'_, Study>, bool)>,
-    baseline: PathBuf,
-    bless: bool,
-    reason: Option<String>,
-    report: Option<PathBuf>,
+    studies: Vec<PyRef<'_, Study>>,
+    request: Request,
 ) -> PyResult<(Vec<String>, bool)> {
-    let guarded: Vec<Finished> = studies
-        .iter()
-        .filter(|(_, excused)| !excused)
-        .map(|(study, _)| study.finished.clone())
-        .collect();
-    let (mut lines, mut changes) = (vec![], None);
-    let mut is_refused = false;
-    if bless || baseline.is_file() {
-        let mut numbers = Baseline::read(&baseline).map_err(refuse)?;
-        if bless {
-            match numbers.bless(&guarded, None, reason.as_deref()) {
-                Ok(()) => {
-                    if let Some(folder) = baseline.parent() {
-                        atomic::prepare_folder(folder)?;
-                    }
-                    numbers.write(&baseline).map_err(refuse)?;
-                    lines.push(format!("baseline: blessed, see {}", baseline.display()));
-                }
-                Err(refusal) => {
-                    is_refused = true;
-                    lines.push(format!("baseline: {refusal}").replace(
-                        "--bless --reason",
-                        "--convergence-bless --convergence-reason",
-                    ));
-                }
-            }
+    let firm = studies.iter().filter(|study| !study.allows_inconclusive());
+    let firm: Vec<Finished> = firm.map(|study| study.finished.clone()).collect();
+    let mut lines = vec![];
+    let mut is_well = true;
+    let mut changes = None;
+    if request.bless || request.baseline.is_file() {
+        let mut numbers = Baseline::read(&request.baseline).map_err(refuse)?;
+        if request.bless {
+            let refusal = request.bless(&mut numbers, &firm)?;
+            is_well = refusal.is_none();
+            let blessed = || format!("blessed, see {}", request.baseline.display());
+            lines.push(format!("baseline: {}", refusal.unwrap_or_else(blessed)));
         }
-        changes = Some(numbers.compare(&guarded, None));
+        let found = request.changes(&numbers, &firm);
+        let moved = found.iter().filter(|change| !is_gone(change, &request));
+        lines.extend(moved.map(|change| format!("baseline: {change}")));
+        is_well &= found.is_empty();
+        changes = Some(found);
     }
-    let moved = changes.as_deref().unwrap_or_default();
-    lines.extend(moved.iter().map(|change| format!("baseline: {change}")));
-    let is_well = moved.is_empty() && !is_refused;
-    if let Some(folder) = report {
-        let finished: Vec<Finished> = studies
-            .iter()
-            .map(|(study, _)| study.finished.clone())
-            .collect();
-        let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
-        let verdict = if is_well { own } else { Verdict::Fail };
-        let record = Record::new(
-            "files",
-            PROJECT.command,
-            verdict,
-            changes.as_deref(),
-            finished,
-        );
-        verify::publish(&PROJECT, record, run::available().get(), &folder).map_err(refuse)?;
+    if let Some(folder) = &request.report {
+        let all = studies.iter().map(|study| study.finished.clone());
+        report(all.collect(), changes.as_deref(), is_well, folder)?;
         lines.push(format!("report: {}", folder.join("index.html").display()));
     }
     Ok((lines, is_well))
+}
+
+/// Whether pytest itself says that the test is gone.
+fn is_gone(change: &Change, request: &Request) -> bool {
+    request.gone.contains(&change.study)
+}
+
+/// Writes the report on the studies of a run.
+fn report(
+    studies: Vec<Finished>,
+    changes: Option<&[Change]>,
+    is_well: bool,
+    folder: &Path,
+) -> PyResult<()> {
+    let own = Verdict::worst(studies.iter().map(|study| study.outcome.verdict));
+    let verdict = if is_well { own } else { Verdict::Fail };
+    let record = Record::new("files", PROJECT.command, verdict, changes, studies);
+    verify::publish(&PROJECT, record, run::available().get(), folder).map_err(refuse)
 }

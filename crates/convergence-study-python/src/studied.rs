@@ -4,35 +4,81 @@ use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
 use std::time::Instant;
 
+use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::program;
 use convergence_harness::run::Finished;
-use convergence_harness::study::until_decided::{self, FIRST, Next};
-use convergence_harness::study::{
-    Claim, ErrorsOverLevels, Header, Kind, NamedErrors, STEPS, header::is_name, levels,
-    run_cases_here,
-};
+use convergence_harness::study::until_decided::Next;
+use convergence_harness::study::{NamedErrors, STEPS};
 use convergence_harness::verify;
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::judged::{Judgement, frame, html};
-use crate::values::{self, Claims, number, numbers, refuse};
+use crate::judged::{self, Judgement, attributes, finite, frame, html};
+use crate::levels::LevelChoice;
+use crate::results::{NamedClaim, Options, Results};
+use crate::values::{Claims, number, refuse};
 
 /// A completed study.
 ///
 /// verdict: "pass", "fail" or "inconclusive"; summary: why, in a sentence; rates: a Judgement for
 /// each claim, by name; table(): steps, errors and rates as a DataFrame if pandas is available,
-/// otherwise as a dict of lists; report(folder): writes index.html, README.md, JUnit and records;
-/// assert_passes(): AssertionError unless it passes. It has no truth value. In a notebook it is
-/// shown as a table and a picture.
+/// otherwise as a dict of lists; to_dict(): all of it in types that JSON knows; report(folder):
+/// writes index.html, README.md, JUnit and records; assert_passes(): AssertionError unless it
+/// passes, or is inconclusive and that is allowed. It has no truth value. In a notebook it is shown
+/// as a table and a picture.
 #[pyclass(frozen, module = "convergence_study")]
 pub(crate) struct Study {
+    pub(crate) results: Results,
     pub(crate) finished: Finished,
+}
+
+impl Study {
+    pub(crate) fn allows_inconclusive(&self) -> bool {
+        self.results.options.allow_inconclusive
+    }
+
+    fn judgements(&self) -> Vec<Judgement> {
+        let outcome = &self.finished.outcome;
+        let judgement = |(name, rate): &(String, _)| {
+            let claims = self.results.claims.iter();
+            let mut claims = claims.filter(|claimed| claimed.name == *name);
+            Some(Judgement {
+                name: name.clone(),
+                step: self.results.step().to_owned(),
+                levels: outcome.levels_of(name),
+                claim: claims.next()?.claim(),
+                floor: self.results.options.floor,
+                rate: Clone::clone(rate),
+            })
+        };
+        outcome.rates.iter().filter_map(judgement).collect()
+    }
+
+    /// The verdict in a line, then what the text of the study has.
+    fn failure(&self) -> String {
+        let judgements = self.judgements();
+        let judgements: Vec<&Judgement> = judgements.iter().collect();
+        let headline = judged::headline(&judgements).unwrap_or_else(|| {
+            let verdict = self.finished.outcome.verdict;
+            format!("{verdict}: {}", self.finished.outcome.summary)
+        });
+        format!("{headline}\n{}", self.__repr__())
+    }
 }
 
 #[pymethods]
 impl Study {
+    /// Judges the results again.
+    #[new]
+    fn new(results: Results) -> Self {
+        results.judged()
+    }
+
+    fn __getnewargs__(&self) -> (Results,) {
+        (self.results.clone(),)
+    }
+
     #[getter]
     fn id(&self) -> &str {
         &self.finished.header.id
@@ -51,15 +97,8 @@ impl Study {
     #[getter]
     fn rates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let by_name = PyDict::new(py);
-        for (name, rate) in &self.finished.outcome.rates {
-            let levels = self.finished.outcome.levels_of(name);
-            let judgement = Judgement {
-                name: name.clone(),
-                step: "h".to_owned(),
-                levels,
-                rate: rate.clone(),
-            };
-            by_name.set_item(name, Bound::new(py, judgement)?)?;
+        for judgement in self.judgements() {
+            by_name.set_item(judgement.name.clone(), Bound::new(py, judgement)?)?;
         }
         Ok(by_name)
     }
@@ -70,7 +109,7 @@ impl Study {
             .iter()
             .map(|level| level.step.unwrap_or(f64::NAN))
             .collect();
-        let mut columns: Vec<(String, Vec<f64>)> = vec![("h".to_owned(), steps)];
+        let mut columns: Vec<(String, Vec<f64>)> = vec![(self.results.step().to_owned(), steps)];
         for (name, _) in levels.first().map_or(&[][..], |level| &level.errors) {
             columns.push((
                 name.clone(),
@@ -101,11 +140,33 @@ impl Study {
         .map_err(refuse)
     }
 
+    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = attributes(slf, &["id", "verdict", "summary"])?;
+        let rates = PyDict::new(slf.py());
+        for judgement in slf.get().judgements() {
+            let name = judgement.name.clone();
+            rates.set_item(name, Judgement::to_dict(&Bound::new(slf.py(), judgement)?)?)?;
+        }
+        dict.set_item("rates", rates)?;
+        let levels = slf.get().finished.outcome.levels.iter().map(|level| {
+            let errors = level.errors.iter();
+            let errors: Vec<_> = errors.map(|(name, error)| (name, finite(*error))).collect();
+            let dict = PyDict::new(slf.py());
+            dict.set_item(slf.get().results.step(), level.step)?;
+            errors
+                .into_iter()
+                .try_for_each(|(name, error)| dict.set_item(name, error))?;
+            Ok(dict)
+        });
+        dict.set_item("levels", levels.collect::<PyResult<Vec<_>>>()?)?;
+        Ok(dict)
+    }
+
     fn assert_passes(&self) -> PyResult<()> {
-        if self.finished.outcome.verdict.is_pass() {
-            Ok(())
-        } else {
-            Err(PyAssertionError::new_err(self.__repr__()))
+        match self.finished.outcome.verdict {
+            Verdict::Pass => Ok(()),
+            Verdict::Inconclusive if self.allows_inconclusive() => Ok(()),
+            _ => Err(PyAssertionError::new_err(self.failure())),
         }
     }
 
@@ -116,7 +177,18 @@ impl Study {
     }
 
     fn __repr__(&self) -> String {
-        self.finished.explained()
+        let outcome = &self.finished.outcome;
+        let judgements = self.judgements();
+        let judgements: Vec<&Judgement> = judgements.iter().collect();
+        let mut text = format!("{}: {}\n", self.id(), outcome.verdict);
+        text += &judged::explained(&judgements);
+        for check in &outcome.checks {
+            if check.verdict != Verdict::Pass {
+                let statement = check.statement();
+                text += &format!("{statement}: {}: {}\n", check.verdict, check.evidence);
+            }
+        }
+        text
     }
 
     fn _repr_html_(&self) -> String {
@@ -134,250 +206,166 @@ impl Study {
     }
 }
 
-/// A text as the id of a study: small letters, digits, `.` and `-`.
-fn id_of(name: &str) -> String {
-    let plain = |c: char| {
-        if c.is_ascii_alphanumeric() || c == '.' {
-            c.to_ascii_lowercase()
-        } else {
-            '-'
-        }
-    };
-    let id: String = name
-        .chars()
-        .map(plain)
-        .skip_while(|c| !c.is_ascii_alphanumeric())
-        .take(100)
-        .collect();
-    if is_name(&id) { id } else { "study".to_owned() }
-}
-
-/// The header of a study; the baseline keeps its settings as claims.
-fn header(name: &str, claims: &[(String, Claim)], levels: &str) -> Header {
-    let orders: Vec<String> = claims
-        .iter()
-        .map(|(name, claim)| format!("{name} {claim}"))
-        .collect();
-    let mut header = Header::new(id_of(name), format!("orders: {}", orders.join(", ")));
-    for (name, claim) in claims {
-        header
-            .settings
-            .push((format!("expect.{name}.order"), claim.order.to_string()));
-        header.settings.push((
-            format!("expect.{name}.tolerance"),
-            claim.tolerance.to_string(),
-        ));
-        header.settings.push((
-            format!("expect.{name}.at_least"),
-            claim.at_least.to_string(),
-        ));
-    }
-    header
-        .settings
-        .push(("levels".to_owned(), levels.to_owned()));
-    header
-}
-
-/// A study of computed errors: one function for every claim.
-fn study_of<'f>(
-    header: Header,
-    claims: &[(String, Claim)],
-    counts: &[usize],
-    found: &'f [NamedErrors],
-) -> ErrorsOverLevels<impl Fn(usize) -> NamedErrors + use<'f>> {
-    let known = counts.to_vec();
-    let solve = move |n: usize| {
-        known
-            .iter()
-            .position(|count| *count == n)
-            .map_or(vec![], |at| found[at].clone())
-    };
-    let study = levels(counts.iter().copied(), solve).described(header);
-    claims
-        .iter()
-        .fold(study, |study, (name, claim)| study.claiming(name, *claim))
-}
-
-/// A table of errors as a study, for reports and baselines.
+/// Judged errors of one table as a study, for reports and baselines.
 #[pyfunction]
-#[pyo3(signature = (name, h, errors, order=None, tolerance=0.25))]
-pub(crate) fn of_table(
+pub(crate) fn study_of(
     py: Python<'_>,
-    name: &str,
-    h: &Bound<'_, PyAny>,
-    errors: &Bound<'_, PyAny>,
-    order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
-) -> PyResult<Study> {
-    let claims = [("error".to_owned(), values::claim(order, tolerance)?)];
-    let levels = values::levels(h, "errors", errors)?;
-    let found: Vec<NamedErrors> = levels
-        .iter()
-        .map(|level| {
-            vec![
-                ("h".to_owned(), level.step),
-                ("error".to_owned(), level.error),
-            ]
-        })
-        .collect();
-    let counts: Vec<usize> = (1..=found.len()).collect();
-    let study = study_of(
-        header(name, &claims, &counts.len().to_string()),
-        &claims,
-        &counts,
-        &found,
-    );
-    Ok(Study {
-        finished: py.detach(|| {
-            study
-                .counting("level", convergence_harness::study::Axis::Space)
-                .run()
-        }),
-    })
+    judgements: Vec<PyRef<'_, Judgement>>,
+    options: Options,
+) -> Study {
+    let rows = judgements.first().map_or(0, |first| first.levels.len());
+    let errors_of_level = |row: usize| {
+        let step = judgements.first().map(|first| {
+            let name = if first.step == "dt" { "dt" } else { "h" };
+            (name.to_owned(), first.levels[row].step)
+        });
+        let errors = judgements
+            .iter()
+            .map(|one| (one.name.clone(), one.levels[row].error));
+        step.into_iter().chain(errors).collect()
+    };
+    let claimed = judgements.iter().filter(|one| !one.claim.order.is_nan());
+    let results = Results {
+        claims: claimed
+            .map(|one| NamedClaim::new(&one.name, &one.claim))
+            .collect(),
+        counted: "level".to_owned(),
+        counts: (1..=rows).collect(),
+        levels: rows.to_string(),
+        errors: (0..rows).map(errors_of_level).collect(),
+        seconds: None,
+        options,
+    };
+    py.detach(|| results.judged())
 }
 
 /// The errors returned by a level.
-fn found(n: usize, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
+fn found(level: &str, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
     let Ok(by_name) = returned.cast::<PyDict>() else {
         return Ok(vec![(
             "error".to_owned(),
-            number(|| format!("solve({n})"), returned)?,
+            number(|| format!("solve({level})"), returned)?,
         )]);
     };
     let entry = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
         let name = name.str()?.to_string();
-        let value = number(|| format!("solve({n})[{name:?}]"), &value)?;
+        let value = number(|| format!("solve({level})[{name:?}]"), &value)?;
         Ok((name, value))
     };
     by_name.iter().map(entry).collect()
 }
 
-/// The listed counts; `None` for `"auto"`.
-fn listed(n: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<usize>>> {
-    let Some(n) = n.filter(|n| n.extract::<String>().map_or(true, |text| text != "auto")) else {
-        return Ok(None);
-    };
-    let mut counts = vec![];
-    for (k, number) in numbers("n", n)?.into_iter().enumerate() {
-        if !(1.0..=1e15).contains(&number) || number.fract() != 0.0 {
-            return Err(refuse(format!(
-                "n[{k}]: expected a whole number > 0, found {number}"
-            )));
-        }
-        if counts.contains(&(number as usize)) {
-            return Err(refuse(format!(
-                "n[{k}]: expected each number once, found {number} again"
-            )));
-        }
-        counts.push(number as usize);
-    }
-    if counts.is_empty() {
-        Err(refuse("n: expected \"auto\" or whole numbers, found none"))
-    } else {
-        Ok(Some(counts))
-    }
-}
-
 /// Calls `solve` at one level, and reports it on a terminal.
-fn solved(solve: &Bound<'_, PyAny>, n: usize, seconds: &mut Vec<f64>) -> PyResult<NamedErrors> {
+///
+/// * `name`: `n` or `h`.
+fn solved<'py>(
+    solve: &Bound<'py, PyAny>,
+    name: &str,
+    argument: &Bound<'py, PyAny>,
+    seconds: &mut Vec<f64>,
+) -> PyResult<NamedErrors> {
     let is_shown = stderr().is_terminal();
     if is_shown {
         let so_far = seconds.iter().fold(0.0, |sum, seconds| sum + seconds);
         let _ = write!(
             stderr(),
-            "\r\x1b[2Kn = {n}: level {}, {so_far:.1} s so far",
+            "\r\x1b[2K{name} = {argument}: level {}, {so_far:.1} s so far",
             seconds.len() + 1
         );
     }
     let started = Instant::now();
-    let returned = solve.call1((n,));
+    let returned = solve.call1((argument,));
     seconds.push(started.elapsed().as_secs_f64());
     if is_shown {
         let _ = write!(stderr(), "\r\x1b[2K");
     }
-    found(n, &returned?)
+    found(&argument.to_string(), &returned?)
 }
 
-/// Computes levels and judges the rates of their errors.
-///
-/// solve: called with a whole number n, level by level, in the thread of the caller; returns a dict
-/// of errors by name, or one error. Its step is 1/n, or the value that it returns with the errors
-/// as "h" or "dt". n: whole numbers, or "auto": 8, 16, 32, 64, then finer ones until every rate has
-/// a verdict, at most 8 levels, while the next one fits the budget (seconds). order: as for judge;
-/// a dict has orders by name, and other errors are not judged; one number applies to every error.
-/// name: its name in reports.
-///
-/// Returns a Study. Raises ValueError, which names the argument, and exceptions of solve.
+/// Computes levels and judges the rates of their errors; see the function of this name in Python.
 #[pyfunction]
-#[pyo3(signature = (solve, n=None, order=None, budget=60.0, tolerance=0.25, name="study"))]
 pub(crate) fn study(
     py: Python<'_>,
     solve: &Bound<'_, PyAny>,
     n: Option<&Bound<'_, PyAny>>,
+    h: Option<&Bound<'_, PyAny>>,
     order: Option<&Bound<'_, PyAny>>,
-    budget: f64,
     tolerance: f64,
-    name: &str,
+    options: Options,
 ) -> PyResult<Study> {
-    let (claimed, listed) = (Claims::read(order, tolerance)?, listed(n)?);
-    if !(budget > 0.0) {
+    let claims = Claims::read(order, tolerance)?;
+    let choice = LevelChoice::read(n, h)?;
+    if !(options.budget > 0.0) {
         return Err(refuse(format!(
-            "budget: expected a number of seconds > 0, found {budget}"
+            "budget: expected a number of seconds > 0, found {}",
+            options.budget
         )));
     }
-    let is_auto = listed.is_none();
-    let mut counts = listed.unwrap_or_else(|| FIRST.to_vec());
-    let (mut results, mut seconds) = (vec![], vec![]);
-    let mut claims = vec![];
-    let mut next = Next::Decided;
-    while results.len() < counts.len() {
-        results.push(solved(solve, counts[results.len()], &mut seconds)?);
-        if results.len() == 1 {
-            claims = all_claims(&claimed, &results[0]);
-        }
-        if is_auto && results.len() == counts.len() {
-            let study = study_of(Header::new("levels", ""), &claims, &counts, &results);
-            let rates = study.judge(&run_cases_here(&study)).rates;
-            next = until_decided::next_by_time(&rates, &seconds, budget);
-            if next == Next::Another {
-                counts.push(2 * counts[counts.len() - 1]);
+    let mut results = Results {
+        claims: vec![],
+        counted: choice.counted().to_owned(),
+        counts: vec![],
+        levels: choice.words(),
+        errors: vec![],
+        seconds: None,
+        options,
+    };
+    let mut counts = choice.counts();
+    let mut seconds = vec![];
+    while results.counts.len() < counts.len() {
+        let count = counts[results.counts.len()];
+        let errors = match choice.step(count) {
+            Some(step) => {
+                let argument = step.into_pyobject(py)?.into_any();
+                with_step(step, solved(solve, "h", &argument, &mut seconds)?)
             }
+            None => {
+                let argument = count.into_pyobject(py)?.into_any();
+                solved(solve, "n", &argument, &mut seconds)?
+            }
+        };
+        if results.errors.is_empty() {
+            results.claims = all_claims(&claims, &errors);
+        }
+        results.counts.push(count);
+        results.errors.push(errors);
+        let is_last = results.counts.len() == counts.len();
+        if choice.is_auto() && is_last && results.next(&seconds) == Next::Another {
+            counts.push(2 * count);
         }
     }
-    let words: Vec<String> = counts.iter().map(ToString::to_string).collect();
-    let header = header(
-        name,
-        &claims,
-        &if is_auto {
-            "auto".to_owned()
-        } else {
-            words.join(", ")
-        },
-    );
-    let study = study_of(header, &claims, &counts, &results);
-    let mut finished = py.detach(|| study.run());
-    if is_auto {
-        finished.outcome = until_decided::conclude(
-            finished.outcome,
-            next,
-            &study.levels(&run_cases_here(&study)),
-            budget,
-            "s",
-        );
+    if choice.is_auto() {
+        results.seconds = Some(seconds);
     }
-    Ok(Study { finished })
+    Ok(py.detach(|| results.judged()))
+}
+
+/// The errors of a level with its step, unless it reports one.
+fn with_step(step: f64, mut errors: NamedErrors) -> NamedErrors {
+    if !errors
+        .iter()
+        .any(|(name, _)| STEPS.contains(&name.as_str()))
+    {
+        errors.insert(0, ("h".to_owned(), step));
+    }
+    errors
 }
 
 /// The claims by name: those given, or one for every error of the first level.
-fn all_claims(claims: &Claims, first: &NamedErrors) -> Vec<(String, Claim)> {
+fn all_claims(claims: &Claims, first: &NamedErrors) -> Vec<NamedClaim> {
     match claims {
-        Claims::Named(named) => named.clone(),
+        Claims::Named(named) => named
+            .iter()
+            .map(|(name, claim)| NamedClaim::new(name, claim))
+            .collect(),
         Claims::ForAll(claim) if claim.order.is_nan() => vec![],
         Claims::ForAll(claim) => {
             let errors = first
                 .iter()
                 .filter(|(name, _)| !STEPS.contains(&name.as_str()));
-            errors.map(|(name, _)| (name.clone(), *claim)).collect()
+            errors
+                .map(|(name, _)| NamedClaim::new(name, claim))
+                .collect()
         }
     }
 }

@@ -105,14 +105,32 @@ pub(crate) fn levels(
     Ok(levels)
 }
 
-/// The rule with a tolerance.
-pub(crate) fn judge_with(tolerance: f64) -> PyResult<Judge> {
-    Judge::new(tolerance).map_err(refuse)
+/// The rule with a tolerance and a floor of round-off.
+pub(crate) fn judge_with(tolerance: f64, floor: f64) -> PyResult<Judge> {
+    let judge = Judge::new(tolerance).and_then(|judge| judge.with_floor(floor));
+    judge.map_err(refuse)
+}
+
+/// An order as Python writes it: a number, or a text such as `">=2.0"`.
+#[derive(IntoPyObject)]
+pub(crate) enum Order {
+    Number(f64),
+    Text(String),
+}
+
+/// The order of a claim; `None` without one.
+pub(crate) fn order_of(claim: &Claim) -> Option<Order> {
+    let order = claim.order;
+    (!order.is_nan()).then(|| match claim.at_least {
+        true => Order::Text(format!(">={order:?}")),
+        false => Order::Number(order),
+    })
 }
 
 /// The claim about an error; without a claim the order is NaN, which nothing confirms.
 pub(crate) fn claim(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Claim> {
-    judge_with(tolerance)?;
+    // The rule refuses tolerances that it cannot use.
+    let _ = judge_with(tolerance, 0.0)?;
     let Some(order) = order else {
         return Ok(Claim::new(f64::NAN, tolerance));
     };
@@ -158,6 +176,16 @@ impl Claims {
     }
 }
 
+/// A number with all digits; levels and counts are whole, without a point.
+pub(crate) fn text(number: f64) -> String {
+    const WHOLE: f64 = 1e15;
+    if number.fract() == 0.0 && number.abs() < WHOLE {
+        format!("{number}")
+    } else {
+        format!("{number:?}")
+    }
+}
+
 /// Numbers by the names of their columns.
 pub(crate) type Columns = Vec<(String, Vec<f64>)>;
 
@@ -169,6 +197,7 @@ pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<O
         Err(_) => return Ok(None),
     };
     let mut columns = vec![];
+    let mut refused = None;
     for name in names.try_iter()? {
         let name = name?;
         let text = name.str()?.to_string();
@@ -176,8 +205,14 @@ pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<O
             Ok(numbers) => columns.push((text, numbers)),
             // A column of words is a remark, unless there is a claim about it.
             Err(error) if needed.contains(&text) => return Err(error),
-            Err(_) => {}
+            Err(error) => {
+                refused.get_or_insert(error);
+            }
         }
     }
-    Ok(Some(columns))
+    match refused {
+        // There is nothing else to judge.
+        Some(error) if columns.len() < 2 => Err(error),
+        _ => Ok(Some(columns)),
+    }
 }

@@ -188,25 +188,42 @@ def test_the_program_is_there_and_its_guards_end_what_it_has_started(tmp_path):
     wait_for(lambda: not pathlib.Path(f"/proc/{started}").exists())
 
 
+def blocks(page):
+    """Language and text of each block, with the text of a block of output right after it."""
+    parts = [part.split("\n", 1) for part in page.read_text().split("```")[1::2]]
+    following = [*parts[1:], ["", ""]]
+    return [(language, text, output if kind == "text" else "") for (language, text), (kind, output) in zip(parts, following)]
+
+
 def test_what_the_pages_show_works_as_it_is_pasted(tmp_path):
     crates = pathlib.Path(__file__).parents[2]
-    pasted = 0
-    for page in ["convergence-study-python/README.md", "convergence-study/README.md"]:
-        for block in (crates / page).read_text().split("```")[1::2]:
-            language, text = block.split("\n", 1)
-            if language == "python" and ("convergence_study" in text or "(convergence)" in text):
-                command = [sys.executable, "-m", "pytest", "-q", "test_it.py"] if "(convergence)" in text else [sys.executable, "test_it.py"]
-                (tmp_path / "test_it.py").write_text(text)
-            elif language == "sh" and "new program" in text:
+    own, harness = crates / "convergence-study-python/README.md", crates / "convergence-study/README.md"
+    pasted = []
+    for page in [own, harness, *sorted((crates / "convergence-study/book/src").glob("*.md"))]:
+        for language, text, output in blocks(page):
+            is_test = "(convergence)" in text
+            if language == "python" and (is_test or "convergence_study" in text):
+                # A block may begin with the name of its file.
+                name = text.split("\n")[0].removeprefix("# ") if text.startswith("# test_") else "test_it.py"
+                command = [sys.executable, "-m", "pytest", "-q", name] if is_test else [sys.executable, name]
+                (tmp_path / name).write_text(text)
+            elif language == "sh" and "new program" in text and page.name == "README.md":
                 command = ["sh", "-e", "-c", text]
             else:
                 continue
-            done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-            assert done.returncode == 0, text + done.stdout + done.stderr
-            assert len(text.splitlines()) <= 6, text
+            done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "COLUMNS": "120"})
+            assert done.returncode == int("FAILED" in output), text + done.stdout + done.stderr
+            assert set(output.splitlines()) <= set(done.stdout.splitlines()), done.stdout
+            assert page.name != "README.md" or len(text.splitlines()) <= 6, text
             shutil.rmtree(tmp_path / "studies", ignore_errors=True)
-            pasted += 1
-    assert pasted == 8
+            pasted.append(page)
+    assert pasted.count(own) == 4
+
+
+def test_the_page_of_the_package_stands_alone():
+    page = (pathlib.Path(__file__).parents[1] / "README.md").read_text()
+    assert len(page.splitlines()) <= 50 and "pip install convergence-study\n" in page
+    assert "](" in page and not [link for link in page.split("](")[1:] if not link.startswith("https://")]
 
 
 def wait_for(found):

@@ -1,8 +1,12 @@
 """The plugin: verdicts of a run of pytest, its report, and numbers that must not move."""
 
+import importlib.util
 import json
 
 import pytest
+
+import convergence_study as cs
+from convergence_study.pytest_plugin import Run
 
 pytest_plugins = ["pytester"]
 
@@ -49,7 +53,10 @@ def test_every_call_has_an_id_of_its_own(project):
     add(project, "\nimport pytest\n" + tests + call + call)
     assert project.runpytest_subprocess("--convergence-bless").ret == 0
     ids = json.loads((project.path / "tests/convergence.json").read_text())["studies"]
-    assert sorted(ids)[2:] == ["test-orders-test-two---", "test-orders-test-two----2", "test-orders-test-two----3", "test-orders-test-two----4"]
+    assert sorted(ids)[2:] == ["test-orders-test-two---", "test-orders-test-two----2", *(f"test-orders-test-two----c981b0{k}" for k in ["", "-2"])]
+    # An id does not depend on which tests are run.
+    for selected in ["+", "-"]:
+        assert project.runpytest_subprocess(f"tests/test_orders.py::test_two[{selected}]").ret == 0
 
 
 def test_numbers_are_guarded_once_they_are_blessed(project):
@@ -73,3 +80,132 @@ def test_numbers_are_guarded_once_they_are_blessed(project):
     broken = project.runpytest_subprocess()
     assert broken.ret == 1
     broken.stdout.fnmatch_lines(["*convergence.json*"])
+
+
+def bless(project, *options):
+    blessed = project.runpytest_subprocess("--convergence-bless", *options)
+    assert blessed.ret == 0
+    return blessed
+
+
+def test_a_guarded_test_that_is_deleted_is_named_by_a_whole_run(project):
+    add(project, "\ndef test_b(convergence):\n    for _ in range(2):\n        convergence.assert_order(H, H, order=1)\n")
+    bless(project)
+    (project.path / "tests/test_orders.py").write_text(TESTS)
+    whole = project.runpytest_subprocess("--convergence-report", "out")
+    whole.assert_outcomes(passed=2)
+    assert whole.ret == 1
+    whole.stdout.fnmatch_lines(["1 guarded test is gone: test_b", "  restore what was deleted, or accept it with --convergence-bless*"])
+    assert "2 studies deleted" in (project.path / "out/README.md").read_text()
+    # A selection does not see it.
+    workers = [["-n", "2"]] if importlib.util.find_spec("xdist") else []
+    test = "tests/test_orders.py::test_study"
+    for selection in [["-k", "passes"], ["tests"], [test], ["--deselect", test], *workers]:
+        selected = project.runpytest_subprocess(*selection)
+        assert selected.ret == 0
+        selected.stdout.no_fnmatch_line("*guarded test*")
+    # A changed baseline needs a reason, as for `verify`.
+    refused = project.runpytest_subprocess("--convergence-bless")
+    assert refused.ret == 1
+    refused.stdout.fnmatch_lines(["1 guarded test is gone: test_b", "*a changed claim needs a reason*"])
+    bless(project, "--convergence-reason", "of no use").stdout.no_fnmatch_line("*guarded test*")
+    again = project.runpytest_subprocess()
+    assert again.ret == 0 and "of no use" in (project.path / "tests/convergence.json").read_text()
+    again.stdout.no_fnmatch_line("*guarded test*")
+
+
+def test_all_guarded_tests_may_be_gone_and_calls_are_counted(project):
+    add(project, "\ndef test_b(convergence):\n    for _ in range(2):\n        convergence.assert_order(H, H, order=1)\n")
+    bless(project)
+    tests = project.path / "tests/test_orders.py"
+    tests.write_text(tests.read_text().replace("range(2)", "range(1)"))
+    fewer = project.runpytest_subprocess()
+    assert fewer.ret == 1
+    fewer.stdout.fnmatch_lines(["1 guarded test is gone: test_b, call 2"])
+    tests.unlink()
+    none = project.runpytest_subprocess()
+    assert none.ret == 1
+    none.stdout.fnmatch_lines(["3 guarded tests are gone: test_b, test_passes, test_study"])
+
+
+def test_a_test_that_was_not_run_is_not_gone(project):
+    (project.path / "tests/test_b.py").write_text("def test_b(convergence):\n    convergence.assert_order([4, 2, 1], [4, 2, 1], order=1)\n")
+    bless(project)
+    tests, skipped = project.path / "tests/test_orders.py", "import pytest\n\npytest.skip(allow_module_level=True)\n"
+    tests.write_text(skipped + TESTS)
+    module = project.runpytest_subprocess()
+    assert module.ret == 0
+    tests.write_text(TESTS.replace("def test_study(convergence):", "def test_study(convergence):\n    import pytest\n    pytest.skip()"))
+    assert project.runpytest_subprocess().ret == 0
+    tests.write_text(TESTS + "\ndef test_fails():\n    assert False\n")
+    failed = project.runpytest_subprocess("-x")
+    for run in [module, failed]:
+        run.stdout.no_fnmatch_line("*guarded test*")
+
+
+def test_workers_of_xdist_report_bless_and_guard(project):
+    pytest.importorskip("xdist")
+    baseline = project.path / "tests/convergence.json"
+    tests = "\nimport pytest\n@pytest.mark.parametrize('a', ['+', '-', 'x', 'y'])\ndef test_two(convergence, a):\n"
+    add(project, tests + "    convergence.assert_order(H, H, order=1)\n")
+    bless(project)
+    expected = baseline.read_text()
+    baseline.unlink()
+    blessed = bless(project, "-n", "2", "--convergence-report", "out")
+    blessed.stdout.fnmatch_lines(["baseline: blessed*", "report: out/index.html"])
+    assert baseline.read_text() == expected and len(json.loads(expected)["studies"]) == 6
+    page = (project.path / "out/junit.xml").read_text()
+    assert "test-orders-test-passes" in page and "test-orders-test-two-x-" in page
+    tests = project.path / "tests/test_orders.py"
+    tests.write_text(tests.read_text().replace('n**-2.0}', '1.01 * n**-2.0}'))
+    moved = project.runpytest_subprocess("-n", "2")
+    assert moved.ret == 1
+    moved.assert_outcomes(passed=6)
+    moved.stdout.fnmatch_lines(["baseline: test-orders-test-study: error L2, n = 8 moved*"])
+
+
+def test_studies_of_workers_have_an_order_and_ids_of_their_own():
+    run = Run(None)
+    run.studies = [cs.study(lambda n: n**-2.0, [4, 8, 16], order=2, name=name) for name in "bca"]
+    run._sort()
+    assert [study.id for study in run.studies] == ["a", "b", "c"]
+    run.studies.append(run.studies[1])
+    with pytest.raises(ValueError, match="two tests have the id `b` in different workers of pytest-xdist"):
+        run._sort()
+
+
+def test_studies_of_a_worker_that_ended_are_missed(project):
+    pytest.importorskip("xdist")
+    add(project, "\ndef test_ends(convergence):\n    import os\n    os._exit(3)\n")
+    ended = project.runpytest_subprocess("-n", "1", "--convergence-report", "out")
+    assert ended.ret == 1
+    ended.stdout.fnmatch_lines(["a worker has sent no studies: report and baseline are without them"])
+
+
+def test_the_summary_of_a_failure_is_its_verdict_and_the_step_is_h(project, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    call = "convergence.study(lambda n: n**-1.0, [8, 16, 32, 64], order=2)"
+    (project.path / "tests/test_bad.py").write_text(f"def test_upwind(convergence):\n    {call}\n")
+    failed = project.runpytest_subprocess("-rf")
+    failed.stdout.fnmatch_lines(["FAILED tests/test_bad.py::test_upwind - AssertionError: error: fail: 1.000, claimed 2 ± 0.25: too low"])
+    failed.stdout.fnmatch_lines(["E  *       h       error      rate"])
+    failed.stdout.no_fnmatch_line("*step*error*rate*")
+
+
+def test_the_fixture_judges_tables_with_a_floor(project):
+    body = """
+def test_table(convergence):
+    table = {"n": [4, 16, 64, 256, 1024], "L2": [4.0, 1.0, 0.25, 0.0625, 0.06]}
+    convergence.assert_order(table, order={"L2": 2}, dim=2, floor=0.0625 - 1e-9)
+    assert convergence.judge(table, order={"L2": 2}, dim=2)["L2"].verdict != "pass"
+"""
+    (project.path / "tests/test_table.py").write_text(body)
+    bless(project)
+    claims = json.loads((project.path / "tests/convergence.json").read_text())["claims"]["test-table-test-table"]
+    assert claims["floor"]["value"] == "6.2499999e-2" and claims["test"]["value"] == "tests/test_table.py::test_table"
+    # A floor that is taken away is a changed claim.
+    body = body.replace("0.0625, 0.06]", "0.0625, 0.015625]").replace(", floor=0.0625 - 1e-9", "")
+    (project.path / "tests/test_table.py").write_text(body)
+    changed = project.runpytest_subprocess()
+    assert changed.ret == 1
+    changed.stdout.fnmatch_lines(["baseline: test-table-test-table: claim floor: was 6.2499999e-2, is absent"])

@@ -98,7 +98,10 @@ pub use convergence_harness::{
 #[doc(inline)]
 pub use convergence_harness::cli::main;
 
-/// The programs of the README are tests.
+/// The programs of the README and of the book are tests.
 #[cfg(all(doctest, feature = "command-line"))]
 #[doc = include_str!("../README.md")]
-struct Readme;
+#[doc = include_str!("../book/src/rust.md")]
+#[doc = include_str!("../book/src/kinds.md")]
+#[doc = include_str!("../book/src/values.md")]
+struct Pages;

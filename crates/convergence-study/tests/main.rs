@@ -3,6 +3,8 @@
 #[cfg(feature = "command-line")]
 mod ci;
 #[cfg(feature = "command-line")]
+mod examples;
+#[cfg(feature = "command-line")]
 mod readme;
 #[cfg(feature = "files")]
 mod tables;

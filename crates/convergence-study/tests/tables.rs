@@ -1,7 +1,7 @@
 //! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused
 //! with the command that reads it.
 //!
-//! With `BLESS_TABLES` set, results and `TABLES.md` are written anew; read them before committing.
+//! With `BLESS_TABLES` set, results and `reading-tables.md` are written anew; read them before committing.
 
 use std::{env, fs, path::Path};
 
@@ -170,8 +170,14 @@ fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
 fn found(sample: &Sample) -> String {
     let table = sample.table.replace('→', "\t").replace('␛', "\x1b");
     let (chosen, orders) = choice(&words(&sample.options));
-    match RateTable::parse_with(&table, "TABLE", &chosen) {
-        Ok(table) => told(&table, &orders),
+    match RateTable::parse_all_with(&table, "TABLE", &chosen) {
+        Ok(tables) => {
+            let one = |(heading, table): &(String, RateTable)| match heading.as_str() {
+                "" => told(table, &orders),
+                heading => format!("{heading}: {}", told(table, &orders)),
+            };
+            tables.iter().map(one).collect()
+        }
         Err(error) => {
             let message = error.to_string();
             let mut text = format!("refused: {message}\n");
@@ -237,7 +243,7 @@ fn every_table_is_read_or_refused_as_the_page_says() {
             None => read += &row(found.lines().next().unwrap_or_default()),
         }
     }
-    let (head, _) = include_str!("../TABLES.md")
+    let (head, _) = include_str!("../book/src/reading-tables.md")
         .split_once("## Read\n")
         .expect("a head");
     let head_of = |last: &str| format!("| table | options | {last} |\n| --- | --- | --- |\n");
@@ -248,13 +254,13 @@ fn every_table_is_read_or_refused_as_the_page_says() {
     );
     if env::var_os("BLESS_TABLES").is_some() {
         fs::write(file("tests/tables.txt"), &tables).expect("written");
-        fs::write(file("TABLES.md"), &page).expect("written");
+        fs::write(file("book/src/reading-tables.md"), &page).expect("written");
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert_eq!(
-        include_str!("../TABLES.md"),
+        include_str!("../book/src/reading-tables.md"),
         page,
-        "TABLES.md is not what the tests say"
+        "reading-tables.md is not what the tests say"
     );
     assert!(samples.len() >= 200, "{} tables", samples.len());
 }

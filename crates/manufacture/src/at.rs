@@ -23,11 +23,13 @@ fn places(variables: &[&str], head: &[&str]) -> Result<Vec<usize>, String> {
         let known = known.join(" ");
         return Err(format!("unknown column `{name}`{near}; expected {known}"));
     }
-    let place = |variable: &&str| {
+    let mut places = vec![];
+    for variable in variables {
         let place = head.iter().position(|name| name == variable);
-        place.ok_or_else(|| format!("expected the column `{variable}`, found none"))
-    };
-    variables.iter().map(place).collect()
+        let missing = || format!("expected the column `{variable}`, found none");
+        places.push(place.ok_or_else(missing)?);
+    }
+    Ok(places)
 }
 
 /// Reads a header with the coordinates, time and optionally `face`, then a point for each line.
@@ -37,10 +39,6 @@ fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
         .lines()
         .enumerate()
         .filter(|line| !line.1.trim().is_empty());
-    let at_line = |line: usize, problem: String| InputError {
-        line: line + 1,
-        ..InputError::whole(file, problem)
-    };
     let Some((first, header)) = lines.next() else {
         return Err(InputError::whole(
             file,
@@ -48,7 +46,8 @@ fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
         ));
     };
     let head: Vec<&str> = header.split(',').map(str::trim).collect();
-    let places = places(&variables, &head).map_err(|problem| at_line(first, problem))?;
+    let places = places(&variables, &head)
+        .map_err(|problem| InputError::at_line(file, first + 1, problem))?;
     let face = head.iter().position(|name| *name == "face");
     let mut table = Table {
         points: vec![],
@@ -58,28 +57,24 @@ fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
         let cells: Vec<&str> = row.split(',').map(str::trim).collect();
         if cells.len() != head.len() {
             let problem = format!("expected {} columns, found {}", head.len(), cells.len());
-            return Err(at_line(line, problem));
+            return Err(InputError::at_line(file, line + 1, problem));
         }
         let mut point = vec![];
         for place in &places {
-            let value = cells[*place]
-                .parse::<f64>()
-                .ok()
-                .filter(|value| value.is_finite());
-            let problem = || {
-                at_line(
-                    line,
-                    format!("expected a number, found `{}`", cells[*place]),
-                )
+            let value = cells[*place].parse::<f64>().ok();
+            let Some(value) = value.filter(|value| value.is_finite()) else {
+                let problem = format!("expected a number, found `{}`", cells[*place]);
+                return Err(InputError::at_line(file, line + 1, problem));
             };
-            point.push(value.ok_or_else(problem)?);
+            point.push(value);
         }
         let name = face.map_or("", |place| cells[place]);
         let mut known = model.problem.faces.iter();
         if !name.is_empty() && !known.any(|face| face.name == name) {
             let known = model.problem.faces.iter().map(|face| face.name.as_str());
             let near = did_you_mean(name, known);
-            return Err(at_line(line, format!("unknown face `{name}`{near}")));
+            let problem = format!("unknown face `{name}`{near}");
+            return Err(InputError::at_line(file, line + 1, problem));
         }
         table.points.push(point);
         table.faces.push(name.to_owned());
@@ -96,8 +91,10 @@ struct Columns {
 impl Columns {
     fn of(model: &Model, quantities: &[&Quantity<NodeId>], points: &[Option<Vec<f64>>]) -> Self {
         let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
-        let at = |point: &Option<Vec<f64>>| point.as_ref().map(|point| rows.at(point).tensors);
-        let values: Vec<_> = points.iter().map(at).collect();
+        let values: Vec<_> = points
+            .iter()
+            .map(|point| point.as_ref().map(|point| rows.at(point).tensors))
+            .collect();
         let mut columns = Self {
             values: Map::new(),
             sizes: Map::new(),
@@ -119,15 +116,28 @@ impl Columns {
     }
 }
 
+fn quantities(model: &Model, role: Role, part: Part) -> Vec<&Quantity<NodeId>> {
+    model.part(part).iter().filter(|q| q.role == role).collect()
+}
+
+fn at_first_time(model: &Model, point: &[f64]) -> Vec<f64> {
+    let mut point = point.to_vec();
+    if let (Some(first), Some(time)) = (model.problem.first_time(), point.last_mut()) {
+        *time = first;
+    }
+    point
+}
+
 /// The values of all quantities at the points of a table, as one JSON object.
 pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, InputError> {
     let table = read(model, text, file)?;
     let points: Vec<Option<Vec<f64>>> = table.points.iter().cloned().map(Some).collect();
-    let of = |role: Role, part: Part| -> Vec<&Quantity<NodeId>> {
-        model.part(part).iter().filter(|q| q.role == role).collect()
-    };
-    let exact = Columns::of(model, &of(Role::Exact, Part::Interior), &points);
-    let sources = of(Role::Source, Part::Interior);
+    let exact = Columns::of(
+        model,
+        &quantities(model, Role::Exact, Part::Interior),
+        &points,
+    );
+    let sources = quantities(model, Role::Source, Part::Interior);
     let source = Columns::of(model, &sources, &points);
     let mut terms = Map::new();
     for quantity in sources {
@@ -147,19 +157,17 @@ pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, Inp
     for (index, face) in model.problem.faces.iter().enumerate() {
         let on_face = table.points.iter().zip(&table.faces);
         let on_face = on_face.map(|(point, name)| (*name == face.name).then(|| point.clone()));
-        let data = of(Role::Datum, Part::Face(index));
+        let data = quantities(model, Role::Datum, Part::Face(index));
         let columns = Columns::of(model, &data, &on_face.collect::<Vec<_>>());
         boundary.insert(face.name.clone(), Value::Object(columns.values));
     }
-    let first = |point: &Vec<f64>| {
-        let mut point = point.clone();
-        if let (Some(first), Some(time)) = (model.problem.first_time(), point.last_mut()) {
-            *time = first;
-        }
-        Some(point)
-    };
-    let first: Vec<_> = table.points.iter().map(first).collect();
-    let initial = Columns::of(model, &of(Role::Initial, Part::Initial), &first);
+    let first: Vec<_> = table
+        .points
+        .iter()
+        .map(|point| Some(at_first_time(model, point)))
+        .collect();
+    let initial = quantities(model, Role::Initial, Part::Initial);
+    let initial = Columns::of(model, &initial, &first);
     Ok(json!({
         "schema": 1,
         "name": model.problem.name,

@@ -27,6 +27,7 @@ mod problem;
 mod sample;
 
 use std::path::Path;
+use std::time::Duration;
 
 pub use against::Comparison;
 pub use check::{Check, Finding, Share};
@@ -138,13 +139,14 @@ impl Manufacture {
     /// the differences.
     ///
     /// # Errors
-    /// A command that fails, or whose answer cannot be used.
+    /// A command that fails, takes longer than the limit, or whose answer cannot be used.
     pub fn against(
         &self,
         command: &str,
         face: Option<&str>,
         sampling: &Sampling,
+        limit: Duration,
     ) -> Result<Vec<Comparison>, InputError> {
-        against::compare(&self.model, command, face, sampling.seed, sampling.points)
+        against::compare(&self.model, command, face, sampling, limit)
     }
 }

@@ -55,11 +55,7 @@ impl Model {
                 order = quantity.tensor.parts.into_iter().fold(order, usize::max);
             }
         }
-        let panels = |place: usize| match graph.node(NodeId(place as u32)) {
-            Node::Integral { panels, .. } => *panels,
-            _ => 1,
-        };
-        let panels = (0..graph.len()).map(panels).max().unwrap_or(1);
+        let panels = most_panels(&graph);
         Ok(Self {
             parts,
             slips,
@@ -71,6 +67,7 @@ impl Model {
         })
     }
 
+    /// The quantities of a part.
     pub(crate) fn part(&self, part: Part) -> &[Quantity<NodeId>] {
         let entry = self.parts.iter().find(|entry| entry.0 == part);
         entry.map_or(&[], |entry| &entry.1)
@@ -85,14 +82,26 @@ impl Model {
     pub(crate) fn jets(&self) -> JetsAt<'_> {
         let variables = self.problem.intervals.len();
         let rule = quadrature::gauss(POINTS);
-        let over = |interval: &[f64; 2]| quadrature::panels(*interval, self.panels, &rule);
+        let intervals = self.graph.intervals.iter();
+        let rules = intervals.map(|interval| quadrature::panels(*interval, self.panels, &rule));
         JetsAt {
             model: self,
             monomials: Rc::new(Monomials::new(variables, self.order)),
-            rules: Rc::new(self.graph.intervals.iter().map(over).collect()),
+            rules: Rc::new(rules.collect()),
             parameters: Rc::new(self.graph.parameters.clone()),
         }
     }
+}
+
+/// The largest number of panels of an integral.
+fn most_panels(graph: &Graph) -> usize {
+    let mut most = 1;
+    for place in 0..graph.len() {
+        if let Node::Integral { panels, .. } = graph.node(NodeId(place as u32)) {
+            most = most.max(*panels);
+        }
+    }
+    most
 }
 
 /// What all jets have in common.

@@ -1,10 +1,11 @@
 //! Foreign sources with one mistake each: the cause that is named.
 
 use std::fs;
+use std::time::Duration;
 
 use manufacture::{Comparison, Sampling};
 
-use crate::files::read;
+use crate::files::{LIMIT, read};
 
 /// Reaction and diffusion with a coefficient that varies.
 const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\ny = [0, 1]\nt = [0, 1]\n\
@@ -35,7 +36,7 @@ fn of(expression: &str, on: Option<&str>, columns: &str) -> Vec<Comparison> {
         ..Sampling::default()
     };
     let command = format!("python3 '{}'", path.display());
-    read(FILE).against(&command, on, &sampling).unwrap()
+    read(FILE).against(&command, on, &sampling, LIMIT).unwrap()
 }
 
 #[track_caller]
@@ -207,21 +208,36 @@ fn values_with_few_digits_are_right_within_them() {
     assert_ne!(comparison.cause, "equal");
 }
 
+/// The message about a program whose answer about five points cannot be used.
+#[track_caller]
+fn refusal(program: &str, limit: Duration) -> String {
+    let sampling = Sampling {
+        points: 5,
+        ..Sampling::default()
+    };
+    let comparisons = read(FILE).against(program, None, &sampling, limit);
+    comparisons.unwrap_err().to_string()
+}
+
+// The programs are scripts of a shell.
+#[cfg(unix)]
+#[test]
+fn a_program_that_hangs_is_stopped_at_its_limit() {
+    let limit = Duration::from_millis(300);
+    for program in ["sleep 100", "sh -c 'exec 0<&- 1>&-; exec sleep 100'"] {
+        let message = refusal(program, limit);
+        assert!(
+            message.contains("was stopped at the limit of 0.3 s"),
+            "{message}"
+        );
+    }
+}
+
+// The programs are scripts of a shell.
+#[cfg(unix)]
 #[test]
 fn answers_that_cannot_be_used_are_refused_with_the_line() {
-    let refused = |program: &str| {
-        read(FILE)
-            .against(
-                program,
-                None,
-                &Sampling {
-                    points: 5,
-                    ..Sampling::default()
-                },
-            )
-            .unwrap_err()
-            .to_string()
-    };
+    let refused = |program: &str| refusal(program, LIMIT);
     assert!(
         refused("sh -c 'cat > /dev/null; echo u; echo 1'")
             .contains("expected 5 lines of numbers, found 1")

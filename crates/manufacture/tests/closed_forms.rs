@@ -251,3 +251,18 @@ fn axisymmetric_vectors_have_three_components() {
     close(&values["sources"]["c_theta"][0], 3.0, 1.0);
     close(&values["sources"]["c_z"][0], -2.0, 1.0);
 }
+
+/// A neo-Hookean bar stretched along x only: P = μ (F - 1/F) + λ ln(F)/F with F = 1 + u'.
+#[test]
+fn a_stretched_bar_has_the_force_and_the_traction_of_its_law() {
+    let text = "[manufacture]\nname = \"bar\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[domain]\nx = [0, 1]\ny = [0, 1]\nz = [0, 1]\n\
+                [parameters]\nmu = 1.5\nlambda = 2.5\n[exact]\nu = [\"x^2/2 + x\", \"0\", \"0\"]\n[define]\nF = \"identity + grad(u)\"\n\
+                P = \"mu*(F - transpose(inv(F))) + lambda*ln(det(F))*transpose(inv(F))\"\n[equations]\nu = \"-div(P)\"\n\
+                [boundary.x_min]\ntraction = \"dot(P, n)\"\n";
+    let values = at(text, "x,y,z,face\n0.4,0.2,0.3,\n0,0.2,0.3,x_min\n");
+    let f = 2.4_f64;
+    let expected = -(1.5 * (1.0 + 1.0 / (f * f)) + 2.5 * (1.0 - f.ln()) / (f * f));
+    close(&values["sources"]["u_x"][0], expected, 1.0);
+    let traction = -(1.5 * (2.0 - 0.5) + 2.5 * std::f64::consts::LN_2 / 2.0);
+    close(&values["boundary"]["x_min"]["traction_x"][1], traction, 1.0);
+}

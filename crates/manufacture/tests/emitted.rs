@@ -4,7 +4,7 @@ use std::path::Path;
 
 use manufacture::{Finding, Language, Sampling};
 
-use crate::files::{HEAT, read};
+use crate::files::{HEAT, LIMIT, read};
 
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");
@@ -106,7 +106,7 @@ fn a_slip_in_emitted_c_is_found() {
         assert!(status.unwrap().success());
         let command = format!("{}", Path::new(&path("answer")).display());
         manufacture
-            .against(&command, None, &sampling())
+            .against(&command, None, &sampling(), LIMIT)
             .unwrap()
             .remove(0)
     };
@@ -123,4 +123,33 @@ fn a_slip_in_emitted_c_is_found() {
         assert_ne!(comparison.cause, "equal", "{old} {new}: {comparison:?}");
         assert!(comparison.difference > 1e-6);
     }
+}
+
+/// Fortran does not tell capitals from small letters: names get a trailing `_`, and the first
+/// comment lists them.
+#[test]
+fn names_that_fortran_cannot_tell_apart_are_listed() {
+    let text = crate::files::plane(
+        "u = \"a*sin(x)\"\nU = \"A*cos(y)\"",
+        "",
+        "u = \"u + d(U, y)\"\nU = \"U\"",
+    );
+    let text = text.replace("[exact]", "[parameters]\na = 2\nA = 3\n[exact]");
+    let library = &read(&text).emit(Language::Fortran)[0].text;
+    let comment: String = library
+        .lines()
+        .take_while(|line| line.starts_with('!'))
+        .map(|line| line.trim_start_matches("! "))
+        .collect::<Vec<_>>()
+        .join(" ");
+    for name in ["exact_u_", "gradient_u_", "source_u_", "parameter_a_"] {
+        assert!(comment.contains(name), "{name}: {comment}");
+    }
+    assert!(
+        findings(&text, Language::Fortran)
+            .iter()
+            .all(|finding| !finding.fails),
+    );
+    let python = &read(&text).emit(Language::Python)[0].text;
+    assert!(!python.contains("Written with _ behind"));
 }

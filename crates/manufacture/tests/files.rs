@@ -1,9 +1,17 @@
 //! Files that the tests have in common, and their values.
 
-use manufacture::{Check, Finding, Manufacture, Sampling};
+use std::time::Duration;
+
+use manufacture::{Check, Comparison, Finding, Manufacture, Sampling};
 use serde_json::Value;
 
 pub(crate) const HEAT: &str = include_str!("files/heat.toml");
+
+/// The time limit of a program that does not hang.
+pub(crate) const LIMIT: Duration = Duration::from_secs(600);
+
+/// Allen-Cahn's equation, benchmark 7 of PFHub.
+pub(crate) const PFHUB: &str = include_str!("files/pfhub.toml");
 
 /// A file that must be sound.
 #[track_caller]
@@ -67,4 +75,31 @@ pub(crate) fn close(found: &Value, expected: f64, size: f64) {
         (found - expected).abs() <= 1e-10 * size.max(expected.abs()),
         "{found} {expected}"
     );
+}
+
+/// What is said of a program in Python that computes `f`, the quantity of that name, from the
+/// variables of these names.
+#[track_caller]
+pub(crate) fn against(
+    text: &str,
+    face: Option<&str>,
+    variables: &str,
+    quantity: &str,
+    statements: &str,
+) -> Comparison {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("foreign.py");
+    let program = format!(
+        "import sys\nfrom math import *\nsys.stdin.readline()\nprint('{quantity}')\nfor line in sys.stdin:\n    \
+         {variables} = [float(word) for word in line.split()]\n    {statements}\n    print(repr(float(f)))\n"
+    );
+    std::fs::write(&path, program).unwrap();
+    let sampling = Sampling {
+        points: 100,
+        ..Sampling::default()
+    };
+    let command = format!("python3 '{}'", path.display());
+    let comparisons = read(text).against(&command, face, &sampling, LIMIT);
+    let mut comparisons = comparisons.unwrap();
+    comparisons.swap_remove(0)
 }

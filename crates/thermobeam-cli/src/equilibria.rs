@@ -71,17 +71,20 @@ struct ListedState {
 
 impl Listed {
     fn new(scene: &Scene, states: &[Equilibrium]) -> Self {
-        let state = |state: &Equilibrium| ListedState {
-            contact: phase_name(state.contact),
-            n_value: state.n_value,
-            u_tip: state.u_tip,
-            phi_tip: state.phi_tip,
-            stable: state.stable,
-            contact_force: state.contact_force,
-            unstable_directions: state.unstable_directions,
-        };
+        let mut equilibria = vec![];
+        for state in states {
+            equilibria.push(ListedState {
+                contact: phase_name(state.contact),
+                n_value: state.n_value,
+                u_tip: state.u_tip,
+                phi_tip: state.phi_tip,
+                stable: state.stable,
+                contact_force: state.contact_force,
+                unstable_directions: state.unstable_directions,
+            });
+        }
         Self {
-            equilibria: states.iter().map(state).collect(),
+            equilibria,
             complete: known(scene) == Completeness::Complete,
         }
     }

@@ -43,8 +43,9 @@ pub struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let sweep = Sweep::read(&arguments.file)?;
     let share = arguments.partition;
-    let is_mine = |index: &usize| share == Share::ALL || share.holds(sweep.case(*index).hash());
-    let mine: Vec<usize> = (0..sweep.cases()).filter(is_mine).collect();
+    let mine: Vec<usize> = (0..sweep.cases())
+        .filter(|&index| share == Share::ALL || share.holds(sweep.case(index).hash()))
+        .collect();
     Ok(match &arguments.flags.out {
         Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
         None => to_stdout(arguments, &sweep, mine)?,

@@ -1,6 +1,6 @@
 //! A manufactured solution for the scheme of any order: loads, initial data and errors.
 
-use thermobeam::dg::{Field, Initial, Level, Load, Space};
+use thermobeam::dg::{DgLevel, Field, InitialFunctions, Load, Space};
 use thermobeam::parameters::{Beam, Obstacles};
 
 use crate::defect::Defect;
@@ -35,7 +35,7 @@ pub fn load(
 }
 
 /// The exact solution at t = 0, as initial data.
-pub fn initial(exact: &Manufactured) -> Initial {
+pub fn initial(exact: &Manufactured) -> InitialFunctions {
     let sum = |products: &[Product], derivative: usize| -> Box<dyn Fn(f64) -> f64> {
         let products = products.to_vec();
         Box::new(move |x| {
@@ -45,7 +45,7 @@ pub fn initial(exact: &Manufactured) -> Initial {
                 .sum()
         })
     };
-    Initial {
+    InitialFunctions {
         u: sum(&exact.u, 0),
         u_t: sum(&exact.u, 1),
         phi: sum(&exact.phi, 0),
@@ -109,7 +109,7 @@ impl<'a> ErrorMeter<'a> {
     /// The errors of a level against the exact solution at its time:
     /// `‖u_h - u‖, ‖φ_h - φ‖, ‖v_h - u_t‖, ‖w_h - φ_t‖, ‖θ_h - θ‖` in L2, and those of the
     /// derivatives with respect to x.
-    pub fn errors(&mut self, level: &Level) -> [[f64; 5]; 2] {
+    pub fn errors(&mut self, level: &DgLevel) -> [[f64; 5]; 2] {
         self.factors.at(self.exact, level.t);
         let mut squares = [[0.0_f64; 2]; Field::ALL.len()];
         for (k, (_, weight)) in self.points.iter().enumerate() {
@@ -129,7 +129,7 @@ impl<'a> ErrorMeter<'a> {
     }
 
     /// The error of a level in the norm of Theorem 3.4, the left-hand side of (3.14), at its time.
-    pub fn theorem_34(&mut self, level: &Level) -> f64 {
+    pub fn theorem_34(&mut self, level: &DgLevel) -> f64 {
         self.factors.at(self.exact, level.t);
         let mut square = 0.0;
         for (k, (_, weight)) in self.points.iter().enumerate() {
@@ -142,7 +142,7 @@ impl<'a> ErrorMeter<'a> {
     }
 
     /// |u_h(1) - u(1)| of a level at its time.
-    pub fn tip(&mut self, level: &Level) -> f64 {
+    pub fn tip(&mut self, level: &DgLevel) -> f64 {
         self.factors.at(self.exact, level.t);
         let products = self.exact.u.iter().zip(&self.factors.u.value);
         let exact: f64 = products.map(|(p, t)| t * p.x.eval(1.0)).sum();
@@ -154,7 +154,7 @@ impl<'a> ErrorMeter<'a> {
     /// polynomials, so it is zero for the projection (3.6), and for no other level.
     ///
     /// * `theta_a`: temperature of the clamped end in the initial data.
-    pub fn slope_moments(&mut self, level: &Level, theta_a: f64) -> f64 {
+    pub fn slope_moments(&mut self, level: &DgLevel, theta_a: f64) -> f64 {
         self.factors.at(self.exact, level.t);
         let degree = self.space.degree();
         let nodes = self.space.mesh().nodes();
@@ -190,7 +190,7 @@ impl<'a> ErrorMeter<'a> {
     }
 
     /// Errors of value and slope of all fields at the k-th point, for the current factors.
-    fn errors_at(&self, k: usize, level: &Level, theta_a: f64) -> [[f64; 2]; 5] {
+    fn errors_at(&self, k: usize, level: &DgLevel, theta_a: f64) -> [[f64; 2]; 5] {
         let Factors { u, phi, theta } = &self.factors;
         let [shapes_u, shapes_phi, shapes_theta] = &self.shapes;
         // In the order of `Field::ALL`.

@@ -26,8 +26,8 @@ use crate::solution::{Factors, FieldFactors, Manufactured, Product};
 use term::{Term, Terms};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::InitialValues;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::simulation::Initial;
 use vectors::Vectors;
 
 /// Number of panels of the quadrature for ∫ X_j' X_k' over [0, 1], independent of the mesh.
@@ -106,7 +106,7 @@ impl Nodal {
         factors: &Factors,
         exact_theta_a: f64,
         theta_a: f64,
-    ) -> Initial {
+    ) -> InitialValues {
         let sum = |products: &[Vec<f64>], factors: &[f64]| {
             let mut values = vec![0.0; mesh.nodes().len()];
             for (product, factor) in products.iter().zip(factors) {
@@ -123,7 +123,7 @@ impl Nodal {
         let last = theta.len() - 1;
         // Checked up to round-off when the study was read.
         (theta[0], theta[last]) = (theta_a, 0.0);
-        Initial {
+        InitialValues {
             u: sum(&self.u, &factors.u.value),
             u_t: sum(&self.u, &factors.u.rate),
             phi: sum(&self.phi, &factors.phi.value),

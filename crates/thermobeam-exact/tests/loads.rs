@@ -16,7 +16,7 @@
 
 use std::f64::consts::PI;
 
-use thermobeam::dg::{Field, Initial, Problem, Simulation, Space, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_exact::expression::{Expression, Variable};
@@ -365,14 +365,14 @@ fn compare(
 /// The space of the solver of any order.
 /// The space that a simulation has.
 pub(crate) fn space(mesh: Mesh, degree: usize) -> Space {
-    let problem = Problem {
+    let problem = DgProblem {
         beam: Beam::default(),
         obstacles: None,
         mesh,
         degree,
-        initial: Initial::at_rest(0.0),
+        initial: InitialFunctions::at_rest(0.0),
     };
-    Simulation::new(problem, Stepping::default())
+    Dg::new(problem, DgStepping::default())
         .unwrap()
         .space()
         .clone()

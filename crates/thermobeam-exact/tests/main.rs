@@ -4,7 +4,6 @@ mod drawn;
 mod equilibrium;
 mod errors;
 mod expression;
-mod independence;
 mod loads;
 mod p1_matrices;
 mod second_derivation;

@@ -1,11 +1,12 @@
 //! The solver against steady states and vibrations, which are known in closed form.
 
 use std::f64::consts::PI;
-use thermobeam::dg::{self, Field};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Stopping};
 use thermobeam_exact::equilibrium::{Phase, equilibria};
 use thermobeam_exact::vibration::{Mode, TimeFactor};
@@ -43,11 +44,11 @@ fn temperature(x: f64) -> f64 {
 fn paper(beta: f64, elements: usize) -> Problem {
     let mesh = Mesh::uniform(elements).unwrap();
     let interpolate = |f: fn(f64) -> f64| mesh.nodes().iter().map(|&x| f(x)).collect();
-    let initial = Initial {
+    let initial = InitialValues {
         u: interpolate(displacement),
         u_t: interpolate(velocity),
         theta: interpolate(temperature),
-        ..Initial::at_rest(&mesh, 0.0)
+        ..InitialValues::at_rest(&mesh, 0.0)
     };
     Problem {
         beam: heated(beta),
@@ -58,14 +59,14 @@ fn paper(beta: f64, elements: usize) -> Problem {
 }
 
 /// The experiment on one element.
-fn experiment(beta: f64, degree: usize) -> dg::Problem {
-    let initial = dg::Initial {
+fn experiment(beta: f64, degree: usize) -> DgProblem {
+    let initial = InitialFunctions {
         u: Box::new(displacement),
         u_t: Box::new(velocity),
         theta: Box::new(temperature),
-        ..dg::Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
-    dg::Problem {
+    DgProblem {
         beam: heated(beta),
         obstacles: Some(Obstacles::default()),
         mesh: Mesh::uniform(1).unwrap(),
@@ -75,13 +76,13 @@ fn experiment(beta: f64, degree: usize) -> dg::Problem {
 }
 
 /// The undamped mode as initial displacement of a linear beam, on one element.
-fn vibrating(mode: Mode, zeta: f64, degree: usize) -> dg::Problem {
-    let initial = dg::Initial {
+fn vibrating(mode: Mode, zeta: f64, degree: usize) -> DgProblem {
+    let initial = InitialFunctions {
         u: Box::new(move |x| mode.u(x)),
         phi: Box::new(move |x| mode.phi(x)),
-        ..dg::Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
-    dg::Problem {
+    DgProblem {
         beam: Beam {
             zeta,
             a: 0.0,
@@ -97,7 +98,7 @@ fn vibrating(mode: Mode, zeta: f64, degree: usize) -> dg::Problem {
 }
 
 /// The current value of a field at the free end.
-fn tip(simulation: &dg::Simulation, field: Field) -> f64 {
+fn tip(simulation: &Dg, field: Field) -> f64 {
     simulation
         .value(field, 1.0, simulation.t())
         .expect("the present time")
@@ -122,10 +123,10 @@ fn errors(beta: f64, contact: Phase, elements: usize) -> [f64; 3] {
         dt: 0.05,
         loaded: false,
     };
-    let mut simulation = Simulation::new(problem, stepping).unwrap();
+    let mut simulation = OneStep::new(problem, stepping).unwrap();
     // Backward Euler damps every mode; the slowest thermal mode decays by 13 digits until t = 3.
     for _ in 0..4000 {
-        simulation.advance().unwrap();
+        simulation.step_once().unwrap();
     }
     let level = simulation.level();
     let motion = level
@@ -176,12 +177,12 @@ fn a_hot_end_drives_the_beam_to_its_steady_state() {
         let [state] = states.as_slice() else {
             panic!("{states:?}")
         };
-        let stepping = dg::Stepping {
+        let stepping = DgStepping {
             degree: 1,
             dt: 0.1,
-            ..dg::Stepping::default()
+            ..DgStepping::default()
         };
-        let mut simulation = dg::Simulation::new(problem, stepping).unwrap();
+        let mut simulation = Dg::new(problem, stepping).unwrap();
         simulation.advance(300.0).unwrap();
         close(tip(&simulation, Field::U), state.u_tip, 1e-12);
         close(tip(&simulation, Field::Phi), state.phi_tip, 1e-11);
@@ -212,12 +213,12 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
     for (index, zeta) in [(0, 0.1), (2, 0.02), (3, 2.0)] {
         let mode = Mode::new(index);
         let exact = TimeFactor::new(mode.omega(), zeta, 1.0, 0.0).unwrap();
-        let stepping = dg::Stepping {
+        let stepping = DgStepping {
             degree: 5,
             dt: 0.01,
-            ..dg::Stepping::default()
+            ..DgStepping::default()
         };
-        let mut simulation = dg::Simulation::new(vibrating(mode, zeta, 22), stepping).unwrap();
+        let mut simulation = Dg::new(vibrating(mode, zeta, 22), stepping).unwrap();
         while simulation.step(0.5).unwrap().is_some() {
             let (start, end) = (simulation.old_level().t, simulation.t());
             for t in [0.7 * start + 0.3 * end, end] {
@@ -250,13 +251,13 @@ fn damped_modes_are_met_to_eleven_digits_at_every_time() {
 fn stiff_modes_are_damped_by_viscosity_alone() {
     let mode = Mode::new(0);
     for (zeta, factor) in [(10.0, -40.0 / 60.0), (0.01, -49.99 / 50.01), (50.0, 0.0)] {
-        let long = dg::Stepping {
+        let long = DgStepping {
             degree: 0,
             dt: 100.0,
             restart_dt: 100.0,
-            ..dg::Stepping::default()
+            ..DgStepping::default()
         };
-        let mut simulation = dg::Simulation::new(vibrating(mode, zeta, 10), long).unwrap();
+        let mut simulation = Dg::new(vibrating(mode, zeta, 10), long).unwrap();
         simulation.advance(100.0).unwrap();
         close(tip(&simulation, Field::U), factor * mode.u(1.0), 1e-3);
     }

@@ -13,9 +13,9 @@ use convergence_harness::run::run_one;
 use convergence_harness::study::FromFile as _;
 use convergence_harness::text::number::max_or_nan;
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 use thermobeam_exact::formulas::SchemeFormulas;
 use thermobeam_study::kinds::orders::Orders;
@@ -59,9 +59,9 @@ fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error
 /// The largest residual of the energy's balance over a swing between the obstacles.
 fn balance(scheme: Scheme) -> Result<f64, Box<dyn Error>> {
     let mesh = Mesh::uniform(50)?;
-    let initial = Initial {
+    let initial = InitialValues {
         u_t: mesh.nodes().to_vec(),
-        ..Initial::at_rest(&mesh, 0.0)
+        ..InitialValues::at_rest(&mesh, 0.0)
     };
     let problem = Problem {
         beam: Beam::default(),
@@ -75,10 +75,10 @@ fn balance(scheme: Scheme) -> Result<f64, Box<dyn Error>> {
         dt: 1e-3,
         loaded: false,
     };
-    let mut simulation = Simulation::new(problem, stepping)?;
+    let mut simulation = OneStep::new(problem, stepping)?;
     let (mut old, mut largest) = (simulation.level(), 0.0_f64);
     for _ in 0..2000 {
-        simulation.advance()?;
+        simulation.step_once()?;
         let new = simulation.level();
         largest = max_or_nan(largest, simulation.balance(&old, &new).residual.abs());
         old = new;

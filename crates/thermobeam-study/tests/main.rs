@@ -4,7 +4,6 @@ mod fuzz;
 mod input;
 mod kinds;
 mod manufactured;
-mod one_loop;
 mod plots;
 mod predict;
 mod simulate;

@@ -3,8 +3,9 @@
 
 use divan::Bencher;
 use std::f64::consts::PI;
-use thermobeam::dg::{Initial, Problem, Simulation, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, InitialFunctions};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// Elements (with two, the last one is a tenth of the beam); their degree; degree in time, largest
@@ -31,13 +32,13 @@ fn main() {
     divan::main();
 }
 
-fn simulation(run: usize) -> (Simulation, f64) {
+fn simulation(run: usize) -> (Dg, f64) {
     let (elements, degree, q, dt, restart_dt, growth, end) = RUNS[run];
-    let initial = Initial {
+    let initial = InitialFunctions {
         u: Box::new(|x| 0.01 * x * (x - 2.0)),
         u_t: Box::new(|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
         theta: Box::new(|x| (PI * x).sin()),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
     let nodes = if elements == 1 {
         vec![0.0, 1.0]
@@ -45,25 +46,22 @@ fn simulation(run: usize) -> (Simulation, f64) {
         vec![0.0, 0.9, 1.0]
     };
     let mesh = Mesh::from_nodes(nodes).expect("a mesh");
-    let problem = Problem {
+    let problem = DgProblem {
         beam: Beam::default(),
         obstacles: Some(Obstacles::default()),
         mesh,
         degree,
         initial,
     };
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: q,
         dt,
         restart_dt,
         growth,
         tolerance: 1e-12,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
-    (
-        Simulation::new(problem, stepping).expect("a simulation"),
-        end,
-    )
+    (Dg::new(problem, stepping).expect("a simulation"), end)
 }
 
 #[divan::bench(args = 0..RUNS.len())]

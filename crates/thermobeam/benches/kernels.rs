@@ -7,9 +7,9 @@ use divan::{Bencher, black_box};
 use thermobeam::ensemble::Ensemble;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 use thermobeam::tridiagonal::TridiagonalFactor;
 
@@ -24,7 +24,7 @@ fn main() {
 /// The paper's beam, heated and moving towards its upper obstacle.
 fn moving_beam(elements: usize) -> Problem {
     let mesh = Mesh::uniform(elements).expect("a mesh");
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     for (i, &x) in mesh.nodes().iter().enumerate() {
         initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
         initial.theta[i] = x * (1.0 - x);
@@ -37,12 +37,12 @@ fn moving_beam(elements: usize) -> Problem {
     }
 }
 
-fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> Simulation {
+fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> OneStep {
     let settings = Settings {
         solver,
         ..Settings::default()
     };
-    Simulation::new(
+    OneStep::new(
         moving_beam(elements),
         Stepping {
             scheme,
@@ -55,22 +55,22 @@ fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> Simulation {
 }
 
 /// A simulation after eleven steps, and its last two levels.
-fn moved(elements: usize) -> (Simulation, Level, Level) {
+fn moved(elements: usize) -> (OneStep, Level, Level) {
     let mut simulation = simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
     for _ in 0..10 {
-        simulation.advance().expect("a step");
+        simulation.step_once().expect("a step");
     }
     let old = simulation.level();
-    simulation.advance().expect("a step");
+    simulation.step_once().expect("a step");
     let new = simulation.level();
     (simulation, old, new)
 }
 
-fn steps(bencher: Bencher<'_, '_>, mut simulation: Simulation) {
+fn steps(bencher: Bencher<'_, '_>, mut simulation: OneStep) {
     let elements = simulation.lengths().len();
     bencher
         .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.advance());
+        .bench_local(|| simulation.step_once());
 }
 
 #[divan::bench(args = SIZES)]
@@ -107,7 +107,7 @@ fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
     .expect("an ensemble");
     bencher
         .counter(ItemsCount::new(elements * 4))
-        .bench_local(|| ensemble.advance());
+        .bench_local(|| ensemble.step_once());
 }
 
 /// Items are the elements of all four cases.
@@ -121,7 +121,7 @@ fn balances_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
         Settings::default(),
     )
     .expect("an ensemble");
-    ensemble.advance();
+    ensemble.step_once();
     let mut balances = vec![];
     bencher
         .counter(ItemsCount::new(elements * 4))

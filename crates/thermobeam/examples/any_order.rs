@@ -7,22 +7,23 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// u(1, 1), by three discretisations that agree in all digits.
 const REFERENCE: f64 = -0.011764243810;
 
-fn experiment(degree: usize) -> Result<Problem, Box<dyn Error>> {
-    let initial = Initial {
+fn experiment(degree: usize) -> Result<DgProblem, Box<dyn Error>> {
+    let initial = InitialFunctions {
         u: Box::new(|x| 0.01 * x * (x - 2.0)),
         u_t: Box::new(|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
         theta: Box::new(|x| (PI * x).sin()),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
     let mesh = Mesh::uniform(1)?;
-    Ok(Problem {
+    Ok(DgProblem {
         beam: Beam::default(),
         obstacles: Some(Obstacles::default()),
         mesh,
@@ -41,12 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         (16, 2, 0.01),
         (16, 3, 0.02),
     ] {
-        let mut simulation = Simulation::new(
+        let mut simulation = Dg::new(
             experiment(p)?,
-            Stepping {
+            DgStepping {
                 degree: q,
                 dt,
-                ..Stepping::default()
+                ..DgStepping::default()
             },
         )?;
         let start = Instant::now();
@@ -59,17 +60,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!(
             "{p:4} {q:2} {dt:6} {u:17.12} {:8.1e} {:6} {:7} {:8} {:6.2}",
             (u - REFERENCE).abs(),
-            work.steps,
-            work.solves,
+            simulation.steps(),
+            work.passes,
             work.factorizations,
             1e3 * time
         );
     }
-    let mut simulation = Simulation::new(
+    let mut simulation = Dg::new(
         experiment(16)?,
-        Stepping {
+        DgStepping {
             degree: 3,
-            ..Stepping::default()
+            ..DgStepping::default()
         },
     )?;
     simulation.advance(10.0)?;

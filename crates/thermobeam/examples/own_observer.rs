@@ -5,9 +5,10 @@
 use std::error::Error;
 
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
 
 /// Collects the impacts from the levels of a run.
@@ -33,9 +34,9 @@ impl Impacts {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mesh = Mesh::uniform(50)?;
-    let initial = Initial {
+    let initial = InitialValues {
         u_t: mesh.nodes().to_vec(),
-        ..Initial::at_rest(&mesh, 0.0)
+        ..InitialValues::at_rest(&mesh, 0.0)
     };
     let problem = Problem {
         beam: Beam::default(),
@@ -50,10 +51,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         loaded: false,
     };
 
-    let (mut simulation, mut impacts) = (Simulation::new(problem, stepping)?, Impacts::default());
+    let (mut simulation, mut impacts) = (OneStep::new(problem, stepping)?, Impacts::default());
     let mut level = simulation.level();
     for _ in 0..5000 {
-        simulation.advance()?;
+        simulation.step_once()?;
         simulation.observe(&mut level);
         impacts.observe(simulation.t(), &level, simulation.energy(&level).total());
     }

@@ -5,9 +5,10 @@
 use std::error::Error;
 
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -21,9 +22,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         .iter()
         .map(|x| 20.0 * x * (x - 1.0) * (x - 1.0))
         .collect();
-    let initial = Initial {
+    let initial = InitialValues {
         u_t,
-        ..Initial::at_rest(&mesh, beam.theta_a)
+        ..InitialValues::at_rest(&mesh, beam.theta_a)
     };
     let problem = Problem {
         beam,
@@ -38,10 +39,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         loaded: false,
     };
 
-    let mut simulation = Simulation::new(problem, stepping)?;
+    let mut simulation = OneStep::new(problem, stepping)?;
     let mut level = simulation.level();
     for step in 1..=1000 {
-        simulation.advance()?;
+        simulation.step_once()?;
         if step % 100 == 0 {
             simulation.observe(&mut level);
             let (tip, energy) = (

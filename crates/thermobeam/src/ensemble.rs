@@ -1,17 +1,18 @@
 //! Several simulations in parallel lanes: for sweeps, maps and random scenes.
 //!
-//! The code of a step is that of [`Simulation`](crate::simulation::Simulation), with four numbers
+//! The code of a step is that of [`OneStep`](crate::one_step::OneStep), with four numbers
 //! instead of one. The results of a case are bitwise those of a single run. A case that fails keeps
 //! its last level and does not affect the others.
 
 use crate::energy::Balance;
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
+use crate::motion::{StepReport, Work};
+use crate::one_step::{Problem, Stepping, is_heated, prepare};
 use crate::scheme::{Case, Scheme};
-use crate::simulation::{Problem, Stepping, is_heated, prepare};
 use crate::solve::newton::newton;
 use crate::solve::stepper::Batch;
-use crate::solve::{Level, Settings, StepReport, Work};
+use crate::solve::{Level, Settings};
 
 /// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the
 /// registers of AVX2.
@@ -28,7 +29,7 @@ pub struct Ensemble {
     groups: Vec<Box<dyn Batch<Lanes<WIDTH>>>>,
     /// One for each lane, used or not.
     outcomes: Vec<Result<StepReport, StepFailure>>,
-    step: usize,
+    steps: usize,
     /// The step in which a case failed, if any.
     failed: Vec<Option<usize>>,
     heated: Vec<bool>,
@@ -73,7 +74,7 @@ impl Ensemble {
             cases,
             groups,
             outcomes,
-            step: 0,
+            steps: 0,
             failed,
             heated,
         })
@@ -85,19 +86,19 @@ impl Ensemble {
     }
 
     /// Number of steps done.
-    pub fn step(&self) -> usize {
-        self.step
+    pub fn steps(&self) -> usize {
+        self.steps
     }
 
     /// Does one step of every case that has not failed. It allocates memory only when a case fails.
-    pub fn advance(&mut self) {
-        self.step += 1;
+    pub fn step_once(&mut self) {
+        self.steps += 1;
         for (group, outcomes) in self.groups.iter_mut().zip(self.outcomes.chunks_mut(WIDTH)) {
             group.advance(outcomes);
         }
         for (failed, outcome) in self.failed.iter_mut().zip(&self.outcomes) {
             if outcome.is_err() && failed.is_none() {
-                *failed = Some(self.step);
+                *failed = Some(self.steps);
             }
         }
     }
@@ -108,7 +109,7 @@ impl Ensemble {
     /// [`StepError`] of the step in which the case failed.
     pub fn report(&self, k: usize) -> Result<StepReport, StepError> {
         self.outcomes[k].clone().map_err(|failure| {
-            let step = self.failed[k].unwrap_or(self.step);
+            let step = self.failed[k].unwrap_or(self.steps);
             let dt = self.cases[k].dt;
             StepError {
                 step,

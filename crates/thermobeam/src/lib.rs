@@ -34,7 +34,7 @@
 //! | equation | meaning | in |
 //! | --- | --- | --- |
 //! | (1.1), (1.3) | coefficients of the equations, of the boundary conditions and of the obstacles | [`parameters`] |
-//! | (1.2), (3.6) | initial data, and their interpolation | [`simulation`] |
+//! | (1.2), (3.6) | initial data, and their interpolation | [`one_step`] |
 //! | (2.3), (2.5) | axial force, energy of the beam and of the obstacles | [`kirchhoff`], [`contact`] |
 //! | (3.7), (3.8) | the scheme, solved by Newton's method | [`scheme`], `solve/sweeps.rs`, `solve/newton.rs` |
 //! | (3.9) | discrete energy, and its exact balance | [`energy`] |
@@ -43,31 +43,33 @@
 //!
 //! # From data to levels
 //!
-//! [`Problem`](simulation::Problem) (coefficients, [`mesh`], initial data) →
-//! [`Simulation`](simulation::Simulation) → one [`scheme`] and one [solver](solve) →
-//! [`Level`](solve::Level)s → [`energy`] and [`norms`]. [`dg`] solves the same equations to any
-//! order in space and time. Exact solutions for comparison are in the crate `thermobeam-exact`,
+//! [`Problem`](one_step::Problem) (coefficients, [`mesh`], initial data) →
+//! [`OneStep`](one_step::OneStep) (one [`scheme`], one [solver](solve)) → [`Level`](solve::Level)s
+//! → [`energy`] and [`norms`]. [`Dg`](dg::Dg) solves the same equations to any order in space and
+//! time. Both are a [`Motion`](motion::Motion): code that needs only steps, times and counts takes
+//! either. Exact solutions for comparison are in the crate `thermobeam-exact`,
 //! which nothing here uses. The results that the solver must satisfy are derived in [`theory`]. The
 //! crate does no input or output and starts no threads. Every failure is a value of a type in
-//! [`error`], and a failed step leaves the simulation at its last level.
+//! [`error`], and a failed step leaves the motion at its last level.
 //!
 //! ```
 //! use thermobeam::mesh::Mesh;
 //! use thermobeam::parameters::{Beam, Obstacles};
 //! use thermobeam::scheme::EULER_CRANK_NICOLSON;
-//! use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
+//! use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 //! use thermobeam::solve::Settings;
 //!
 //! // The paper's beam with an upward initial velocity reaches its upper obstacle.
 //! let mesh = Mesh::uniform(50)?;
-//! let mut initial = Initial::at_rest(&mesh, 0.0);
+//! let mut initial = InitialValues::at_rest(&mesh, 0.0);
 //! initial.u_t = mesh.nodes().iter().map(|x| 20.0 * x * (x - 1.0) * (x - 1.0)).collect();
 //! let problem = Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh, initial };
 //! let stepping = Stepping { scheme: EULER_CRANK_NICOLSON, settings: Settings::default(), dt: 1e-3, loaded: false };
-//! let mut simulation = Simulation::new(problem, stepping)?;
-//! let (mut old, mut touched) = (simulation.level(), false);
+//! let mut simulation = OneStep::new(problem, stepping)?;
+//! let mut old = simulation.level();
+//! let mut touched = false;
 //! for _ in 0..300 {
-//!     simulation.advance()?;
+//!     simulation.step_once()?;
 //!     let new = simulation.level();
 //!     touched |= new.contact_force > 0.0;
 //!     // Proposition 3.1: the energy does not rise.
@@ -92,10 +94,11 @@ pub mod kirchhoff;
 pub mod lanes;
 pub mod linearized;
 pub mod mesh;
+pub mod motion;
 pub mod norms;
+pub mod one_step;
 pub mod parameters;
 pub mod scheme;
-pub mod simulation;
 pub mod solve;
 #[doc(hidden)]
 pub mod tridiagonal;

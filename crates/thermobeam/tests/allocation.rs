@@ -3,15 +3,15 @@
 use std::f64::consts::PI;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::{BYTES_PER_ELEMENT, InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::SCHEMES;
-use thermobeam::simulation::{BYTES_PER_ELEMENT, Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver};
 
 /// The paper's beam, moving towards its upper obstacle, with or without heat.
 fn moving_beam(heated: bool) -> Problem {
     let mesh = Mesh::uniform(20).unwrap();
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     let mut beam = Beam::default();
     for (i, &x) in mesh.nodes().iter().enumerate() {
         initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
@@ -32,7 +32,7 @@ fn moving_beam(heated: bool) -> Problem {
 
 /// Number of allocations in 500 steps with their energies and balances, and number of steps that
 /// end in contact.
-fn allocations(mut simulation: Simulation) -> (u64, usize) {
+fn allocations(mut simulation: OneStep) -> (u64, usize) {
     let mut levels = [simulation.level(), simulation.level()];
     let mut touching = 0;
     let info = allocation_counter::measure(|| {
@@ -40,7 +40,7 @@ fn allocations(mut simulation: Simulation) -> (u64, usize) {
             if let Some(load) = simulation.load_mut() {
                 load[1][2] = 1.0;
             }
-            simulation.advance().unwrap();
+            simulation.step_once().unwrap();
             let [old, new] = &mut levels;
             simulation.observe(new);
             let energy = simulation.energy(new).total() + simulation.balance(old, new).residual;
@@ -67,7 +67,7 @@ fn the_time_loop_allocates_nothing() {
                     dt: 1e-3,
                     loaded: false,
                 };
-                let simulation = Simulation::new(moving_beam(heated), stepping).unwrap();
+                let simulation = OneStep::new(moving_beam(heated), stepping).unwrap();
                 let (count, touching) = allocations(simulation);
                 assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
                 assert!(
@@ -89,7 +89,7 @@ fn lanes_with_their_balances_allocate_nothing() {
     let mut balances = Vec::with_capacity(5);
     let info = allocation_counter::measure(|| {
         for _ in 0..500 {
-            ensemble.advance();
+            ensemble.step_once();
             ensemble.balances(&mut balances);
             assert!(balances.iter().all(|balance| balance.residual.abs() < 1e-9));
         }
@@ -110,7 +110,7 @@ fn loads_are_allocated_once() {
             dt: 1e-3,
             loaded: true,
         };
-        let mut simulation = Simulation::new(moving_beam(true), stepping).unwrap();
+        let mut simulation = OneStep::new(moving_beam(true), stepping).unwrap();
         simulation.load_mut();
         assert_eq!(allocations(simulation).0, 0, "{solver:?}");
     }
@@ -126,7 +126,7 @@ fn the_allocation_counter_counts() {
 fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
     let problem = Problem {
         mesh: Mesh::uniform(elements).unwrap(),
-        initial: Initial::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
+        initial: InitialValues::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
         ..moving_beam(heated)
     };
     let settings = Settings {
@@ -141,7 +141,7 @@ fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
     };
     let mut kept = None;
     let info = allocation_counter::measure(|| {
-        kept = Some(Simulation::new(problem.clone(), stepping).unwrap());
+        kept = Some(OneStep::new(problem.clone(), stepping).unwrap());
     });
     assert!(kept.is_some());
     info.bytes_current

@@ -4,9 +4,10 @@ use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::{SetupError, StepFailure};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::Settings;
 
 /// Number of elements, not a multiple of four.
@@ -34,11 +35,11 @@ fn problem(k: usize) -> Problem {
     let nodes = mesh.nodes().to_vec();
     let on = |f: &dyn Fn(f64) -> f64| nodes.iter().map(|&x| f(x)).collect::<Vec<_>>();
     let theta_a = [0.0, 20.0, -3.0, 0.0][k];
-    let initial = Initial {
+    let initial = InitialValues {
         u: on(&|x| 0.01 * x * (x - 2.0)),
         u_t: on(&|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
         theta: on(&|x| theta_a * (1.0 - x) + (3.0 * x * (1.0 - x))),
-        ..Initial::at_rest(&mesh, 0.0)
+        ..InitialValues::at_rest(&mesh, 0.0)
     };
     let beam = Beam {
         beta: [-0.5, 0.0, 5.0, 1.0][k],
@@ -63,9 +64,9 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
         let settings = Settings::default();
         let mut ensemble =
             Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
-        let mut alone: Vec<Simulation> = (0..4)
+        let mut alone: Vec<OneStep> = (0..4)
             .map(|k| {
-                Simulation::new(
+                OneStep::new(
                     problem(k),
                     Stepping {
                         scheme,
@@ -85,11 +86,11 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
             "no step has been done"
         );
         for _ in 0..200 {
-            ensemble.advance();
+            ensemble.step_once();
             ensemble.balances(&mut balances);
             for (k, simulation) in alone.iter_mut().enumerate() {
                 let old = simulation.level();
-                let report = simulation.advance().unwrap();
+                let report = simulation.step_once().unwrap();
                 assert_eq!(
                     ensemble.report(k).unwrap(),
                     report,
@@ -143,7 +144,7 @@ fn an_ensemble_counts_a_pass_once_per_group() {
     let problems = (0..8).map(|k| problem(k % 4)).collect();
     let mut ensemble =
         Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
-    (0..20).for_each(|_| ensemble.advance());
+    (0..20).for_each(|_| ensemble.step_once());
     let of = |k: usize| ensemble.work_of(k);
     assert_eq!(
         ensemble.work().factorizations,
@@ -165,8 +166,8 @@ fn any_number_of_cases_agrees_bitwise_with_single_runs() {
         let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
         let problems = (0..count).map(|k| problem(k % 4)).collect();
         let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, settings).unwrap();
-        (0..50).for_each(|_| ensemble.advance());
-        assert_eq!((ensemble.cases().len(), ensemble.step()), (count, 50));
+        (0..50).for_each(|_| ensemble.step_once());
+        assert_eq!((ensemble.cases().len(), ensemble.steps()), (count, 50));
         for (k, &dt) in dt.iter().enumerate() {
             let stepping = Stepping {
                 scheme: EULER_CRANK_NICOLSON,
@@ -174,9 +175,9 @@ fn any_number_of_cases_agrees_bitwise_with_single_runs() {
                 dt,
                 loaded: false,
             };
-            let mut alone = Simulation::new(problem(k % 4), stepping).unwrap();
+            let mut alone = OneStep::new(problem(k % 4), stepping).unwrap();
             for _ in 0..50 {
-                alone.advance().unwrap();
+                alone.step_once().unwrap();
             }
             let mut lane = alone.level();
             lane.u.fill(f64::NAN);
@@ -202,7 +203,7 @@ fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
     for scheme in SCHEMES {
         let mut ensemble =
             Ensemble::new(vec![cold(0), problem(1)], &DT[..2], scheme, settings).unwrap();
-        let mut alone = Simulation::new(
+        let mut alone = OneStep::new(
             cold(0),
             Stepping {
                 scheme,
@@ -220,9 +221,9 @@ fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
         let mut balances = vec![];
         let mut lane = old.clone();
         for _ in 0..100 {
-            ensemble.advance();
+            ensemble.step_once();
             ensemble.balances(&mut balances);
-            alone.advance().unwrap();
+            alone.step_once().unwrap();
             let level = alone.level();
             ensemble.observe(0, &mut lane);
             assert_eq!(lane, level, "{}", scheme.name);
@@ -243,7 +244,7 @@ fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
         Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err()
     };
     let short = Mesh::uniform(3).unwrap();
-    let initial = Initial::at_rest(&short, 0.0);
+    let initial = InitialValues::at_rest(&short, 0.0);
     let other = Problem {
         mesh: short,
         initial,
@@ -290,7 +291,7 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
         settings,
     )
     .unwrap();
-    let before = Simulation::new(
+    let before = OneStep::new(
         buckled(2),
         Stepping {
             scheme: EULER_CRANK_NICOLSON,
@@ -301,7 +302,7 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
     )
     .unwrap();
     for _ in 0..50 {
-        ensemble.advance();
+        ensemble.step_once();
     }
     let error = ensemble.report(2).unwrap_err();
     assert_eq!((error.step, error.dt), (1, 10.0));
@@ -327,9 +328,9 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
             dt: dt[k],
             loaded: false,
         };
-        let mut alone = Simulation::new(problem(k), stepping).unwrap();
+        let mut alone = OneStep::new(problem(k), stepping).unwrap();
         for _ in 0..50 {
-            alone.advance().unwrap();
+            alone.step_once().unwrap();
         }
         ensemble.observe(k, &mut lane);
         assert_eq!(lane, alone.level(), "case {k}");

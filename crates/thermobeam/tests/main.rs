@@ -1,11 +1,10 @@
 //! The tests of the solver, in one program.
 
 mod allocation;
-mod citations;
 mod dg;
 mod drawn;
 mod lanes;
+mod motion;
 mod p1_matrices;
 mod random_scenes;
 mod solver;
-mod theory;

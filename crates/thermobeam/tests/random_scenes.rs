@@ -13,9 +13,9 @@ use thermobeam::error::{StepError, StepFailure};
 use thermobeam::kirchhoff::BUCKLING;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::{max_or_nan, slope_squared};
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings, Solver, Stopping};
 
 const STEPS: usize = 20;
@@ -125,7 +125,7 @@ fn problem() -> impl Strategy<Value = Problem> {
                 .zip(nodes)
                 .for_each(|(theta, x)| *theta += beam.theta_a * (1.0 - x));
             theta[nodes.len() - 1] = 0.0;
-            let initial = Initial {
+            let initial = InitialValues {
                 u: values(&u),
                 u_t: values(&u_t),
                 phi: values(&phi),
@@ -148,7 +148,7 @@ fn problem() -> impl Strategy<Value = Problem> {
 /// The first equation of (4.2) takes N(u) from the previous iterate, with an error of
 /// `2ρ ‖u_x‖ 2η`; the second takes the displacement, `½ δu + ζ δV`; the third the rate of rotation,
 /// δφ/dt. Each is multiplied by the test function of the balance.
-fn lag(simulation: &Simulation, dt: f64, eta: f64, old: &Level, new: &Level) -> f64 {
+fn lag(simulation: &OneStep, dt: f64, eta: f64, old: &Level, new: &Level) -> f64 {
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
     let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();
     let norm = |y: &[f64]| thermobeam::norms::l2_squared(lengths, y).sqrt();
@@ -210,11 +210,11 @@ fn run(
         dt,
         loaded: false,
     };
-    let mut simulation = Simulation::new(problem.clone(), stepping).expect("a valid scene");
+    let mut simulation = OneStep::new(problem.clone(), stepping).expect("a valid scene");
     let mut old = simulation.level();
     let mut scale = simulation.energy_scale(&old);
     for _ in 0..STEPS {
-        let report = match simulation.advance() {
+        let report = match simulation.step_once() {
             Ok(report) => report,
             Err(error) => {
                 prop_assert_eq!(

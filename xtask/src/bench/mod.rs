@@ -18,7 +18,7 @@ use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::project::Project;
 use convergence_harness::report;
 use convergence_harness::store::atomic;
-use convergence_harness::study::{Described, Table};
+use convergence_harness::study::{CaseFailure, Described, Table};
 use serde::Deserialize;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{METHODS, NamedMethod};
@@ -101,36 +101,36 @@ struct LibraryRun {
     milliseconds: f64,
 }
 
+/// Whether a name of `--only` is that of a problem.
+fn is_problem(name: &str) -> bool {
+    PROBLEMS.iter().any(|(id, _)| *id == name)
+}
+
+/// Whether it is that of a method, of the library or of the times of a step.
+fn is_method(name: &str) -> bool {
+    name == "steps" || name == LIBRARY || METHODS.iter().any(|method| method.name == name)
+}
+
 impl Arguments {
     /// Whether a part is to be run: all its names are selected, or nothing is.
     fn selects(&self, method: &str, problem: &str) -> bool {
-        let any = |names: &[&str]| {
-            let own: Vec<&String> = self
-                .only
-                .iter()
-                .filter(|name| names.contains(&name.as_str()))
-                .collect();
-            (own.is_empty(), own)
+        let mut problems = self.only.iter().filter(|name| is_problem(name)).peekable();
+        let mut methods = self.only.iter().filter(|name| !is_problem(name)).peekable();
+        let has_problem = problems.peek().is_none() || problems.any(|name| name == problem);
+        let has_method = if methods.peek().is_none() {
+            method != "steps" || self.only.is_empty()
+        } else {
+            methods.any(|name| name == method)
         };
-        let problems = PROBLEMS.map(|(id, _)| id);
-        let mut methods = METHODS.map(|method| method.name).to_vec();
-        methods.extend([LIBRARY, "steps"]);
-        let (all_problems, own_problems) = any(&problems);
-        let (all_methods, own_methods) = any(&methods);
-        (all_problems || own_problems.iter().any(|name| *name == problem))
-            && (all_methods && method != "steps"
-                || self.only.is_empty()
-                || own_methods.iter().any(|name| *name == method))
+        has_problem && has_method
     }
 
     fn check(&self) -> Result<(), Unusable> {
-        let known = |name: &str| {
-            name == "steps"
-                || name == LIBRARY
-                || METHODS.iter().any(|method| method.name == name)
-                || PROBLEMS.iter().any(|problem| problem.0 == name)
-        };
-        match self.only.iter().find(|name| !known(name)) {
+        let unknown = self
+            .only
+            .iter()
+            .find(|name| !is_method(name) && !is_problem(name));
+        match unknown {
             Some(name) => {
                 let methods = METHODS.map(|method| method.name).join(", ");
                 let problems = PROBLEMS.map(|problem| problem.0).join(", ");
@@ -206,12 +206,12 @@ fn add(
     method: NamedMethod,
     arguments: &Arguments,
 ) -> Result<(), Unusable> {
-    let unusable = |failure: convergence_harness::study::CaseFailure| {
-        Unusable::because(&format!("{}: {}", problem.0, failure.reason))
-    };
-    let apart = problem.1.reference().map_err(unusable)?;
-    let apart = apart.map_or([0.0; 2], |(_, apart)| [apart.norm, apart.tip]);
-    record.references.insert(problem.0.to_owned(), apart);
+    let reference = problem
+        .1
+        .reference()
+        .map_err(|failure| unusable(problem.0, &failure))?;
+    let error = reference.map_or([0.0; 2], |(_, error)| [error.norm, error.tip]);
+    record.references.insert(problem.0.to_owned(), error);
     let made = if arguments.resume {
         record.made(problem.0, method.name)
     } else {
@@ -219,9 +219,14 @@ fn add(
     };
     let runs = Search::new(problem, method, made, arguments.limit, cpu_seconds)
         .all()
-        .map_err(unusable)?;
+        .map_err(|failure| unusable(problem.0, &failure))?;
     record.replace(problem.0, method.name, runs);
     Ok(())
+}
+
+/// The error of a problem that cannot be run.
+fn unusable(problem: &str, failure: &CaseFailure) -> Unusable {
+    Unusable::because(&format!("{problem}: {}", failure.reason))
 }
 
 fn step_tables(root: &Path) -> Result<Vec<Table>, Unusable> {
@@ -242,25 +247,27 @@ fn library(path: &Path) -> Result<Vec<Timed>, Unusable> {
             path.display()
         ))
     })?;
-    let timed = |run: LibraryRun| Timed {
-        problem: PROBLEMS[0].0.to_owned(),
-        method: LIBRARY.to_owned(),
-        resolution: format!(
-            "p = {}, tolerance {:e}{}",
-            run.degree,
-            run.tolerance,
-            if run.elements == 1 {
-                ""
-            } else {
-                ", 2 elements"
-            }
-        ),
-        norm: run.norm,
-        tip: run.tip,
-        work: None,
-        seconds: 1e-3 * run.milliseconds,
-    };
-    Ok(library.runs.into_iter().map(timed).collect())
+    let mut runs = vec![];
+    for run in library.runs {
+        let elements = if run.elements == 1 {
+            ""
+        } else {
+            ", 2 elements"
+        };
+        runs.push(Timed {
+            problem: PROBLEMS[0].0.to_owned(),
+            method: LIBRARY.to_owned(),
+            resolution: format!(
+                "p = {}, tolerance {:e}{elements}",
+                run.degree, run.tolerance
+            ),
+            norm: run.norm,
+            tip: run.tip,
+            work: None,
+            seconds: 1e-3 * run.milliseconds,
+        });
+    }
+    Ok(runs)
 }
 
 fn heading(project: &Project, record: &Record) -> String {

@@ -91,23 +91,23 @@ fn is_known(record: &Record, problem: &str, measure: ErrorMeasure, target: f64) 
 /// The short table, in seconds.
 pub(super) fn short(record: &Record) -> Table {
     let (problem, in_problem) = PROBLEMS[0];
-    let row = |&(measure, target): &(ErrorMeasure, f64)| {
+    let mut rows = vec![];
+    for (measure, target) in SHORT {
         let runs = record.costed(problem, measure, Cost::Seconds);
-        let cell = |name: &str| {
-            cheapest(&runs, name, target)
-                .map_or_else(|| "-".to_owned(), |run| seconds_text(run.cost))
-        };
-        let cells = SHORT_METHODS.iter().map(|name| cell(name));
-        [format!("{}, {target:e}", measure.in_words())]
-            .into_iter()
-            .chain(cells)
-            .collect()
-    };
+        let mut row = vec![format!("{}, {target:e}", measure.in_words())];
+        for name in SHORT_METHODS {
+            row.push(match cheapest(&runs, name, target) {
+                Some(run) => seconds_text(run.cost),
+                None => "-".to_owned(),
+            });
+        }
+        rows.push(row);
+    }
     let title = format!("In short: CPU seconds for an error, {in_problem}");
     let head = ["error in"]
         .into_iter()
         .chain(SHORT_METHODS.iter().map(|name| in_words(name)));
-    Table::new(title, head, SHORT.iter().map(row).collect::<Vec<_>>())
+    Table::new(title, head, rows)
 }
 
 /// The fastest discretisation for each error that the reference can judge.
@@ -117,70 +117,63 @@ fn fastest(record: &Record, problem: (&str, &str), measure: ErrorMeasure) -> Tab
         .into_iter()
         .filter(|name| runs.iter().any(|run| run.method == *name))
         .collect();
-    let row = |target: f64| {
-        let cell = |name: &&str| match cheapest(&runs, name, target) {
-            Some(run) => format!("{} ({})", seconds_text(run.cost), run.resolution),
-            None => "-".to_owned(),
-        };
-        let cells = present.iter().map(cell);
-        [format!("{target:e}")].into_iter().chain(cells).collect()
-    };
+    let mut rows = vec![];
+    for &target in targets(measure) {
+        if !is_known(record, problem.0, measure, target) {
+            continue;
+        }
+        let mut row = vec![format!("{target:e}")];
+        for name in &present {
+            row.push(match cheapest(&runs, name, target) {
+                Some(run) => format!("{} ({})", seconds_text(run.cost), run.resolution),
+                None => "-".to_owned(),
+            });
+        }
+        rows.push(row);
+    }
     let title = format!(
         "Error in {}, {}: CPU seconds of the fastest run (elements x steps, or degrees and step)",
         measure.in_words(),
         problem.1
     );
-    let known = targets(measure)
-        .iter()
-        .copied()
-        .filter(|&target| is_known(record, problem.0, measure, target));
     let head = ["error"]
         .into_iter()
         .chain(present.iter().map(|name| in_words(name)));
-    Table::new(title, head, known.map(row).collect::<Vec<_>>())
+    Table::new(title, head, rows)
 }
 
 /// The smallest error of each method within the limit.
 fn smallest(record: &Record, problem: (&str, &str)) -> Table {
-    let best = |name: &str, measure: ErrorMeasure| {
-        let runs = record.costed(problem.0, measure, Cost::Seconds);
-        let own = runs.into_iter().filter(|run| run.method == name);
-        let best: Option<Costed> = own.min_by(|a, b| a.error.total_cmp(&b.error));
-        best.map_or_else(
-            || "-".to_owned(),
-            |run| {
-                format!(
-                    "{:.1e} ({} s, {})",
-                    run.error,
-                    seconds_text(run.cost),
-                    run.resolution
-                )
-            },
-        )
-    };
-    let row = |name: &str| {
-        let cells = ErrorMeasure::ALL.map(|measure| best(name, measure));
-        [vec![in_words(name).to_owned()], cells.to_vec()].concat()
-    };
+    let mut rows = vec![];
+    for name in names() {
+        let mut runs = record.runs.iter();
+        if runs.any(|run| run.problem == problem.0 && run.method == name) {
+            let mut row = vec![in_words(name).to_owned()];
+            row.extend(ErrorMeasure::ALL.map(|measure| best(record, problem.0, name, measure)));
+            rows.push(row);
+        }
+    }
     let title = format!("The smallest error of each method, {}", problem.1);
     let head = ["method"]
         .into_iter()
         .chain(ErrorMeasure::ALL.map(ErrorMeasure::in_words));
-    let has_runs = |name: &&str| {
-        record
-            .runs
-            .iter()
-            .any(|run| run.problem == problem.0 && run.method == *name)
-    };
-    Table::new(
-        title,
-        head,
-        names()
-            .into_iter()
-            .filter(has_runs)
-            .map(row)
-            .collect::<Vec<_>>(),
-    )
+    Table::new(title, head, rows)
+}
+
+/// The run of a method with the smallest error, in words.
+fn best(record: &Record, problem: &str, method: &str, measure: ErrorMeasure) -> String {
+    let runs = record.costed(problem, measure, Cost::Seconds);
+    let own = runs.into_iter().filter(|run| run.method == method);
+    let best: Option<Costed> = own.min_by(|a, b| a.error.total_cmp(&b.error));
+    match best {
+        Some(run) => format!(
+            "{:.1e} ({} s, {})",
+            run.error,
+            seconds_text(run.cost),
+            run.resolution
+        ),
+        None => "-".to_owned(),
+    }
 }
 
 fn drawing(record: &Record, problem: (&str, &str), measure: ErrorMeasure, cost: Cost) -> Drawing {

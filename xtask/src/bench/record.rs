@@ -110,21 +110,24 @@ impl Record {
 
     /// The runs on a problem within the limit.
     pub(super) fn costed(&self, problem: &str, measure: ErrorMeasure, cost: Cost) -> Vec<Costed> {
-        let own = self
-            .runs
-            .iter()
-            .filter(|run| run.problem == problem && run.seconds <= self.limit);
-        let costed = |run: &Timed| {
-            Some(Costed {
-                method: run.method.clone(),
-                resolution: run.resolution.clone(),
-                error: run.error(measure),
-                cost: match cost {
-                    Cost::Seconds => run.seconds,
-                    Cost::Work => run.work?,
-                },
-            })
-        };
-        own.filter_map(costed).collect()
+        let mut costed = vec![];
+        for run in &self.runs {
+            if run.problem != problem || !(run.seconds <= self.limit) {
+                continue;
+            }
+            let cost = match cost {
+                Cost::Seconds => Some(run.seconds),
+                Cost::Work => run.work,
+            };
+            if let Some(cost) = cost {
+                costed.push(Costed {
+                    method: run.method.clone(),
+                    resolution: run.resolution.clone(),
+                    error: run.error(measure),
+                    cost,
+                });
+            }
+        }
+        costed
     }
 }

@@ -80,6 +80,11 @@ pub(super) struct Search<'s> {
     runs: Vec<Timed>,
 }
 
+/// The work of a run on a grid, in element-steps.
+fn work(grid: &Grid) -> f64 {
+    (grid.elements * grid.steps) as f64
+}
+
 impl<'s> Search<'s> {
     /// * `problem`: the study's name.
     /// * `made`: runs of the method on the problem that are not made again.
@@ -147,7 +152,6 @@ impl<'s> Search<'s> {
                 .map(|part| self.finer(grid, scheme, measure, part))
                 .into_iter()
                 .find(|next| {
-                    let work = |grid: &Grid| (grid.elements * grid.steps) as f64;
                     let predicted = RESERVE * seconds * work(next) / work(&grid);
                     work(next) > work(&grid) && predicted <= self.limit
                 })

@@ -10,8 +10,9 @@ use convergence_harness::study::Table;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::{BYTES_PER_ELEMENT, Problem, Simulation, Stepping};
-use thermobeam::solve::{Settings, Solver, Start, Work};
+use thermobeam::motion::{Motion, Work};
+use thermobeam::one_step::{BYTES_PER_ELEMENT, OneStep, Problem, Stepping};
+use thermobeam::solve::{Settings, Solver, Start};
 
 use super::cpu_seconds;
 use thermobeam_study::run::simulate;
@@ -43,6 +44,13 @@ struct StepTime {
     passes: f64,
     /// Total number of factorisations.
     factorizations: usize,
+}
+
+/// CPU seconds of so many steps, or of those up to a failing one.
+fn seconds_of(steps: usize, mut step: impl FnMut() -> bool) -> f64 {
+    let start = cpu_seconds();
+    let _ = (0..steps).all(|_| step());
+    cpu_seconds() - start
 }
 
 impl Timed {
@@ -80,11 +88,6 @@ impl Timed {
 
     /// Seconds, steps and work, to the end or to a failing step; none of the paper's scenes fails.
     fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
-        let timed = |step: &mut dyn FnMut() -> bool| {
-            let begun = cpu_seconds();
-            let _ = (0..steps).all(|_| step());
-            cpu_seconds() - begun
-        };
         if self.in_lanes {
             let problems = vec![self.problem.clone(); LANES];
             let dt = [self.stepping.dt; LANES];
@@ -93,21 +96,21 @@ impl Timed {
             } = self.stepping;
             let mut ensemble = Ensemble::new(problems, &dt, scheme, settings)?;
             let mut balances = Vec::with_capacity(LANES);
-            let seconds = timed(&mut || {
-                ensemble.advance();
+            let seconds = seconds_of(steps, || {
+                ensemble.step_once();
                 if self.balanced {
                     ensemble.balances(&mut balances);
                     black_box(&balances);
                 }
                 ensemble.report(0).is_ok()
             });
-            return Ok((seconds, ensemble.step().max(1), ensemble.work()));
+            return Ok((seconds, ensemble.steps().max(1), ensemble.work()));
         }
-        let mut simulation = Simulation::new(self.problem.clone(), self.stepping)?;
+        let mut simulation = OneStep::new(self.problem.clone(), self.stepping)?;
         let mut old = simulation.level();
         let mut new = old.clone();
-        let seconds = timed(&mut || {
-            let is_done = simulation.advance().is_ok();
+        let seconds = seconds_of(steps, || {
+            let is_done = simulation.step_once().is_ok();
             if self.balanced {
                 std::mem::swap(&mut old, &mut new);
                 simulation.observe(&mut new);
@@ -115,7 +118,7 @@ impl Timed {
             }
             is_done
         });
-        Ok((seconds, simulation.step().max(1), simulation.work()))
+        Ok((seconds, simulation.steps().max(1), simulation.work()))
     }
 }
 
@@ -164,32 +167,25 @@ fn cold(setting: &mut Timed) {
 /// [`SetupError`] if the scene cannot be set up on that mesh.
 pub(super) fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> {
     let whole = Timed::new(scene, Mesh::uniform(elements)?)?;
-    let mut against = f64::NAN;
-    let mut line = |(name, change): (&str, Alteration)| {
+    let mut first = None;
+    let mut rows = vec![];
+    for (name, change) in WAYS {
         let mut setting = whole.clone();
         change(&mut setting);
-        let time = setting.time()?;
-        if against.is_nan() {
-            against = time.nanoseconds;
-        }
         let StepTime {
             nanoseconds,
             passes,
             factorizations,
-        } = time;
-        let ratio = format!("{:.2}", nanoseconds / against);
-        Ok(vec![
+        } = setting.time()?;
+        let ratio = nanoseconds / *first.get_or_insert(nanoseconds);
+        rows.push(vec![
             name.to_owned(),
             format!("{nanoseconds:.1}"),
-            ratio,
+            format!("{ratio:.2}"),
             format!("{passes:.3}"),
             factorizations.to_string(),
-        ])
-    };
-    let rows = WAYS
-        .into_iter()
-        .map(&mut line)
-        .collect::<Result<_, SetupError>>()?;
+        ]);
+    }
     let head = [
         "way",
         "ns per element and step",
@@ -212,7 +208,8 @@ pub(super) fn ways(scene: &Scene, elements: usize) -> Result<Table, SetupError> 
 /// # Errors
 /// [`SetupError`] if the scene cannot be set up.
 pub(super) fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupError> {
-    let line = |&n: &usize| {
+    let mut rows = vec![];
+    for &n in elements {
         let alone = Timed::new(scene, Mesh::uniform(n)?)?;
         let lanes = Timed {
             in_lanes: true,
@@ -220,14 +217,14 @@ pub(super) fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupE
         }
         .time()?;
         let time = alone.time()?;
-        Ok(vec![
+        rows.push(vec![
             n.to_string(),
             format!("{:.1}", time.nanoseconds),
             format!("{:.1}", lanes.nanoseconds),
             format!("{:.3}", time.passes),
             format!("{:.2}", (n * BYTES_PER_ELEMENT) as f64 / f64::from(1 << 20)),
-        ])
-    };
+        ]);
+    }
     let head = [
         "elements",
         "ns per element and step",
@@ -239,6 +236,6 @@ pub(super) fn scaling(scene: &Scene, elements: &[usize]) -> Result<Table, SetupE
         title: "Time over the number of elements: past the caches a step takes as long as its numbers take from memory and back"
             .to_owned(),
         head: head.map(str::to_owned).to_vec(),
-        rows: elements.iter().map(line).collect::<Result<_, SetupError>>()?,
+        rows,
     })
 }

@@ -122,26 +122,31 @@ fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
     let shared = diagnosis.contrast.shared.iter();
     let shared = shared.map(|(_, value)| value.as_str());
     let values: Vec<&str> = diagnosis.contrast.values().chain(shared).collect();
-    let named = |word: &String| match word.as_str() {
-        "both" => !values.iter().any(|value| METHODS.contains(value)),
-        word => values.contains(&word),
-    };
     let field = diagnosis.first.first().map(|field| field.name.as_str());
-    let about = |word: &String| named(word) || field == Some(word.as_str());
+    let mut methods = regression.method.iter();
+    let mut topics = regression.about.iter();
+    let names_method = methods.any(|word| names(&values, word));
+    let names_topic = topics.any(|word| names(&values, word) || field == Some(word.as_str()));
     let module = regression.module();
     let place = diagnosis.look_at.iter().any(|place| place.contains(module))
         || diagnosis
             .resembles
             .iter()
             .any(|one| one.file.starts_with(module));
-    let of = |words: &[String], names: &dyn Fn(&String) -> bool| {
-        (!words.is_empty()).then(|| words.iter().any(names))
-    };
     [
-        of(&regression.method, &named),
-        of(&regression.about, &about),
+        (!regression.method.is_empty()).then_some(names_method),
+        (!regression.about.is_empty()).then_some(names_topic),
         Some(place),
     ]
+}
+
+/// Whether a diagnosis names the word with one of its values; no method stands for both.
+fn names(values: &[&str], word: &str) -> bool {
+    if word == "both" {
+        !values.iter().any(|value| METHODS.contains(value))
+    } else {
+        values.contains(&word)
+    }
 }
 
 /// The fingerprints in the form in which they are committed.
@@ -198,27 +203,10 @@ fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
         .iter()
         .filter(|one| !one.found.record.verdict.is_pass())
         .collect();
-    let score = |which: usize| {
-        let judged: Vec<bool> = noticed.iter().filter_map(|one| one.right[which]).collect();
-        percent(judged.iter().filter(|right| **right).count(), judged.len())
-    };
-    let of = |words: &dyn Fn(&Regression) -> Vec<String>| {
-        let declared: Vec<Vec<String>> = noticed
-            .iter()
-            .map(|one| words(one.regression))
-            .filter(|words| !words.is_empty())
-            .collect();
-        let mut counts: BTreeMap<&String, usize> = BTreeMap::new();
-        declared
-            .iter()
-            .flatten()
-            .for_each(|word| *counts.entry(word).or_default() += 1);
-        percent(counts.values().max().copied().unwrap_or(0), declared.len())
-    };
     let commonest = [
-        of(&|one| one.method.clone()),
-        of(&|one| one.about.clone()),
-        of(&|one| vec![one.module().to_owned()]),
+        share_of_commonest(&noticed, |regression| regression.method.clone()),
+        share_of_commonest(&noticed, |regression| regression.about.clone()),
+        share_of_commonest(&noticed, |regression| vec![regression.module().to_owned()]),
     ];
     let mut times: Vec<f64> = noticed
         .iter()
@@ -232,11 +220,35 @@ fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
         "| {name} | {} of {} | {} | {} | {} | {} | {lines} | {median:.1} | {worst:.1} |\n",
         noticed.len(),
         all.len(),
-        score(0),
-        score(1),
-        score(2),
+        score(&noticed, 0),
+        score(&noticed, 1),
+        score(&noticed, 2),
         commonest.join(", ")
     )
+}
+
+/// How often one of the three answers is right.
+fn score(noticed: &[&&Judged<'_>], which: usize) -> String {
+    let answers: Vec<bool> = noticed.iter().filter_map(|one| one.right[which]).collect();
+    let right = answers.iter().filter(|right| **right).count();
+    percent(right, answers.len())
+}
+
+/// How often the commonest word would be right.
+fn share_of_commonest(
+    noticed: &[&&Judged<'_>],
+    words: impl Fn(&Regression) -> Vec<String>,
+) -> String {
+    let mut declared = 0;
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for judged in noticed {
+        let words = words(judged.regression);
+        declared += usize::from(!words.is_empty());
+        for word in words {
+            *counts.entry(word).or_default() += 1;
+        }
+    }
+    percent(counts.values().max().copied().unwrap_or(0), declared)
 }
 
 fn percent(part: usize, whole: usize) -> String {

@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::Args;
 use serde::Serialize;
 
-use super::screen::{self, Format};
+use super::screen::{self, Format, formats};
 use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort};
 use crate::store::{atomic, json};
@@ -25,13 +25,13 @@ pub struct Flags {
     #[arg(long, short)]
     pub quiet: bool,
     /// How the result is printed
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = formats(&[Format::Text, Format::Json]), default_value = "text")]
     pub format: Format,
     /// Write the results to this folder, which is created if needed
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// The largest number of threads [default: all of the machine]
-    #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
+    #[arg(long, short, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
     pub jobs: Option<NonZeroUsize>,
 }
 
@@ -92,9 +92,10 @@ impl Flags {
         found: &impl Serialize,
         words: &str,
     ) -> io::Result<Verdict> {
-        match self.format {
-            Format::Json => screen::print(&object(verdict, found)?)?,
-            Format::Text => screen::print(words)?,
+        if self.format == Format::Json {
+            screen::print(&object(verdict, found)?)?;
+        } else {
+            screen::print(words)?;
         }
         Ok(verdict)
     }

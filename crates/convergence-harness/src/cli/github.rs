@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use crate::judge::verdict::Verdict;
 use crate::report::{Findings, summary};
-use crate::store;
+use crate::store::{self, without_baseline};
 use crate::text::visible::{self, visible};
 
 use super::screen::{self, Format};
@@ -21,9 +21,10 @@ pub(super) fn announce(findings: &Findings<'_>, format: Format) {
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
         let annotations = annotations(findings);
         // If a stream is closed, annotations cannot be shown.
-        let _ = match format {
-            Format::Text => screen::print_as_is(&annotations),
-            Format::Json => io::stderr().write_all(annotations.as_bytes()),
+        let _ = if format == Format::Json {
+            io::stderr().write_all(annotations.as_bytes())
+        } else {
+            screen::print_as_is(&annotations)
         };
     }
 }
@@ -57,11 +58,16 @@ fn annotations(findings: &Findings<'_>) -> String {
             &summary(outcome),
         )
     });
-    let changes = findings
-        .record
-        .moves()
-        .iter()
-        .map(|change| annotation("baseline", &change.to_string()));
+    let record = findings.record;
+    let changes: Vec<String> = match without_baseline(&record.studies, record.moves()) {
+        Some(_) => vec![annotation("baseline", &findings.sentence())],
+        None => {
+            let moves = record.moves().iter();
+            moves
+                .map(|change| annotation("baseline", &change.to_string()))
+                .collect()
+        }
+    };
     capped(studies.chain(changes).collect())
 }
 

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use manufacture::{Check, Comparison, Finding, Language, Manufacture, Sampling};
 use serde_json::{Value, json};
@@ -41,6 +42,9 @@ pub struct Arguments {
     /// The face whose data the command computes
     #[arg(long, value_name = "FACE", requires = "against")]
     on: Option<String>,
+    /// The time limit of the command
+    #[arg(long, value_name = "SECONDS", requires = "against", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..))]
+    timeout: u64,
     /// The same seed draws the same points
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -77,7 +81,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         return values(&manufacture, table);
     }
     if let Some(command) = &arguments.against {
-        let comparisons = manufacture.against(command, arguments.on.as_deref(), &sampling)?;
+        let face = arguments.on.as_deref();
+        let limit = Duration::from_secs(arguments.timeout);
+        let comparisons = manufacture.against(command, face, &sampling, limit)?;
         return compared(arguments, &manufacture, &comparisons);
     }
     let mut check = manufacture.check(&sampling)?;
@@ -134,9 +140,10 @@ fn print(arguments: &Arguments, object: &Value, words: &str) -> Result<(), Unusa
         atomic::prepare_folder(folder)?;
         atomic::write(&folder.join("manufacture.json"), text_of(object)?)?;
     }
-    match arguments.flags.format {
-        Format::Json => screen::print(&text_of(object)?)?,
-        Format::Text => screen::print(words)?,
+    if arguments.flags.format == Format::Json {
+        screen::print(&text_of(object)?)?;
+    } else {
+        screen::print(words)?;
     }
     Ok(())
 }

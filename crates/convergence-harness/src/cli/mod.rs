@@ -1,5 +1,5 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`,
-//! `explain`, `completions`, for any project.
+//! `explain`, `completions`, `man`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
 //! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
@@ -10,6 +10,7 @@ pub mod exit;
 pub mod explain;
 pub mod flags;
 mod github;
+pub mod help;
 mod list;
 mod manufacture;
 mod new;
@@ -55,6 +56,11 @@ pub enum Command {
         #[arg(value_enum)]
         shell: Shell,
     },
+    /// Print a man page
+    Man {
+        /// The command; without it the page of the program
+        command: Option<String>,
+    },
     /// End a process group when standard input ends (the harness starts this itself)
     #[command(hide = true)]
     Guard {
@@ -64,7 +70,7 @@ pub enum Command {
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 10] = [
+pub const COMMANDS: [&str; 11] = [
     "new",
     "manufacture",
     "verify",
@@ -75,6 +81,7 @@ pub const COMMANDS: [&str; 10] = [
     "compare",
     "report",
     "completions",
+    "man",
 ];
 
 impl Command {
@@ -95,6 +102,7 @@ impl Command {
             Self::New(arguments) => new::run(project, arguments),
             Self::Manufacture(arguments) => manufacture::run(arguments),
             Self::Completions { shell } => complete(whole, project, *shell),
+            Self::Man { command } => man(whole, command.as_deref()),
             Self::Guard { mark } => serve(mark),
         }
     }
@@ -112,6 +120,35 @@ fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outc
     let mut script = vec![];
     generate(shell, &mut whole.bin_name(&name), &name, &mut script);
     screen::print(&String::from_utf8_lossy(&script))?;
+    Ok(Verdict::Pass)
+}
+
+/// Prints the man page of the program, or of one of its commands.
+///
+/// # Errors
+/// An unknown command.
+fn man(mut whole: clap::Command, name: Option<&str>) -> exit::Outcome {
+    whole.build();
+    let known: Vec<&str> = whole
+        .get_subcommands()
+        .filter(|command| !command.is_hide_set())
+        .map(clap::Command::get_name)
+        .collect();
+    let page = match name {
+        None => whole.clone(),
+        Some(name) if known.contains(&name) => {
+            let command = whole.get_subcommands().find(|one| one.get_name() == name);
+            command.unwrap_or(&whole).clone()
+        }
+        Some(name) => {
+            let known = known.join(", ");
+            let message = format!("man: found `{name}`; expected one of {known}");
+            return Err(exit::Unusable::because(&message));
+        }
+    };
+    let mut text = vec![];
+    clap_mangen::Man::new(page).render(&mut text)?;
+    screen::print(&String::from_utf8_lossy(&text))?;
     Ok(Verdict::Pass)
 }
 
@@ -139,7 +176,8 @@ pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) ->
         .bin_name(project.command)
         .about(project.about);
     grouped(
-        new::with_templates(command, project).version(env!("CARGO_PKG_VERSION")),
+        help::completed(new::with_templates(command, project), project)
+            .version(env!("CARGO_PKG_VERSION")),
         groups,
     )
 }
@@ -187,10 +225,13 @@ fn status<P: Parser>(
     arguments: impl Iterator<Item = OsString>,
     run: impl FnOnce(P) -> exit::Outcome,
 ) -> u8 {
-    let asked =
-        P::from_arg_matches(&line.get_matches_from(arguments)).unwrap_or_else(|error| error.exit());
+    let matches = line.get_matches_from(arguments);
+    let program = P::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    if let Some(colour) = matches.get_one(help::COLOUR) {
+        screen::set_colour(*colour);
+    }
     exit::listen();
-    exit::status(run(asked))
+    exit::status(run(program))
 }
 
 #[derive(Debug, Parser)]

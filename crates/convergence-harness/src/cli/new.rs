@@ -1,20 +1,26 @@
 //! `new WHAT NAME`: files to start from.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{env, fs};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use serde_json::json;
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
+use super::workspace;
 use crate::judge::verdict::Verdict;
+use crate::program::{self, begin};
 use crate::project::{Project, Template};
 use crate::store::atomic;
 use crate::study::header::{NAME, is_name};
 use crate::text::visible;
 
 /// Write a commented file that runs unchanged
+///
+/// A study goes into studies/ of the project, if there is one here or above, anything else into the
+/// current folder. The commands of a study run in the folder that holds studies/.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// What to start
@@ -23,6 +29,12 @@ pub struct Arguments {
     /// Its name: lowercase letters, digits, `.` and `-`
     #[arg(index = 2, value_parser = name)]
     name: String,
+    /// The language of a program, which is otherwise Python
+    #[arg(long, value_name = "LANGUAGE", conflicts_with = "command", value_parser = PossibleValuesParser::new(begin::LANGUAGES.map(|language| language.name)))]
+    language: Option<String>,
+    /// The command of a program that exists, such as "FreeFem++ -nw poisson.edp {n}"
+    #[arg(long, value_name = "COMMAND")]
+    command: Option<String>,
     #[command(flatten)]
     flags: Flags,
 }
@@ -45,28 +57,35 @@ pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap:
         .map(|template| PossibleValue::new(template.name).help(template.about));
     let values = PossibleValuesParser::new(values);
     let is_hidden = project.templates.is_empty();
+    let names = || project.templates.iter().map(|template| template.name);
+    let without_program = !names().any(|name| name == program::TEMPLATE.name);
     command.mut_subcommand("new", |new| {
         new.mut_arg("what", |what| what.value_parser(values))
+            .mut_arg("language", |option| option.hide(without_program))
+            .mut_arg("command", |option| option.hide(without_program))
+            .mut_arg("out", |out| {
+                out.help("The folder of the files, which is created if needed")
+            })
             .hide(is_hidden)
     })
 }
 
 /// Runs the command. It never overwrites an existing file.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
-    let Arguments { what, name, flags } = arguments;
+    let Arguments {
+        what, name, flags, ..
+    } = arguments;
     let template = project
         .templates
         .iter()
         .find(|template| template.name == what);
     let template = template
         .ok_or_else(|| Unusable::because(&format!("found `{what}`; expected a template")))?;
-    let folder = flags.out.as_deref().unwrap_or(Path::new(""));
-    let path = |(ending, text): &(&str, _)| (folder.join(format!("{name}{ending}")), *text);
-    let files: Vec<(PathBuf, &str)> = template.files.iter().map(path).collect();
-    if let Some((taken, _)) = files
-        .iter()
-        .find(|(path, _)| fs::symlink_metadata(path).is_ok())
-    {
+    let begun = begun(arguments, template)?;
+    let place = Place::of(flags.out.as_deref(), template)?;
+    let file = |begun: &begin::Begun| place.folder.join(format!("{name}{}", begun.ending));
+    let files: Vec<PathBuf> = begun.iter().map(file).collect();
+    if let Some(taken) = files.iter().find(|path| fs::symlink_metadata(path).is_ok()) {
         return Err(Unusable::because(&format!(
             "{}: expected a new file, found one of that name; take another name, or remove the file first",
             visible::path(taken)
@@ -75,31 +94,24 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(folder) = &flags.out {
         atomic::prepare_folder(folder)?;
     }
-    let (directory, below) = places(folder);
-    for (path, text) in &files {
-        let text = text
+    let python = format!("[\"{}\"", python());
+    for (path, begun) in files.iter().zip(&begun) {
+        let text = begun
+            .text
             .replace("NAME", name)
-            .replace("PROGRAM", project.command);
-        atomic::write(
-            path,
-            text.replace("DIRECTORY", &directory)
-                .replace("BELOW", &below),
-        )?;
+            .replace("PROGRAM", project.command)
+            .replace("[\"python3\"", &python)
+            .replace("DIRECTORY", &place.directory)
+            .replace("BELOW", &place.below);
+        atomic::write(path, text)?;
     }
-    // Reports are written below the folder that the commands run in: the current one, if the files
-    // are below it.
-    let ignored = if directory == "." {
-        folder
-    } else {
-        Path::new("")
-    }
-    .join(".gitignore");
+    let ignored = place.root.join(".gitignore");
     if !template.ignored.is_empty() && fs::symlink_metadata(&ignored).is_err() {
         atomic::write(&ignored, template.ignored)?;
     }
     let wrote: Vec<String> = files
         .iter()
-        .map(|(path, _)| path.display().to_string())
+        .map(|path| path.display().to_string())
         .collect();
     let written = format!("wrote {}", wrote.join(", "));
     let first = wrote.first().map_or("", String::as_str);
@@ -108,9 +120,111 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?)
 }
 
+/// The command that starts Python 3 on this machine; on Windows it often has no 3. Looking for a
+/// file is not enough there: a file of that name may only lead to a shop.
+fn python() -> &'static str {
+    const NAMES: [&str; 2] = ["python3", "python"];
+    NAMES
+        .into_iter()
+        .find(|name| is_python3(name))
+        .unwrap_or(NAMES[0])
+}
+
+fn is_python3(command: &str) -> bool {
+    let version = Command::new(command)
+        .arg("--version")
+        .stdin(Stdio::null())
+        .output();
+    version.is_ok_and(|version| version.status.success() && version.stdout.starts_with(b"Python 3"))
+}
+
+/// The files of a template, or of a program in another language or with a command of its own.
+///
+/// # Errors
+/// A language or a command for another template, and a command that cannot be used.
+fn begun(arguments: &Arguments, template: &Template) -> Result<Vec<begin::Begun>, Unusable> {
+    let option = match (&arguments.language, &arguments.command) {
+        (None, None) => {
+            let begun = |(ending, text): &(&'static str, &str)| begin::Begun {
+                ending,
+                text: (*text).to_owned(),
+            };
+            return Ok(template.files.iter().map(begun).collect());
+        }
+        (Some(_), _) => "--language",
+        (None, Some(_)) => "--command",
+    };
+    if template.name != program::TEMPLATE.name {
+        let expected = program::TEMPLATE.name;
+        let message = format!(
+            "{option}: found `new {}`; expected `new {expected}`",
+            template.name
+        );
+        return Err(Unusable::because(&message));
+    }
+    let language = begin::LANGUAGES
+        .iter()
+        .find(|language| arguments.language.as_deref() == Some(language.name));
+    match (language, &arguments.command) {
+        (Some(language), _) => Ok(begin::in_language(language)),
+        (None, command) => begin::of_command(command.as_deref().unwrap_or_default())
+            .map_err(|reason| Unusable::because(&format!("--command: {reason}"))),
+    }
+}
+
+/// Where files are written.
+struct Place {
+    /// As the command line names it.
+    folder: PathBuf,
+    /// The folder that the commands run in, where reports are written.
+    root: PathBuf,
+    /// That folder as seen from the files.
+    directory: String,
+    /// The folder of the files as seen from there, with a slash at its end.
+    below: String,
+}
+
+impl Place {
+    /// The folder of `--out`; without it `studies/` of the project for a study, if there is one, and
+    /// the current folder for anything else.
+    fn of(out: Option<&Path>, template: &Template) -> Result<Self, Unusable> {
+        let is_study = template.next.contains(&"study");
+        let root = workspace::root().ok().filter(|_| is_study && out.is_none());
+        if let Some(root) = root {
+            let here = env::current_dir()?;
+            let depth = here
+                .strip_prefix(&root)
+                .map_or(0, |below| below.components().count());
+            let root: PathBuf = vec![".."; depth].iter().collect();
+            return Ok(Self {
+                folder: root.join("studies"),
+                root,
+                directory: "..".to_owned(),
+                below: "studies/".to_owned(),
+            });
+        }
+        let folder = out.unwrap_or(Path::new(""));
+        let (directory, below) = places(folder);
+        // Reports are written below the folder that the commands run in: the current one, if the
+        // files are below it.
+        let root = if directory == "." {
+            folder
+        } else {
+            Path::new("")
+        };
+        Ok(Self {
+            folder: folder.to_owned(),
+            root: root.to_owned(),
+            directory,
+            below,
+        })
+    }
+}
+
 /// The commands that the user may type next, each on a line, with the first file written.
 fn next_steps(project: &Project, template: &Template, file: &str) -> String {
-    let steps = template.next.iter().zip(["now", "and"]);
+    // The command that runs it comes last.
+    let steps = template.next.iter().zip(["run ", "read"]).rev();
     let line = |(command, then)| format!("{then}  {} {command} {file}\n", project.command);
     steps.map(line).collect()
 }

@@ -4,8 +4,10 @@
 use std::env;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
+use std::sync::OnceLock;
 
 use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use crate::judge::verdict::Verdict;
 use crate::text::columns::Columns;
@@ -19,6 +21,39 @@ pub enum Format {
     Text,
     /// For programs: one JSON object
     Json,
+    /// For spreadsheets: the rows, separated by commas
+    Csv,
+    /// For pages: the rows in Markdown
+    Md,
+}
+
+/// Reads one of these formats from the command line.
+pub(super) fn formats(known: &[Format]) -> impl TypedValueParser<Value = Format> + use<> {
+    let known: Vec<_> = known
+        .iter()
+        .filter_map(ValueEnum::to_possible_value)
+        .collect();
+    PossibleValuesParser::new(known).map(|name| Format::from_str(&name, false).unwrap_or_default())
+}
+
+/// When to use colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Colour {
+    /// On a terminal, unless the environment says otherwise
+    #[default]
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+/// What the command line says about colours.
+static COLOUR: OnceLock<Colour> = OnceLock::new();
+
+/// Sets when to use colours, once for the process.
+pub(super) fn set_colour(colour: Colour) {
+    COLOUR.get_or_init(|| colour);
 }
 
 /// Prints to standard output. A reader that closes it early, as `head` does, causes no error.
@@ -135,9 +170,17 @@ pub fn width() -> Option<usize> {
         .filter(|_| io::stdout().is_terminal())
 }
 
-/// Whether to use colours: on a terminal, unless `NO_COLOR` is set to anything.
+/// Whether to use colours: as `--color` says, else as `FORCE_COLOR` or `CLICOLOR_FORCE` do, else on
+/// a terminal, unless `NO_COLOR` is set to anything.
 fn colours() -> bool {
-    io::stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+    let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
+    let forces = |name| is_set(name) && env::var_os(name).is_some_and(|value| value != "0");
+    match COLOUR.get() {
+        Some(Colour::Always) => true,
+        Some(Colour::Never) => false,
+        _ if forces("FORCE_COLOR") || forces("CLICOLOR_FORCE") => true,
+        _ => io::stdout().is_terminal() && !is_set("NO_COLOR"),
+    }
 }
 
 /// A cell in the colour of the verdict that it holds; any other cell unchanged.

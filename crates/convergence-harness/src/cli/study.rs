@@ -73,7 +73,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     };
     let text = match flags.format {
         Format::Json => json(&record)?,
-        Format::Text if flags.quiet => {
+        _ if flags.quiet => {
             format!(
                 "{}{}: {}\n",
                 text_of_failures(&finished, None),
@@ -81,7 +81,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
                 findings.sentence()
             )
         }
-        Format::Text => {
+        _ => {
             let cause = record
                 .diagnosis
                 .as_ref()
@@ -94,7 +94,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     github::announce(&findings, flags.format);
     if let Some(folder) = &flags.out {
         publish(project, record, effort.jobs.get(), folder)?;
-        if flags.format == Format::Text && !flags.quiet {
+        if flags.format != Format::Json && !flags.quiet {
             screen::print(&format!("\n{}", screen::report_in(folder)))?;
         }
     }

@@ -14,7 +14,7 @@ use crate::report::{
     Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures,
 };
 use crate::run::{Effort, Finished};
-use crate::store::{Change, Record, diagnosis::Diagnosis, json};
+use crate::store::{Change, Record, diagnosis::Diagnosis, json, without_baseline};
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
@@ -40,8 +40,11 @@ pub struct Arguments {
     #[arg(long, value_name = "PATTERN", requires = "reason")]
     only: Vec<String>,
     /// Every study even if some fail, and every number that moved, not only the worst of each study
-    #[arg(long, conflicts_with = "quiet")]
+    #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
+    /// Only list what would run, with its cases and the seconds of its last run
+    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "durations"])]
+    dry_run: bool,
     /// Begin no case once a study has failed; the report is then that of a selection
     #[arg(long, conflicts_with = "bless")]
     fail_fast: bool,
@@ -75,6 +78,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         arguments.ids.clone()
     };
     let mask = workspace::select(&headers, arguments.tier, &ids, &list)?;
+    if arguments.dry_run {
+        return dry_run(arguments, &root, &all, &mask);
+    }
     let scope = match scope(arguments.tier, &ids, &all) {
         // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
@@ -94,15 +100,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         verify::verify(project, &studies, &request, progress)
     })?;
     let record = &verification.record;
-    screen::print(&match flags.format {
-        Format::Text => text(
-            project,
-            &verification,
-            &request,
-            arguments,
-            started.elapsed(),
-        ),
-        Format::Json => json(record)?,
+    screen::print(&if flags.format == Format::Json {
+        json(record)?
+    } else {
+        let took = started.elapsed();
+        text(project, &verification, &request, arguments, took)
     })?;
     github::announce(
         &Findings {
@@ -114,6 +116,58 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         flags.format,
     );
     Ok(record.verdict)
+}
+
+/// A study that would run.
+#[derive(serde::Serialize)]
+struct Planned {
+    id: String,
+    cases: usize,
+    /// Over all threads, in the last run on this machine; `None` if it never ran.
+    seconds: Option<f64>,
+}
+
+/// Lists what would run. Nothing is run or written.
+fn dry_run(arguments: &Arguments, root: &Path, all: &[StudyFile], mask: &[bool]) -> Outcome {
+    let seconds = workspace::last_seconds(root)?;
+    let planned = |file: &StudyFile| {
+        let id = file.study.header().id.clone();
+        Planned {
+            cases: file.study.plan().cases().len(),
+            seconds: seconds.get(&id).copied(),
+            id,
+        }
+    };
+    let selected = all.iter().zip(mask).filter(|(_, selected)| **selected);
+    let studies: Vec<Planned> = selected.map(|(file, _)| planned(file)).collect();
+    let cases: usize = studies.iter().map(|study| study.cases).sum();
+    // A sum of none would be -0.
+    let total = studies
+        .iter()
+        .filter_map(|study| study.seconds)
+        .fold(0.0, |sum, seconds| sum + seconds);
+    let sentence = format!(
+        "{} studies with {cases} cases would run; {total:.1} s in their last runs",
+        studies.len()
+    );
+    let words = if arguments.flags.quiet {
+        String::new()
+    } else {
+        let rows: Vec<Vec<String>> = studies.iter().map(planned_row).collect();
+        screen::table(&["study", "cases", "seconds"], &rows) + "\n"
+    };
+    let words = format!("{words}{sentence}\n");
+    let object = serde_json::json!({"studies": studies});
+    Ok(arguments.flags.print(Verdict::Pass, &object, &words)?)
+}
+
+fn planned_row(study: &Planned) -> Vec<String> {
+    let seconds = study.seconds;
+    vec![
+        study.id.clone(),
+        study.cases.to_string(),
+        seconds.map_or_else(|| "-".to_owned(), |seconds| format!("{seconds:.2}")),
+    ]
 }
 
 /// * `scope`: what is run; `root`: the folder of the project.
@@ -206,6 +260,13 @@ fn text(
     if found.record.verdict == Verdict::Pass {
         return format!("{table}{}{verdict}: {sentence}\n", blessed(project, found));
     }
+    if is_first(&found.record) && matches!(found.blessing, Blessing::NotAsked) {
+        let Record {
+            command, studies, ..
+        } = &found.record;
+        let command = blessing(project, command, studies, found.record.moves());
+        return format!("{table}{sentence}; `{command}` accepts them\n");
+    }
     let took = if *quiet {
         String::new()
     } else {
@@ -238,6 +299,11 @@ fn text(
     parts.join("\n\n") + "\n"
 }
 
+/// Whether all studies pass and the baseline has nothing of them.
+fn is_first(record: &Record) -> bool {
+    can_be_blessed(&record.studies) && without_baseline(&record.studies, record.moves()).is_some()
+}
+
 /// The changes, without those of failing studies unless `verbose`: such a study has already said
 /// why, and its numbers moved for the same reason.
 fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
@@ -247,7 +313,10 @@ fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
     };
     let is_printed =
         |change: &&Change| verbose || change.movement.needs_a_reason() || !failed(&change.study);
-    let moves = record.moves();
+    let moves = match without_baseline(&record.studies, record.moves()) {
+        Some(_) => &[],
+        None => record.moves(),
+    };
     moves.iter().filter(is_printed).cloned().collect()
 }
 
@@ -297,7 +366,7 @@ fn overview(
         .diagnosis
         .as_ref()
         .map_or(0, |diagnosis| diagnosis.clearest.len());
-    if verbose || found.record.verdict == Verdict::Pass {
+    if verbose || found.record.verdict == Verdict::Pass || is_first(&found.record) {
         let rows: Vec<Vec<String>> = found.record.studies.iter().map(row).collect();
         text = screen::table_within(
             screen::width(),

@@ -16,6 +16,7 @@ use crate::project::Project;
 use crate::store;
 use crate::store::{Provenance, Record};
 use crate::study::{Header, StudyFile, Tier};
+use crate::text::names::by_distance;
 use crate::text::visible;
 
 /// The folder of the project: the nearest one with `studies/`, here or above.
@@ -239,11 +240,13 @@ fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &s
     }
     // A longer list would fill the screen.
     const FEW: usize = 12;
+    const NEAREST: usize = 3;
     let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
     let allowed = if ids.len() <= FEW {
         ids.join(", ")
     } else {
-        format!("what `{list}` shows")
+        let nearest = by_distance(word, ids)[..NEAREST].join(", ");
+        format!("what `{list}` shows, of which {nearest} are nearest")
     };
     format!("`{word}` matches no study; expected {allowed}, or a pattern such as '*-space'")
 }

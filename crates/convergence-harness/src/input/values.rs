@@ -279,6 +279,11 @@ impl<'a> Section<'a> {
         settings::of_table(self.table)
     }
 
+    /// The keys, sorted by name.
+    pub fn keys(&self) -> impl Iterator<Item = &'a str> + use<'a> {
+        self.table.keys().map(|key| key.get_ref().as_ref())
+    }
+
     /// Refuses every key but these.
     pub fn allow(&self, keys: &[&str]) -> Result<(), InputError> {
         let unknown = self

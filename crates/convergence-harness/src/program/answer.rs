@@ -1,4 +1,5 @@
-//! The answer of a program: the last line of its standard output that is a JSON object.
+//! The answer of a program: the last line of its standard output that is a JSON object; without such
+//! a line, numbers behind the names that the study expects: `max = 1.5e-3`.
 
 use std::fmt;
 
@@ -88,6 +89,32 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, b
     };
     Some(read.map_err(near_miss))
 }
+
+/// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
+/// expects, with the step and the work; `None` if no name is expected.
+pub(super) fn object_of_lines(
+    numbers: &[(String, f64)],
+    expected: &[Expectation],
+) -> Option<Map<String, Value>> {
+    let mut object = Map::new();
+    for (name, number) in numbers {
+        for expected in expected.iter().filter(|expected| expected.name == *name) {
+            let among = format!("{}s", expected.what());
+            let names = object.entry(among).or_insert_with(|| Map::new().into());
+            names[name] = (*number).into();
+        }
+    }
+    let is_answer = !object.is_empty();
+    for (name, number) in numbers {
+        if STEPS_AND_WORK.contains(&name.as_str()) {
+            object.insert(name.clone(), (*number).into());
+        }
+    }
+    is_answer.then_some(object)
+}
+
+/// What an answer has beside errors and values.
+pub(super) const STEPS_AND_WORK: [&str; 3] = ["h", "dt", "work"];
 
 /// A value of JSON in which no object repeats a name: the last would silently win.
 struct Once(Value);

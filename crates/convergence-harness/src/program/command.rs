@@ -8,7 +8,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::answer::{Answer, Expectation};
+use super::answer::{Answer, Expectation, STEPS_AND_WORK, object_of_lines};
 use super::guard::Group;
 use super::output::{NoAnswer, read_last_words, read_output};
 use super::refine::Parameter;
@@ -34,6 +34,8 @@ pub(super) struct Invocation {
     pub(super) words: Vec<String>,
     /// The folder in which it runs.
     pub(super) directory: PathBuf,
+    /// Variables of its environment beside those of the harness.
+    pub(super) variables: Vec<(String, String)>,
     /// Its standard input; may be empty.
     pub(super) input: String,
     /// Its time limit.
@@ -56,7 +58,11 @@ impl Invocation {
         })?;
         let child = group.start(&mut self.command());
         let mut child = child.map_err(|error| failed(format!("cannot be started: {error}")))?;
-        let printed = in_background(child.stdout.take(), read_output);
+        let names = expected.iter().map(|expected| expected.name.clone());
+        let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
+        let printed = in_background(child.stdout.take(), move |stream| {
+            read_output(stream, &names)
+        });
         let words = in_background(child.stderr.take(), read_last_words);
         feed(&mut child, &self.input);
         let ended = self.wait(&mut child, &group);
@@ -81,12 +87,14 @@ impl Invocation {
         }
         let held = |_| NoAnswer {
             reason: "a process that it has started holds its standard output open".to_owned(),
-            last_line: String::new(),
+            ..NoAnswer::default()
         };
         let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.map_err(|NoAnswer { reason, last_line }| CaseFailure {
-            advice: example(&last_line, expected),
-            ..failed(format!("answered nothing: {reason}{words}"))
+        let object = object.or_else(|nothing| {
+            object_of_lines(&nothing.numbers, expected).ok_or_else(|| CaseFailure {
+                advice: example(&nothing.last_line, expected),
+                ..failed(format!("answered nothing: {}{words}", nothing.reason))
+            })
         })?;
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
         let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
@@ -107,6 +115,8 @@ impl Invocation {
             Stdio::piped()
         };
         command.args(&self.words[1..]).current_dir(&self.directory);
+        let variables = self.variables.iter();
+        command.envs(variables.map(|(name, value)| (name, value)));
         command
             .stdin(input)
             .stdout(Stdio::piped())
@@ -155,7 +165,7 @@ fn feed(child: &mut Child, input: &str) {
 /// Reads a stream in a separate thread: a program that prints must not wait.
 fn in_background<S: Send + 'static, T: Send + 'static>(
     stream: Option<S>,
-    read: fn(S) -> T,
+    read: impl FnOnce(S) -> T + Send + 'static,
 ) -> Receiver<T> {
     let (send, receive) = mpsc::channel();
     if let Some(stream) = stream {
@@ -190,6 +200,30 @@ fn example(last: &str, expected: &[Expectation]) -> String {
     )
 }
 
+/// The statuses by which Windows ends a program that has crashed.
+const CRASHES: [(u32, &str); 8] = [
+    (0xC000_0005, "access violation"),
+    (0xC000_001D, "illegal instruction"),
+    (0xC000_0094, "integer division by zero"),
+    (0xC000_00FD, "stack overflow"),
+    (0xC000_0135, "a DLL was not found"),
+    (0xC000_013A, "interrupted by Ctrl-C"),
+    (0xC000_0142, "a DLL could not be initialized"),
+    (0xC000_0409, "stack buffer overrun, or abort"),
+];
+
+/// An exit status of Windows; the usual crashes by name.
+fn status_of_windows(code: i32) -> String {
+    let bits = code.cast_unsigned();
+    CRASHES
+        .iter()
+        .find(|(crash, _)| *crash == bits)
+        .map_or_else(
+            || format!("exit status {code}"),
+            |(_, name)| format!("exit status {bits:#010X} ({name})"),
+        )
+}
+
 /// Exit status or signal, in words.
 fn ending(status: ExitStatus) -> String {
     #[cfg(unix)]
@@ -201,10 +235,11 @@ fn ending(status: ExitStatus) -> String {
             return format!("signal {number}{name}");
         }
     }
-    status.code().map_or_else(
-        || "no exit status".to_owned(),
-        |code| format!("exit status {code}"),
-    )
+    match status.code() {
+        Some(code) if cfg!(windows) => status_of_windows(code),
+        Some(code) => format!("exit status {code}"),
+        None => "no exit status".to_owned(),
+    }
 }
 
 /// A word of a command with these values, in the shortest notation that reads back as the same
@@ -267,6 +302,18 @@ mod tests {
     use super::*;
 
     const KNOWN: [Parameter; 2] = [("n", 8.0), ("h", 0.125)];
+
+    #[test]
+    fn the_crashes_of_windows_have_names() {
+        for (code, words) in [
+            (-1_073_741_819, "exit status 0xC0000005 (access violation)"),
+            (-1_073_741_571, "exit status 0xC00000FD (stack overflow)"),
+            (-1, "exit status -1"),
+            (3, "exit status 3"),
+        ] {
+            assert_eq!(status_of_windows(code), words);
+        }
+    }
 
     #[test]
     fn placeholders_are_filled_and_other_braces_stay() {

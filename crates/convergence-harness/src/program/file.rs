@@ -1,4 +1,4 @@
-//! Study files of programs. `begin/study.toml` is one, `PROGRAMS.md` has all keys.
+//! Study files of programs. `begin/study.toml` is one, `program.md` of the book has all keys.
 //!
 //! | key | of a table `[[expect]]` |
 //! | --- | --- |
@@ -7,7 +7,7 @@
 //! | `constant` | with `order`: the ends of the C of error = C h^order |
 //! | `factor` | in place of `order`: by which the error falls per degree, n being the degree; a number, or `">= 5"` |
 //! | `exact` | alone: no error is larger |
-//! | `tolerance` | of the order |
+//! | `tolerance` | of the order; 0.25 without it |
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -36,7 +36,7 @@ pub(super) fn read(
     if let Some(field) = ["cache", "files"].iter().find_map(|key| section.get(key)) {
         return Err(field.refuse_as_written("no such key: every case is run each time"));
     }
-    section.allow(&["command", "directory", "timeout"])?;
+    section.allow(&["command", "directory", "env", "timeout"])?;
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
     let words = words(&section, &refine.resolutions()[0].parameters)?;
@@ -49,6 +49,7 @@ pub(super) fn read(
     Ok(Program {
         words,
         directory,
+        variables: variables(&section)?,
         timeout,
         refine,
         expect,
@@ -78,6 +79,27 @@ fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError
         );
         field.refuse(found, "a folder, relative to that of this file")
     })
+}
+
+/// The table `env`: texts by name.
+fn variables(section: &Section<'_>) -> Result<Vec<(String, String)>, InputError> {
+    let Some(env) = section.section("env")? else {
+        return Ok(vec![]);
+    };
+    let mut variables = vec![];
+    for name in env.keys() {
+        let field = env.require(name, "a text in quotes")?;
+        if name.is_empty() || name.contains(['=', '\0']) {
+            let allowed = "a name of a variable, without `=`";
+            return Err(field.refuse(format!("the name \"{}\"", visible(name)), allowed));
+        }
+        let value = field.text()?;
+        if value.contains('\0') {
+            return Err(field.refuse_as_written("a text without the character 0"));
+        }
+        variables.push((name.to_owned(), value.to_owned()));
+    }
+    Ok(variables)
 }
 
 fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, InputError> {
@@ -113,7 +135,7 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
         names.push(name);
         Ok(expectation)
     };
-    let expectations = root.tables("expect", " with error or value, order and tolerance", read)?;
+    let expectations = root.tables("expect", " with error or value, and order", read)?;
     let by_degree = expectations
         .iter()
         .filter(|expectation| expectation.by_degree)
@@ -236,8 +258,10 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
     let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
     claim.tolerance = section
-        .require("tolerance", &narrow)?
-        .number_where(&narrow, is_narrow)?;
+        .get("tolerance")
+        .map_or(Ok(DEFAULT_TOLERANCE), |field| {
+            field.number_where(&narrow, is_narrow)
+        })?;
     Ok((claim, claims[1].is_some(), None))
 }
 

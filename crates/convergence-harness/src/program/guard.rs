@@ -8,13 +8,21 @@
 //!
 //! A process that has left its group, such as a daemon, is found on Linux by the mark in its
 //! environment.
+//!
+//! On Windows every case has a job object instead, `guard/job.rs`.
 
 use std::env;
 use std::ffi::OsString;
-use std::io::{self, Read, Write};
+use std::io;
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
 use std::process::{Child, Command};
 use std::sync::OnceLock;
+
+#[cfg(windows)]
+mod job;
+#[cfg(windows)]
+pub(super) use job::Group;
 
 #[cfg(unix)]
 use nix::sys::signal::Signal;
@@ -69,6 +77,7 @@ pub fn is_guard() -> bool {
 pub fn serve(mark: &str) {
     #[cfg(unix)]
     {
+        use std::io::Write;
         system::outlive_signals();
         // The process that started it waits for confirmation that it is a guard.
         let mut out = io::stdout();
@@ -76,17 +85,17 @@ pub fn serve(mark: &str) {
         let _ = io::copy(&mut io::stdin(), &mut io::sink());
         system::end_own_group(mark);
     }
-    #[cfg(not(unix))]
+    // A job object needs no guard.
+    #[cfg(windows)]
     let _ = mark;
 }
 
 /// The process group of one case.
+#[cfg(unix)]
 #[derive(Debug)]
 pub(super) struct Group {
     mark: String,
-    #[cfg(unix)]
     guard: Option<Child>,
-    #[cfg(unix)]
     leader: Option<u32>,
 }
 
@@ -130,7 +139,7 @@ impl Group {
 
     /// Ends the rest of the group, and any process that has left it. The guard, a member of the
     /// group, ends last: if this process is killed meanwhile, the guard carries on.
-    pub(super) fn end(&self, _: &mut Child) {
+    pub(super) fn end(&mut self, _: &mut Child) {
         system::kill_marked(&self.mark);
         self.leader
             .iter()
@@ -145,26 +154,6 @@ impl Drop for Group {
             let _ = guard.kill();
             let _ = guard.wait();
         }
-    }
-}
-
-/// Without process groups only the program itself is ended.
-#[cfg(not(unix))]
-impl Group {
-    pub(super) fn new() -> io::Result<Self> {
-        Ok(Self { mark: new_mark() })
-    }
-
-    pub(super) fn start(&mut self, command: &mut Command) -> io::Result<Child> {
-        command.env(MARK, &self.mark).spawn()
-    }
-
-    pub(super) fn ask_to_end(&self, program: &mut Child) {
-        let _ = program.kill();
-    }
-
-    pub(super) fn end(&self, program: &mut Child) {
-        let _ = program.kill();
     }
 }
 
@@ -186,6 +175,7 @@ fn new_mark() -> String {
 #[cfg(unix)]
 mod unix {
     use std::ffi::OsString;
+    use std::io::Read;
     use std::os::unix::process::CommandExt;
     use std::process::{Child, Command, Stdio};
     use std::time::Duration;
@@ -194,7 +184,7 @@ mod unix {
     use nix::sys::signal::{SigSet, Signal, killpg};
     use nix::unistd::{Pid, getpgrp};
 
-    use super::{COMMAND, IS_GUARD, MARK, Read};
+    use super::{COMMAND, IS_GUARD, MARK};
 
     /// Between SIGTERM and SIGKILL when the harness is gone.
     const GRACE: Duration = Duration::from_secs(1);

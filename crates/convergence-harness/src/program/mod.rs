@@ -1,8 +1,8 @@
 //! Studies whose cases are runs of another program, in any language.
 //!
 //! A case is one resolution. The program is started with it, without a shell. Its answer is the
-//! last line of its standard output that is a JSON object: errors by name, values, its own step,
-//! its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
+//! last line of its standard output that is a JSON object, or lines of `name = value`: errors by
+//! name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
 //! none of its processes outlives it.
 //!
 //! | file | holds |
@@ -12,8 +12,10 @@
 //! | `answer.rs` | its answer |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `values.rs` | the same for values without an exact solution |
+//! | `begin.rs` | what `new program` writes |
 
 mod answer;
+pub mod begin;
 mod command;
 mod file;
 pub mod guard;
@@ -92,6 +94,8 @@ pub struct Program {
     words: Vec<String>,
     /// The folder in which it runs.
     directory: PathBuf,
+    /// Variables of its environment beside those of the harness.
+    variables: Vec<(String, String)>,
     /// The time limit of a case.
     timeout: Duration,
     refine: Refine,
@@ -134,6 +138,7 @@ impl Program {
         Invocation {
             words,
             directory: self.directory.clone(),
+            variables: self.variables.clone(),
             input: if has_placeholder {
                 String::new()
             } else {

@@ -6,6 +6,7 @@ use std::io::{ErrorKind, Read};
 use serde_json::{Map, Value};
 
 use super::answer;
+use crate::input::error_table::pairs::named_numbers;
 use crate::text::visible::visible;
 
 /// Longest line that is read whole, in bytes; only the start of a longer line is kept.
@@ -22,26 +23,44 @@ pub(super) struct NoAnswer {
     pub(super) reason: String,
     /// The last line that it printed; empty without one.
     pub(super) last_line: String,
+    /// The last number behind each of the names, unless a line looks like an object.
+    pub(super) numbers: Vec<(String, f64)>,
 }
 
-/// Reads standard output to its end: the last line that is a JSON object, or why there is none.
-pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, NoAnswer> {
+/// Reads standard output to its end: the last line that is a JSON object, or why there is none, and
+/// the numbers behind these names.
+pub(super) fn read_output(
+    stream: impl Read,
+    names: &[String],
+) -> Result<Map<String, Value>, NoAnswer> {
     let mut object = None;
     let mut near_miss = None;
+    let mut is_broken = false;
+    let mut numbers: Vec<(String, f64)> = vec![];
     let mut last = String::new();
     for_each_line(stream, |line, is_whole| {
         match answer::object(line) {
             // It may be the answer, and then no earlier object is.
             Some(_) if !is_whole => {
+                is_broken = true;
                 (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()));
             }
             Some(Ok(found)) => (object, near_miss) = (Some(found), None),
             Some(Err((reason, is_answer))) => {
+                is_broken |= is_answer;
                 near_miss = Some(reason);
                 // An earlier object is no longer the last.
                 object = object.take().filter(|_| !is_answer);
             }
-            None => {}
+            None if !is_whole => {}
+            None => {
+                for (name, number) in named_numbers(line) {
+                    if names.iter().any(|known| known == name) {
+                        numbers.retain(|(known, _)| known != name);
+                        numbers.push((name.to_owned(), number));
+                    }
+                }
+            }
         }
         if !line.trim().is_empty() {
             line.clone_into(&mut last);
@@ -59,6 +78,7 @@ pub(super) fn read_output(stream: impl Read) -> Result<Map<String, Value>, NoAns
             }
         },
         last_line,
+        numbers: if is_broken { vec![] } else { numbers },
     })
 }
 
@@ -123,25 +143,27 @@ mod tests {
 
     #[test]
     fn the_last_object_counts_and_talk_does_not() {
-        let printed =
-            read_output("start\n{\"a\": 1}\n{\"b\": 2}\r\n{iteration 3}\ndone\n\n".as_bytes());
+        let printed = read_output(
+            "start\n{\"a\": 1}\n{\"b\": 2}\r\n{iteration 3}\ndone\n\n".as_bytes(),
+            &[],
+        );
         assert_eq!(printed.unwrap().keys().collect::<Vec<_>>(), ["b"]);
-        let open = read_output("{x}\n{\"c\": 3}".as_bytes());
+        let open = read_output("{x}\n{\"c\": 3}".as_bytes(), &[]);
         assert_eq!(open.unwrap().len(), 1);
-        let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes())
+        let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes(), &[])
             .unwrap_err()
             .reason;
         assert!(
             none.contains("key must be a string") && none.ends_with("; the last line is `done`"),
             "{none}"
         );
-        let none = read_output(&b"\xff\n"[..]).unwrap_err();
+        let none = read_output(&b"\xff\n"[..], &[]).unwrap_err();
         assert_eq!(
             none.reason,
             "no line of its standard output is a JSON object; the last line is `\u{fffd}`"
         );
         assert_eq!(
-            read_output(&b"\n"[..]).unwrap_err().reason,
+            read_output(&b"\n"[..], &[]).unwrap_err().reason,
             "its standard output is empty"
         );
     }
@@ -159,11 +181,11 @@ mod tests {
             ),
             ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
         ] {
-            let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes())
+            let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes(), &[])
                 .unwrap_err()
                 .reason;
             assert!(reason.contains(words), "{last}: {reason}");
-            let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes());
+            let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes(), &[]);
             assert!(
                 answered.is_ok_and(|object| object.contains_key("late")),
                 "{last}"
@@ -175,7 +197,7 @@ mod tests {
             "{'iteration': 3}",
             "done {",
         ] {
-            let object = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes());
+            let object = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes(), &[]);
             assert!(
                 object.is_ok_and(|object| object.contains_key("early")),
                 "{talk}"
@@ -187,7 +209,7 @@ mod tests {
     fn a_line_without_end_is_not_kept() {
         let endless = std::io::repeat(b'{').take(10 * LONGEST_LINE as u64);
         assert_eq!(
-            read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()))
+            read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()), &[])
                 .unwrap()
                 .len(),
             1
@@ -202,20 +224,20 @@ mod tests {
                 "x".repeat(LONGEST_LINE)
             )
         };
-        let reason = read_output(long(" {\"mesh\": \"").as_bytes())
+        let reason = read_output(long(" {\"mesh\": \"").as_bytes(), &[])
             .unwrap_err()
             .reason;
         assert!(
             reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"),
             "{reason}"
         );
-        let talk = read_output(long("mesh: ").as_bytes());
+        let talk = read_output(long("mesh: ").as_bytes(), &[]);
         assert!(talk.is_ok_and(|object| object.contains_key("early")));
         let fits = format!(
             "{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n",
             "x".repeat(LONGEST_LINE - 10)
         );
-        assert!(read_output(fits.as_bytes()).is_ok_and(|object| object.contains_key("m")));
+        assert!(read_output(fits.as_bytes(), &[]).is_ok_and(|object| object.contains_key("m")));
     }
 
     #[test]

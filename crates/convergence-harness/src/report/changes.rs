@@ -5,7 +5,7 @@ use super::Findings;
 use super::markdown::{cell, table, text};
 use super::section::folded;
 use super::words::{blessing, can_be_blessed};
-use crate::store::{Change, Movement, Record, diagnosis::Diagnosis};
+use crate::store::{Change, Movement, Record, diagnosis::Diagnosis, without_baseline};
 use crate::text::number::short_text;
 
 /// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may
@@ -13,14 +13,16 @@ use crate::text::number::short_text;
 ///
 /// * `link`: a study's id in Markdown, with a link if the text can have one.
 pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Vec<String> {
-    let (claims, numbers): (Vec<&Change>, Vec<&Change>) = findings
-        .record
+    let record = findings.record;
+    if without_baseline(&record.studies, record.moves()).is_some() {
+        return vec![acceptance(findings)];
+    }
+    let (claims, numbers): (Vec<&Change>, Vec<&Change>) = record
         .moves()
         .iter()
         .partition(|change| change.movement.needs_a_reason());
     // Numbers of studies that fail move for the same cause.
-    let failing: Vec<&str> = findings
-        .record
+    let failing: Vec<&str> = record
         .studies
         .iter()
         .filter(|study| !study.outcome.verdict.is_pass())
@@ -120,6 +122,10 @@ fn acceptance(findings: &Findings<'_>) -> String {
     } = findings;
     match findings.record.moves() {
         [] => String::new(),
+        moves if can_be_blessed(studies) && without_baseline(studies, moves).is_some() => {
+            let command = blessing(project, command, studies, moves);
+            format!("`{command}` accepts them.\n\n")
+        }
         moves if can_be_blessed(studies) => {
             let alike = diagnosis
                 .as_ref()

@@ -4,11 +4,13 @@
 //! The same outcomes give the same bytes, except for the page: it names its commit, day and
 //! machine, if given, and should not be committed.
 
+mod badge;
 mod changes;
 mod failures;
 mod forest;
 mod html;
 mod markdown;
+mod narrow;
 mod page;
 mod section;
 pub(crate) mod shared;
@@ -68,6 +70,8 @@ impl Findings<'_> {
         set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;
+        set.add("badge.svg", badge::svg(record))?;
+        set.add("badge.json", badge::endpoint(record))?;
         set.add(
             "junit.xml",
             junit(project.name, record).map_err(io::Error::other)?,
@@ -219,26 +223,25 @@ impl Findings<'_> {
         )
     }
 
-    /// A table for each group of studies.
+    /// A list for each group of studies.
     fn overview(&self, id: impl Fn(&str) -> String) -> String {
-        let mut tables = String::new();
+        let mut overview = String::new();
         for (group, studies) in forest::grouped(self.project, &self.record.studies) {
-            let mut rows = vec![];
+            overview += &format!("\n**{}**\n\n", text(group));
             for Finished {
                 header, outcome, ..
             } in studies
             {
-                rows.push(vec![
+                overview += &narrow::item(&format!(
+                    "**{}** {}: {} ({})",
+                    outcome.verdict,
                     id(&header.id),
-                    cell(&header.claim),
-                    section::emphasized(outcome.verdict),
-                    cell(&key_numbers(outcome)),
-                ]);
+                    text(&header.claim),
+                    text(&key_numbers(outcome))
+                ));
             }
-            let table = markdown::table(&["study", "claim", "verdict", "key numbers"], rows);
-            tables += &format!("\n**{}**\n\n{table}", text(group));
         }
-        tables
+        overview
     }
 
     /// Errors in long form, one per line.

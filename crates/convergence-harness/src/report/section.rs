@@ -4,6 +4,7 @@
 use super::Findings;
 use super::html::phrase;
 use super::markdown::{cell, table, text};
+use super::narrow::{item, narrow};
 use super::tables::{CHECKS, tables};
 use super::words::{key_numbers, summary};
 use crate::judge::verdict::Verdict;
@@ -50,7 +51,7 @@ pub(super) fn section<'f>(
             rows if rows.len() > MOST_ROWS || parts.len() > MOST_TABLES => {
                 elsewhere.push(text(title));
             }
-            _ => parts.push(format!("**{}**\n\n{}", text(title), markdown(table))),
+            _ => parts.push(format!("**{}**\n\n{}", text(title), narrowed(table))),
         }
     }
     elsewhere.dedup();
@@ -113,6 +114,11 @@ pub fn markdown(Table { head, rows, .. }: &Table) -> String {
     table(&cells(head), rows.iter().map(|row| cells(row)).collect())
 }
 
+/// The lines of a table for the committed report.
+fn narrowed(Table { head, rows, .. }: &Table) -> String {
+    narrow(&cells(head), rows.iter().map(|row| cells(row)).collect())
+}
+
 /// A table under its title; a long one is folded, except in a study that does not pass.
 fn with_title(table: &Table, passes: bool) -> String {
     let Table { title, rows, .. } = table;
@@ -160,13 +166,18 @@ pub(super) struct Piece {
 pub(super) fn front(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> Piece {
     let record = findings.record;
     let front = &findings.project.front;
-    let mut rows = vec![];
+    let mut statements = String::new();
     for (statement, id, rate) in front.statements {
         if let Some(study) = record.studies.iter().find(|study| study.header.id == *id) {
-            rows.push(vec![cell(statement), cell(&answer(study, rate)), link(id)]);
+            statements += &item(&format!(
+                "**{}**: {} ({})",
+                text(statement),
+                text(&answer(study, rate)),
+                link(id)
+            ));
         }
     }
-    if record.verdict != Verdict::Pass || rows.is_empty() {
+    if record.verdict != Verdict::Pass || statements.is_empty() {
         return Piece::default();
     }
     let mut parts = vec!["## What is verified\n".to_owned()];
@@ -181,7 +192,7 @@ pub(super) fn front(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> P
     if !front.finding.is_empty() {
         parts.push(text(front.finding) + "\n");
     }
-    parts.push(table(&["statement", "found", "study"], rows));
+    parts.push(statements);
     if let Some((study, plot)) = find_figure(&record.studies, front.plot) {
         parts.push(format!("**{}**\n", link(&study.header.id)));
         parts.push(figure(plot));

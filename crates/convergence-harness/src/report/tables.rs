@@ -115,10 +115,19 @@ fn checks(checks: &[Check]) -> Table {
 }
 
 fn failures(cases: &[FailedCase]) -> Table {
+    const TITLE: &str = "Cases without a result";
+    const HEAD: [&str; 2] = ["case", "reason"];
+    if let [first, others @ ..] = cases
+        && !others.is_empty()
+        && others.iter().all(|other| other.reason == first.reason)
+    {
+        let all = format!("all {} without a result", cases.len());
+        return Table::new(TITLE, HEAD, [vec![all, first.reason.clone()]]);
+    }
     let rows = cases
         .iter()
         .map(|case| vec![case.label.clone(), case.reason.clone()]);
-    Table::new("Cases without a result", ["case", "reason"], rows)
+    Table::new(TITLE, HEAD, rows)
 }
 
 /// Widest table in characters, with three for the gap between columns: this fits on the page, and

@@ -3,11 +3,11 @@
 use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{Change, Movement};
+use crate::store::{Change, Movement, without_baseline};
 use crate::study::coverage::incomplete;
 use crate::study::outcome::{Outcome, joined};
 use crate::text::lists::{self, and_more};
-use crate::text::number::{RATE_PLACES, committed_rate, decimals, interval_places};
+use crate::text::number::{RATE_PLACES, committed_rate, counted, decimals, interval_places};
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -57,6 +57,13 @@ fn count_of_studies(finished: &[Finished], verdict: Verdict, words: &str) -> Opt
 
 /// How many numbers and claims differ from the baseline.
 fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
+    match without_baseline(finished, changes) {
+        Some(numbers) if can_be_blessed(finished) => {
+            return format!("no baseline yet: {} to accept", counted(numbers, "number"));
+        }
+        Some(_) => return "no baseline yet".to_owned(),
+        None => {}
+    }
     if changes.is_empty() {
         let studies = finished.iter();
         return match studies.map(|study| study.outcome.quantities.len()).sum() {
@@ -64,14 +71,16 @@ fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
             n => format!("all {n} baseline values unchanged"),
         };
     }
-    let mut new = 0;
+    let mut new_numbers = 0;
+    let mut new_studies = 0;
     let mut deleted = 0;
     let mut claims = 0;
     let mut values = 0;
     for Change { movement, .. } in changes {
         match movement {
             _ if movement.is_of_one_claim() => claims += 1,
-            Movement::New { .. } | Movement::NewFile { guarded: 0, .. } => new += 1,
+            Movement::New { .. } => new_numbers += 1,
+            Movement::NewFile { guarded: 0, .. } => new_studies += 1,
             Movement::VanishedFile { .. } => deleted += 1,
             _ => values += 1,
         }
@@ -90,7 +99,13 @@ fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
             "baseline values changed",
         ));
     }
-    if new > 0 {
+    // Whoever accepts the numbers of a new study accepts its claims, too.
+    let new = if new_numbers > 0 {
+        counted(new_numbers, "number")
+    } else {
+        counted_as(new_studies, "study", "studies")
+    };
+    if new_numbers + new_studies > 0 {
         parts.push(format!("{new} not yet in the baseline"));
     }
     parts.join(", ")

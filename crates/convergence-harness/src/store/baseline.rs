@@ -40,7 +40,7 @@ use crate::study::{Header, Quantity};
 use crate::text::{json, visible};
 
 use change::Claims;
-pub use change::{BlessedClaim, Change, Movement};
+pub use change::{BlessedClaim, Change, Movement, without_baseline};
 
 /// Version of the file format.
 const SCHEMA: u32 = 2;

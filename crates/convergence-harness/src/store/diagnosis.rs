@@ -97,18 +97,11 @@ pub fn diagnose(
     let contrast = contrast(&votes(project, finished, changes));
     let first = fields::first(finished, changes);
     let clearest = clearest(&failing);
-    let mut look_at = if claims.is_empty() {
+    let look_at = if claims.is_empty() {
         places(project, &contrast, first.first())
     } else {
         vec![]
     };
-    let clearest_id = clearest.first().map(String::as_str);
-    if let Some(id) = clearest_id.or(wrong.first().copied()) {
-        look_at.push(format!(
-            "`{} verify {id}` repeats the clearest failure",
-            project.command
-        ));
-    }
     let resembles = if claims.is_empty() {
         known.nearest(&Fingerprint::of(finished, changes))
     } else {
@@ -124,6 +117,25 @@ pub fn diagnose(
         clearest,
         moved: groups_of_moved_numbers(finished, changes),
     })
+}
+
+impl Diagnosis {
+    /// Adds the command that repeats the clearest failure of a run of `verify`, which finds studies
+    /// by their ids.
+    pub fn add_repetition(&mut self, project: &Project, changes: &[Change]) {
+        let moved = changes
+            .iter()
+            .find(|change| is_number(change))
+            .map(|change| &change.study);
+        let clearest = self.clearest.first().or(moved);
+        let line = clearest.map(|id| {
+            format!(
+                "`{} verify {id}` repeats the clearest failure",
+                project.command
+            )
+        });
+        self.look_at.extend(line);
+    }
 }
 
 /// Where to look: the places that belong to the settings of a contrast and to a field.

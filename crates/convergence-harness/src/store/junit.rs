@@ -8,7 +8,7 @@ use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStat
 
 use crate::judge::verdict::Verdict;
 use crate::run::{Finished, Item, items};
-use crate::store::{Change, Record, diagnosis::Diagnosis};
+use crate::store::{Change, Record, diagnosis::Diagnosis, without_baseline};
 
 /// The document, for the project of this name.
 ///
@@ -16,27 +16,33 @@ use crate::store::{Change, Record, diagnosis::Diagnosis};
 pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
     let mut report = Report::new(name);
     report.add_test_suites(record.studies.iter().map(suite));
-    report.add_test_suites(record.changes.as_deref().map(baseline));
+    let changes = record.changes.as_deref();
+    report.add_test_suites(changes.map(|changes| baseline(&record.studies, changes)));
     report.add_test_suites(record.diagnosis.as_ref().map(cause));
     report.to_string()
 }
 
-/// A document with one suite.
-///
-/// * `judged`: the name of each test case, its verdict, and the reason unless it is a pass.
-pub fn junit_of(
-    name: &str,
-    suite: &str,
-    judged: &[(String, Verdict, String)],
-) -> Result<String, SerializeError> {
-    let mut cases = TestSuite::new(suite);
-    cases.add_test_cases(
-        judged
-            .iter()
-            .map(|(name, verdict, reason)| case(suite, name, *verdict, reason)),
-    );
+/// The verdicts on a table, for [`junit_of`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct JudgedSuite {
+    /// The name of the suite.
+    pub name: String,
+    /// The name of each test case, its verdict, and the reason unless it is a pass.
+    pub cases: Vec<(String, Verdict, String)>,
+}
+
+/// A document with these suites.
+pub fn junit_of(name: &str, suites: &[JudgedSuite]) -> Result<String, SerializeError> {
+    let suite = |judged: &JudgedSuite| {
+        let mut suite = TestSuite::new(judged.name.as_str());
+        let cases = judged.cases.iter();
+        suite.add_test_cases(
+            cases.map(|(name, verdict, reason)| case(&judged.name, name, *verdict, reason)),
+        );
+        suite
+    };
     let mut report = Report::new(name);
-    report.add_test_suite(cases);
+    report.add_test_suites(suites.iter().map(suite));
     report.to_string()
 }
 
@@ -89,8 +95,13 @@ fn cause(diagnosis: &Diagnosis) -> TestSuite {
     suite
 }
 
-fn baseline(changes: &[Change]) -> TestSuite {
+fn baseline(studies: &[Finished], changes: &[Change]) -> TestSuite {
     let mut suite = TestSuite::new("baseline");
+    if let Some(numbers) = without_baseline(studies, changes) {
+        let why = format!("no baseline yet: {numbers} numbers");
+        suite.add_test_case(case("baseline", "a baseline", Verdict::Fail, &why));
+        return suite;
+    }
     if changes.is_empty() {
         suite.add_test_case(case(
             "baseline",

@@ -12,9 +12,11 @@ mod junit;
 mod provenance;
 mod record;
 
-pub use baseline::{Baseline, BlessedClaim, Change, Guarded, Movement, Refusal, Works};
+pub use baseline::{
+    Baseline, BlessedClaim, Change, Guarded, Movement, Refusal, Works, without_baseline,
+};
 pub use file_set::{MANIFEST, ReportFolder, ReportSet, lock};
-pub use junit::{junit, junit_of};
+pub use junit::{JudgedSuite, junit, junit_of};
 pub use provenance::{Provenance, StudyTime};
 pub use record::{FIGURES, Record, SCHEMA};
 

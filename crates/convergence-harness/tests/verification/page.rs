@@ -243,7 +243,7 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
     let parts = [
         "![A rod.](figures/a-errors.svg)",
         "It is not as printed.",
-        "| First order",
+        "**First order",
         "**[a](#a)**",
         "![errors | h](figures/a-errors.svg)",
         "Errors fall.",
@@ -252,7 +252,7 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
     let places = parts.map(place);
     assert!(places.is_sorted(), "{places:?}");
     assert!(
-        passing.contains("| rate 1.0000 ± 0.00005, claimed 1 ± 0.1 |")
+        passing.contains(": rate 1.0000 ± 0.00005, claimed 1 ± 0.1 ([a](#a))")
             && !passing.contains("Elsewhere"),
         "{passing}"
     );

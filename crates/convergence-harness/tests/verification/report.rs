@@ -88,7 +88,7 @@ fn the_verdict_comes_first_and_every_study_has_its_section() {
          3 not yet in the baseline"
     );
     for part in [
-        "| [study-0.0](#study-00) | errors \\| fall < with \\*h\\* | pass ",
+        "- **pass** [study-0.0](#study-00): errors | fall < with \\*h\\* (",
         "## study-1.0\n\n> errors | fall < with \\*h\\*\n\n**fail**: an error is NaN or infinite",
         "![errors | h](figures/study-0.0-errors.svg)",
         "Again: `cargo xtask verify study-3.0` (tier quick, kind fake)",

@@ -62,19 +62,7 @@ impl Shown<'_> {
 /// * `step`: the name of the step.
 /// * `floor`: of the rule that judged; 0 if it had none, or several.
 pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
-    let mut head = vec![step.to_owned()];
-    for column in columns {
-        head.extend([column.name.to_owned(), "rate".to_owned()]);
-    }
-    let mut rows = vec![head];
-    let levels = columns.first().map_or(&[][..], |column| column.levels);
-    for (k, level) in levels.iter().enumerate() {
-        let mut row = vec![plain_text(level.step)];
-        for column in columns {
-            row.extend([column.error(k), column.pairwise(k)]);
-        }
-        rows.push(row);
-    }
+    let rows = rows(step, columns);
     let widths: Vec<usize> = (0..rows[0].len())
         .map(|column| {
             let lengths = rows.iter().map(|row| row[column].chars().count());
@@ -94,8 +82,26 @@ pub fn table(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
     text + &legend(columns, floor)
 }
 
+/// The names, and the cells of each level, coarsest first; a mark, or a blank, ends each error.
+pub fn rows(step: &str, columns: &[Shown<'_>]) -> Vec<Vec<String>> {
+    let mut head = vec![step.to_owned()];
+    for column in columns {
+        head.extend([column.name.to_owned(), "rate".to_owned()]);
+    }
+    let mut rows = vec![head];
+    let levels = columns.first().map_or(&[][..], |column| column.levels);
+    for (k, level) in levels.iter().enumerate() {
+        let mut row = vec![plain_text(level.step)];
+        for column in columns {
+            row.extend([column.error(k), column.pairwise(k)]);
+        }
+        rows.push(row);
+    }
+    rows
+}
+
 /// The meaning of the marks that occur.
-fn legend(columns: &[Shown<'_>], floor: f64) -> String {
+pub fn legend(columns: &[Shown<'_>], floor: f64) -> String {
     let mut legend = String::new();
     for reason in [Aside::PreAsymptotic, Aside::BeyondFive, Aside::AtFloor] {
         let mut set_aside = columns.iter().flat_map(|column| &column.rate.set_aside);

@@ -39,6 +39,14 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .map(|(_, candidate)| candidate)
 }
 
+/// Candidates, those that need the fewest edits first: see [`nearest`].
+pub fn by_distance<'c>(name: &str, mut candidates: Vec<&'c str>) -> Vec<&'c str> {
+    let name: String = name.to_lowercase().chars().take(LONGEST).collect();
+    candidates
+        .sort_by_cached_key(|candidate| strsim::osa_distance(&name, &candidate.to_lowercase()));
+    candidates
+}
+
 /// A word quoted for a shell, which would otherwise expand patterns.
 pub fn quoted(word: &str) -> String {
     let mut characters = word.chars();

@@ -5,10 +5,11 @@
 >>> cs.judge(h, [0.041, 0.0103, 0.00257, 0.000642], order=2).verdict
 'pass'
 
-`judge` and `assert_order` take existing errors, `study` a function that computes them, `limit` values without an exact solution. All of
-them call the Rust crate `convergence-study`; there is no rule in Python.
+`judge` and `assert_order` take existing errors, `study` a function that computes them, `limit` values without an exact solution, `rates` a file
+or a text. All of them call the Rust crate `convergence-study`; there is no rule in Python.
 """
 
-from ._native import Judgement, Limit, Study, assert_order, judge, limit, study
+from ._judging import assert_order, judge, limit, rates, study
+from ._native import Judgement, Limit, Study, __version__
 
-__all__ = ["Judgement", "Limit", "Study", "assert_order", "judge", "limit", "study"]
+__all__ = ["Judgement", "Limit", "Study", "__version__", "assert_order", "judge", "limit", "rates", "study"]

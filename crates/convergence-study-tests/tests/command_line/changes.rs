@@ -4,8 +4,16 @@ use std::fs;
 use std::process::Stdio;
 
 use convergence_study_tests::finished;
+use tempfile::TempDir;
 
 use super::{ORDER, command, run, study, texts, workspace};
+
+/// What the system says of a file that is not there.
+const NO_FILE: &str = if cfg!(windows) {
+    "The system cannot find the file"
+} else {
+    "No such file"
+};
 
 #[test]
 fn records_are_compared_with_0_1_or_2() {
@@ -60,15 +68,13 @@ fn records_are_compared_with_0_1_or_2() {
     );
     fs::write(root.path().join("bad.json"), "{\n}").unwrap();
     write("other.json", &["studies/one.toml"]);
+    let missing = format!("none.json: {NO_FILE}");
     for (arguments, message) in [
         (
             &["compare", "old.json", "bad.json"][..],
             "bad.json: missing field `schema` at line 2 column 1; expected a record",
         ),
-        (
-            &["compare", "old.json", "none.json"],
-            "none.json: No such file",
-        ),
+        (&["compare", "old.json", "none.json"], &missing),
         (
             &["compare", "part.json", "other.json"],
             "other.json: found no study that part.json has, too",
@@ -90,6 +96,34 @@ fn records_are_compared_with_0_1_or_2() {
     }
 }
 
+/// The message of the badge beside the report, which is the same in the picture.
+fn badge(root: &TempDir) -> String {
+    let read = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
+    let object: serde_json::Value = serde_json::from_str(&read("badge.json")).unwrap();
+    assert_eq!(object["schemaVersion"], 1);
+    assert_eq!(object["label"], "orders");
+    let message = object["message"].as_str().unwrap().to_owned();
+    let picture = read("badge.svg");
+    let picture = roxmltree::Document::parse(&picture).unwrap();
+    let title = picture
+        .descendants()
+        .find(|node| node.has_tag_name("title"));
+    assert_eq!(title.unwrap().text(), Some(&*format!("orders: {message}")));
+    message
+}
+
+#[test]
+fn the_badge_has_the_verdict_of_the_run() {
+    let root = workspace(false);
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    assert_eq!(badge(&root), "not accepted");
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    assert_eq!(badge(&root), "1 verified");
+    let root = workspace(true);
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    assert_eq!(badge(&root), "1 lost");
+}
+
 /// The pages of a record equal those of the run, and come only from the record and its pictures.
 #[test]
 fn a_report_is_made_anew_from_its_record() {
@@ -103,6 +137,8 @@ fn a_report_is_made_anew_from_its_record() {
             "errors.csv",
             "results.json",
             "manifest.txt",
+            "badge.svg",
+            "badge.json",
         ];
         let figures = ["figures/one-errors.svg", "figures/rates.svg"];
         let read = |name: &&str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();
@@ -146,7 +182,7 @@ fn a_report_is_made_anew_from_its_record() {
     );
     let (status, _, err) = run(&root, &["report", "studies/baseline.json", "--out", "new"]);
     assert!(
-        status == Some(2) && err.contains("studies/baseline.json: No such file"),
+        status == Some(2) && err.contains(&format!("studies/baseline.json: {NO_FILE}")),
         "{err}"
     );
 }

@@ -1,9 +1,13 @@
 //! A project's command line.
 
+mod begun;
 mod changes;
 mod failing;
+mod first;
 mod manufacture;
+mod options;
 mod rates;
+mod several;
 mod tables;
 mod visible;
 
@@ -120,9 +124,9 @@ fn pipe(path: &Path) {
     assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
 }
 
+#[cfg(unix)]
 #[test]
 fn pipes_in_place_of_records_do_not_hang() {
-    #[cfg(unix)]
     for (file, arguments) in [
         ("studies/baseline.json", &["verify"][..]),
         ("reports/results.json", &["list"]),
@@ -138,29 +142,31 @@ fn pipes_in_place_of_records_do_not_hang() {
     }
 }
 
+/// Runs the program with a text as its standard input; it must pass.
+#[track_caller]
+fn passes_with_input(text: &str, arguments: &[&str]) {
+    let root = workspace(false);
+    let mut child = command(root.path(), arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
+    assert_eq!(finished(child).status.code(), Some(0), "{arguments:?}");
+}
+
 #[test]
-fn tables_and_studies_come_from_standard_input() {
-    #[cfg(unix)]
-    for (text, arguments) in [
-        (
-            "h,e\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n".to_owned(),
-            &["rates", "/dev/stdin", "--order", "1"][..],
-        ),
-        (
-            "# h e\n0.4 4.00e-1\n0.2 2.00e-1\n0.1 1.00e-1\n0.05 5.00e-2\n".to_owned(),
-            &["rates", "-", "--order", "1"],
-        ),
-        (study("one", "c", 1.0), &["study", "/dev/stdin"]),
-    ] {
-        let root = workspace(false);
-        let mut child = command(root.path(), arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
-        std::io::Write::write_all(&mut child.stdin.take().unwrap(), text.as_bytes()).unwrap();
-        assert_eq!(finished(child).status.code(), Some(0), "{arguments:?}");
-    }
+fn a_table_comes_from_standard_input() {
+    let table = "# h e\n0.4 4.00e-1\n0.2 2.00e-1\n0.1 1.00e-1\n0.05 5.00e-2\n";
+    passes_with_input(table, &["rates", "-", "--order", "1"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn tables_and_studies_come_from_a_file_that_is_standard_input() {
+    let table = "h,e\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n";
+    passes_with_input(table, &["rates", "/dev/stdin", "--order", "1"]);
+    passes_with_input(&study("one", "c", 1.0), &["study", "/dev/stdin"]);
 }
 
 #[test]
@@ -285,7 +291,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     assert_eq!((status, err.as_str()), (Some(0), ""));
     assert_eq!(
         out,
-        "wrote mine.toml, mine.py\nnow  powers study mine.toml\nand  powers explain mine.toml\n"
+        "wrote mine.toml, mine.py\nread  powers explain mine.toml\nrun   powers study mine.toml\n"
     );
     let text = fs::read_to_string(root.path().join("mine.toml")).unwrap();
     assert!(
@@ -368,7 +374,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     }
     // The second file exists: the first is not written either.
     fs::remove_file(root.path().join("mine.toml")).unwrap();
-    let (status, _, err) = run(&root, &["new", "program", "mine"]);
+    let (status, _, err) = run(&root, &["new", "program", "mine", "--out", "."]);
     assert!(
         status == Some(2) && err.contains("mine.py: expected a new file"),
         "{err}"

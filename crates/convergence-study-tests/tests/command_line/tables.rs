@@ -107,7 +107,7 @@ fn claims_that_contradict_each_other_are_refused() {
         ),
         (
             &["--order", "-2"],
-            "expected a number > 0, or NAME= and a number > 0",
+            "expected a number > 0, '>=P' with such a number P, or NAME= before one of them",
         ),
         (
             &["--floor", "-1"],
@@ -247,7 +247,7 @@ fn wrong_claims_are_answered_with_what_to_do() {
         (
             "L2=>1",
             Some(2),
-            "expected a number > 0, or NAME= and a number > 0",
+            "expected a number > 0, '>=P' with such a number P, or NAME= before one of them",
         ),
     ] {
         let (found, told) = told(

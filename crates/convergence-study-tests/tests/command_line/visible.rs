@@ -20,11 +20,11 @@ fn is_harmless(text: &str) {
 #[test]
 fn annotations_are_commands_and_nothing_else_is() {
     let root = workspace(false);
-    fs::write(
-        root.path().join("studies/two.toml"),
-        study("two", "::error title=forged::x", 0.5),
-    )
-    .unwrap();
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    for (id, claim, exponent) in [("one", "c", 1.01), ("two", "::error title=forged::x", 0.5)] {
+        let path = root.path().join(format!("studies/{id}.toml"));
+        fs::write(path, study(id, claim, exponent)).unwrap();
+    }
     let mut command = command(root.path(), &["verify"]);
     let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true"));
     assert_eq!(status, Some(1));

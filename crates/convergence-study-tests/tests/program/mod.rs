@@ -10,6 +10,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
+mod answers;
 mod levels;
 
 const HARNESS: &str = env!("CARGO_BIN_EXE_powers");
@@ -265,7 +266,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "timeout = 9",
             "shell = true",
-            "program.shell: unknown key `shell`; expected command, directory, timeout",
+            "program.shell: unknown key `shell`; expected command, directory, env, timeout",
         ),
         (
             "n = [4, ",

@@ -1,5 +1,5 @@
-//! The README of the harness shows what the program prints: each command before a block of output
-//! is run.
+//! The READMEs of the project and of the program, and the pages of the book, show what the program
+//! prints: each command before a block of output is run.
 
 mod blocks;
 
@@ -14,6 +14,34 @@ use convergence_harness::store::{Record, json};
 use convergence_harness::study::{Header, LevelErrors, Outcome};
 
 const README: &str = include_str!("../../README.md");
+
+/// The first page of the project.
+const FIRST: &str = include_str!("../../../../README.md");
+
+/// Pages of the book that show output.
+const BOOK: [(&str, usize); 2] = [
+    (include_str!("../../book/src/start.md"), 3),
+    (include_str!("../../book/src/compare.md"), 1),
+];
+
+/// A table whose order is lost.
+const AFTER_MY_CHANGE: &str =
+    "h,L2\n0.25,6.10e-2\n0.125,3.02e-2\n0.0625,1.52e-2\n0.03125,7.60e-3\n";
+
+/// What published tools passed: the name in the first column of the page's table, and a table of
+/// errors like theirs; no table where it was missing.
+const MISTAKES: [(&str, Option<&str>); 3] = [
+    (
+        "| [polaris 471]",
+        Some("n,L2\n8,0.041\n16,0.0103\n32,nan\n64,nan\n"),
+    ),
+    // The rate of 75.975 between neighbours.
+    (
+        "| [polaris 491]",
+        Some("n,L2\n60,1.0\n90,4.1828e-14\n120,1.3466e-23\n150,5.8413e-31\n"),
+    ),
+    ("| [kuristo]", None),
+];
 
 /// A study with errors `L2`, claimed to be of order 2, and `H1`, of order 1, for n = 8, 16, ...;
 /// NaN: no such error.
@@ -91,6 +119,7 @@ fn fill(folder: &Path) {
         .find(|(language, _)| language == "csv")
         .expect("a table on the page");
     fs::write(folder.join("errors.csv"), table + "\n").unwrap();
+    fs::write(folder.join("after-my-change.csv"), AFTER_MY_CHANGE).unwrap();
     for (name, record) in ["old.json", "new.json"].iter().zip(records()) {
         fs::write(folder.join(name), json(&record).unwrap()).unwrap();
     }
@@ -100,9 +129,13 @@ fn fill(folder: &Path) {
 fn every_block_of_output_is_what_the_program_prints() {
     let folder = tempfile::tempdir().unwrap();
     fill(folder.path());
-    let printed = printed(README);
-    assert_eq!(printed.len(), 2);
-    for Printed { command, lines } in printed {
+    let mut blocks = vec![];
+    for (page, count) in [(README, 1), (FIRST, 2)].into_iter().chain(BOOK) {
+        let printed = printed(page);
+        assert_eq!(printed.len(), count, "{page}");
+        blocks.extend(printed);
+    }
+    for Printed { command, lines } in blocks {
         assert_eq!(command[0], "convergence-study");
         let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
         let output = program
@@ -118,6 +151,62 @@ fn every_block_of_output_is_what_the_program_prints() {
             String::from_utf8_lossy(&output.stderr)
         );
     }
+}
+
+/// The last column of the table of mistakes: the verdict, or the exit status of a refusal.
+#[test]
+fn what_published_tools_passed_is_judged_as_the_first_page_says() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, table) in MISTAKES {
+        let row = FIRST.lines().find(|line| line.starts_with(name)).unwrap();
+        let verdict = row.trim_end_matches(" |").rsplit("| ").next().unwrap();
+        if let Some(table) = table {
+            fs::write(folder.path().join("table.csv"), table).unwrap();
+        } else {
+            fs::remove_file(folder.path().join("table.csv")).unwrap();
+        }
+        let output = Command::new(env!("CARGO_BIN_EXE_convergence-study"))
+            .args(["rates", "table.csv", "--order", "2", "--dim", "1"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let printed = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+        let (what, reason) = verdict.split_once(": ").unwrap();
+        let status = match what {
+            "fail" => 1,
+            "exit status 2" => 2,
+            other => panic!("{other}"),
+        };
+        assert_eq!(output.status.code(), Some(status), "{name}: {printed}");
+        let is_said = printed
+            .lines()
+            .any(|line| (status == 2 || line.starts_with("L2: fail: ")) && line.contains(reason));
+        assert!(is_said, "{name}: {reason} in {printed}");
+    }
+}
+
+/// Words of the longest page; a reference that is written by a program may be longer.
+const LONGEST: usize = 900;
+
+#[test]
+fn the_book_has_each_page_once_and_no_long_one() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src");
+    let summary = fs::read_to_string(folder.join("SUMMARY.md")).unwrap();
+    let mut pages = 0;
+    for entry in fs::read_dir(&folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        // Other entries are pictures.
+        if name == "SUMMARY.md" || !name.ends_with(".md") {
+            continue;
+        }
+        pages += 1;
+        assert_eq!(summary.matches(&format!("]({name})")).count(), 1, "{name}");
+        let text = fs::read_to_string(folder.join(&name)).unwrap();
+        let words = text.split_whitespace().count();
+        let is_reference = name == "reading-tables.md";
+        assert!(words <= LONGEST || is_reference, "{name}: {words} words");
+    }
+    assert_eq!(summary.matches(".md)").count(), pages);
 }
 
 #[test]

@@ -1,12 +1,17 @@
 //! Questions to another program: points on its standard input, values on its standard output.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::process::{Command, Stdio};
+use std::io::{self, Read as _, Write as _};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use crate::language::names::did_you_mean;
 use crate::problem::InputError;
+
+/// The pause between two looks at a program that has closed its output.
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// A quantity as the other program computes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,37 +59,65 @@ pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
 /// Runs a command on a question, and returns what it prints.
 ///
 /// # Errors
-/// It cannot be started, or it fails.
-pub(crate) fn run(command: &[String], question: String) -> Result<String, InputError> {
+/// It cannot be started, it fails, or it takes longer than the limit: then it is stopped.
+pub(crate) fn run(
+    command: &[String],
+    question: String,
+    limit: Duration,
+) -> Result<String, InputError> {
     let name = command.join(" ");
     let failed = |problem: String| InputError::whole(&name, problem);
     let (program, arguments) = command
         .split_first()
         .ok_or_else(|| failed("expected a command, found none".to_owned()))?;
-    let mut child = Command::new(program)
+    let child = Command::new(program)
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
-        .spawn()
-        .map_err(|error| failed(error.to_string()))?;
-    let input = child.stdin.take();
-    // A program that answers while it reads would block if one thread wrote and read in turn.
-    let writer = thread::spawn(move || {
-        // A program that ends early has not read everything: its answer is what counts.
-        input.map(|mut input| input.write_all(question.as_bytes()))
-    });
-    let output = child
-        .wait_with_output()
-        .map_err(|error| failed(error.to_string()))?;
-    let _ = writer.join();
-    if !output.status.success() {
-        return Err(failed(format!(
-            "expected exit status 0, found {}",
-            output.status
-        )));
+        .spawn();
+    let mut child = child.map_err(|error| failed(error.to_string()))?;
+    let answer = converse(&mut child, question, limit);
+    // Nothing is left behind; this fails for a program that has ended.
+    let _ = child.kill();
+    let status = child.wait().map_err(|error| failed(error.to_string()))?;
+    let Some(answer) = answer else {
+        let limit = limit.as_secs_f64();
+        return Err(failed(format!("was stopped at the limit of {limit} s")));
+    };
+    let answer = answer.map_err(|error| failed(error.to_string()))?;
+    if !status.success() {
+        return Err(failed(format!("expected exit status 0, found {status}")));
     }
-    String::from_utf8(output.stdout)
-        .map_err(|_| failed("expected text, found other bytes".to_owned()))
+    String::from_utf8(answer).map_err(|_| failed("expected text, found other bytes".to_owned()))
+}
+
+/// What a program prints about a question until it ends; `None` if it takes longer than the limit.
+///
+/// A program that answers while it reads would block if one thread wrote and read in turn, and one
+/// that hangs must block neither: each stream has a thread of its own.
+fn converse(child: &mut Child, question: String, limit: Duration) -> Option<io::Result<Vec<u8>>> {
+    let end = Instant::now().checked_add(limit);
+    if let Some(mut input) = child.stdin.take() {
+        // A program that ends early has not read everything: its answer is what counts.
+        thread::spawn(move || input.write_all(question.as_bytes()));
+    }
+    let (send, receive) = mpsc::channel();
+    if let Some(mut output) = child.stdout.take() {
+        thread::spawn(move || {
+            let mut answer = vec![];
+            let read = output.read_to_end(&mut answer);
+            send.send(read.map(|_| answer))
+        });
+    }
+    let answer = receive.recv_timeout(limit).ok()?;
+    // A program may close its output and go on.
+    while matches!(child.try_wait(), Ok(None)) {
+        if end.is_some_and(|end| Instant::now() >= end) {
+            return None;
+        }
+        thread::sleep(PAUSE);
+    }
+    Some(answer)
 }
 
 /// The parts of a line.
@@ -126,10 +159,6 @@ pub(crate) fn read(
     known: &[String],
     points: usize,
 ) -> Result<Vec<Answer>, InputError> {
-    let at_line = |line: usize, problem: String| InputError {
-        line,
-        ..InputError::whole(command, problem)
-    };
     let mut lines = text
         .lines()
         .enumerate()
@@ -140,7 +169,7 @@ pub(crate) fn read(
     let names = names(is_head.then_some(first), known);
     let head_line = if is_head { lines.next() } else { None };
     let head_line = head_line.map_or(1, |line| line.0 + 1);
-    let names = names.map_err(|problem| at_line(head_line, problem))?;
+    let names = names.map_err(|problem| InputError::at_line(command, head_line, problem))?;
     let mut columns: Vec<Vec<String>> = vec![vec![]; names.len()];
     let mut last = 0;
     for (line, row) in lines {
@@ -148,14 +177,12 @@ pub(crate) fn read(
         let row = cells(row);
         if row.len() != names.len() {
             let problem = format!("expected {} numbers, found {}", names.len(), row.len());
-            return Err(at_line(last, problem));
+            return Err(InputError::at_line(command, last, problem));
         }
         for (column, cell) in columns.iter_mut().zip(row) {
             if !cell.parse::<f64>().is_ok_and(f64::is_finite) {
-                return Err(at_line(
-                    last,
-                    format!("expected a finite number, found `{cell}`"),
-                ));
+                let problem = format!("expected a finite number, found `{cell}`");
+                return Err(InputError::at_line(command, last, problem));
             }
             column.push(cell);
         }
@@ -163,14 +190,16 @@ pub(crate) fn read(
     let found = columns.first().map_or(0, Vec::len);
     if found != points {
         let problem = format!("expected {points} lines of numbers, found {found}");
-        return Err(at_line(last + 1, problem));
+        return Err(InputError::at_line(command, last + 1, problem));
     }
-    let answer = |(name, cells): (String, Vec<String>)| Answer {
-        values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
-        units: units(&cells),
-        name,
-    };
-    Ok(names.into_iter().zip(columns).map(answer).collect())
+    let answers = names.into_iter().zip(columns);
+    Ok(answers
+        .map(|(name, cells)| Answer {
+            values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
+            units: units(&cells),
+            name,
+        })
+        .collect())
 }
 
 /// The digits of a printed number: how many are significant, and how many follow the point.
@@ -223,15 +252,23 @@ fn units(cells: &[String]) -> Vec<f64> {
     let is_fixed = all
         .iter()
         .all(|digits| digits.decimals == first && !digits.has_exponent);
-    let unit = |cell: &String| {
-        let value = cell.parse::<f64>().unwrap_or(0.0).abs();
-        if is_fixed {
-            10_f64.powi(-first)
-        } else if value == 0.0 {
-            0.0
-        } else {
-            10_f64.powi(value.log10().floor() as i32 - significant + 1)
-        }
-    };
-    cells.iter().map(unit).collect()
+    let cells = cells.iter();
+    cells
+        .map(|cell| {
+            if is_fixed {
+                10_f64.powi(-first)
+            } else {
+                unit_of_significant(cell, significant)
+            }
+        })
+        .collect()
+}
+
+/// One unit of the last of so many significant digits.
+fn unit_of_significant(cell: &str, significant: i32) -> f64 {
+    let value = cell.parse::<f64>().unwrap_or(0.0).abs();
+    if value == 0.0 {
+        return 0.0;
+    }
+    10_f64.powi(value.log10().floor() as i32 - significant + 1)
 }

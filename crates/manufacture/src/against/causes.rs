@@ -92,12 +92,24 @@ impl Case<'_, '_> {
         triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
     }
 
+    /// The foreign source minus the right one.
+    fn difference(&self) -> Column {
+        let pairs = self.foreign.iter().zip(&self.source);
+        pairs.map(|(f, s)| f - s).collect()
+    }
+
     fn combined(&self, columns: &[&Column], factors: &[f64]) -> Column {
-        let at = |point: usize| {
-            let parts = columns.iter().zip(factors);
-            parts.map(|(column, factor)| factor * column[point]).sum()
-        };
-        (0..self.source.len()).map(at).collect()
+        let mut sum = vec![0.0; self.source.len()];
+        for (column, factor) in columns.iter().zip(factors) {
+            for (sum, value) in sum.iter_mut().zip(*column) {
+                *sum += factor * value;
+            }
+        }
+        sum
+    }
+
+    fn label(&self, term: usize) -> String {
+        self.labels[term].to_owned()
     }
 
     fn cause(&self) -> Cause {
@@ -131,9 +143,7 @@ impl Case<'_, '_> {
             return Some(Cause::plain(name));
         }
         let ones = vec![1.0; self.source.len()];
-        let pairs = self.foreign.iter().zip(&self.source);
-        let rest: Column = pairs.map(|(f, s)| f - s).collect();
-        let constant = fit::least_squares(&[&ones], &rest).factors[0];
+        let constant = fit::least_squares(&[&ones], &self.difference()).factors[0];
         let shifted: Column = self.source.iter().map(|s| s + constant).collect();
         if self.fits(&shifted) {
             return Some(Cause::of("constant", vec![], vec![simple(constant)]));
@@ -146,14 +156,13 @@ impl Case<'_, '_> {
 
     /// One term with another factor; the simplest factor wins, the others are alternatives.
     fn of_one_term(&self) -> Option<Cause> {
-        let pairs = self.foreign.iter().zip(&self.source);
-        let rest: Column = pairs.map(|(f, s)| f - s).collect();
+        let difference = self.difference();
         let mut fitting: Vec<(usize, f64)> = vec![];
         for (term, column) in self.terms.iter().enumerate() {
             if fit::norm(column) == 0.0 {
                 continue;
             }
-            let factor = simple(1.0 + fit::least_squares(&[column], &rest).factors[0]);
+            let factor = simple(1.0 + fit::least_squares(&[column], &difference).factors[0]);
             let changed = self.combined(&[&self.source, column], &[1.0, factor - 1.0]);
             if self.fits(&changed) {
                 fitting.push((term, factor));
@@ -161,13 +170,12 @@ impl Case<'_, '_> {
         }
         fitting.sort_by(|a, b| complexity(a.1).total_cmp(&complexity(b.1)));
         let (term, factor) = *fitting.first()?;
-        let label = |term: usize| self.labels[term].to_owned();
         let others = fitting[1..].iter();
         Some(Cause {
             alternatives: others
-                .map(|(term, factor)| format!("{} times {factor}", label(*term)))
+                .map(|(term, factor)| format!("{} times {factor}", self.label(*term)))
                 .collect(),
-            ..Cause::of(of_factors(&[factor]), vec![label(term)], vec![factor])
+            ..Cause::of(of_factors(&[factor]), vec![self.label(term)], vec![factor])
         })
     }
 
@@ -182,9 +190,7 @@ impl Case<'_, '_> {
             }
         }
         let columns: Vec<&Column> = independent.iter().map(|i| &self.terms[*i]).collect();
-        let pairs = self.foreign.iter().zip(&self.source);
-        let rest: Column = pairs.map(|(f, s)| f - s).collect();
-        let fitted = fit::least_squares(&columns, &rest);
+        let fitted = fit::least_squares(&columns, &self.difference());
         let factors: Vec<f64> = fitted
             .factors
             .iter()
@@ -201,17 +207,16 @@ impl Case<'_, '_> {
             .zip(&factors)
             .filter(|pair| *pair.1 != 1.0);
         let (terms, factors): (Vec<String>, Vec<f64>) = changed
-            .map(|(term, factor)| (self.labels[*term].to_owned(), *factor))
+            .map(|(term, factor)| (self.label(*term), *factor))
             .unzip();
         Some(Cause::of(of_factors(&factors), terms, factors))
     }
 
     fn of_slip(&self) -> Option<Cause> {
-        let fits = |slip: &Slip| {
+        let slip = Slip::ALL.into_iter().find(|slip| {
             let values = self.right.with_slip(self.place, *slip);
             values.is_some_and(|values| self.fits(&values))
-        };
-        let slip = Slip::ALL.into_iter().find(fits)?;
+        })?;
         Some(Cause::of(
             slip.cause(),
             vec![slip.words().to_owned()],
@@ -224,16 +229,18 @@ impl Case<'_, '_> {
         let problem = &self.right.model.problem;
         problem.time.as_ref()?;
         let ends = problem.intervals.last()?;
-        let at_time = |time: &f64| {
-            let mut points = self.right.points.clone();
-            points
-                .iter_mut()
-                .filter_map(|point| point.last_mut())
-                .for_each(|t| *t = *time);
-            self.fits(&self.right.at_points(self.place, &points))
-        };
-        let time = ends.iter().find(|time| at_time(time))?;
+        let time = ends.iter().find(|time| self.fits_at_time(**time))?;
         Some(Cause::of("time", vec![], vec![*time]))
+    }
+
+    fn fits_at_time(&self, time: f64) -> bool {
+        let mut points = self.right.points.clone();
+        for point in &mut points {
+            if let Some(t) = point.last_mut() {
+                *t = time;
+            }
+        }
+        self.fits(&self.right.at_points(self.place, &points))
     }
 
     /// Another component, or two coordinates exchanged.
@@ -291,8 +298,9 @@ impl Case<'_, '_> {
         let mut value = start;
         for _ in 0..STEPS {
             let step = 1e-6 * value.abs().max(1e-3);
-            let at = |value: f64| self.right.with_parameter(self.place, index, value, points);
-            let [here, above, below] = [at(value)?, at(value + step)?, at(value - step)?];
+            let [here, above, below] = [value, value + step, value - step]
+                .map(|value| self.right.with_parameter(self.place, index, value, points));
+            let [here, above, below] = [here?, above?, below?];
             let pairs = above.iter().zip(&below);
             let slope: Column = pairs.map(|(a, b)| (a - b) / (2.0 * step)).collect();
             let pairs = self.foreign.iter().zip(&here);
@@ -337,7 +345,7 @@ fn simple(number: f64) -> f64 {
 /// How far-fetched a factor is: -1, 0, 2, 1/2, ...
 fn complexity(factor: f64) -> f64 {
     let simple = [-1.0, 0.0, 2.0, 0.5];
-    match simple.iter().position(|known| *known == factor) {
+    match simple.iter().position(|entry| *entry == factor) {
         Some(place) => place as f64,
         None => 10.0 + factor.abs().max(1.0 / factor.abs()),
     }

@@ -6,8 +6,11 @@ mod causes;
 mod right;
 mod sentence;
 
+use std::time::Duration;
+
 use serde::Serialize;
 
+use crate::Sampling;
 use crate::derive::{Part, Role};
 use crate::language::names::did_you_mean;
 use crate::model::{Model, Rows};
@@ -95,12 +98,12 @@ pub(crate) fn compare(
     model: &Model,
     command: &str,
     face: Option<&str>,
-    seed: u64,
-    count: usize,
+    sampling: &Sampling,
+    limit: Duration,
 ) -> Result<Vec<Comparison>, InputError> {
-    let questions = questions(model, face, seed, count)?;
+    let questions = questions(model, face, sampling.seed, sampling.points)?;
     let right = Right::new(model, &questions);
-    let text = ask::run(&ask::words(command), questions.text.clone())?;
+    let text = ask::run(&ask::words(command), questions.text.clone(), limit)?;
     let answers = ask::read(&text, command, &right.names(), questions.points.len())?;
     Ok(answers
         .iter()

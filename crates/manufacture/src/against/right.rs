@@ -98,21 +98,10 @@ impl<'m> Right<'m> {
     }
 
     pub(crate) fn terms(&self, place: Place) -> Vec<Column> {
-        let terms = &self.quantities[place.quantity].terms;
-        let column = |term: &Vec<Vec<Measured>>| {
-            let values = term.iter().map(|values| values[place.component]);
-            // What rounding leaves of a zero is no column to fit with.
-            values
-                .map(|v| {
-                    if v.value.abs() <= crate::check::SAME * v.size {
-                        0.0
-                    } else {
-                        v.value
-                    }
-                })
-                .collect()
-        };
-        terms.iter().map(column).collect()
+        let terms = self.quantities[place.quantity].terms.iter();
+        terms
+            .map(|values| without_rounding(values, place.component))
+            .collect()
     }
 
     /// The component with a slip made throughout; `None` if there is no room for it.
@@ -123,13 +112,7 @@ impl<'m> Right<'m> {
         if self.part != Part::Interior {
             return None;
         }
-        let values = at(self.model, &source.tensor, &self.points);
-        Some(
-            values
-                .iter()
-                .map(|values| values[place.component].value)
-                .collect(),
-        )
+        Some(column(self.model, &source.tensor, place, &self.points))
     }
 
     /// The component with a normal that points inwards; `None` inside the domain.
@@ -140,23 +123,13 @@ impl<'m> Right<'m> {
         let name = &self.quantities[place.quantity].quantity.name;
         let mut data = self.model.inward[face].iter();
         let datum = data.find(|datum| datum.role == Role::Datum && datum.name == *name)?;
-        let values = at(self.model, &datum.tensor, &self.points);
-        Some(
-            values
-                .iter()
-                .map(|values| values[place.component].value)
-                .collect(),
-        )
+        Some(column(self.model, &datum.tensor, place, &self.points))
     }
 
     /// The component at other points.
     pub(crate) fn at_points(&self, place: Place, points: &[Vec<f64>]) -> Column {
         let tensor = &self.quantities[place.quantity].quantity.tensor;
-        let values = at(self.model, tensor, points);
-        values
-            .iter()
-            .map(|values| values[place.component].value)
-            .collect()
+        column(self.model, tensor, place, points)
     }
 
     /// The component with a parameter changed, at these points.
@@ -174,10 +147,36 @@ impl<'m> Right<'m> {
             .ok()?;
         let tensor = &self.quantities[place.quantity].quantity.tensor;
         let rows = Rows::new(&self.model.graph, std::iter::once(tensor));
-        let value =
-            |point: &Vec<f64>| rows.with(point, &parameters).tensors[0][place.component].value;
-        Some(points.iter().map(value).collect())
+        let points = points.iter();
+        Some(
+            points
+                .map(|point| rows.with(point, &parameters).tensors[0][place.component].value)
+                .collect(),
+        )
     }
+}
+
+/// A component at points.
+fn column(model: &Model, tensor: &Tensor<NodeId>, place: Place, points: &[Vec<f64>]) -> Column {
+    let values = at(model, tensor, points);
+    values
+        .iter()
+        .map(|values| values[place.component].value)
+        .collect()
+}
+
+/// A component, with zeros where only rounding is left: that is no column to fit with.
+fn without_rounding(values: &[Vec<Measured>], component: usize) -> Column {
+    let values = values.iter().map(|values| values[component]);
+    values
+        .map(|v| {
+            if v.value.abs() <= crate::check::SAME * v.size {
+                0.0
+            } else {
+                v.value
+            }
+        })
+        .collect()
 }
 
 fn at(model: &Model, tensor: &Tensor<NodeId>, points: &[Vec<f64>]) -> Vec<Vec<Measured>> {

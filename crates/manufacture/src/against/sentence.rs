@@ -76,15 +76,13 @@ pub(super) fn sentence(
 
 /// No explanation: where the difference is largest and where it is smallest.
 fn nothing(right: &Right<'_>, differences: &[f64]) -> String {
-    let order = |a: &usize, b: &usize| differences[*a].total_cmp(&differences[*b]);
-    let at = |index: usize| place(right.model, &right.points[index]);
-    let largest = (0..differences.len()).max_by(order).unwrap_or(0);
-    let smallest = (0..differences.len()).min_by(order).unwrap_or(0);
-    format!(
-        "no explanation found; your values differ by {:.3e} at {} and by {:.3e} at {}",
-        differences.get(largest).copied().unwrap_or(0.0),
-        at(largest),
-        differences.get(smallest).copied().unwrap_or(0.0),
-        at(smallest)
-    )
+    let differences = || differences.iter().zip(&right.points);
+    let largest = differences().max_by(|a, b| a.0.total_cmp(b.0));
+    let smallest = differences().min_by(|a, b| a.0.total_cmp(b.0));
+    let [largest, smallest] = [largest, smallest].map(|entry| {
+        entry.map_or(String::new(), |(difference, point)| {
+            format!("{difference:.3e} at {}", place(right.model, point))
+        })
+    });
+    format!("no explanation found; your values differ by {largest} and by {smallest}")
 }

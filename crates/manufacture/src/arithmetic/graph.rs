@@ -452,8 +452,9 @@ impl Graph {
     ) -> f64 {
         let mut worst = 0.0_f64;
         for share in [0.03, 0.29, 0.61, 0.97] {
-            let between = |[low, high]: &[f64; 2]| low + share * (high - low);
-            let mut point: Vec<f64> = self.intervals.iter().map(between).collect();
+            let intervals = self.intervals.iter();
+            let point = intervals.map(|[low, high]| low + share * (high - low));
+            let mut point: Vec<f64> = point.collect();
             let coarse = tape.integrate(&mut point, variable, panels, rule);
             let fine = tape.integrate(&mut point, variable, 2 * panels, rule);
             let difference = (coarse.value - fine.value).abs() / fine.size.max(f64::MIN_POSITIVE);

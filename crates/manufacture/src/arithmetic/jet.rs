@@ -44,15 +44,16 @@ impl Monomials {
             last = next;
         }
         let places: HashMap<_, _> = exponents.iter().enumerate().map(|(i, e)| (*e, i)).collect();
-        let degree = |monomial: &[u8; VARIABLES]| monomial.iter().sum::<u8>() as usize;
-        let row = |left: &[u8; VARIABLES]| {
-            let fitting = exponents[..counts[order - degree(left)]].iter();
-            let product = |right: &[u8; VARIABLES]| {
-                places[&std::array::from_fn::<u8, VARIABLES, _>(|k| left[k] + right[k])] as u32
-            };
-            fitting.map(product).collect()
-        };
-        let products = exponents.iter().map(row).collect();
+        let mut products = vec![];
+        for left in &exponents {
+            let degree = left.iter().sum::<u8>() as usize;
+            let mut row = vec![];
+            for right in &exponents[..counts[order - degree]] {
+                let product: [u8; VARIABLES] = std::array::from_fn(|k| left[k] + right[k]);
+                row.push(places[&product] as u32);
+            }
+            products.push(row);
+        }
         Self {
             order,
             products,
@@ -220,15 +221,16 @@ impl Algebra for Jets {
         let Some(order) = of.order.checked_sub(1) else {
             return self.number(f64::NAN);
         };
-        let coefficient = |monomial: &[u8; VARIABLES]| {
+        let mut coefficients = vec![];
+        for monomial in &self.monomials.exponents[..self.monomials.counts[order]] {
             let mut above = *monomial;
             above[variable] += 1;
-            f64::from(above[variable]) * of.coefficients[self.monomials.places[&above]]
-        };
-        let below = &self.monomials.exponents[..self.monomials.counts[order]];
+            let place = self.monomials.places[&above];
+            coefficients.push(f64::from(above[variable]) * of.coefficients[place]);
+        }
         Jet {
             order,
-            coefficients: below.iter().map(coefficient).collect(),
+            coefficients,
         }
     }
 
@@ -299,11 +301,12 @@ fn taylor(function: Function, x: f64, order: usize) -> Vec<f64> {
 /// Derivatives that repeat after four, divided by the factorials.
 fn cycle(derivatives: [f64; 4], order: usize) -> Vec<f64> {
     let mut factorial = 1.0;
-    let coefficient = |k: usize| {
+    let mut series = vec![];
+    for k in 0..=order {
         factorial *= k.max(1) as f64;
-        derivatives[k % 4] / factorial
-    };
-    (0..=order).map(coefficient).collect()
+        series.push(derivatives[k % 4] / factorial);
+    }
+    series
 }
 
 /// Coefficients of the function with that value and slope.

@@ -31,8 +31,8 @@ pub(crate) struct Tape<'g> {
     /// For each node of the graph its place among the steps.
     places: Vec<u32>,
     roots: Vec<NodeId>,
-    /// By their place among the steps.
-    integrals: Vec<(usize, Inner<'g>)>,
+    /// In the order of the steps.
+    integrals: Vec<Inner<'g>>,
     rule: Vec<[f64; 2]>,
 }
 
@@ -46,27 +46,27 @@ pub(crate) struct Evaluated {
 
 impl<'g> Tape<'g> {
     pub(crate) fn new(graph: &'g Graph, roots: &[NodeId]) -> Self {
-        let steps = needed(graph, roots);
+        let steps = nodes_below(graph, roots);
         let mut places = vec![u32::MAX; steps.last().map_or(0, |last| last.0 as usize + 1)];
         for (place, id) in steps.iter().enumerate() {
             places[id.0 as usize] = place as u32;
         }
-        let integral = |(place, id): (usize, &NodeId)| match *graph.node(*id) {
-            Node::Integral {
+        let mut integrals = vec![];
+        for id in &steps {
+            if let Node::Integral {
                 body,
                 variable,
                 panels,
-            } => Some((
-                place,
-                Inner {
-                    body: Tape::new(graph, &[body]),
+            } = *graph.node(*id)
+            {
+                let body = Tape::new(graph, &[body]);
+                integrals.push(Inner {
+                    body,
                     variable,
                     panels,
-                },
-            )),
-            _ => None,
-        };
-        let integrals = steps.iter().enumerate().filter_map(integral).collect();
+                });
+            }
+        }
         Self {
             graph,
             places,
@@ -110,23 +110,23 @@ impl<'g> Tape<'g> {
                         of(if is_true { then } else { otherwise })
                     }
                 }
-                Node::Integral { .. } => {
-                    integrals.next().map_or(exactly(f64::NAN), |(_, inner)| {
-                        let mut point = point.to_vec();
-                        let Inner {
-                            body,
-                            variable,
-                            panels,
-                        } = inner;
-                        body.integral_with(&mut point, *variable, *panels, &self.rule, parameters)
-                    })
-                }
+                Node::Integral { .. } => integrals.next().map_or(exactly(f64::NAN), |inner| {
+                    let mut point = point.to_vec();
+                    let Inner {
+                        body,
+                        variable,
+                        panels,
+                    } = inner;
+                    body.integral_with(&mut point, *variable, *panels, &self.rule, parameters)
+                }),
             };
             values.push(value);
         }
-        let root = |id: &NodeId| values[self.places[id.0 as usize] as usize];
+        let roots = self.roots.iter();
         Evaluated {
-            roots: self.roots.iter().map(root).collect(),
+            roots: roots
+                .map(|id| values[self.places[id.0 as usize] as usize])
+                .collect(),
             switches,
         }
     }
@@ -162,7 +162,7 @@ impl<'g> Tape<'g> {
 }
 
 /// The nodes below the roots, in increasing order.
-pub(crate) fn needed(graph: &Graph, roots: &[NodeId]) -> Vec<NodeId> {
+pub(crate) fn nodes_below(graph: &Graph, roots: &[NodeId]) -> Vec<NodeId> {
     let last = roots.iter().max().map_or(0, |last| last.0 as usize + 1);
     let mut is_needed = vec![false; last];
     for root in roots {

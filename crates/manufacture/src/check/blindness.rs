@@ -3,7 +3,7 @@
 use super::{Finding, Sampled, finding, is_same, is_zero};
 use std::collections::HashMap;
 
-use crate::arithmetic::tape::needed;
+use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::derive::{Part, Role, Slip};
 use crate::language::tree::Binary;
@@ -68,10 +68,9 @@ fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
             .map(|point| rows.at(point).tensors)
             .collect();
         for (place, source) in sources.iter().enumerate() {
-            let is_source = |q: &crate::derive::Quantity<NodeId>| {
-                q.role == Role::Source && q.name == source.name
-            };
-            let Some(index) = sampled.quantities.iter().position(is_source) else {
+            let mut quantities = sampled.quantities.iter();
+            let index = quantities.position(|q| q.role == Role::Source && q.name == source.name);
+            let Some(index) = index else {
                 continue;
             };
             if sampled.quantities[index].tensor == source.tensor {
@@ -93,7 +92,7 @@ fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
 /// The degree in space, if all components are polynomials as they are written.
 fn polynomial(model: &Model, parts: &[NodeId]) -> Option<f64> {
     let mut degrees: HashMap<NodeId, Option<f64>> = HashMap::new();
-    for id in needed(&model.graph, parts) {
+    for id in nodes_below(&model.graph, parts) {
         let degree = degree(model, id, &degrees);
         degrees.insert(id, degree);
     }
@@ -141,6 +140,11 @@ pub(super) fn data(sampled: &Sampled<'_>) -> Vec<Finding> {
     findings
 }
 
+fn has_initial(model: &Model, name: &str) -> bool {
+    let mut initial = model.problem.initial.iter();
+    initial.any(|datum| datum.name == name)
+}
+
 /// Values required on a face that contradict the initial data at the first time.
 pub(super) fn initial_mismatch(
     model: &Model,
@@ -151,12 +155,8 @@ pub(super) fn initial_mismatch(
     };
     let mut findings = vec![];
     for (index, face) in model.problem.faces.iter().enumerate() {
-        let conditions = face.data.iter().filter(|datum| datum.condition.is_some());
-        let is_initial = |datum: &&crate::problem::Datum| {
-            let mut initial = model.problem.initial.iter();
-            initial.any(|initial| initial.name == datum.name)
-        };
-        if conditions.filter(is_initial).count() == 0 {
+        let mut conditions = face.data.iter().filter(|datum| datum.condition.is_some());
+        if !conditions.any(|datum| has_initial(model, &datum.name)) {
             continue;
         }
         let mut points = sampler.points(Part::Face(index), 100)?;
@@ -167,12 +167,7 @@ pub(super) fn initial_mismatch(
         }
         let sampled = Sampled::new(model, Part::Face(index), points);
         for (place, quantity) in sampled.quantities.iter().enumerate() {
-            let has_initial = model
-                .problem
-                .initial
-                .iter()
-                .any(|known| known.name == quantity.name);
-            if quantity.role != Role::Condition || !has_initial {
+            if quantity.role != Role::Condition || !has_initial(model, &quantity.name) {
                 continue;
             }
             let mut pairs = sampled.over(place).zip(sampled.over(place + 1));

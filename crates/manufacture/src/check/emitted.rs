@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use super::{Finding, finding};
 use crate::against::{Right, ask, questions};
@@ -12,6 +13,9 @@ use crate::problem::InputError;
 
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
+
+/// An emitted program that takes longer is wrong.
+const LIMIT: Duration = Duration::from_secs(600);
 
 /// The command that succeeds if the tool chain is there, and what is missing if not.
 fn probe(language: Language) -> Option<(&'static [&'static str], &'static str)> {
@@ -103,7 +107,7 @@ pub(crate) fn run(
         let right = Right::new(model, &questions);
         let mut command = answer.clone();
         command.extend(face.map(str::to_owned));
-        let compared = ask::run(&command, questions.text.clone())
+        let compared = ask::run(&command, questions.text.clone(), LIMIT)
             .and_then(|text| ask::read(&text, name, &right.names(), questions.points.len()));
         match compared {
             Ok(answers) => findings.extend(differences(&right, &answers, name)),

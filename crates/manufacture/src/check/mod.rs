@@ -66,8 +66,8 @@ impl Check {
     pub fn add(&mut self, findings: Vec<Finding>, is_strict: bool) {
         self.findings.extend(findings);
         self.findings.sort_by_key(|finding| !finding.fails);
-        let is_failure = |finding: &Finding| finding.fails || is_strict;
-        let fails = self.findings.iter().any(is_failure);
+        let mut findings = self.findings.iter();
+        let fails = findings.any(|finding| finding.fails || is_strict);
         self.verdict = if fails { "fail" } else { "pass" };
     }
 }
@@ -180,8 +180,9 @@ pub(crate) fn finding(code: &'static str, key: &str, text: String, value: Option
 fn singular(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
     for (index, quantity) in sampled.quantities.iter().enumerate() {
-        let bad = |entry: &(&[f64], &[Measured])| entry.1.iter().any(|v| !v.value.is_finite());
-        if let Some((point, values)) = sampled.over(index).find(bad) {
+        let mut entries = sampled.over(index);
+        let worst = entries.find(|entry| entry.1.iter().any(|v| !v.value.is_finite()));
+        if let Some((point, values)) = worst {
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
             let mut pairs = names.iter().zip(values);
             let Some((name, value)) = pairs.find(|pair| !pair.1.value.is_finite()) else {
@@ -249,14 +250,14 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
     let samples = sampled.points.len();
     for (index, quantity) in sampled.quantities.iter().enumerate() {
         let name = &quantity.name;
-        if quantity.role == Role::Zero {
-            let bad = |entry: &(&[f64], &[Measured])| !is_zero(entry.1);
-            if let Some((point, values)) = sampled.over(index).find(bad) {
-                let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
-                let at = place(model, point);
-                let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
-                findings.push(finding("not-zero", &quantity.key, text, Some(value)));
-            }
+        let mut entries = sampled.over(index);
+        if quantity.role == Role::Zero
+            && let Some((point, values)) = entries.find(|entry| !is_zero(entry.1))
+        {
+            let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
+            let at = place(model, point);
+            let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
+            findings.push(finding("not-zero", &quantity.key, text, Some(value)));
         }
         if quantity.role == Role::Positive {
             let lowest = sampled
@@ -264,7 +265,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
                 .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
             let Some((point, _)) = lowest else { continue };
             let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
-            let (value, point) = descend(model, sampler, &rows, point);
+            let Lowest { value, point } = descend(model, sampler, &rows, point);
             if !(value > 0.0) {
                 let at = place(model, &point);
                 let text = format!(
@@ -277,13 +278,14 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
     findings
 }
 
+/// The lowest value that is known, and where it is.
+struct Lowest {
+    value: f64,
+    point: Vec<f64>,
+}
+
 /// The lowest value near a point, by steps along the axes that are halved when none goes down.
-fn descend(
-    model: &Model,
-    sampler: &Sampler<'_>,
-    rows: &Rows<'_>,
-    start: &[f64],
-) -> (f64, Vec<f64>) {
+fn descend(model: &Model, sampler: &Sampler<'_>, rows: &Rows<'_>, start: &[f64]) -> Lowest {
     const SMALLEST_STEP: f64 = 1e-7;
     let mut point = start.to_vec();
     let mut value = rows.at(&point).tensors[0][0].value;
@@ -306,5 +308,5 @@ fn descend(
             step *= 0.5;
         }
     }
-    (value, point)
+    Lowest { value, point }
 }

@@ -18,7 +18,7 @@ pub(super) fn compare(model: &Model, sampled: &Sampled<'_>) -> Result<Vec<Findin
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
             for ((first, second), name) in first.iter().zip(&second.tensor.parts).zip(names) {
                 let difference = (first.value - second.value()).abs();
-                let is_known = findings.iter().any(|known| known.key == quantity.key);
+                let is_known = findings.iter().any(|entry| entry.key == quantity.key);
                 // NaN is a difference, too.
                 if !(difference <= SAME * first.size) && !is_known {
                     let text = format!(

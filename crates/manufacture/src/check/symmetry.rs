@@ -2,8 +2,9 @@
 //! for free.
 
 use super::{Finding, Sampled, finding, is_same};
+use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::Measured;
-use crate::derive::Role;
+use crate::derive::{Quantity, Role};
 use crate::model::{Model, Rows};
 
 /// A map of the box onto itself.
@@ -70,13 +71,20 @@ impl Map {
 
 /// Whether a component is the same at all points and images, or reversed at all.
 fn is_unchanged(pairs: &[(Vec<Measured>, Vec<Measured>)], component: usize) -> bool {
-    let mut pairs_of = pairs.iter().map(|(a, b)| (a[component], b[component]));
-    let reversed = |v: &Measured| Measured {
-        value: -v.value,
-        ..*v
-    };
-    pairs_of.clone().all(|(a, b)| is_same(&a, &b))
-        || pairs_of.all(|(a, b)| is_same(&a, &reversed(&b)))
+    [1.0, -1.0].into_iter().any(|sign| {
+        pairs.iter().all(|(value, image)| {
+            let image = Measured {
+                value: sign * image[component].value,
+                ..image[component]
+            };
+            is_same(&value[component], &image)
+        })
+    })
+}
+
+fn depends(model: &Model, field: &Quantity<NodeId>, axis: usize) -> bool {
+    let mut parts = field.tensor.parts.iter();
+    parts.any(|part| model.graph.depends_on(*part, axis))
 }
 
 pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
@@ -85,18 +93,14 @@ pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     for (index, field) in fields.filter(|entry| entry.1.role == Role::Exact) {
         let rows = Rows::new(&model.graph, std::iter::once(&field.tensor));
         for map in Map::all(model) {
-            let depends = |axis: &usize| {
-                let mut parts = field.tensor.parts.iter();
-                parts.any(|part| model.graph.depends_on(*part, *axis))
-            };
-            if !map.axes().iter().all(depends) {
+            if !map.axes().iter().all(|axis| depends(model, field, *axis)) {
                 continue;
             }
-            let image = |entry: (&[f64], &[Measured])| {
-                let image = map.apply(entry.0, &model.problem.intervals);
-                (entry.1.to_vec(), rows.at(&image).tensors.remove(0))
-            };
-            let pairs: Vec<_> = sampled.over(index).map(image).collect();
+            let mut pairs = vec![];
+            for (point, values) in sampled.over(index) {
+                let image = map.apply(point, &model.problem.intervals);
+                pairs.push((values.to_vec(), rows.at(&image).tensors.remove(0)));
+            }
             let mut components = 0..field.tensor.parts.len();
             if components.all(|component| is_unchanged(&pairs, component)) {
                 let map = map.words(&model.problem.coordinates);

@@ -1,6 +1,7 @@
 //! The terms of an equation: their shares, and which of them cannot be told apart.
 
 use super::{Finding, Sampled, Share, finding, is_zero};
+use crate::arithmetic::tape::Measured;
 use crate::derive::Role;
 use crate::fit::{self, Column};
 use crate::model::{Model, Rows};
@@ -30,15 +31,9 @@ pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> Terms {
             .iter()
             .map(|point| rows.at(point).tensors)
             .collect();
-        let is_absent = |term: usize| values.iter().all(|point| is_zero(&point[term]));
-        let column = |term: usize| -> Column {
-            if is_absent(term) {
-                return vec![0.0; values.len() * source.tensor.parts.len()];
-            }
-            let parts = values.iter().flat_map(|point| &point[term]);
-            parts.map(|v| v.value).collect()
-        };
-        let columns: Vec<Column> = (0..labels.len()).map(column).collect();
+        let columns: Vec<Column> = (0..labels.len())
+            .map(|term| column(&values, term))
+            .collect();
         let norms: Vec<f64> = columns.iter().map(|column| fit::norm(column)).collect();
         let largest = norms.iter().copied().fold(0.0, f64::max);
         for (term, label) in labels.iter().enumerate() {
@@ -71,6 +66,15 @@ pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> Terms {
             .extend(dependent(&source.key, &labels, &columns));
     }
     terms
+}
+
+/// All components of a term at all points; zeros if only rounding is left of it.
+fn column(values: &[Vec<Vec<Measured>>], term: usize) -> Column {
+    let is_absent = values.iter().all(|point| is_zero(&point[term]));
+    let parts = values.iter().flat_map(|point| &point[term]);
+    parts
+        .map(|v| if is_absent { 0.0 } else { v.value })
+        .collect()
 }
 
 /// Whether a term is small against the largest one at every point.

@@ -114,17 +114,17 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
 
     fn name(&mut self, name: &str, tree: &Tree, within: &Expression) -> Elaborated<A> {
         let problem = self.problem;
-        if let Some(index) = problem.variables().iter().position(|known| *known == name) {
+        if let Some(index) = problem.variables().iter().position(|entry| *entry == name) {
             return Ok(Tensor::scalar(self.algebra.variable(index)));
         }
         if let Some(index) = problem
             .parameters
             .iter()
-            .position(|known| known.name == name)
+            .position(|entry| entry.name == name)
         {
             return Ok(Tensor::scalar(self.algebra.parameter(index)));
         }
-        if let Some((_, value)) = CONSTANTS.iter().find(|known| known.0 == name) {
+        if let Some((_, value)) = CONSTANTS.iter().find(|entry| entry.0 == name) {
             return Ok(Tensor::scalar(self.algebra.number(*value)));
         }
         if let Some(definition) = problem.definitions.get(name) {
@@ -146,7 +146,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
 
     fn unknown(&self, name: &str, tree: &Tree, within: &Expression) -> InputError {
         let problem = self.problem;
-        let parameters = problem.parameters.iter().map(|known| known.name.as_str());
+        let parameters = problem.parameters.iter().map(|entry| entry.name.as_str());
         let known: Vec<&str> = problem
             .variables()
             .into_iter()
@@ -340,12 +340,13 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             return Err(refused(within, tree, problem));
         }
         let pairs = then.parts.iter().zip(&otherwise.parts);
-        let choose = |(then, otherwise)| {
-            self.algebra
-                .choose(*comparison, [&left, &right], then, otherwise)
-        };
+        let mut parts = vec![];
+        for (then, otherwise) in pairs {
+            let algebra = &mut self.algebra;
+            parts.push(algebra.choose(*comparison, [&left, &right], then, otherwise));
+        }
         Ok(Tensor {
-            parts: pairs.map(choose).collect(),
+            parts,
             shape: then.shape.clone(),
         })
     }

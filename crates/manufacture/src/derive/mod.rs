@@ -122,13 +122,14 @@ pub(crate) fn components(problem: &Problem, name: &str, shape: &[usize]) -> Vec<
     let axes = problem.axes();
     let mut names = vec![String::new()];
     for length in shape {
-        let index = |place: usize| match axes.get(place) {
-            Some(axis) if *length == axes.len() => axis.clone(),
-            _ => (place + 1).to_string(),
+        let indices: Vec<String> = if *length == axes.len() {
+            axes.clone()
+        } else {
+            (1..=*length).map(|index| index.to_string()).collect()
         };
         names = names
             .iter()
-            .flat_map(|before| (0..*length).map(move |place| format!("{before}{}", index(place))))
+            .flat_map(|before| indices.iter().map(move |index| format!("{before}{index}")))
             .collect();
     }
     if shape.is_empty() {
@@ -266,9 +267,12 @@ impl<A: Algebra> Elaborator<'_, A> {
                 let axes = self.problem.axes();
                 let name = &self.problem.coordinates[*coordinate];
                 let sign = if *is_upper { 1.0 } else { -1.0 };
-                let part = |axis: &String| if axis == name { sign } else { 0.0 };
-                let parts = axes.iter().map(|axis| self.algebra.number(part(axis)));
-                Tensor::vector(parts.collect())
+                let mut parts = vec![];
+                for axis in axes {
+                    let part = if axis == *name { sign } else { 0.0 };
+                    parts.push(self.algebra.number(part));
+                }
+                Tensor::vector(parts)
             }
         };
         let key = format!("boundary.{}", face.name);

@@ -39,11 +39,13 @@ impl Space {
         of: &Tensor<A::Number>,
         direction: usize,
     ) -> Tensor<A::Number> {
-        let plain = |algebra: &mut A, part: &A::Number| match self.coordinate(direction) {
-            Some(coordinate) => algebra.derivative(part, coordinate),
-            None => algebra.number(0.0),
-        };
-        let parts = of.parts.iter().map(|part| plain(algebra, part)).collect();
+        let mut parts = vec![];
+        for part in &of.parts {
+            parts.push(match self.coordinate(direction) {
+                Some(coordinate) => algebra.derivative(part, coordinate),
+                None => algebra.number(0.0),
+            });
+        }
         let derivative = Tensor {
             shape: of.shape.clone(),
             parts,
@@ -88,13 +90,13 @@ impl Space {
         let along: Vec<Tensor<A::Number>> = (0..self.components)
             .map(|direction| self.along(algebra, of, direction))
             .collect();
-        let row = |place: usize| along.iter().map(move |part| part.parts[place].clone());
         let mut shape = of.shape.clone();
         shape.push(self.components);
-        Tensor {
-            shape,
-            parts: (0..of.parts.len()).flat_map(row).collect(),
+        let mut parts = vec![];
+        for place in 0..of.parts.len() {
+            parts.extend(along.iter().map(|part| part.parts[place].clone()));
         }
+        Tensor { shape, parts }
     }
 
     /// `div(A)_i = Σ_j ∂A_ij/∂x_j`: the last index is contracted.

@@ -44,10 +44,15 @@ impl<N: Clone> Tensor<N> {
 
     pub(crate) fn transposed(&self) -> Self {
         let [rows, columns] = [self.shape[0], self.shape[1]];
-        let column = |j: usize| (0..rows).map(move |i| self.parts[i * columns + j].clone());
+        let mut parts = vec![];
+        for column in 0..columns {
+            for row in 0..rows {
+                parts.push(self.parts[row * columns + column].clone());
+            }
+        }
         Self {
             shape: vec![columns, rows],
-            parts: (0..columns).flat_map(column).collect(),
+            parts,
         }
     }
 

@@ -13,6 +13,11 @@ struct Group<'f> {
 }
 
 impl Group<'_> {
+    /// The number of components.
+    fn count(&self) -> usize {
+        self.functions.iter().map(|f| f.roots.len()).sum()
+    }
+
     /// The names of all components, with this between the parts of long lines.
     fn names(&self, separator: &str) -> String {
         const LONGEST: usize = 48;
@@ -34,19 +39,20 @@ impl Group<'_> {
     }
 }
 
+fn functions_of(functions: &[Function], role: Role, part: Part) -> Vec<&Function> {
+    let functions = functions.iter();
+    functions
+        .filter(|f| f.role == role && f.part == part)
+        .collect()
+}
+
 fn groups<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Group<'f>> {
-    let of = |role: Role, part: Part| {
-        let chosen = functions
-            .iter()
-            .filter(|f| f.role == role && f.part == part);
-        chosen.collect::<Vec<&Function>>()
-    };
     let mut groups = vec![Group {
         face: "",
-        functions: of(Role::Source, Part::Interior),
+        functions: functions_of(functions, Role::Source, Part::Interior),
     }];
     for (index, face) in model.problem.faces.iter().enumerate() {
-        let functions = of(Role::Datum, Part::Face(index));
+        let functions = functions_of(functions, Role::Datum, Part::Face(index));
         if !functions.is_empty() {
             groups.push(Group {
                 face: &face.name,
@@ -82,8 +88,7 @@ pub(super) fn program(
         .iter()
         .map(|group| calls(language, group, dimension, &prefix));
     let calls = calls.collect::<String>();
-    let count = |group: &Group<'_>| group.functions.iter().map(|f| f.roots.len()).sum();
-    let most: usize = groups.iter().map(count).max().unwrap_or(1);
+    let most = groups.iter().map(Group::count).max().unwrap_or(1);
     let faces: Vec<String> = groups
         .iter()
         .map(|group| format!("'{}'", group.face))

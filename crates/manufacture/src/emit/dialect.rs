@@ -14,6 +14,15 @@ impl Language {
         }
     }
 
+    /// A name with `_` behind it where the language cannot tell it from one of the others: Fortran
+    /// does not tell capitals from small letters.
+    pub(super) fn distinct(self, mut name: String, others: &[&str]) -> String {
+        while self == Language::Fortran && others.iter().any(|o| o.eq_ignore_ascii_case(&name)) {
+            name.push('_');
+        }
+        name
+    }
+
     /// A coordinate of the array of that name.
     pub(super) fn coordinate(self, array: &str, index: usize) -> String {
         match self {

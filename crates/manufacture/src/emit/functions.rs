@@ -30,10 +30,8 @@ pub(crate) fn functions(model: &Model, language: Language) -> Vec<Function> {
             let Some(mut function) = function(model, *part, quantity) else {
                 continue;
             };
-            let is_taken = |known: &Function| known.name.eq_ignore_ascii_case(&function.name);
-            if language == Language::Fortran && functions.iter().any(is_taken) {
-                function.name.push('_');
-            }
+            let names: Vec<&str> = functions.iter().map(|f| f.name.as_str()).collect();
+            function.name = language.distinct(function.name, &names);
             functions.push(function);
         }
     }

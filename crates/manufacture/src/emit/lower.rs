@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::Language;
-use crate::arithmetic::tape::needed;
+use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Graph, Node, NodeId};
 use crate::language::tree::Binary;
 
@@ -67,7 +67,7 @@ pub(super) struct Lowered {
 }
 
 pub(super) fn lower(graph: &Graph, roots: &[NodeId], names: &Names<'_>) -> Lowered {
-    let order = needed(graph, roots);
+    let order = nodes_below(graph, roots);
     let is_constant = constants(graph, roots, &order);
     let mut texts: HashMap<NodeId, Text> = HashMap::new();
     let mut constants: Vec<[String; 2]> = vec![];

@@ -10,6 +10,7 @@ mod write;
 
 use std::path::Path;
 
+use crate::language::names::name_in;
 use crate::model::Model;
 
 use functions::functions;
@@ -44,9 +45,7 @@ impl Language {
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
-        let mut all = Self::ALL.iter();
-        all.find(|known| known.1 == self)
-            .map_or("", |known| known.0)
+        name_in(&Self::ALL, &self)
     }
 
     /// The commands that make the answering program of a file in a folder, the last of which runs
@@ -55,7 +54,6 @@ impl Language {
         let file = |file: String| folder.join(file).display().to_string();
         let answer = |ending: &str| file(format!("{name}_answer.{ending}"));
         let program = file(format!("{name}_answer_{}", self.name()));
-        let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
         let modules = folder.display().to_string();
         match self {
             Language::C => {
@@ -111,6 +109,10 @@ impl Language {
             Language::Ufl => vec![],
         }
     }
+}
+
+fn words(words: &[&str]) -> Vec<String> {
+    words.iter().map(|word| (*word).to_owned()).collect()
 }
 
 /// A file to be written.

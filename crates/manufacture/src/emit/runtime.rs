@@ -264,8 +264,9 @@ fn errors(writer: &Writer<'_>, functions: &[Function]) -> Vec<[String; 3]> {
             } else {
                 Role::Exact
             };
-            let of_field = |f: &&Function| f.role == role && f.quantity == *field;
-            if let Some(function) = functions.iter().find(of_field) {
+            let mut functions = functions.iter();
+            let function = functions.find(|f| f.role == role && f.quantity == *field);
+            if let Some(function) = function {
                 let name = norm.name().to_owned();
                 errors.push([suffix(function).to_owned(), name, function.name.clone()]);
             }

@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::functions::Function;
-use super::lower::{Names, lower};
+use super::lower::{Lowered, Names, lower};
 use super::{EmittedFile, Language, fill, runtime};
 use crate::arithmetic::quadrature::{self, POINTS};
-use crate::arithmetic::tape::needed;
+use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::model::Model;
 
@@ -32,16 +32,20 @@ pub(super) fn library(
 ) -> Vec<EmittedFile> {
     let name = &model.problem.name;
     let prefix = prefix(model, language);
-    let parameter =
-        |parameter: &crate::problem::Parameter| format!("{prefix}parameter_{}", parameter.name);
+    let mut parameters: Vec<String> = vec![];
+    for parameter in &model.problem.parameters {
+        let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
+        let name = format!("{prefix}parameter_{}", parameter.name);
+        parameters.push(language.distinct(name, &names));
+    }
     let writer = Writer {
         model,
         language,
-        parameters: model.problem.parameters.iter().map(parameter).collect(),
+        parameters,
         integrals: integrals(model, functions),
         prefix,
     };
-    let head = writer.head();
+    let head = writer.head(functions);
     let mut body = String::new();
     for integral in &writer.integrals {
         body += &writer.integral(*integral);
@@ -90,12 +94,12 @@ pub(super) fn prefix(model: &Model, language: Language) -> String {
 /// The integrals below the functions, the inner before the outer.
 fn integrals(model: &Model, functions: &[Function]) -> Vec<NodeId> {
     let roots: Vec<NodeId> = functions.iter().flat_map(|f| f.roots.clone()).collect();
-    let mut open = needed(&model.graph, &roots);
+    let mut open = nodes_below(&model.graph, &roots);
     let mut integrals = vec![];
     while let Some(id) = open.pop() {
         if let Node::Integral { body, .. } = model.graph.node(id) {
             integrals.push(id);
-            open.extend(needed(&model.graph, &[*body]));
+            open.extend(nodes_below(&model.graph, &[*body]));
         }
     }
     integrals.sort();
@@ -104,8 +108,22 @@ fn integrals(model: &Model, functions: &[Function]) -> Vec<NodeId> {
 }
 
 impl Writer<'_> {
+    /// The names of the file that are written with `_` behind them, as a line of the first comment.
+    fn renamed(&self, functions: &[Function]) -> String {
+        let quantities = functions.iter().map(|f| (&f.name, &f.quantity));
+        let parameters = self.model.problem.parameters.iter();
+        let parameters = self.parameters.iter().zip(parameters.map(|p| &p.name));
+        let renamed = quantities.chain(parameters);
+        let renamed = renamed.filter(|(name, plain)| !name.ends_with(plain.as_str()));
+        let renamed: Vec<&str> = renamed.map(|(name, _)| name.as_str()).collect();
+        if renamed.is_empty() {
+            return String::new();
+        }
+        format!("Written with _ behind the name: {}\n", renamed.join(", "))
+    }
+
     /// The first comment: equations, conventions, version and a hash of the input.
-    fn head(&self) -> String {
+    fn head(&self, functions: &[Function]) -> String {
         let problem = &self.model.problem;
         let canonical = problem.canonical();
         let hash = canonical
@@ -127,8 +145,9 @@ impl Writer<'_> {
         let lines = format!(
             "Manufactured solution `{}`, by manufacture {version}, input {hash:016x}.\n{canonical}\
              Conventions: grad(v)_ij = dv_i/dx_j, div(A)_i = sum_j dA_ij/dx_j; tensors row by row; n points outwards.\n\
-             Build: {}",
+             {}Build: {}",
             problem.name,
+            self.renamed(functions),
             build.replace("NAME", &problem.name)
         );
         for line in lines.lines() {
@@ -167,7 +186,7 @@ impl Writer<'_> {
         let number = self
             .integrals
             .iter()
-            .position(|known| *known == id)
+            .position(|entry| *entry == id)
             .unwrap_or(0)
             + 1;
         let time = if self.model.problem.time.is_some() {
@@ -179,19 +198,14 @@ impl Writer<'_> {
     }
 
     /// Constants and values of roots with these names of the coordinates and of time.
-    fn statements(
-        &self,
-        roots: &[NodeId],
-        array: &str,
-        time: &str,
-    ) -> (Vec<[String; 2]>, Vec<String>) {
+    fn statements(&self, roots: &[NodeId], array: &str, time: &str) -> Lowered {
         let array_argument = if self.language == Language::Rust && array == "y" {
             "&y"
         } else {
             array
         };
-        let octave = |index: usize| self.language.number(self.model.graph.parameters[index]);
-        let values: Vec<String> = (0..self.parameters.len()).map(octave).collect();
+        let values = self.model.graph.parameters.iter();
+        let values: Vec<String> = values.map(|value| self.language.number(*value)).collect();
         let is_octave = self.language == Language::Octave;
         let names = Names {
             language: self.language,
@@ -201,8 +215,7 @@ impl Writer<'_> {
             parameters: if is_octave { &values } else { &self.parameters },
             integrals: &|id| self.call_of_integral(id, array_argument, time),
         };
-        let lowered = lower(&self.model.graph, roots, &names);
-        (lowered.constants, lowered.roots)
+        lower(&self.model.graph, roots, &names)
     }
 
     fn function(&self, function: &Function) -> String {
@@ -213,7 +226,7 @@ impl Writer<'_> {
         } else {
             first.as_deref().unwrap_or("t")
         };
-        let (constants, roots) = self.statements(&function.roots, "x", time);
+        let Lowered { constants, roots } = self.statements(&function.roots, "x", time);
         let mut body = String::new();
         let indent = runtime::indent(self.language);
         for [name, value] in &constants {
@@ -236,7 +249,7 @@ impl Writer<'_> {
         else {
             return String::new();
         };
-        let (constants, roots) = self.statements(&[*body], "y", "t");
+        let Lowered { constants, roots } = self.statements(&[*body], "y", "t");
         let indent = runtime::indent(self.language).repeat(2);
         let deeper = if self.language == Language::Fortran {
             "    "

@@ -107,6 +107,13 @@ pub(crate) fn reserved() -> impl Iterator<Item = &'static str> {
         .chain(["n", "identity"])
 }
 
+/// The name of a value in a table of names.
+pub(crate) fn name_in<T: PartialEq>(table: &[(&'static str, T)], value: &T) -> &'static str {
+    let mut entries = table.iter();
+    let entry = entries.find(|entry| entry.1 == *value);
+    entry.map_or("", |entry| entry.0)
+}
+
 /// The part of a message about an unknown name that suggests a known one; empty without a
 /// suggestion.
 pub fn did_you_mean<'c>(name: &str, known: impl IntoIterator<Item = &'c str>) -> String {

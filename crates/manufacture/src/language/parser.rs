@@ -144,12 +144,12 @@ impl Parser<'_> {
     /// Parses a name, or a call if a function or an operator has the name `token`.
     fn name(&mut self, token: Token) -> Result<Deep, SyntaxError> {
         let name = self.slice(token).to_owned();
-        let callee = CALLEES.iter().find(|known| known.0 == name);
+        let callee = CALLEES.iter().find(|entry| entry.0 == name);
         let is_called = self.token.kind == TokenKind::Symbol('(');
         let Some(&(name, callee, least, most)) = callee else {
-            let near = nearest(&name, CALLEES.iter().map(|known| known.0));
+            let near = nearest(&name, CALLEES.iter().map(|entry| entry.0));
             if let (true, Some(near)) = (is_called, near) {
-                let known: Vec<&str> = CALLEES.iter().map(|known| known.0).collect();
+                let known: Vec<&str> = CALLEES.iter().map(|entry| entry.0).collect();
                 let problem = format!(
                     "unknown name `{}`, did you mean `{near}`?; expected one of {}",
                     shorten(&name),

@@ -128,8 +128,8 @@ impl Tree {
 pub fn callee_name(callee: Callee) -> &'static str {
     CALLEES
         .iter()
-        .find(|known| known.1 == callee)
-        .map_or("", |known| known.0)
+        .find(|entry| entry.1 == callee)
+        .map_or("", |entry| entry.0)
 }
 
 /// Parts with commas between them.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Datum, Problem, Surface, Value};
+use super::{Datum, Problem, Surface, System, Value};
 
 impl Value {
     fn text(&self) -> String {
@@ -30,6 +30,9 @@ impl Problem {
     /// One line for each name, equation and datum.
     pub(crate) fn canonical(&self) -> String {
         let mut text = String::new();
+        if self.system != System::Cartesian {
+            let _ = writeln!(text, "{} coordinates", self.system.name());
+        }
         for (variable, interval) in self.variables().iter().zip(&self.intervals) {
             let _ = writeln!(text, "{variable} in {interval:?}");
         }
@@ -55,6 +58,16 @@ impl Problem {
             data(&mut text, &face.name, &face.data);
         }
         data(&mut text, "initial", &self.initial);
+        let required = [("positive", &self.positive), ("zero", &self.zero)];
+        for (word, expressions) in required {
+            for expression in expressions {
+                let _ = writeln!(text, "{word}: {}", expression.tree);
+            }
+        }
+        for (field, norms) in &self.norms {
+            let norms: Vec<&str> = norms.iter().map(|norm| norm.name()).collect();
+            let _ = writeln!(text, "error of {field}: {}", norms.join(", "));
+        }
         text
     }
 }

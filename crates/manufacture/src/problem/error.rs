@@ -32,6 +32,14 @@ impl InputError {
             excerpt: None,
         }
     }
+
+    /// An error in a line of an input, counted from 1.
+    pub(crate) fn at_line(file: &str, line: usize, problem: impl Into<String>) -> Self {
+        Self {
+            line,
+            ..Self::whole(file, problem)
+        }
+    }
 }
 
 impl fmt::Display for InputError {

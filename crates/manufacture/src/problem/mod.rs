@@ -8,6 +8,7 @@ mod sections;
 
 use std::collections::BTreeMap;
 
+use crate::language::names::name_in;
 use crate::language::tree::Tree;
 
 pub(crate) use constant::constant;
@@ -45,6 +46,11 @@ impl System {
         ("axisymmetric", System::Axisymmetric),
         ("cylindrical", System::Cylindrical),
     ];
+
+    /// As written in a file.
+    pub(crate) fn name(self) -> &'static str {
+        name_in(&Self::ALL, &self)
+    }
 }
 
 /// A number with a name.
@@ -125,10 +131,7 @@ impl Norm {
     ];
 
     pub(crate) fn name(self) -> &'static str {
-        Self::ALL
-            .iter()
-            .find(|known| known.1 == self)
-            .map_or("", |known| known.0)
+        name_in(&Self::ALL, &self)
     }
 }
 

@@ -109,12 +109,11 @@ impl<'t> Section<'t> {
         Some(self.reader.field(&self.path, name, value))
     }
 
-    pub(super) fn needed(&self, name: &str) -> Result<Field<'t>, InputError> {
-        let missing = || {
+    pub(super) fn require(&self, name: &str) -> Result<Field<'t>, InputError> {
+        self.field(name).ok_or_else(|| {
             self.place()
                 .error(format!("expected the key `{name}`, found none"))
-        };
-        self.field(name).ok_or_else(missing)
+        })
     }
 
     pub(super) fn section(&self, name: &str) -> Result<Option<Section<'t>>, InputError> {
@@ -122,7 +121,7 @@ impl<'t> Section<'t> {
     }
 
     /// Refuses keys other than these.
-    pub(super) fn only(&self, known: &[&str]) -> Result<(), InputError> {
+    pub(super) fn allow(&self, known: &[&str]) -> Result<(), InputError> {
         for (key, _) in self.table.iter() {
             let name: &str = key.get_ref();
             if !known.contains(&name) {
@@ -192,14 +191,14 @@ impl<'t> Field<'t> {
     pub(super) fn list(&self) -> Result<Vec<Field<'t>>, InputError> {
         match self.value {
             DeValue::Array(values) => {
-                let item = |value| Field {
+                let items = values.iter().map(|value| Field {
                     place: Place {
-                        line: self.reader.line(Spanned::span(value).start),
+                        line: self.reader.line(value.span().start),
                         ..self.place.clone()
                     },
                     ..self.reader.field("", &self.name, value)
-                };
-                Ok(values.iter().map(item).collect())
+                });
+                Ok(items.collect())
             }
             _ => Err(self.expected("a list")),
         }

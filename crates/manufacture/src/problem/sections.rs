@@ -31,14 +31,14 @@ impl Problem {
         let document = reader.parse()?;
         let whole = reader.whole(document.get_ref());
         let keys = ["name", "coordinates", "time", "system"];
-        whole.only(&SECTIONS)?;
-        let head = whole.needed("manufacture")?.section()?;
-        head.only(&keys)?;
+        whole.allow(&SECTIONS)?;
+        let head = whole.require("manufacture")?.section()?;
+        head.allow(&keys)?;
         let time = head.field("time");
         let mut problem = Self {
             file: file.to_owned(),
             text: text.to_owned(),
-            name: name(&head.needed("name")?)?,
+            name: name(&head.require("name")?)?,
             coordinates: vec![],
             time: time.as_ref().map(name).transpose()?,
             system: System::Cartesian,
@@ -63,9 +63,8 @@ impl Problem {
     }
 
     fn space(&mut self, head: &Section<'_>) -> Result<(), InputError> {
-        let field = head.needed("coordinates")?;
-        let named = |item: &Field<'_>| name(item);
-        self.coordinates = field.list()?.iter().map(named).collect::<Result<_, _>>()?;
+        let field = head.require("coordinates")?;
+        self.coordinates = field.list()?.iter().map(name).collect::<Result<_, _>>()?;
         let found = self.coordinates.len();
         if !(1..=3).contains(&found) {
             let problem = format!("expected 1 to 3 coordinates, found {found}");
@@ -91,7 +90,7 @@ impl Problem {
         for (section, is_exact) in [("exact", true), ("define", false)] {
             let Some(section) = whole.section(section)? else {
                 if is_exact {
-                    whole.needed("exact")?;
+                    whole.require("exact")?;
                 }
                 continue;
             };
@@ -135,10 +134,10 @@ impl Problem {
     }
 
     fn domain(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
-        let section = whole.needed("domain")?.section()?;
+        let section = whole.require("domain")?.section()?;
         let variables: Vec<String> = self.variables().iter().map(|v| (*v).to_owned()).collect();
         let known: Vec<&str> = variables.iter().map(String::as_str).collect();
-        section.only(&known)?;
+        section.allow(&known)?;
         let values = self.parameter_values(None)?;
         let names = self
             .parameters
@@ -146,7 +145,7 @@ impl Problem {
             .map(|parameter| parameter.name.as_str());
         let known: Vec<(&str, f64)> = names.zip(values).collect();
         for variable in &variables {
-            let field = section.needed(variable)?;
+            let field = section.require(variable)?;
             let ends = field.list()?;
             let [low, high] = ends.as_slice() else {
                 let problem = format!("expected two numbers, found {}", ends.len());
@@ -162,7 +161,7 @@ impl Problem {
         }
         if self.system != System::Cartesian && self.intervals[0][0] < 0.0 {
             let problem = "expected a radius of at least 0";
-            return Err(section.needed(&variables[0])?.place.error(problem));
+            return Err(section.require(&variables[0])?.place.error(problem));
         }
         Ok(())
     }
@@ -188,6 +187,14 @@ impl Problem {
                 data,
             });
         }
+        // The sides in the order of the coordinates, so that other names change no order.
+        self.faces.sort_by_key(|face| match face.surface {
+            Surface::Side {
+                coordinate,
+                is_upper,
+            } => (coordinate, is_upper),
+            Surface::Level(_) => (usize::MAX, false),
+        });
         Ok(())
     }
 
@@ -235,14 +242,14 @@ impl Problem {
             }
         }
         if let Some(require) = whole.section("require")? {
-            require.only(&["positive", "zero"])?;
+            require.allow(&["positive", "zero"])?;
             self.positive = expressions(&require, "positive")?;
             self.zero = expressions(&require, "zero")?;
         }
         if let Some(norms) = whole.section("norms")? {
             let exact = self.definitions.iter().filter(|entry| entry.1.is_exact);
             let fields: Vec<&str> = exact.map(|entry| entry.0.as_str()).collect();
-            norms.only(&fields)?;
+            norms.allow(&fields)?;
             let known = Norm::ALL.map(|norm| norm.0);
             for entry in norms.fields() {
                 let items = entry.list()?;
@@ -309,17 +316,18 @@ fn parameters(whole: &Section<'_>) -> Result<Vec<Parameter>, InputError> {
     let Some(section) = whole.section("parameters")? else {
         return Ok(vec![]);
     };
-    let parameter = |field: &Field<'_>| {
-        Ok(Parameter {
-            name: field.name.clone(),
+    let mut parameters = vec![];
+    for field in section.fields() {
+        parameters.push(Parameter {
             expression: field.expression()?,
-        })
-    };
-    section.fields().iter().map(parameter).collect()
+            name: field.name,
+        });
+    }
+    Ok(parameters)
 }
 
 fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
-    let section = whole.needed("equations")?.section()?;
+    let section = whole.require("equations")?.section()?;
     let mut equations = vec![];
     for field in section.fields() {
         check_identifier(&field.name, &field.place)?;
@@ -348,19 +356,17 @@ fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
 /// The terms of a table, in alphabetical order, each with its place in the file.
 fn named_terms(section: &Section<'_>) -> Result<Vec<Term>, InputError> {
     let fields = section.fields();
-    let place = |field: &Field<'_>| {
-        let before = |other: &&Field<'_>| other.start < field.start;
-        fields.iter().filter(before).count()
-    };
-    let named = |field: &Field<'_>| {
-        Ok(Term {
+    let mut terms = vec![];
+    for field in &fields {
+        let others = fields.iter();
+        terms.push(Term {
             label: field.name.clone(),
-            place: place(field),
+            place: others.filter(|other| other.start < field.start).count(),
             is_negative: false,
             expression: field.expression()?,
-        })
-    };
-    fields.iter().map(named).collect()
+        });
+    }
+    Ok(terms)
 }
 
 /// A text is cut into terms at its top-level + and -.
@@ -397,11 +403,11 @@ fn datum(field: &Field<'_>) -> Result<Datum, InputError> {
         });
     }
     let section = field.section()?;
-    section.only(&["of", "is"])?;
+    section.allow(&["of", "is"])?;
     Ok(Datum {
         name,
-        value: section.needed("of")?.value()?,
-        condition: Some(section.needed("is")?.value()?),
+        value: section.require("of")?.value()?,
+        condition: Some(section.require("is")?.value()?),
     })
 }
 
@@ -416,11 +422,10 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     let Some(section) = whole.section("study")? else {
         return Ok(None);
     };
-    section.only(&["command", "n", "order"])?;
-    let command = section.needed("command")?.list()?;
-    let n = section.needed("n")?.list()?;
-    let orders = section.needed("order")?.section()?.fields();
-    let order = |field: &Field<'_>| Ok((field.name.clone(), field.number()?));
+    section.allow(&["command", "n", "order"])?;
+    let command = section.require("command")?.list()?;
+    let n = section.require("n")?.list()?;
+    let orders = section.require("order")?.section()?.fields();
     Ok(Some(Study {
         command: command
             .iter()
@@ -429,7 +434,7 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
         n: n.iter().map(Field::integer).collect::<Result<_, _>>()?,
         orders: orders
             .iter()
-            .map(order)
+            .map(|field| Ok((field.name.clone(), field.number()?)))
             .collect::<Result<Vec<_>, InputError>>()?,
     }))
 }

@@ -115,8 +115,8 @@ fn headline(scene: &Scene, run: &Run) -> String {
 
 fn work(scene: &Scene, run: &Run) -> Vec<Line> {
     let seconds = run.wall.as_secs_f64();
-    let per_step = |count: usize| count as f64 / run.steps as f64;
-    let rate = 1e9 * per_step(1) * seconds / scene.mesh.elements() as f64;
+    let steps = run.steps as f64;
+    let rate = 1e9 * (1.0 / steps) * seconds / scene.mesh.elements() as f64;
     let located = run.contact.as_ref().map_or(String::new(), |contact| {
         format!(
             "{} of them end where contact begins or ends",
@@ -130,7 +130,7 @@ fn work(scene: &Scene, run: &Run) -> Vec<Line> {
             run.iterations.total.to_string(),
             format!(
                 "{:.2} a step, at most {}",
-                per_step(run.iterations.total),
+                run.iterations.total as f64 / steps,
                 run.iterations.max
             ),
         ),

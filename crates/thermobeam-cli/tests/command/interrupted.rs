@@ -1,4 +1,4 @@
-//! Ctrl-C, and a limit on the time of a case.
+//! Ctrl-C, which Windows does not send to one process alone.
 
 use std::process::Command;
 use std::thread;
@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use convergence_study_tests::{PATIENCE, finished, interruptible, signal, started};
 
-use super::workspace::{all, endless, quick, set, verify, workspace};
-use super::{Ended, Folder, ended, thermobeam, thrown};
+use super::workspace::{all, endless, quick, verify, workspace};
+use super::{Ended, Folder, thermobeam, thrown};
 
 /// Starts a program, interrupts it like Ctrl-C while it is at work, and waits for its end.
 ///
@@ -28,7 +28,6 @@ fn interrupted(command: impl Fn() -> Command, is_at_work: impl Fn(&Ended) -> boo
     }
 }
 
-#[cfg(unix)]
 #[test]
 fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
     let folder = Folder::new();
@@ -48,7 +47,6 @@ fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
     assert_eq!(all(&root), before);
 }
 
-#[cfg(unix)]
 #[test]
 fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_was() {
     let folder = Folder::new();
@@ -101,67 +99,4 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
         "{said}: {}",
         journal.lines().count()
     );
-}
-
-#[test]
-fn a_case_at_its_limit_fails_its_study_and_no_other() {
-    let folder = Folder::new();
-    let root = workspace(
-        &folder,
-        "w",
-        &[("short", quick("short")), ("long", endless("long"))],
-    );
-    let ended = ended(&mut verify(&root, &["--case-limit", "1", "--verbose"]));
-    assert_eq!((ended.status, ended.stderr.as_str()), (Some(1), ""));
-    let line = |id: &str| {
-        ended
-            .stdout
-            .lines()
-            .find(|line| line.starts_with(&format!("{id} ")))
-            .unwrap_or_default()
-            .to_owned()
-    };
-    assert!(
-        line("short").contains(" pass ") && line("long").contains(" fail "),
-        "{}",
-        ended.stdout
-    );
-    let page = std::fs::read_to_string(root.join("reports/README.md")).expect("a report");
-    for piece in [
-        "n = 8, 9000000000 steps: stopped at the limit of 1 s, after step ",
-        "| every case completes, with finite numbers | fail",
-    ] {
-        assert!(page.contains(piece), "{piece}: {page}");
-    }
-}
-
-#[test]
-fn a_limit_that_is_not_reached_changes_no_bit() {
-    let folder = Folder::new();
-    let sets = ["plain", "limited"].map(|name| {
-        let root = workspace(&folder, name, &[("short", quick("short"))]);
-        let arguments = if name == "plain" {
-            &[][..]
-        } else {
-            &["--case-limit", "3600"]
-        };
-        assert_eq!(ended(&mut verify(&root, arguments)).status, Some(1));
-        set(&root.join("reports"))
-    });
-    assert_eq!(sets[0], sets[1]);
-}
-
-#[test]
-fn a_limit_that_is_none_is_unusable() {
-    let folder = Folder::new();
-    let root = workspace(&folder, "w", &[("short", quick("short"))]);
-    for limit in ["0", "-1", "nan", "inf", "1e300", "soon"] {
-        let ended = ended(&mut verify(&root, &[&format!("--case-limit={limit}")]));
-        assert_eq!(
-            (ended.status, ended.stdout.as_str()),
-            (Some(2), ""),
-            "{limit}"
-        );
-        assert!(ended.stderr.contains("--case-limit"), "{}", ended.stderr);
-    }
 }

@@ -6,6 +6,9 @@ mod equilibria;
 mod failure;
 mod first_steps;
 mod flags;
+#[cfg(unix)]
+mod full_disk;
+#[cfg(unix)]
 mod interrupted;
 mod killed;
 mod places;
@@ -13,6 +16,7 @@ mod rates;
 #[cfg(unix)]
 mod run;
 mod sweep;
+mod time_limit;
 mod workspace;
 
 use std::path::{Path, PathBuf};

@@ -12,22 +12,22 @@ use thermobeam::parameters::{ParameterError, check};
 /// a mesh, each with its own ω.
 ///
 /// ```
-/// use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+/// use thermobeam::dg::{Field, InitialFunctions, DgProblem, Dg, DgStepping};
 /// use thermobeam::mesh::Mesh;
 /// use thermobeam::parameters::Beam;
 /// use thermobeam_exact::vibration::{Mode, TimeFactor};
 ///
 /// let mode = Mode::new(0);
 /// let beam = Beam { zeta: 0.1, a: 0.0, rho: 0.0, beta: 0.0, theta_a: 0.0 };
-/// let initial = Initial {
+/// let initial = InitialFunctions {
 ///     u: Box::new(move |x| mode.u(x)),
 ///     phi: Box::new(move |x| mode.phi(x)),
-///     ..Initial::at_rest(0.0)
+///     ..InitialFunctions::at_rest(0.0)
 /// };
 /// let mesh = Mesh::uniform(1)?;
-/// let problem = Problem { beam, obstacles: None, mesh, degree: 12, initial };
-/// let stepping = Stepping { degree: 3, dt: 0.1, restart_dt: 0.1, ..Stepping::default() };
-/// let mut simulation = Simulation::new(problem, stepping)?;
+/// let problem = DgProblem { beam, obstacles: None, mesh, degree: 12, initial };
+/// let stepping = DgStepping { degree: 3, dt: 0.1, restart_dt: 0.1, ..DgStepping::default() };
+/// let mut simulation = Dg::new(problem, stepping)?;
 /// simulation.advance(1.0)?;
 /// let tip = simulation.value(Field::U, 1.0, 1.0).expect("the last step ends there");
 /// let exact = TimeFactor::new(mode.omega(), beam.zeta, 1.0, 0.0)?.value(1.0);

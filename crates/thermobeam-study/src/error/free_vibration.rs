@@ -72,20 +72,18 @@ pub(crate) fn add_mode(
     let mode = Mode::new(index);
     let (t, square) = (damped(mode.omega(), zeta, start)?, mode.omega().powi(2));
     // Second derivatives by the mode's equations `U'' = Φ' - ω² U` and `Φ'' = Φ - U' - ω² Φ`.
-    let of_u = move |x: f64| [mode.u(x), mode.u_x(x), mode.phi_x(x) - square * mode.u(x)];
-    let of_phi = move |x: f64| {
-        [
-            mode.phi(x),
-            mode.phi_x(x),
-            mode.phi(x) - mode.u_x(x) - square * mode.phi(x),
-        ]
-    };
     exact.u.push(Product {
-        x: Factor::new(of_u),
+        x: Factor::new(move |x| [mode.u(x), mode.u_x(x), mode.phi_x(x) - square * mode.u(x)]),
         t: t.clone(),
     });
     exact.phi.push(Product {
-        x: Factor::new(of_phi),
+        x: Factor::new(move |x| {
+            [
+                mode.phi(x),
+                mode.phi_x(x),
+                mode.phi(x) - mode.u_x(x) - square * mode.phi(x),
+            ]
+        }),
         t,
     });
     Ok(())
@@ -94,12 +92,11 @@ pub(crate) fn add_mode(
 /// Adds the temperature `amplitude sin kπx e^{-κ²t}`, κ = kπ.
 pub(crate) fn add_temperature(exact: &mut Manufactured, k: usize, amplitude: f64) {
     let kappa = k as f64 * PI;
-    let sine = move |x: f64| {
-        let (sine, cosine) = (kappa * x).sin_cos();
-        [sine, kappa * cosine, -kappa * kappa * sine]
-    };
     exact.theta.push(Product {
-        x: Factor::new(sine),
+        x: Factor::new(move |x: f64| {
+            let (sine, cosine) = (kappa * x).sin_cos();
+            [sine, kappa * cosine, -kappa * kappa * sine]
+        }),
         t: decay(kappa * kappa, amplitude),
     });
 }

@@ -11,10 +11,10 @@ use crate::error::polynomials::{OfAnyOrder, OfLinear, Polynomials, missing};
 use crate::exact::any_order;
 use crate::exact::errors::ErrorMeter;
 use crate::exact::norm::Norm;
-use crate::exact::solution::{Factors, Manufactured, Product};
+use crate::exact::solution::{Factors, Manufactured};
 use crate::run::family::{Family, OnMesh};
 use convergence_harness::study::CaseFailure;
-use thermobeam::dg;
+use thermobeam::dg::{self, DgLevel};
 use thermobeam::solve::Level;
 
 /// What is measured.
@@ -99,11 +99,10 @@ impl<'a> Evaluator<'a> {
         let exact = family.exact().ok_or_else(missing)?;
         let mut meter = ErrorMeter::new(exact, mesh, false);
         meter.lift(mesh, family.beam.theta_a);
-        let tip = |product: &Product| product.x.eval(1.0);
         let answer = Answer::Exact {
             exact,
             meter: Box::new((meter, Factors::default())),
-            tip: exact.u.iter().map(tip).collect(),
+            tip: exact.u.iter().map(|product| product.x.eval(1.0)).collect(),
         };
         Ok(Self { answer })
     }
@@ -156,7 +155,7 @@ impl<'a> AnyOrderEvaluator<'a> {
     }
 
     /// The errors of a level, which is observation number `index` from 0.
-    pub fn measure(&mut self, level: &dg::Level, index: usize) -> Errors {
+    pub fn measure(&mut self, level: &DgLevel, index: usize) -> Errors {
         match &mut self.answer {
             AnyOrderAnswer::Exact(meter) => Errors {
                 norm: meter.theorem_34(level),

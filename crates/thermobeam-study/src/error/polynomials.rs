@@ -8,7 +8,7 @@
 
 use convergence_harness::study::CaseFailure;
 use convergence_harness::text::number::max_or_nan;
-use thermobeam::dg::{self, Field};
+use thermobeam::dg::{self, DgLevel, Field};
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;
 
@@ -26,7 +26,7 @@ const FINE: usize = 512;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polynomials {
     space: dg::Space,
-    levels: Vec<dg::Level>,
+    levels: Vec<DgLevel>,
 }
 
 /// A Gauss point, with the bases of both sides there.
@@ -50,7 +50,7 @@ type Integrands = [f64; 5];
 
 impl Polynomials {
     /// * `levels`: at the times of observation.
-    pub(crate) fn new(space: dg::Space, levels: Vec<dg::Level>) -> Self {
+    pub(crate) fn new(space: dg::Space, levels: Vec<DgLevel>) -> Self {
         Self { space, levels }
     }
 
@@ -113,7 +113,7 @@ impl<'r> OfAnyOrder<'r> {
     }
 
     /// The errors of a level at the observation with this number.
-    pub(crate) fn errors(&self, level: &dg::Level, index: usize) -> Errors {
+    pub(crate) fn errors(&self, level: &DgLevel, index: usize) -> Errors {
         let norm = self.reference.norm(index, &self.points, |point| {
             integrands(self.space, level, point)
         });
@@ -197,13 +197,13 @@ impl Polynomials {
     }
 }
 
-fn integrands(space: &dg::Space, level: &dg::Level, point: &dg::Point) -> Integrands {
+fn integrands(space: &dg::Space, level: &DgLevel, point: &dg::Point) -> Integrands {
     let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
         level.values_and_slopes_at(space, point);
     [v, u_x - phi, w, phi_x, theta]
 }
 
-pub(crate) fn tip(space: &dg::Space, level: &dg::Level) -> f64 {
+pub(crate) fn tip(space: &dg::Space, level: &DgLevel) -> f64 {
     level.value_and_slope(space, Field::U, 1.0).0
 }
 
@@ -233,8 +233,9 @@ pub(crate) fn missing() -> CaseFailure {
 mod tests {
     use super::*;
     use crate::error::{AnyOrderEvaluator, Evaluator, free_vibration};
-    use crate::run::Motion;
+    use crate::run::ObservableMotion;
     use crate::run::family::Family;
+    use thermobeam::dg::DgStepping;
     use thermobeam::scheme::EULER_CRANK_NICOLSON;
     use thermobeam::solve::Settings;
 
@@ -248,10 +249,10 @@ mod tests {
 
     /// Its state at the end by dG, on elements of this degree.
     fn end(family: &Family, nodes: &[f64], degree: usize) -> Polynomials {
-        let stepping = dg::Stepping {
+        let stepping = DgStepping {
             degree: 4,
             dt: 0.05,
-            ..dg::Stepping::default()
+            ..DgStepping::default()
         };
         let mesh = Mesh::from_nodes(nodes.to_vec()).unwrap();
         let mut motion = family.dg(mesh, degree, stepping).unwrap();

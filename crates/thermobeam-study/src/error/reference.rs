@@ -12,7 +12,7 @@ use thermobeam::solve::Level;
 
 use crate::exact::norm::TheoremSquares;
 use crate::run::simulate::{Recording, Simulator};
-use crate::run::snapshot::{map_fields, on_mesh};
+use crate::run::snapshot::{equidistant_time, map_fields, on_mesh};
 use crate::scene::{Scene, resampled};
 
 /// Polynomials are kept as linear functions, on this many elements for each of the finest mesh
@@ -56,16 +56,11 @@ impl Traced {
     /// # Errors
     /// [`CaseFailure`] if the run does not finish.
     pub fn compute(scene: &Scene, mesh: Mesh, samples: usize) -> Result<Self, CaseFailure> {
-        let t_end = scene.t_end;
-        let time = |k: usize| {
-            if k == samples {
-                t_end
-            } else {
-                t_end * k as f64 / samples as f64
-            }
-        };
-        let times: Vec<f64> = (1..=samples).map(time).collect();
-        let (mut levels, mut energies) = (vec![], vec![]);
+        let times: Vec<f64> = (1..=samples)
+            .map(|k| equidistant_time(scene.t_end, k, samples))
+            .collect();
+        let mut levels = vec![];
+        let mut energies = vec![];
         let run = Simulator::new(scene)?.read_at(Recording::Summary, &times, |motion| {
             levels.push(motion.snapshot().on(&mesh));
             energies.push(motion.sample().energy);
@@ -106,32 +101,32 @@ impl Traced {
     /// nodes here, and the level at time `k` (from 0): as functions, since a coarse P1 function is
     /// also one on the fine mesh, and at the nodes of the coarser mesh.
     pub(crate) fn errors_of(&self, level: &Level, mesh: &Mesh, k: usize) -> [f64; 2] {
-        let (fine, [few, many]) = (
-            &self.levels[k],
-            [mesh, &self.mesh].map(|mesh| mesh.lengths().collect::<Vec<f64>>()),
-        );
+        let fine = &self.levels[k];
+        let coarse_lengths: Vec<f64> = mesh.lengths().collect();
+        let fine_lengths: Vec<f64> = self.mesh.lengths().collect();
         let extended = on_mesh(level, mesh, &self.mesh);
         let stride = self.mesh.elements() / mesh.elements();
         let restricted = map_fields(fine, |y| y.iter().step_by(stride).copied().collect());
         [
-            distance(&many, &extended, fine),
-            distance(&few, level, &restricted),
+            distance(&fine_lengths, &extended, fine),
+            distance(&coarse_lengths, level, &restricted),
         ]
     }
 }
 
 /// Distance between two levels of one mesh in the norm of Theorem 3.4.
 pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
-    let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
-    let [v, u, w, phi, theta] = [
-        (&a.v, &b.v),
-        (&a.u, &b.u),
-        (&a.w, &b.w),
-        (&a.phi, &b.phi),
-        (&a.theta, &b.theta),
-    ]
-    .map(|(a, b)| difference(a, b));
+    let v = difference(&a.v, &b.v);
+    let u = difference(&a.u, &b.u);
+    let w = difference(&a.w, &b.w);
+    let phi = difference(&a.phi, &b.phi);
+    let theta = difference(&a.theta, &b.theta);
     TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
+}
+
+/// `a - b`, node by node.
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// Largest difference of two curves at the same times; NaN if a value is NaN or the lengths differ.
@@ -147,18 +142,20 @@ pub(crate) fn distance_of_curves(a: &[f64], b: &[f64]) -> f64 {
 
 /// `weight * a + (1 - weight) * b`, field by field.
 pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
-    let mix = |a: &[f64], b: &[f64]| {
-        a.iter()
-            .zip(b)
-            .map(|(a, b)| weight * a + (1.0 - weight) * b)
-            .collect::<Vec<f64>>()
-    };
     Level {
-        u: mix(&a.u, &b.u),
-        v: mix(&a.v, &b.v),
-        phi: mix(&a.phi, &b.phi),
-        w: mix(&a.w, &b.w),
-        theta: mix(&a.theta, &b.theta),
+        u: mix(&a.u, &b.u, weight),
+        v: mix(&a.v, &b.v, weight),
+        phi: mix(&a.phi, &b.phi, weight),
+        w: mix(&a.w, &b.w, weight),
+        theta: mix(&a.theta, &b.theta, weight),
         contact_force: weight * a.contact_force + (1.0 - weight) * b.contact_force,
     }
+}
+
+/// `weight * a + (1 - weight) * b`, node by node.
+fn mix(a: &[f64], b: &[f64], weight: f64) -> Vec<f64> {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| weight * a + (1.0 - weight) * b)
+        .collect()
 }

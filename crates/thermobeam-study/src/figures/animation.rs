@@ -52,27 +52,43 @@ pub fn animation(figure: &Animation) -> String {
     canvas.finish(&title, "")
 }
 
-/// `(t, displacement at the points to draw)`, thinned, without incomplete frames.
-fn drawable_frames(figure: &Animation) -> Vec<(f64, Vec<f64>)> {
+/// The displacement at the points to draw, at one time.
+struct Frame {
+    t: f64,
+    u: Vec<f64>,
+}
+
+impl Frame {
+    /// The largest absolute displacement.
+    fn deflection(&self) -> f64 {
+        self.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()))
+    }
+}
+
+/// The frames to draw: thinned, without incomplete ones.
+fn drawable_frames(figure: &Animation) -> Vec<Frame> {
     let Frames {
         times,
         points: nodes,
-        u,
+        u: displacements,
     } = &figure.frames;
-    let is_complete = |frame: &&Vec<f64>| {
-        frame.len() == nodes.len() && frame.iter().all(|&v| on_scale(Scale::Linear, v).is_some())
-    };
-    let timed = times.iter().zip(u);
-    let all: Vec<(f64, &Vec<f64>)> = timed
-        .filter(|(t, f)| t.is_finite() && is_complete(f))
-        .map(|(&t, f)| (t, f))
-        .collect();
+    let mut complete = vec![];
+    for (&t, u) in times.iter().zip(displacements) {
+        let is_drawable = u.iter().all(|&u| on_scale(Scale::Linear, u).is_some());
+        if t.is_finite() && u.len() == nodes.len() && is_drawable {
+            complete.push((t, u));
+        }
+    }
     let points = thinned(nodes.len(), MOST_POINTS);
-    let pick = |n: usize| (all[n].0, points.iter().map(|&i| all[n].1[i]).collect());
-    thinned(all.len(), MOST_FRAMES)
-        .into_iter()
-        .map(pick)
-        .collect()
+    let mut frames = vec![];
+    for n in thinned(complete.len(), MOST_FRAMES) {
+        let (t, u) = complete[n];
+        frames.push(Frame {
+            t,
+            u: points.iter().map(|&i| u[i]).collect(),
+        });
+    }
+    frames
 }
 
 /// Layout of the drawing.
@@ -85,8 +101,8 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(figure: &Animation, frames: &[(f64, Vec<f64>)]) -> Self {
-        let displacements = frames.iter().flat_map(|(_, u)| u.iter().copied());
+    fn new(figure: &Animation, frames: &[Frame]) -> Self {
+        let displacements = frames.iter().flat_map(|frame| frame.u.iter().copied());
         let obstacles = figure.obstacles.into_iter().flat_map(|(g1, g2)| [g1, g2]);
         let u = Ruler::around(
             Scale::Linear,
@@ -95,7 +111,7 @@ impl Stage {
         );
         let points = &figure.frames.points;
         let x = Ruler::around(Scale::Linear, points.iter().copied(), 0.0);
-        let t = Ruler::around(Scale::Linear, frames.iter().map(|f| f.0), 0.0);
+        let t = Ruler::around(Scale::Linear, frames.iter().map(|frame| frame.t), 0.0);
         let nodes = thinned(points.len(), MOST_POINTS)
             .into_iter()
             .map(|i| points[i]);
@@ -225,37 +241,29 @@ impl Stage {
     }
 
     /// The beam, its tip and the time mark, each with its animation.
-    fn moving_parts(&self, figure: &Animation, frames: &[(f64, Vec<f64>)]) -> String {
-        let bent =
-            |frame: &(f64, Vec<f64>)| frame.1.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    fn moving_parts(&self, figure: &Animation, frames: &[Frame]) -> String {
         // The first of several frames with the same deflection.
         let most = frames
             .iter()
             .enumerate()
             .rev()
-            .max_by(|a, b| bent(a.1).total_cmp(&bent(b.1)));
-        let Some((still, shown)) = most else {
+            .max_by(|a, b| a.1.deflection().total_cmp(&b.1.deflection()));
+        let Some((still, frame)) = most else {
             return String::new();
         };
         let blue = look(0).colour;
         let colour = format!("#{:02x}{:02x}{:02x}", blue.0, blue.1, blue.2);
         let clock = self.clock(figure, frames);
-        let shapes: Vec<String> = frames.iter().map(|f| points(&self.beam(&f.1))).collect();
-        let tip = |f: &(f64, Vec<f64>)| {
-            self.beam(&f.1)
-                .last()
-                .copied()
-                .unwrap_or((PLOT.left, PLOT.bottom))
-        };
-        let list = |v: &mut dyn Iterator<Item = f64>| {
-            v.map(|v| grid(v).to_string()).collect::<Vec<_>>().join(";")
-        };
-        let heights = list(&mut frames.iter().map(|f| tip(f).1));
-        let marks = list(&mut frames.iter().map(|f| self.t.px_of(f.0)));
+        let shapes: Vec<String> = frames
+            .iter()
+            .map(|frame| points(&self.beam(frame)))
+            .collect();
+        let heights = value_list(frames.iter().map(|frame| self.tip(frame).1));
+        let marks = value_list(frames.iter().map(|frame| self.t.px_of(frame.t)));
         let (beam, beams) = (&shapes[still], shapes.join(";"));
-        let (tip_x, tip_y) = tip(shown);
+        let (tip_x, tip_y) = self.tip(frame);
         let [tip_x, tip_y, mark_x, mark_y] =
-            [tip_x, tip_y, self.t.px_of(shown.0), TIME_BAR].map(grid);
+            [tip_x, tip_y, self.t.px_of(frame.t), TIME_BAR].map(grid);
         format!(
             "<polyline fill=\"none\" stroke=\"{colour}\" stroke-width=\"70\" stroke-linecap=\"round\" \
              stroke-linejoin=\"round\" points=\"{beam}\">\n\
@@ -267,26 +275,36 @@ impl Stage {
         )
     }
 
-    fn beam(&self, u: &[f64]) -> Vec<Point> {
-        let place = |(&x, &u): (&f64, &f64)| (self.x.px(x).unwrap_or(PLOT.left), self.u.px_of(u));
-        self.nodes.iter().zip(u).map(place).collect()
+    /// The line of the beam in a frame.
+    fn beam(&self, frame: &Frame) -> Vec<Point> {
+        let mut line = vec![];
+        for (&x, &u) in self.nodes.iter().zip(&frame.u) {
+            line.push((self.x.px(x).unwrap_or(PLOT.left), self.u.px_of(u)));
+        }
+        line
+    }
+
+    /// The free end of the beam in a frame.
+    fn tip(&self, frame: &Frame) -> Point {
+        let end = self.beam(frame).last().copied();
+        end.unwrap_or((PLOT.left, PLOT.bottom))
     }
 
     /// Duration and key times, which must rise from 0 to 1 in SMIL.
-    fn clock(&self, figure: &Animation, frames: &[(f64, Vec<f64>)]) -> String {
+    fn clock(&self, figure: &Animation, frames: &[Frame]) -> String {
         let seconds = if figure.seconds > 0.0 && figure.seconds.is_finite() {
             figure.seconds
         } else {
             8.0
         };
-        let (start, end) = (frames[0].0, frames[frames.len() - 1].0);
-        let rises = end > start && frames.windows(2).all(|w| w[0].0 <= w[1].0);
-        let key = |f: &(f64, Vec<f64>)| fixed((f.0 - start) / (end - start), 5);
-        let keys: Vec<String> = if rises {
-            frames.iter().map(key).collect()
-        } else {
-            Vec::new()
-        };
+        let (start, end) = (frames[0].t, frames[frames.len() - 1].t);
+        let rises = end > start && frames.windows(2).all(|pair| pair[0].t <= pair[1].t);
+        let mut keys = vec![];
+        if rises {
+            for frame in frames {
+                keys.push(fixed((frame.t - start) / (end - start), 5));
+            }
+        }
         let keys = if keys.is_empty() {
             String::new()
         } else {
@@ -297,6 +315,14 @@ impl Stage {
             fixed(seconds, 2)
         )
     }
+}
+
+/// Coordinates as the values of an animation.
+fn value_list(values: impl Iterator<Item = f64>) -> String {
+    values
+        .map(|value| grid(value).to_string())
+        .collect::<Vec<_>>()
+        .join(";")
 }
 
 fn points(line: &[Point]) -> String {

@@ -26,26 +26,31 @@ const PAPER: [&str; 7] = [
 
 /// A line for each obstacle.
 pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
-    let line = |label: &str, value: f64| Guide {
-        label: label.to_owned(),
-        value,
+    let Some(Obstacles { g1, g2, .. }) = obstacles else {
+        return vec![];
     };
-    obstacles.map_or(vec![], |obstacles| {
-        vec![line("g₁", obstacles.g1), line("g₂", obstacles.g2)]
-    })
+    vec![
+        Guide {
+            label: "g₁".to_owned(),
+            value: g1,
+        },
+        Guide {
+            label: "g₂".to_owned(),
+            value: g2,
+        },
+    ]
 }
 
 /// The [`look`](convergence_harness::plots::look::look) of each scene of a figure: an experiment of
 /// the paper has its own; any other scene gets, by its place in the figure, one that no experiment
 /// has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
-    let look = |(place, name): (usize, &str)| {
-        PAPER
-            .iter()
-            .position(|known| *known == name)
-            .unwrap_or(PAPER.len() + place)
-    };
-    scenes.into_iter().enumerate().map(look).collect()
+    let mut looks = vec![];
+    for (place, name) in scenes.into_iter().enumerate() {
+        let paper = PAPER.iter().position(|known| *known == name);
+        looks.push(paper.unwrap_or(PAPER.len() + place));
+    }
+    looks
 }
 
 /// The values of β in the paper's experiments.
@@ -99,11 +104,11 @@ pub struct Bifurcation {
 pub fn bifurcation(figure: &Bifurcation) -> String {
     let branches = &figure.branches;
     let labels = distinct(branches.iter().map(|branch| branch.label.as_str()));
-    let family = |b: &Branch| labels.iter().position(|l| *l == b.label).unwrap_or(0);
-    let mut curves: Vec<Curve> = branches
-        .iter()
-        .map(|b| branch_curve(b, look(family(b))))
-        .collect();
+    let mut curves = vec![];
+    for branch in branches {
+        let family = labels.iter().position(|label| *label == branch.label);
+        curves.push(branch_curve(branch, look(family.unwrap_or(0))));
+    }
     let ends_look = Look {
         colour: style::INK,
         ..look(labels.len())
@@ -114,17 +119,14 @@ pub fn bifurcation(figure: &Bifurcation) -> String {
         marks: Marks::Open,
         ..Curve::line(0, &figure.ends)
     });
-    let parameters = || {
-        curves
-            .iter()
-            .flat_map(|c| &c.points)
-            .map(|p| p.0)
-            .filter(|x| x.is_finite())
-    };
-    let (low, high) = (
-        parameters().fold(f64::INFINITY, f64::min),
-        parameters().fold(f64::NEG_INFINITY, f64::max),
-    );
+    let parameters: Vec<f64> = curves
+        .iter()
+        .flat_map(|curve| &curve.points)
+        .map(|point| point.0)
+        .filter(|x| x.is_finite())
+        .collect();
+    let low = parameters.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = parameters.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // Branches end at the limits of the parameter, so these must not coincide with the frame.
     let room = 0.03 * (high - low);
     Xy {
@@ -193,12 +195,7 @@ pub fn contraction(factors: &ContractionFactors) -> String {
         beyond: Some((1.0, "divergence".into())),
         ..Xy::default()
     };
-    let is_split = |series: &Series| {
-        [false, true]
-            .iter()
-            .all(|above| series.points.iter().any(|p| (p.0 >= 1.0) == *above))
-    };
-    if measured.iter().any(is_split) {
+    if measured.iter().any(has_both_sides) {
         xy.notes.push("open markers: divergence".to_owned());
     }
     // Up to 100, so that the text fits above its region.
@@ -228,20 +225,27 @@ fn estimates(series: &Series) -> Curve {
 /// The look whose marker is a plus.
 const ESTIMATES: usize = 6;
 
+/// Whether a series has points below 1, and points from 1 on.
+fn has_both_sides(series: &Series) -> bool {
+    let above = series.points.iter().filter(|point| point.0 >= 1.0).count();
+    0 < above && above < series.points.len()
+}
+
 /// A series on both sides of 1, under one legend entry, whose marker is open if all points are.
 fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
     let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
-    let side = |(points, marks)| Curve {
-        points,
-        marks,
-        width: 0.0,
-        ..Curve::line(k, series)
-    };
-    let sides = [(below, Marks::Filled), (above, Marks::Open)].map(side);
+    let mut sides = vec![];
+    for (points, marks) in [(below, Marks::Filled), (above, Marks::Open)] {
+        if !points.is_empty() {
+            sides.push(Curve {
+                points,
+                marks,
+                width: 0.0,
+                ..Curve::line(k, series)
+            });
+        }
+    }
     sides
-        .into_iter()
-        .filter(|side| !side.points.is_empty())
-        .collect()
 }
 
 /// The line on which prediction and measurement agree.

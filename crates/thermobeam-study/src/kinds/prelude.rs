@@ -24,9 +24,10 @@ pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
 pub(crate) use thermobeam::mesh::{Mesh, MeshError};
+pub(crate) use thermobeam::motion::Motion;
+pub(crate) use thermobeam::one_step::{InitialValues, Problem, Stepping};
 pub(crate) use thermobeam::parameters::{Beam, Obstacles};
 pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
-pub(crate) use thermobeam::simulation::{Initial, Problem, Stepping};
 pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam_exact::vibration::Mode;
@@ -41,7 +42,7 @@ pub(crate) use crate::figures::{self, looks};
 pub(crate) use crate::run::driver::Driver;
 pub(crate) use crate::run::family::{Family, OnMesh};
 pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator};
-pub(crate) use crate::run::{AnyMotion, Motion, Report, RunError, Sample, run, run_to};
+pub(crate) use crate::run::{AnyMotion, ObservableMotion, Report, RunError, Sample, run, run_to};
 pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
 
 /// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect

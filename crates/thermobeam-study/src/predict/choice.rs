@@ -21,8 +21,8 @@ use thermobeam::solve::Stopping;
 
 use super::curves::{Apart, Curves, Rows, Wanted, curves};
 use super::first::impact;
+use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::refine::finer;
 use super::{Cost, Reason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 
@@ -117,7 +117,13 @@ pub fn choose(
         run,
         finer_space,
         ..
-    } = reference(scene, None, &quantity.wanted(target), work)?;
+    } = reference(
+        scene,
+        None,
+        &quantity.wanted(target),
+        &Policy::default(),
+        work,
+    )?;
     Ok(Choice {
         scene: chosen,
         parts: [space[0], time[0]],
@@ -142,13 +148,22 @@ pub fn keep_scheme(
     let Some(mut scene) = coarsest(scene, target) else {
         return choose(scene, quantity, target, work);
     };
-    let reference = reference(&scene, None, &quantity.wanted(TENTH * target), work)?;
+    let reference = reference(
+        &scene,
+        None,
+        &quantity.wanted(TENTH * target),
+        &Policy::default(),
+        work,
+    )?;
     let mut search = Search {
         quantity,
         target,
         reference,
         parts: None,
-        best: (f64::INFINITY, [f64::NAN; 2]),
+        best: Best {
+            error: f64::INFINITY,
+            parts: [f64::NAN; 2],
+        },
         failures: 0,
     };
     for _ in 0..ROUNDS {
@@ -172,10 +187,16 @@ struct Search {
     reference: Reference,
     /// The parts of space and time, once they are known.
     parts: Option<Parts>,
-    /// The smallest error so far, and its parts.
-    best: (f64, [f64; 2]),
+    /// The smallest error so far.
+    best: Best,
     /// The number of failed runs.
     failures: usize,
+}
+
+/// An error and its parts of space and time.
+struct Best {
+    error: f64,
+    parts: [f64; 2],
 }
 
 /// What a search does after a round.
@@ -229,8 +250,11 @@ impl Search {
                 run: own.curves.cost,
             }));
         }
-        if error < self.best.0 {
-            self.best = (error, parts.errors);
+        if error < self.best.error {
+            self.best = Best {
+                error,
+                parts: parts.errors,
+            };
         }
         // A run that is clearly too expensive is not started.
         let least: f64 = size(scene).iter().product();
@@ -241,10 +265,10 @@ impl Search {
     }
 
     fn not_reached(&self, reason: Reason) -> Unreachable {
-        let (reached, [space, time]) = self.best;
+        let [space, time] = self.best.parts;
         Unreachable::NotReached {
             target: self.target,
-            reached,
+            reached: self.best.error,
             space,
             time,
             reason,
@@ -336,7 +360,9 @@ struct Parts {
 impl Parts {
     /// From two runs: one with twice the elements, one with dt/2.
     fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
-        let [space, time] = finer(scene).map(|finer| own.other(&finer?, work));
+        let [space, time] = Policy::default()
+            .finer(scene)
+            .map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));
         let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
         // In the norm, the error of the mesh is orthogonal to that of a finer one, so squares add.
@@ -362,7 +388,10 @@ impl Parts {
 
     /// By how much the product of elements and steps must grow until each part is at most `target`.
     fn growth(&self, target: f64) -> f64 {
-        let factor = |(error, order): (&f64, &f64)| (error / target).max(1.0).powf(order.recip());
-        self.errors.iter().zip(&self.orders).map(factor).product()
+        let mut growth = 1.0;
+        for (error, order) in self.errors.iter().zip(&self.orders) {
+            growth *= (error / target).max(1.0).powf(order.recip());
+        }
+        growth
     }
 }

@@ -5,14 +5,15 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use convergence_harness::text::number::{max_or_nan, min_or_nan};
-use thermobeam::dg::{self, Field};
+use thermobeam::dg::{self, Dg, DgLevel, DgStepping, Field};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
-use crate::run::{Motion, Report, run, simulate};
+use crate::run::{ObservableMotion, Report, run, simulate};
 use crate::scene::{Method, Scene};
 
 /// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the
@@ -44,22 +45,34 @@ pub(super) enum Rows {
     Tip,
     /// u(1), φ(1) and the energy.
     Numbers,
-    /// Integrands of the norm of Theorem 3.4, at points x; the second number is the square root of
-    /// a weight.
-    Norm(Vec<(f64, f64)>),
+    /// Integrands of the norm of Theorem 3.4 at these points.
+    Norm(Vec<NormPoint>),
+}
+
+/// A Gauss point of the norm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NormPoint {
+    x: f64,
+    /// The square root of its weight.
+    root_weight: f64,
 }
 
 impl Rows {
     /// The points for the norm: `count` Gauss points in each element.
     pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
         let gauss = dg::Space::gauss(count);
-        let points = nodes.windows(2).flat_map(|x| {
-            let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
-            gauss
-                .iter()
-                .map(move |(xi, weight)| (middle + half * xi, (half * weight).sqrt()))
-        });
-        Self::Norm(points.collect())
+        let mut points = vec![];
+        for x in nodes.windows(2) {
+            let middle = 0.5 * (x[0] + x[1]);
+            let half = 0.5 * (x[1] - x[0]);
+            for (xi, weight) in &gauss {
+                points.push(NormPoint {
+                    x: middle + half * xi,
+                    root_weight: (half * weight).sqrt(),
+                });
+            }
+        }
+        Self::Norm(points)
     }
 
     /// The same numbers, those of the norm at points of the scene's own mesh: exact for the squares
@@ -101,17 +114,17 @@ impl Rows {
     /// The points of the norm in a space.
     fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
         match self {
-            Self::Norm(points) => points.iter().map(|(x, _)| space.locate(*x)).collect(),
+            Self::Norm(points) => points.iter().map(|point| space.locate(point.x)).collect(),
             _ => vec![],
         }
     }
 
     fn of_dg(
         &self,
-        simulation: &dg::Simulation,
+        simulation: &Dg,
         t: f64,
         located: &[dg::Point],
-        level: &mut dg::Level,
+        level: &mut DgLevel,
         row: &mut Vec<f64>,
     ) {
         if let Self::Tip = self {
@@ -126,10 +139,10 @@ impl Rows {
             );
             return row.push(simulation.energy(level).total());
         };
-        for ((_, weight), point) in points.iter().zip(located) {
+        for (NormPoint { root_weight, .. }, point) in points.iter().zip(located) {
             let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
                 level.values_and_slopes_at(space, point);
-            Self::push(row, *weight, [u_x, phi, phi_x, v, w, theta]);
+            Self::push(row, *root_weight, [u_x, phi, phi_x, v, w, theta]);
         }
     }
 
@@ -149,7 +162,7 @@ impl Rows {
             return;
         };
         let mut i = 0;
-        for &(x, weight) in points {
+        for &NormPoint { x, root_weight } in points {
             while nodes[i + 1] < x {
                 i += 1;
             }
@@ -159,7 +172,7 @@ impl Rows {
             let [v, w, theta] = [&level.v, &level.w, &level.theta].map(|y| value(y));
             Self::push(
                 row,
-                weight,
+                root_weight,
                 [
                     slope(&level.u),
                     value(&level.phi),
@@ -242,19 +255,19 @@ impl Curves {
 pub(super) fn curves(
     scene: &Scene,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let curves = match scene.method {
-        Method::OneStep(_) => by_one_step(scene, rows, at, work),
-        Method::Dg(stepping) => by_dg(scene, stepping, rows, at, work),
+        Method::OneStep(_) => by_one_step(scene, rows, times, work),
+        Method::Dg(stepping) => by_dg(scene, stepping, rows, times, work),
     }?;
     work.ran(&curves.cost);
     Ok(curves)
 }
 
 /// Steps a motion to `until`, or to the step at which `read` gives a reason to end.
-fn run_within<M: Motion>(
+fn run_within<M: ObservableMotion>(
     motion: &mut M,
     until: f64,
     read: &mut dyn FnMut(&mut M) -> Result<(), Reason>,
@@ -268,23 +281,23 @@ fn run_within<M: Motion>(
             ControlFlow::Continue(())
         })
     };
-    let ended = run(motion, until, &[], &mut [&mut watch]);
+    let outcome = run(motion, until, &[], &mut [&mut watch]);
     match reason {
         Some(reason) => Err(reason),
-        None => ended.map_err(Reason::of_run),
+        None => outcome.map_err(Reason::of_run),
     }
 }
 
 fn by_dg(
     scene: &Scene,
-    stepping: dg::Stepping,
+    stepping: DgStepping,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
     let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
-    let mut curves = Curves::new(rows, motion.extremes());
+    let mut curves = Curves::new(rows, motion.motion().tip_range());
     let mut level = motion.simulation().level().clone();
     let located = rows.located(motion.simulation().space());
     let mut passed = 0;
@@ -295,13 +308,13 @@ fn by_dg(
     let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
     let mut read = |motion: &mut DgMotion| {
         let simulation = motion.simulation();
-        let done = simulation.work().solves;
+        let done = simulation.work().passes;
         work.add((unknowns * (done - solves)) as f64)?;
         solves = done;
         let (from, to) = (simulation.old_level().t, simulation.t());
         curves.include(simulation.tip_range());
-        if let Some(at) = at {
-            while let Some(&t) = at.get(passed).filter(|t| **t <= to) {
+        if let Some(times) = times {
+            while let Some(&t) = times.get(passed).filter(|t| **t <= to) {
                 rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
                 passed += 1;
             }
@@ -334,7 +347,7 @@ fn by_dg(
 }
 
 /// Times in the last step; a step is early if it is closer than `early` to the start or an event.
-fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
+fn instances(simulation: &Dg, early: f64) -> [Instance; POINTS] {
     let (from, to) = (simulation.old_level().t, simulation.t());
     let event = simulation
         .events()
@@ -361,7 +374,7 @@ fn instances(simulation: &dg::Simulation, early: f64) -> [Instance; POINTS] {
 fn by_one_step(
     scene: &Scene,
     rows: &Rows,
-    at: Option<&[f64]>,
+    times: Option<&[f64]>,
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
@@ -375,10 +388,10 @@ fn by_one_step(
         let n = driver.work().steps;
         curves.include([new.u[elements]; 2]);
         let t = simulation.t();
-        let is_read = match at {
+        let is_read = match times {
             None => n.is_multiple_of(every) || n == steps,
             // Up to rounding, steps of half the length end there.
-            Some(at) => at
+            Some(times) => times
                 .get(curves.times.len())
                 .is_some_and(|time| t >= time - 0.5 * simulation.dt()),
         };

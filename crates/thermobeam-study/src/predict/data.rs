@@ -29,7 +29,7 @@
 //! 1e-4 has a point where it exceeds e^(-1/4) of its height. A narrower feature is seen only where
 //! the scene has nodes, or where `abs`, `min` or `max` have a kink in it.
 
-use thermobeam::dg::{self, Field};
+use thermobeam::dg::{Dg, Field};
 use thermobeam::mesh::Mesh;
 
 use super::curves::{Rows, Wanted};
@@ -87,22 +87,26 @@ impl Datum {
     /// interval becomes shorter, down to [`SHORTEST`]. The interval is the half over which the
     /// field changes more.
     fn jump(&self, [mut from, mut to]: [f64; 2], least: f64) -> Option<f64> {
-        let change = |from: f64, to: f64| (self.function.eval(to) - self.function.eval(from)).abs();
         // An element may be short itself, because of the jump.
-        let mut before = change(from, to);
+        let mut before = self.change(from, to);
         while to - from > SHORTEST {
             if to - from > STEEP * SHORTEST {
-                before = change(from, to);
+                before = self.change(from, to);
             }
             let middle = 0.5 * (from + to);
-            if change(from, middle) > change(middle, to) {
+            if self.change(from, middle) > self.change(middle, to) {
                 to = middle;
             } else {
                 from = middle;
             }
         }
-        let stays = change(from, to);
-        (stays > least && stays > 0.5 * before).then_some(0.5 * (from + to))
+        let last = self.change(from, to);
+        (last > least && last > 0.5 * before).then_some(0.5 * (from + to))
+    }
+
+    /// By how much the field at one point differs from that at another.
+    fn change(&self, from: f64, to: f64) -> f64 {
+        (self.function.eval(to) - self.function.eval(from)).abs()
     }
 }
 
@@ -161,12 +165,12 @@ impl Data {
             .collect();
         // A function such as x/abs(x) has no value at its jump, which is then inside a short
         // element.
-        let is_defined = |x: f64| {
-            fields
-                .iter()
-                .all(|datum| datum.function.eval(x).is_finite())
-        };
-        kinks.retain(|&x| (SHORTEST..=1.0 - SHORTEST).contains(&x) && is_defined(x));
+        kinks.retain(|&x| {
+            (SHORTEST..=1.0 - SHORTEST).contains(&x)
+                && fields
+                    .iter()
+                    .all(|datum| datum.function.eval(x).is_finite())
+        });
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|next, x| *next - *x < SHORTEST);
         let mut kept = scene.listed.clone();
@@ -254,10 +258,9 @@ impl Data {
         before: &[Element],
         wanted: &Wanted,
     ) -> Result<Vec<Element>, Unreachable> {
-        let simulation =
-            dg::Simulation::new(scene.dg_problem(), scene.dg_stepping()).map_err(|error| {
-                Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
-            })?;
+        let simulation = Dg::new(scene.dg_problem(), scene.dg_stepping()).map_err(|error| {
+            Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
+        })?;
         let mut before = before.iter().peekable();
         let mut elements = vec![];
         for x in scene.mesh.nodes().windows(2) {
@@ -278,12 +281,7 @@ impl Data {
     }
 
     /// The differences on one element.
-    fn element(
-        &self,
-        simulation: &dg::Simulation,
-        [from, to]: [f64; 2],
-        is_squared: bool,
-    ) -> Element {
+    fn element(&self, simulation: &Dg, [from, to]: [f64; 2], is_squared: bool) -> Element {
         let (space, level) = (simulation.space(), simulation.level());
         let (mut integrals, mut largest) = (
             vec![0.0; self.fields.len()],
@@ -399,12 +397,8 @@ fn on(scene: &Scene, nodes: Vec<f64>, wanted: &Wanted) -> Result<Scene, Unreacha
 /// Adds a node, unless one is closer than `least`.
 pub(super) fn add_node(nodes: &mut Vec<f64>, x: f64, least: f64) {
     let index = nodes.partition_point(|node| *node < x);
-    let is_close = |node: &f64| (x - node).abs() < least;
-    if !nodes[index.saturating_sub(1)..]
-        .iter()
-        .take(2)
-        .any(is_close)
-    {
+    let mut neighbours = nodes[index.saturating_sub(1)..].iter().take(2);
+    if !neighbours.any(|node| (x - node).abs() < least) {
         nodes.insert(index, x);
     }
 }

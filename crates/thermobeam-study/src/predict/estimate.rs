@@ -13,8 +13,8 @@ use serde::Serialize;
 use super::curves::{Curves, Rows, Wanted, curves};
 use super::data::Data;
 use super::first::first;
+use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::refine::finer;
 use super::{Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::Scene;
@@ -93,16 +93,57 @@ pub struct Budget {
     pub quantities: Vec<Estimate>,
 }
 
-const OBSERVABLES: [(&str, Kind, usize); 8] = [
-    ("u(1) at the end", Kind::End, 0),
-    ("largest u(1)", Kind::Largest, 0),
-    ("smallest u(1)", Kind::Smallest, 0),
-    ("u(1) over time", Kind::Curve, 0),
-    ("phi(1) at the end", Kind::End, 1),
-    ("phi(1) over time", Kind::Curve, 1),
-    ("energy at the end", Kind::End, 2),
-    ("energy over time", Kind::Curve, 2),
-];
+/// A number or curve whose error is estimated.
+struct Observable {
+    name: &'static str,
+    kind: Kind,
+    /// The curve that it is, or belongs to.
+    curve: usize,
+}
+
+impl Observable {
+    const ALL: [Self; 8] = [
+        Self::new("u(1) at the end", Kind::End, 0),
+        Self::new("largest u(1)", Kind::Largest, 0),
+        Self::new("smallest u(1)", Kind::Smallest, 0),
+        Self::new("u(1) over time", Kind::Curve, 0),
+        Self::new("phi(1) at the end", Kind::End, 1),
+        Self::new("phi(1) over time", Kind::Curve, 1),
+        Self::new("energy at the end", Kind::End, 2),
+        Self::new("energy over time", Kind::Curve, 2),
+    ];
+
+    const fn new(name: &'static str, kind: Kind, curve: usize) -> Self {
+        Self { name, kind, curve }
+    }
+
+    /// Compares a run with the reference.
+    fn compare(&self, own: &Curves, exact: &Curves) -> Comparison {
+        let curve = own.column(self.curve);
+        let truth = exact.column(self.curve);
+        let (value, truth) = match self.kind {
+            Kind::Curve => {
+                return Comparison {
+                    value: largest(&curve),
+                    difference: distance_of_curves(&curve, &truth),
+                };
+            }
+            Kind::Largest => (own.range[1], exact.range[1]),
+            Kind::Smallest => (own.range[0], exact.range[0]),
+            Kind::End => (last(&curve), last(&truth)),
+        };
+        Comparison {
+            value,
+            difference: (value - truth).abs(),
+        }
+    }
+}
+
+/// The value of a number or curve, and its difference to the reference.
+struct Comparison {
+    value: f64,
+    difference: f64,
+}
 
 /// Estimates the errors of a scene by any method.
 ///
@@ -112,33 +153,32 @@ const OBSERVABLES: [(&str, Kind, usize); 8] = [
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
     let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
-    let (reference, exact) = against(scene, &own, &times, work)?;
-    let finer = finer(scene).map(|finer| curves(&finer?, &Rows::Numbers, Some(&times), work));
-    let quantities: Vec<Estimate> = OBSERVABLES
-        .iter()
-        .map(|&(name, kind, k)| {
-            let (value, difference) = measured(kind, k, &own, &exact);
-            let error = if kind == Kind::End {
-                reference.end * largest(&exact.column(k))
-            } else {
-                reference.error(k)
-            };
-            let [finer_space, finer_steps] = finer.each_ref().map(|run| {
-                run.as_ref()
-                    .ok()
-                    .map(|run| measured(kind, k, run, &exact).1 + error)
-            });
-            Estimate {
-                name,
-                kind,
-                value,
-                total: difference + error,
-                reference: error,
-                finer_space,
-                finer_steps,
-            }
-        })
-        .collect();
+    let Truth { reference, exact } = against(scene, &own, &times, work)?;
+    let finer = Policy::default()
+        .finer(scene)
+        .map(|finer| curves(&finer?, &Rows::Numbers, Some(&times), work));
+    let mut quantities = vec![];
+    for observable in Observable::ALL {
+        let Comparison { value, difference } = observable.compare(&own, &exact);
+        let error = if observable.kind == Kind::End {
+            reference.end * largest(&exact.column(observable.curve))
+        } else {
+            reference.error(observable.curve)
+        };
+        let [finer_space, finer_steps] = finer.each_ref().map(|run| {
+            let run = run.as_ref().ok()?;
+            Some(observable.compare(run, &exact).difference + error)
+        });
+        quantities.push(Estimate {
+            name: observable.name,
+            kind: observable.kind,
+            value,
+            total: difference + error,
+            reference: error,
+            finer_space,
+            finer_steps,
+        });
+    }
     contradiction(&quantities).map_or(Ok(()), Err)?;
     let dominant = dominant(&quantities);
     Ok(Budget {
@@ -148,8 +188,20 @@ pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachabl
     })
 }
 
-/// A reference whose own error is at most a tenth of the scene's in every curve, and its curves at
-/// the scene's times.
+/// A reference, and its curves at the scene's times.
+struct Truth {
+    reference: Reference,
+    exact: Curves,
+}
+
+impl Truth {
+    /// Whether its own error is at most this part of the scene's in every curve, or round-off.
+    fn is_within(&self, part: f64, errors: &[f64; 3], scales: &[f64; 3]) -> bool {
+        (0..3).all(|k| self.reference.error(k) <= (part * errors[k]).max(FLOOR * scales[k]))
+    }
+}
+
+/// A reference whose own error is at most a tenth of the scene's in every curve.
 ///
 /// The reference is improved until it qualifies; otherwise the last one is taken if its error does
 /// not exceed the scene's.
@@ -158,51 +210,40 @@ fn against(
     own: &Curves,
     times: &[f64],
     work: &mut Work<'_>,
-) -> Result<(Reference, Curves), Unreachable> {
+) -> Result<Truth, Unreachable> {
     let scales = scales(scene, own, times, work)?;
     let mut wanted = Wanted {
         rows: Rows::Numbers,
         tolerance: scales.map(|scale| ROUGH * scale),
     };
-    let mut held: Option<(Reference, Curves, [[f64; 2]; 3])> = None;
-    let fits = |errors: &[[f64; 2]; 3], part: f64| {
-        errors
-            .iter()
-            .zip(scales)
-            .all(|([made, its], scale)| *its <= (part * made).max(FLOOR * scale))
-    };
+    let policy = Policy::default();
+    // The last reference, and the scene's errors measured against it.
+    let mut last: Option<(Truth, [f64; 3])> = None;
     for _ in 0..ROUNDS {
-        let start = held.as_ref().map(|(reference, ..)| &reference.scene);
-        let found = reference(scene, start, &wanted, work).and_then(|reference| {
-            let curves = curves(&reference.scene, &Rows::Numbers, Some(times), work);
-            curves
-                .map(|curves| (reference, curves))
-                .map_err(|reason| Unreachable::without_comparison(wanted.tolerance[0], reason))
+        let start = last.as_ref().map(|(truth, _)| &truth.reference.scene);
+        let outcome = reference(scene, start, &wanted, &policy, work).and_then(|reference| {
+            let exact = curves(&reference.scene, &Rows::Numbers, Some(times), work)
+                .map_err(|reason| Unreachable::without_comparison(wanted.tolerance[0], reason))?;
+            Ok(Truth { reference, exact })
         });
-        let (reference, exact) = match (found, held) {
-            (Ok(found), _) => found,
-            (Err(_), Some((reference, exact, errors))) if fits(&errors, 1.0) => {
-                return Ok((reference, exact));
+        let truth = match (outcome, last) {
+            (Ok(truth), _) => truth,
+            (Err(_), Some((truth, errors))) if truth.is_within(1.0, &errors, &scales) => {
+                return Ok(truth);
             }
             (Err(error), _) => return Err(error),
         };
-        let errors = std::array::from_fn(|k| {
-            [
-                distance_of_curves(&own.column(k), &exact.column(k)),
-                reference.error(k),
-            ]
-        });
-        if fits(&errors, TENTH) {
-            return Ok((reference, exact));
+        let errors: [f64; 3] =
+            std::array::from_fn(|k| distance_of_curves(&own.column(k), &truth.exact.column(k)));
+        if truth.is_within(TENTH, &errors, &scales) {
+            return Ok(truth);
         }
-        for (tolerance, ([made, its], scale)) in
-            wanted.tolerance.iter_mut().zip(errors.iter().zip(scales))
-        {
-            *tolerance = (TENTH * made.max(TENTH * its))
-                .max(FLOOR * scale)
+        for (k, tolerance) in wanted.tolerance.iter_mut().enumerate() {
+            *tolerance = (TENTH * errors[k].max(TENTH * truth.reference.error(k)))
+                .max(FLOOR * scales[k])
                 .min(*tolerance);
         }
-        held = Some((reference, exact, errors));
+        last = Some((truth, errors));
     }
     Err(Unreachable::without_comparison(
         wanted.tolerance[0],
@@ -218,10 +259,7 @@ fn scales(
     times: &[f64],
     work: &mut Work<'_>,
 ) -> Result<[f64; 3], Unreachable> {
-    let largest_of = |curves: &Curves| {
-        std::array::from_fn(|k| largest(&curves.column(k)).max(f64::MIN_POSITIVE))
-    };
-    let of_own: [f64; 3] = largest_of(own);
+    let own_scales = largest_values(own);
     let wanted = Wanted {
         rows: Rows::Numbers,
         tolerance: [ROUGH; 3],
@@ -229,29 +267,25 @@ fn scales(
     let data = Data::of(scene);
     let (first, is_narrow) = data.resolve(first(scene, &wanted, &data.kept), &wanted)?;
     if !is_narrow {
-        return Ok(of_own);
+        return Ok(own_scales);
     }
     let rough = curves(&first, &Rows::Numbers, Some(times), work)
         .map_err(|reason| Unreachable::without_comparison(ROUGH, reason))?;
-    let of_rough: [f64; 3] = largest_of(&rough);
-    Ok(std::array::from_fn(|k| of_own[k].max(of_rough[k])))
+    let rough_scales = largest_values(&rough);
+    Ok(std::array::from_fn(|k| own_scales[k].max(rough_scales[k])))
+}
+
+/// The largest absolute value of each curve, greater than 0.
+fn largest_values(curves: &Curves) -> [f64; 3] {
+    std::array::from_fn(|k| largest(&curves.column(k)).max(f64::MIN_POSITIVE))
 }
 
 fn largest(curve: &[f64]) -> f64 {
     distance_of_curves(curve, &vec![0.0; curve.len()])
 }
 
-/// The value of a number or curve, and its difference to the reference.
-fn measured(kind: Kind, k: usize, own: &Curves, exact: &Curves) -> (f64, f64) {
-    let [curve, truth] = [own, exact].map(|run| run.column(k));
-    let last = |curve: &[f64]| curve.last().copied().unwrap_or(f64::NAN);
-    let (value, truth) = match kind {
-        Kind::Curve => return (largest(&curve), distance_of_curves(&curve, &truth)),
-        Kind::Largest => (own.range[1], exact.range[1]),
-        Kind::Smallest => (own.range[0], exact.range[0]),
-        Kind::End => (last(&curve), last(&truth)),
-    };
-    (value, (value - truth).abs())
+fn last(curve: &[f64]) -> f64 {
+    curve.last().copied().unwrap_or(f64::NAN)
 }
 
 /// A curve whose error grows much if only space or only steps are refined: single numbers may have
@@ -263,7 +297,7 @@ fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
         finer_space,
         finer_steps,
         ..
-    } in quantities.iter().filter(|of| of.kind == Kind::Curve)
+    } in curves_among(quantities)
     {
         for (finer, error) in [("a finer space", finer_space), ("finer steps", finer_steps)] {
             match error {
@@ -282,17 +316,27 @@ fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
     None
 }
 
+/// The estimates of whole curves.
+fn curves_among(quantities: &[Estimate]) -> impl Iterator<Item = &Estimate> {
+    quantities
+        .iter()
+        .filter(|estimate| estimate.kind == Kind::Curve)
+}
+
+/// The part of the curves' errors that a refinement removes, on average; `finer` gives the error
+/// that it leaves.
+fn mean_gain(quantities: &[Estimate], finer: fn(&Estimate) -> Option<f64>) -> f64 {
+    let gains: Vec<f64> = curves_among(quantities)
+        .map(|estimate| 1.0 - finer(estimate).unwrap_or(estimate.total) / estimate.total)
+        .collect();
+    gains.iter().sum::<f64>() / gains.len() as f64
+}
+
 /// The refinement that lowers the errors of the curves more; errors of single numbers may be small
 /// by chance.
 fn dominant(quantities: &[Estimate]) -> Option<Source> {
-    let gain = |finer: fn(&Estimate) -> Option<f64>| -> f64 {
-        let curves = quantities.iter().filter(|of| of.kind == Kind::Curve);
-        let gains: Vec<f64> = curves
-            .map(|of| 1.0 - finer(of).unwrap_or(of.total) / of.total)
-            .collect();
-        gains.iter().sum::<f64>() / gains.len() as f64
-    };
-    let (space, time) = (gain(|of| of.finer_space), gain(|of| of.finer_steps));
+    let space = mean_gain(quantities, |estimate| estimate.finer_space);
+    let time = mean_gain(quantities, |estimate| estimate.finer_steps);
     let (source, gain) = if space > time {
         (Source::Space, space)
     } else {
@@ -313,28 +357,21 @@ fn advice(scene: &Scene, dominant: Option<Source>) -> &'static str {
 
 impl fmt::Display for Budget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cell = |error: Option<f64>| {
-            error.map_or_else(|| "-".to_owned(), |error| format!("{error:.1e}"))
-        };
         writeln!(f, "Errors, by a run of any order")?;
         writeln!(
             f,
             "{:<18}{:>20}{:>10}{:>12}{:>14}{:>14}",
             "", "value", "error", "of the run", "finer space", "finer steps"
         )?;
-        for of in &self.quantities {
-            let cells = [
-                Some(of.total),
-                Some(of.reference),
-                of.finer_space,
-                of.finer_steps,
-            ]
-            .map(cell);
-            let [total, reference, space, steps] = cells;
+        for estimate in &self.quantities {
+            let total = error_cell(Some(estimate.total));
+            let reference = error_cell(Some(estimate.reference));
+            let space = error_cell(estimate.finer_space);
+            let steps = error_cell(estimate.finer_steps);
             writeln!(
                 f,
                 "{:<18}{:>20.12}{total:>10}{reference:>12}{space:>14}{steps:>14}",
-                of.name, of.value
+                estimate.name, estimate.value
             )?;
         }
         writeln!(
@@ -343,6 +380,11 @@ impl fmt::Display for Budget {
         )?;
         write!(f, "{}", self.advice)
     }
+}
+
+/// A cell of the table; a dash for a run that failed.
+fn error_cell(error: Option<f64>) -> String {
+    error.map_or_else(|| "-".to_owned(), |error| format!("{error:.1e}"))
 }
 
 #[cfg(test)]

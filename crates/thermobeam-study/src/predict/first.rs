@@ -1,6 +1,6 @@
 //! The first discretisation of a search.
 
-use thermobeam::dg::{MAX_TIME_DEGREE, Stepping};
+use thermobeam::dg::{DgStepping, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
@@ -40,12 +40,12 @@ pub(super) fn first(scene: &Scene, wanted: &Wanted, kept: &[f64]) -> Scene {
     let [wave, rise] = short_waves(&scene.beam);
     let dt = (LONGEST * shrink).min(0.125 * scene.t_end).min(RISE * rise);
     let impact = impact(scene);
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: ((0.5 * digits).round() as usize).clamp(1, MAX_TIME_DEGREE),
         dt,
         restart_dt: (0.2 * impact * shrink).min(dt),
         growth: 1.0 + 0.5 * shrink,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     // Width of the layer at x = 1 some four impacts after a touch.
     let layer = (2.0 * (scene.beam.zeta * 4.0 * impact).sqrt()).clamp(1e-3, 0.5);
@@ -77,12 +77,16 @@ fn short_waves(beam: &Beam) -> [f64; 2] {
 /// The nodes, with equidistant nodes added wherever they are further apart than `length`.
 fn no_longer(nodes: &[f64], length: f64) -> Vec<f64> {
     let length = length.max(SHORTEST);
-    let between = |x: &[f64]| {
-        let (from, to) = (x[0], x[1]);
+    let mut divided = vec![];
+    for ends in nodes.windows(2) {
+        let [from, to] = [ends[0], ends[1]];
         let parts = ((to - from) / length).ceil().max(1.0);
-        (0..parts as usize).map(move |part| from + (to - from) * (part as f64 / parts))
-    };
-    nodes.windows(2).flat_map(between).chain([1.0]).collect()
+        for part in 0..parts as usize {
+            divided.push(from + (to - from) * (part as f64 / parts));
+        }
+    }
+    divided.push(1.0);
+    divided
 }
 
 /// Nodes that are kept, and those others that are not close to them, measured by their distance

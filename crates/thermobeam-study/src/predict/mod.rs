@@ -4,7 +4,7 @@
 //! * `data`: nodes where the initial data have features that a mesh would miss.
 //! * [`mod@reference`]: dG(q) on elements of degree p, refined until its own error is small enough.
 //!   Its error is the difference to degree p + 4 and to halved steps.
-//!   `first` and `refine` choose its elements, degrees and steps.
+//!   `first` and `refine` choose its elements, degrees and steps, by the constants in `policy`.
 //! * [`estimate`]: the error of a scene by any method is its difference to such a run.
 //! * [`choice`]: the cheapest run with the wanted error, and the needs of the scene's own scheme.
 //!
@@ -16,6 +16,7 @@ mod curves;
 mod data;
 pub mod estimate;
 mod first;
+mod policy;
 pub mod reference;
 mod refine;
 
@@ -54,18 +55,18 @@ pub struct Work<'a> {
     limit: f64,
     done: f64,
     spent: Cost,
-    told: &'a mut dyn FnMut(f64),
+    progress: &'a mut dyn FnMut(f64),
 }
 
 impl<'a> Work<'a> {
     /// * `limit`: the allowed work.
-    /// * `told`: called after every step with the part of the limit that is used.
-    pub fn new(limit: f64, told: &'a mut dyn FnMut(f64)) -> Self {
+    /// * `progress`: called after every step with the part of the limit that is used.
+    pub fn new(limit: f64, progress: &'a mut dyn FnMut(f64)) -> Self {
         Self {
             limit,
             done: 0.0,
             spent: Cost::default(),
-            told,
+            progress,
         }
     }
 
@@ -76,7 +77,7 @@ impl<'a> Work<'a> {
 
     fn add(&mut self, work: f64) -> Result<(), Reason> {
         self.done += work;
-        (self.told)(self.done / self.limit);
+        (self.progress)(self.done / self.limit);
         self.leaves(0.0)
     }
 

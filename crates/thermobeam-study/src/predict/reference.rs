@@ -28,25 +28,16 @@
 //!   resolves k = √s/ζ, in elements no longer than 2p/k, and the first steps are at most 2ζ/s long,
 //!   with s at N = β.
 
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 
 use super::curves::{Apart, Curves, Rows, Wanted, curves};
 use super::data::Data;
 use super::first::first;
-use super::refine::{SHARE, elements_and_degree, finer, refined};
+use super::policy::Policy;
+use super::refine::elements_and_degree;
 use super::{Cost, Reason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::{Method, Scene};
-
-/// Rounds of refinement: each at least halves something.
-const ROUNDS: usize = 14;
-
-/// A round that lowers the difference by less than this factor has stalled.
-const STALLED: f64 = 0.7;
-
-/// Below this difference a stalled round has reached round-off: that of the solver's stopping rule,
-/// 1e-14 per step.
-const ROUND_OFF: f64 = 1e-11;
 
 /// A run whose own error is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,6 +69,7 @@ impl Reference {
 ///
 /// * `scene`: its own mesh, degrees and steps have no influence.
 /// * `start`: the first discretisation; without it, a guess.
+/// * `policy`: how to refine.
 ///
 /// # Errors
 /// [`Unreachable`]: why there is no such run, and the error reached.
@@ -85,6 +77,7 @@ pub(super) fn reference(
     scene: &Scene,
     start: Option<&Scene>,
     wanted: &Wanted,
+    policy: &Policy,
     work: &mut Work<'_>,
 ) -> Result<Reference, Unreachable> {
     let target = wanted.tolerance[0];
@@ -98,22 +91,23 @@ pub(super) fn reference(
     let (first, _) = data.resolve(first, wanted)?;
     let mut search = Search {
         wanted,
+        policy,
         data,
         work,
         last: 0.0,
         best: [f64::INFINITY; 2],
     };
     // A search that finds no start for the first two steps begins with the guess.
-    let begun = match start {
+    let beginning = match start {
         Some(_) => first,
         None => search.begin(&first).unwrap_or(first),
     };
     search.last = 0.0;
-    search.refine(begun).map_err(|reason| {
+    search.refine(beginning).map_err(|reason| {
         let [space, time] = search.best.map(|part| part * target);
         Unreachable::NotReached {
             target,
-            reached: space.max(time) / SHARE,
+            reached: space.max(time) / policy.share,
             space,
             time,
             reason,
@@ -132,6 +126,7 @@ struct Compared {
 /// The state of a search for a discretisation.
 struct Search<'s, 'w> {
     wanted: &'s Wanted,
+    policy: &'s Policy,
     data: Data,
     work: &'s mut Work<'w>,
     /// Work of the last run.
@@ -148,11 +143,11 @@ impl Search<'_, '_> {
     /// [`Reason`]: a run fails, or refinement ends before the differences are small enough.
     fn begin(&mut self, first: &Scene) -> Result<Scene, Reason> {
         let mut scene = first.clone();
-        for _ in 0..ROUNDS {
-            let Stepping { dt, restart_dt, .. } = scene.dg_stepping();
+        for _ in 0..self.policy.rounds {
+            let DgStepping { dt, restart_dt, .. } = scene.dg_stepping();
             let t_end = 2.0 * restart_dt;
             // Only shorter steps: each step length needs memory, and only these lengths occur.
-            let method = Method::Dg(Stepping {
+            let method = Method::Dg(DgStepping {
                 dt: t_end.min(dt),
                 ..scene.dg_stepping()
             });
@@ -164,33 +159,46 @@ impl Search<'_, '_> {
             let rows = self.wanted.rows.on(&short);
             let base = self.run(&short, &rows, None)?;
             let Compared { space, time, .. } = self.compare(&short, &rows, &base)?;
-            if space.most() <= SHARE && time.most() <= SHARE {
+            if self.are_small(&space, &time) {
                 return Ok(scene);
             }
-            scene = refined(&scene, &space, &time, &self.data.kinks).ok_or(Reason::Finest)?;
+            scene = self.refined(&scene, &space, &time)?;
         }
         Err(Reason::Rounds)
     }
 
     /// Refines a discretisation until both differences are small enough.
     fn refine(&mut self, mut scene: Scene) -> Result<Reference, Reason> {
-        for _ in 0..ROUNDS {
+        for _ in 0..self.policy.rounds {
             let rows = self.wanted.rows.on(&scene);
             let base = self.run(&scene, &rows, None)?;
             let compared = self.compare(&scene, &rows, &base)?;
             let (space, time) = (&compared.space, &compared.time);
-            if space.most() <= SHARE && time.most() <= SHARE {
-                return Ok(self.found(scene, &base, &compared));
+            if self.are_small(space, time) {
+                return Ok(self.reference(scene, &base, &compared));
             }
             self.judge(space.most(), time.most())?;
-            scene = refined(&scene, space, time, &self.data.kinks).ok_or(Reason::Finest)?;
+            scene = self.refined(&scene, space, time)?;
         }
         Err(Reason::Rounds)
     }
 
-    fn found(&self, scene: Scene, base: &Curves, compared: &Compared) -> Reference {
-        let mut found = Reference {
-            finer_space: finer(&scene)[0]
+    /// Whether both differences have at most their share of the target.
+    fn are_small(&self, space: &Apart, time: &Apart) -> bool {
+        space.most() <= self.policy.share && time.most() <= self.policy.share
+    }
+
+    /// The next discretisation.
+    fn refined(&self, scene: &Scene, space: &Apart, time: &Apart) -> Result<Scene, Reason> {
+        self.policy
+            .refined(scene, space, time, &self.data.kinks)
+            .ok_or(Reason::Finest)
+    }
+
+    /// The result of a search that ends with this scene.
+    fn reference(&self, scene: Scene, base: &Curves, compared: &Compared) -> Reference {
+        let mut reference = Reference {
+            finer_space: self.policy.finer(&scene)[0]
                 .as_ref()
                 .map_or_else(|_| String::new(), elements_and_degree),
             scene,
@@ -203,24 +211,21 @@ impl Search<'_, '_> {
             for k in 0..base.width {
                 let [own, finer, shorter] =
                     [base, &compared.finer, &compared.shorter].map(|run| run.column(k));
-                (found.space[k], found.time[k]) = (
-                    distance_of_curves(&own, &finer),
-                    distance_of_curves(&own, &shorter),
-                );
+                reference.space[k] = distance_of_curves(&own, &finer);
+                reference.time[k] = distance_of_curves(&own, &shorter);
                 let last = own.len() - 1;
                 let end = (own[last] - finer[last]).abs() + (own[last] - shorter[last]).abs();
-                found.end = found
-                    .end
-                    .max(end / distance_of_curves(&own, &vec![0.0; own.len()]));
+                let largest = distance_of_curves(&own, &vec![0.0; own.len()]);
+                reference.end = reference.end.max(end / largest);
             }
         }
-        found
+        reference
     }
 
     /// The two comparisons of a scene; `base` is its run.
     fn compare(&mut self, scene: &Scene, rows: &Rows, base: &Curves) -> Result<Compared, Reason> {
         let times = base.own_times();
-        let [finer, shorter] = finer(scene);
+        let [finer, shorter] = self.policy.finer(scene);
         let finer = self.run(&finer?, rows, Some(&times))?;
         let shorter = self.run(&shorter?, rows, Some(&times))?;
         let tolerance = &self.wanted.tolerance;
@@ -233,12 +238,12 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Runs a scene for comparison with the run whose times are `at`.
-    fn run(&mut self, scene: &Scene, rows: &Rows, at: Option<&[f64]>) -> Result<Curves, Reason> {
+    /// Runs a scene; `times` are those of the run that it is compared with.
+    fn run(&mut self, scene: &Scene, rows: &Rows, times: Option<&[f64]>) -> Result<Curves, Reason> {
         // A run has at most four times the steps of its predecessor; higher degrees cost more on
         // top.
         self.work.leaves(2.0 * self.last)?;
-        let run = curves(scene, rows, at, self.work)?;
+        let run = curves(scene, rows, times, self.work)?;
         self.last = run.cost.work;
         Ok(run)
     }
@@ -246,18 +251,53 @@ impl Search<'_, '_> {
     /// Records the result of a round; stops if refinement has reached round-off.
     fn judge(&mut self, space: f64, time: f64) -> Result<(), Reason> {
         let [best_space, best_time] = self.best;
-        let found = space + time;
-        let stalled = !(found <= STALLED * (best_space + best_time));
-        if found < best_space + best_time {
+        let sum = space + time;
+        let stalled = !(sum <= self.policy.stalled * (best_space + best_time));
+        if sum < best_space + best_time {
             self.best = [space, time];
         }
-        if !found.is_finite() {
+        if !sum.is_finite() {
             return Err(Reason::NotFinite);
         }
-        if stalled && found * self.wanted.tolerance[0] <= ROUND_OFF {
+        if stalled && sum * self.wanted.tolerance[0] <= self.policy.round_off {
             Err(Reason::RoundOff)
         } else {
             Ok(())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::predict::MOST_WORK;
+
+    fn search(policy: &Policy) -> Reference {
+        let text = "[initial]\nu_t = \"x\"\n[time]\nscheme = \"dg\"\nt_end = 0.2";
+        let scene = Scene::parse(text, "swing.toml").expect("a scene");
+        let wanted = Wanted {
+            rows: Rows::Tip,
+            tolerance: [1e-5; 3],
+        };
+        let mut no_progress = |_: f64| ();
+        let work = &mut Work::new(MOST_WORK, &mut no_progress);
+        reference(&scene, None, &wanted, policy, work).expect("a reference")
+    }
+
+    #[test]
+    fn a_smaller_share_of_the_target_leaves_a_smaller_error_at_a_higher_cost() {
+        let usual = search(&Policy::default());
+        let strict = Policy {
+            share: 1e-3 * Policy::default().share,
+            ..Policy::default()
+        };
+        let smaller = search(&strict);
+        assert!(usual.space[0].max(usual.time[0]) <= 0.5e-5, "{usual:?}");
+        assert!(usual.error(0) > 0.5e-8, "{usual:?}");
+        assert!(
+            smaller.space[0].max(smaller.time[0]) <= 0.5e-8,
+            "{smaller:?}"
+        );
+        assert!(smaller.run.work > usual.run.work, "{smaller:?}");
     }
 }

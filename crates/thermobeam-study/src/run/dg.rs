@@ -3,14 +3,15 @@
 use std::time::{Duration, Instant};
 
 use convergence_harness::run::time_limit::Patience;
-use thermobeam::dg::{self, Field, Phase};
+use thermobeam::dg::{Dg, DgLevel, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 use super::snapshot::Snapshot;
-use super::{BALANCE, Loaded, Motion, Report, RunError, Sample, Solves, Work};
+use super::{BALANCE, Loaded, ObservableMotion, Report, RunError, Sample};
 use crate::exact::any_order;
 use crate::exact::defect::Defect;
 use crate::exact::solution::Manufactured;
@@ -18,11 +19,10 @@ use crate::scene::{Coefficients, Scene};
 
 /// A problem by dG.
 pub(crate) struct DgMotion {
-    simulation: dg::Simulation,
+    simulation: Dg,
     theta_a: f64,
     obstacles: Option<Obstacles>,
-    is_loaded: bool,
-    level: dg::Level,
+    level: DgLevel,
     patience: Patience,
     wall: Duration,
 }
@@ -32,15 +32,9 @@ impl DgMotion {
     ///
     /// # Errors
     /// [`SetupError`] if the solver refuses the scene's numbers.
-    pub(crate) fn new(scene: &Scene, stepping: dg::Stepping) -> Result<Self, SetupError> {
-        let simulation = dg::Simulation::new(scene.dg_problem(), stepping)?;
-        Ok(Self::of(
-            simulation,
-            false,
-            &scene.beam,
-            scene.obstacles,
-            stepping,
-        ))
+    pub(crate) fn new(scene: &Scene, stepping: DgStepping) -> Result<Self, SetupError> {
+        let simulation = Dg::new(scene.dg_problem(), stepping)?;
+        Ok(Self::of(simulation, &scene.beam, scene.obstacles, stepping))
     }
 
     /// A manufactured solution at t = 0.
@@ -59,7 +53,7 @@ impl DgMotion {
         Coefficients { beam, obstacles }: Coefficients,
         mesh: Mesh,
         degree: usize,
-        by: dg::Stepping,
+        stepping: DgStepping,
     ) -> Result<Self, SetupError> {
         // A clamped end that is too hot is so from the start: the initial data must match it, or
         // the first step fails.
@@ -74,13 +68,13 @@ impl DgMotion {
         };
         // The value at x = 0 stays: the solver refuses initial data that contradict the boundary
         // conditions.
-        let planted =
-            move |x: f64| theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x);
-        let initial = dg::Initial {
-            theta: Box::new(planted),
+        let initial = InitialFunctions {
+            theta: Box::new(move |x| {
+                theta(x) + (if x == 0.0 { shift } else { shift - missing }) * (1.0 - x)
+            }),
             ..start
         };
-        let problem = dg::Problem {
+        let problem = DgProblem {
             beam,
             obstacles,
             mesh,
@@ -88,40 +82,42 @@ impl DgMotion {
             initial,
         };
         let simulation = match loads {
-            None => dg::Simulation::new(problem, by),
-            Some(theory) => dg::Simulation::with_load(problem, by, |space| {
+            None => Dg::new(problem, stepping),
+            Some(theory) => Dg::with_load(problem, stepping, |space| {
                 any_order::load(exact, &theory.beam, theory.obstacles, space, defect)
             }),
         }?;
-        Ok(Self::of(simulation, loads.is_some(), &beam, obstacles, by))
+        Ok(Self::of(simulation, &beam, obstacles, stepping))
     }
 
     pub(super) fn of(
-        simulation: dg::Simulation,
-        is_loaded: bool,
+        simulation: Dg,
         beam: &Beam,
         obstacles: Option<Obstacles>,
-        by: dg::Stepping,
+        stepping: DgStepping,
     ) -> Self {
         Self {
             level: simulation.level().clone(),
             // The blocks of a step are dense in time.
-            patience: Patience::new(simulation.space().blocks() * (by.degree + 1).pow(2)),
+            patience: Patience::new(simulation.space().blocks() * (stepping.degree + 1).pow(2)),
             simulation,
             theta_a: beam.theta_a,
             obstacles,
-            is_loaded,
             wall: Duration::ZERO,
         }
     }
 
     /// The simulation.
-    pub(crate) fn simulation(&self) -> &dg::Simulation {
+    pub(crate) fn simulation(&self) -> &Dg {
         &self.simulation
     }
 }
 
-impl Motion for DgMotion {
+impl ObservableMotion for DgMotion {
+    fn motion(&self) -> &dyn Motion {
+        &self.simulation
+    }
+
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
         let Self {
             simulation,
@@ -129,20 +125,13 @@ impl Motion for DgMotion {
             wall,
             ..
         } = self;
-        patience.check(simulation.work().steps, || simulation.t())?;
+        patience.check(simulation.steps(), || simulation.t())?;
         let started = Instant::now();
         let outcome = simulation.step(until);
         *wall += started.elapsed();
-        Ok(outcome?.map(|done| {
-            patience.also(done.iterations.saturating_sub(1));
-            let phase = done.event.map_or(simulation.phase(), |event| event.from);
-            Report {
-                dt: done.dt,
-                iterations: done.iterations,
-                contraction: None,
-                in_contact: phase != Phase::Free,
-                unsound: None,
-            }
+        Ok(outcome?.map(|report| {
+            patience.also(report.iterations.saturating_sub(1));
+            Report::new(report, None)
         }))
     }
 
@@ -172,35 +161,13 @@ impl Motion for DgMotion {
         }
     }
 
-    fn extremes(&self) -> [f64; 2] {
-        self.simulation.tip_range()
-    }
-
-    fn is_loaded(&self) -> bool {
-        self.is_loaded
-    }
-
     fn balance(&self) -> Result<Balance, Loaded> {
         self.refuse_loads(BALANCE)?;
         Ok(self.simulation.balance())
     }
 
-    fn work(&self) -> Work {
-        let dg::Work {
-            steps,
-            solves,
-            factorizations,
-            ..
-        } = self.simulation.work();
-        Work {
-            t: self.simulation.t(),
-            steps,
-            solves: Solves {
-                passes: solves,
-                factorizations,
-            },
-            wall: self.wall,
-        }
+    fn wall(&self) -> Duration {
+        self.wall
     }
 
     fn snapshot(&self) -> Snapshot<'_> {

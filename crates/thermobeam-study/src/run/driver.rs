@@ -6,13 +6,14 @@ use convergence_harness::run::time_limit::Patience;
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::{Motion, StepReport};
+use thermobeam::one_step::{OneStep, Problem, Stepping};
 use thermobeam::parameters::Obstacles;
-use thermobeam::simulation::{Problem, Simulation, Stepping};
-use thermobeam::solve::{Level, StepReport};
+use thermobeam::solve::Level;
 
 use super::snapshot::{EnergySize, Snapshot};
 use super::tally::EnergySummary;
-use super::{BALANCE, Loaded, Motion, Report, RunError, Sample, Unsound, Work};
+use super::{BALANCE, Loaded, ObservableMotion, Report, RunError, Sample, Unsound};
 
 /// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps
 /// a hundredth.
@@ -24,7 +25,7 @@ const ROUNDED: f64 = 1e-12;
 
 /// A running simulation.
 pub(crate) struct Driver<'l> {
-    simulation: Simulation,
+    simulation: OneStep,
     /// The level before the last step.
     old: Level,
     /// The current level.
@@ -39,7 +40,6 @@ pub(crate) struct Driver<'l> {
     is_timed: bool,
     /// Computes the loads of a step at its middle.
     fill: Box<Fill<'l>>,
-    is_loaded: bool,
 }
 
 /// Writes the loads at a time.
@@ -52,8 +52,7 @@ impl<'l> Driver<'l> {
     /// [`SetupError`] if the solver refuses the problem.
     pub(crate) fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
         let is_solved = stepping.settings.stopping.tolerance().is_some();
-        let is_loaded = stepping.loaded;
-        let simulation = Simulation::new(problem, stepping)?;
+        let simulation = OneStep::new(problem, stepping)?;
         let old = simulation.level();
         let (new, patience) = (old.clone(), Patience::new(simulation.lengths().len()));
         let (initial, size) = (
@@ -71,7 +70,6 @@ impl<'l> Driver<'l> {
             wall: Duration::ZERO,
             is_timed: false,
             fill: Box::new(|_, _| ()),
-            is_loaded,
         })
     }
 
@@ -92,7 +90,7 @@ impl<'l> Driver<'l> {
     }
 
     /// The simulation.
-    pub(crate) fn simulation(&self) -> &Simulation {
+    pub(crate) fn simulation(&self) -> &OneStep {
         &self.simulation
     }
 
@@ -107,20 +105,20 @@ impl<'l> Driver<'l> {
     }
 
     /// Solves a step and reads the level at its end.
-    fn advance(&mut self) -> Result<StepReport, RunError> {
+    fn step_once(&mut self) -> Result<StepReport, RunError> {
         let Self {
             simulation,
             patience,
             fill,
             ..
         } = self;
-        patience.check(simulation.step(), || simulation.t())?;
-        let middle = (simulation.step() as f64 + 0.5) * simulation.dt();
+        patience.check(simulation.steps(), || simulation.t())?;
+        let middle = (simulation.steps() as f64 + 0.5) * simulation.dt();
         if let Some(load) = simulation.load_mut() {
             fill(middle, load);
         }
         let started = self.is_timed.then(Instant::now);
-        let outcome = self.simulation.advance();
+        let outcome = self.simulation.step_once();
         self.wall += started.map(|started| started.elapsed()).unwrap_or_default();
         let report = outcome?;
         self.patience.also(report.iterations.saturating_sub(1));
@@ -135,9 +133,9 @@ impl<'l> Driver<'l> {
     /// Looks at the energy after 1, 2, 4, 8 steps and every [`CHECKED`] steps, and wherever u(1) is
     /// not finite.
     fn unsound(&self) -> Option<Unsound> {
-        let n = self.simulation.step();
+        let n = self.simulation.steps();
         let is_due = n.is_multiple_of(CHECKED) || n.is_power_of_two();
-        if self.is_loaded || !is_due && self.new.u[self.new.u.len() - 1].is_finite() {
+        if self.simulation.is_loaded() || !is_due && self.new.u[self.new.u.len() - 1].is_finite() {
             return None;
         }
         let Self { initial, size, .. } = *self;
@@ -152,34 +150,28 @@ impl<'l> Driver<'l> {
             is_loaded: false,
         };
         // Both energies are rounded, and contain the constant of Kirchhoff's term.
-        let rounded = |now: EnergySize| EnergySize {
-            rounding: now.rounding + ROUNDED * initial.abs(),
-            ..now
-        };
-        energy
-            .sound(|| rounded(self.snapshot().energy_size()))
-            .err()
+        let outcome = energy.sound(|| {
+            let size = self.snapshot().energy_size();
+            EnergySize {
+                rounding: size.rounding + ROUNDED * initial.abs(),
+                ..size
+            }
+        });
+        outcome.err()
     }
 }
 
-impl Motion for Driver<'_> {
+impl ObservableMotion for Driver<'_> {
+    fn motion(&self) -> &dyn Motion {
+        &self.simulation
+    }
+
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
-        let dt = self.simulation.dt();
-        if !(self.simulation.t() + 0.5 * dt < until) {
+        if self.simulation.has_reached(until) {
             return Ok(None);
         }
-        let StepReport {
-            iterations,
-            contraction,
-            ..
-        } = self.advance()?;
-        Ok(Some(Report {
-            dt,
-            iterations,
-            contraction,
-            in_contact: self.new.contact_force != 0.0,
-            unsound: self.unsound(),
-        }))
+        let report = self.step_once()?;
+        Ok(Some(Report::new(report, self.unsound())))
     }
 
     fn sample(&mut self) -> Sample {
@@ -193,7 +185,7 @@ impl Motion for Driver<'_> {
         let energy = simulation.energy(level).total();
         let sample = Sample::of(level, simulation.t(), mesh, beam.theta_a, energy);
         // No step leads to the start, so its contact force is that of the law.
-        if simulation.step() == 0 {
+        if simulation.steps() == 0 {
             sample.at_the_start(*obstacles)
         } else {
             sample
@@ -205,26 +197,13 @@ impl Motion for Driver<'_> {
         self.sample()
     }
 
-    fn extremes(&self) -> [f64; 2] {
-        [self.new.u[self.new.u.len() - 1]; 2]
-    }
-
-    fn is_loaded(&self) -> bool {
-        self.is_loaded
-    }
-
     fn balance(&self) -> Result<Balance, Loaded> {
         self.refuse_loads(BALANCE)?;
         Ok(self.simulation.balance(&self.old, &self.new))
     }
 
-    fn work(&self) -> Work {
-        Work {
-            t: self.simulation.t(),
-            steps: self.simulation.step(),
-            solves: self.simulation.work().into(),
-            wall: self.wall,
-        }
+    fn wall(&self) -> Duration {
+        self.wall
     }
 
     fn snapshot(&self) -> Snapshot<'_> {
@@ -293,7 +272,7 @@ mod tests {
         let ended = run_to(&mut driver, 100.0, |driver, _| {
             let rise = driver.simulation.energy(driver.level()).total() - initial;
             if rise > 1e-3 * initial.max(1.0) {
-                risen = risen.min(driver.simulation.step());
+                risen = risen.min(driver.simulation.steps());
             }
         });
         let Err(RunError::Unsound { step, t, dt, .. }) = ended else {

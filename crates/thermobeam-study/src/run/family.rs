@@ -13,15 +13,15 @@ use crate::exact::sources::{Nodal, Sources};
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
-use crate::run::{Motion, Work};
+use crate::run::{ObservableMotion, Work};
 use crate::scene::{Coefficients, Scene, resampled};
 use convergence_harness::study::CaseFailure;
-use thermobeam::dg;
+use thermobeam::dg::DgStepping;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::Settings;
 
 /// The cost of a computation, counted: the same on every machine.
@@ -36,7 +36,7 @@ pub struct Spent {
 
 impl Spent {
     /// The cost of a motion by a one-step scheme so far.
-    pub(crate) fn of(motion: &impl Motion, elements: usize) -> Self {
+    pub(crate) fn of(motion: &impl ObservableMotion, elements: usize) -> Self {
         let elements = elements as f64;
         let Work { steps, solves, .. } = motion.work();
         Self {
@@ -137,7 +137,7 @@ impl Family {
         &self,
         mesh: Mesh,
         degree: usize,
-        stepping: dg::Stepping,
+        stepping: DgStepping,
     ) -> Result<DgMotion, SetupError> {
         let Self {
             beam, obstacles, ..
@@ -202,7 +202,7 @@ impl Family {
             initial,
         };
         OnMesh {
-            of: self,
+            family: self,
             problem,
             sources,
         }
@@ -211,7 +211,7 @@ impl Family {
 
 /// A problem on a mesh, shared by runs with different steps.
 pub struct OnMesh<'a> {
-    of: &'a Family,
+    family: &'a Family,
     problem: Problem,
     sources: Option<Arc<Sources>>,
 }
@@ -224,7 +224,7 @@ impl OnMesh<'_> {
 
     /// Final time.
     pub(crate) fn t_end(&self) -> f64 {
-        self.of.t_end
+        self.family.t_end
     }
 
     /// Starts at t = 0 with a scheme and `steps` steps to do.
@@ -236,8 +236,8 @@ impl OnMesh<'_> {
         scheme: Scheme,
         settings: Settings,
         steps: usize,
-    ) -> Result<impl Motion, CaseFailure> {
-        let dt = self.of.t_end / steps as f64;
+    ) -> Result<impl ObservableMotion, CaseFailure> {
+        let dt = self.family.t_end / steps as f64;
         let stepping = Stepping {
             scheme,
             settings,
@@ -245,12 +245,12 @@ impl OnMesh<'_> {
             loaded: self.sources.is_some(),
         };
         let driver = Driver::new(self.problem.clone(), stepping)?;
-        let (Some(sources), Some(exact)) = (&self.sources, self.of.exact()) else {
+        let (Some(sources), Some(exact)) = (&self.sources, self.family.exact()) else {
             return Ok(driver);
         };
         let sources = sources.clone();
         let exact = exact.clone();
-        let obstacles = self.of.obstacles;
+        let obstacles = self.family.obstacles;
         let mut factors = Factors::default();
         Ok(driver.loaded(move |t, load| {
             factors.at(&exact, t);

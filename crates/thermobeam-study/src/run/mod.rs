@@ -19,6 +19,7 @@ use serde::Serialize;
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::MeshError;
+use thermobeam::motion::{self, Motion, StepReport};
 use thiserror::Error;
 
 pub use snapshot::{EnergySize, Snapshot};
@@ -72,8 +73,8 @@ pub struct Solves {
     pub factorizations: usize,
 }
 
-impl From<thermobeam::solve::Work> for Solves {
-    fn from(work: thermobeam::solve::Work) -> Self {
+impl From<motion::Work> for Solves {
+    fn from(work: motion::Work) -> Self {
         Self {
             passes: work.passes,
             factorizations: work.factorizations,
@@ -96,6 +97,19 @@ pub struct Report {
     /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at
     /// it.
     pub unsound: Option<Unsound>,
+}
+
+impl Report {
+    /// What the solver says of a step, and what is wrong with the state after it.
+    pub(crate) fn new(step: StepReport, unsound: Option<Unsound>) -> Self {
+        Self {
+            dt: step.dt,
+            iterations: step.iterations,
+            contraction: step.contraction,
+            in_contact: step.in_contact,
+            unsound,
+        }
+    }
 }
 
 /// Why a problem did not reach its end.
@@ -191,8 +205,12 @@ pub struct Work {
     pub wall: Duration,
 }
 
-/// A beam in motion, one step at a time. Observed values are computed only on request.
-pub trait Motion {
+/// A [`Motion`] that is stepped within the limits of its case, and whose values are observed.
+/// Observed values are computed only on request.
+pub trait ObservableMotion {
+    /// The motion: its time, counts of its steps and solves, the range of its free end.
+    fn motion(&self) -> &dyn Motion;
+
     /// Does one step, at most to `until`; `None` if it stands there. For a one-step scheme `until`
     /// is the end of a step. Only [`run`] calls it.
     ///
@@ -206,42 +224,47 @@ pub trait Motion {
     /// The state at a time in the last step; for a one-step scheme at its end.
     fn inside(&mut self, t: f64) -> Sample;
 
-    /// Smallest and largest u(1) in the last step; for a one-step scheme at its end.
-    fn extremes(&self) -> [f64; 2];
-
-    /// Whether loads act on the beam: its energy may then rise, its balance has the work of the
-    /// loads, and it need not come to rest at one of its steady states.
-    fn is_loaded(&self) -> bool;
-
     /// The energy's balance over the last step, of a beam without loads.
     ///
     /// # Errors
     /// [`Loaded`].
     fn balance(&self) -> Result<Balance, Loaded>;
 
-    /// Refuses a beam with loads.
+    /// Refuses a beam with loads: its energy may rise, its balance has the work of the loads, and
+    /// it need not come to rest at one of its steady states.
     ///
     /// * `what`: what such a beam does not have, in words.
     ///
     /// # Errors
     /// [`Loaded`].
     fn refuse_loads(&self, what: &'static str) -> Result<(), Loaded> {
-        if self.is_loaded() {
+        if self.motion().is_loaded() {
             Err(Loaded { what })
         } else {
             Ok(())
         }
     }
 
+    /// Time spent in steps so far.
+    fn wall(&self) -> Duration;
+
     /// Where it stands, and the work so far.
-    fn work(&self) -> Work;
+    fn work(&self) -> Work {
+        let motion = self.motion();
+        Work {
+            t: motion.t(),
+            steps: motion.steps(),
+            solves: motion.work().into(),
+            wall: self.wall(),
+        }
+    }
 
     /// The whole state, for pictures and comparisons.
     fn snapshot(&self) -> Snapshot<'_>;
 }
 
 /// A motion by whatever method.
-pub type AnyMotion = dyn Motion;
+pub type AnyMotion = dyn ObservableMotion;
 
 /// Observes a motion after each of its steps: any motion, or those of one method.
 pub trait Watch<M: ?Sized = AnyMotion> {
@@ -266,7 +289,7 @@ where
 ///
 /// # Errors
 /// [`RunError`] of the failed step; the motion then stands at the last level.
-pub(crate) fn run_to<M: Motion + ?Sized>(
+pub(crate) fn run_to<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     until: f64,
     mut see: impl FnMut(&mut M, &Report),
@@ -288,7 +311,7 @@ pub(crate) fn run_to<M: Motion + ?Sized>(
 /// # Errors
 /// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at
 /// the last level.
-pub fn run<M: Motion + ?Sized>(
+pub fn run<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     until: f64,
     ends: &[f64],

@@ -23,6 +23,16 @@ struct Event {
     to: &'static str,
 }
 
+impl Event {
+    fn new(event: &ContactEvent) -> Self {
+        Self {
+            t: event.t,
+            from: phase_name(event.from),
+            to: phase_name(event.to),
+        }
+    }
+}
+
 #[derive(Debug, serde::Serialize)]
 struct Failure {
     kind: &'static str,
@@ -112,65 +122,73 @@ impl Serialize for Object<'_> {
         map.serialize_entry("heated", &run.is_heated)?;
         map.serialize_entry("contact_steps", &run.contact_steps)?;
         map.serialize_entry("degree", &scene.degree)?;
-        if let Some(by) = scene.method.dg() {
-            map.serialize_entry("time_degree", &by.degree)?;
-            map.serialize_entry("restart_dt", &by.restart_dt)?;
-            map.serialize_entry("growth", &by.growth)?;
+        if let Some(stepping) = scene.method.dg() {
+            map.serialize_entry("time_degree", &stepping.degree)?;
+            map.serialize_entry("restart_dt", &stepping.restart_dt)?;
+            map.serialize_entry("growth", &stepping.growth)?;
         }
         map.serialize_entry("work", &run.work)?;
         if let Some(contact) = &run.contact {
-            let event = |by: &ContactEvent| Event {
-                t: by.t,
-                from: phase_name(by.from),
-                to: phase_name(by.to),
-            };
-            map.serialize_entry(
-                "events",
-                &contact.events.iter().map(event).collect::<Vec<_>>(),
-            )?;
+            let events: Vec<Event> = contact.events.iter().map(Event::new).collect();
+            map.serialize_entry("events", &events)?;
         }
         if let Some(note) = run.note(scene.method.stopping()) {
             map.serialize_entry("note", &note)?;
         }
-        if let Some(ended) = &run.failure {
-            map.serialize_entry("failure", &failure(ended))?;
+        if let Some(error) = &run.failure {
+            map.serialize_entry("failure", &failure(error))?;
         }
         map.end()
     }
 }
 
-fn failure(ended: &RunError) -> Failure {
-    let of = |kind, step, t, message: String, numbers| Failure {
-        kind,
-        step,
-        t,
-        message,
-        numbers,
-    };
-    match ended {
-        RunError::Loaded(_) => of("loaded", 0, 0.0, ended.to_string(), FailureNumbers::None {}),
-        RunError::Setup(_) => of("setup", 0, 0.0, ended.to_string(), FailureNumbers::None {}),
+fn failure(error: &RunError) -> Failure {
+    match error {
+        RunError::Loaded(_) => Failure::at_start("loaded", error),
+        RunError::Setup(_) => Failure::at_start("setup", error),
         RunError::Step(StepError {
             step, t, failure, ..
         }) => {
             let (kind, numbers) = kind(failure);
-            of(kind, *step, *t, failure.to_string(), numbers)
+            Failure {
+                kind,
+                step: *step,
+                t: *t,
+                message: failure.to_string(),
+                numbers,
+            }
         }
-        RunError::TimeUp(up) => {
-            let numbers = FailureNumbers::Limit {
+        RunError::TimeUp(up) => Failure {
+            kind: "time-limit",
+            step: up.step,
+            t: up.t,
+            message: up.to_string(),
+            numbers: FailureNumbers::Limit {
                 limit_seconds: up.limit.as_secs_f64(),
-            };
-            of("time-limit", up.step, up.t, up.to_string(), numbers)
-        }
+            },
+        },
         RunError::Unsound {
             step, t, unsound, ..
-        } => of(
-            "unsound",
-            *step,
-            *t,
-            unsound.to_string(),
-            FailureNumbers::None {},
-        ),
+        } => Failure {
+            kind: "unsound",
+            step: *step,
+            t: *t,
+            message: unsound.to_string(),
+            numbers: FailureNumbers::None {},
+        },
+    }
+}
+
+impl Failure {
+    /// Of a run without a step.
+    fn at_start(kind: &'static str, error: &RunError) -> Self {
+        Self {
+            kind,
+            step: 0,
+            t: 0.0,
+            message: error.to_string(),
+            numbers: FailureNumbers::None {},
+        }
     }
 }
 

@@ -26,13 +26,13 @@ use std::ops::ControlFlow;
 
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::{self, Problem};
+use thermobeam::one_step::{self, Problem};
 
 use super::dg::DgMotion;
 use super::driver::Driver;
 use super::history::RunHistory;
 pub use super::tally::{Contact, Run};
-use super::{AnyMotion, Motion, Report, RunError, Watch, Work, run};
+use super::{AnyMotion, Report, RunError, Watch, Work, run};
 use crate::expression::Expression;
 use crate::scene::{Method, Scene};
 
@@ -75,7 +75,7 @@ pub(crate) fn driver(scene: &Scene) -> Result<Driver<'static>, SetupError> {
 ///
 /// # Errors
 /// [`RunError`] if the solver refuses the scene's numbers.
-pub fn motion(scene: &Scene) -> Result<Box<dyn Motion>, RunError> {
+pub fn motion(scene: &Scene) -> Result<Box<AnyMotion>, RunError> {
     Ok(match scene.method {
         Method::OneStep(_) => Box::new(driver(scene)?.timed()),
         Method::Dg(stepping) => Box::new(DgMotion::new(scene, stepping)?),
@@ -83,29 +83,33 @@ pub fn motion(scene: &Scene) -> Result<Box<dyn Motion>, RunError> {
 }
 
 /// A scene's initial data on any mesh, with boundary values set as in [`problem`].
-pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> simulation::Initial {
+pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> one_step::InitialValues {
     let nodes = mesh.nodes();
-    let at_nodes = |function: &Option<Expression>, start: f64| -> Vec<f64> {
-        let value = |&x: &f64| function.as_ref().map_or(0.0, |function| function.eval(x));
-        let mut values: Vec<f64> = nodes.iter().map(value).collect();
-        values[0] = start;
-        values
-    };
     let initial = &scene.initial;
-    let mut theta = at_nodes(&initial.theta, scene.beam.theta_a);
+    let mut theta = nodal_values(nodes, &initial.theta, scene.beam.theta_a);
     theta[nodes.len() - 1] = 0.0;
-    simulation::Initial {
-        u: at_nodes(&initial.u, 0.0),
-        u_t: at_nodes(&initial.u_t, 0.0),
-        phi: at_nodes(&initial.phi, 0.0),
-        phi_t: at_nodes(&initial.phi_t, 0.0),
+    one_step::InitialValues {
+        u: nodal_values(nodes, &initial.u, 0.0),
+        u_t: nodal_values(nodes, &initial.u_t, 0.0),
+        phi: nodal_values(nodes, &initial.phi, 0.0),
+        phi_t: nodal_values(nodes, &initial.phi_t, 0.0),
         theta,
     }
 }
 
+/// A function at the nodes, with this value at the first one; zero if it is not given.
+fn nodal_values(nodes: &[f64], function: &Option<Expression>, first: f64) -> Vec<f64> {
+    let mut values = match function {
+        Some(function) => nodes.iter().map(|&x| function.eval(x)).collect(),
+        None => vec![0.0; nodes.len()],
+    };
+    values[0] = first;
+    values
+}
+
 /// A scene, ready to run.
 pub struct Simulator {
-    motion: Box<dyn Motion>,
+    motion: Box<AnyMotion>,
     t_end: f64,
 }
 
@@ -123,12 +127,12 @@ impl Simulator {
 
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
-        let mut told = |motion: &mut AnyMotion, _: &Report| {
+        let mut watch = |motion: &mut AnyMotion, _: &Report| {
             let Work { t, steps, .. } = motion.work();
             progress(steps, t);
             Ok(ControlFlow::Continue(()))
         };
-        self.watched(recording, &[], &mut told)
+        self.watched(recording, &[], &mut watch)
     }
 
     /// Runs to the end; `read` receives the motion at each of these times, which increase.
@@ -139,7 +143,7 @@ impl Simulator {
         self,
         recording: Recording,
         times: &[f64],
-        mut read: impl FnMut(&mut dyn Motion),
+        mut read: impl FnMut(&mut AnyMotion),
     ) -> Result<Run, RunError> {
         let mut passed = 0;
         let mut watch = |motion: &mut AnyMotion, _: &Report| {
@@ -162,7 +166,7 @@ impl Simulator {
         let Self { mut motion, t_end } = self;
         let first = motion.sample();
         let size = motion.snapshot().energy_size().terms;
-        let mut sums = Run::start(first, size, motion.is_loaded());
+        let mut sums = Run::start(first, size, motion.motion().is_loaded());
         let start = motion.snapshot();
         let mut history = match recording {
             Recording::Summary => None,
@@ -183,7 +187,7 @@ impl Simulator {
         }
         let events = end.contact().map_or(vec![], |(_, events)| events.to_vec());
         let contact = started_in.map(|started_in| Contact { started_in, events });
-        sums.end(last, solves, end.is_heated());
+        sums.end(last, solves, motion.motion().is_heated());
         Run {
             wall,
             contact,
@@ -199,14 +203,14 @@ mod tests {
     use super::super::Loaded;
     use super::super::together::Together;
     use super::*;
-    use thermobeam::dg;
+    use thermobeam::dg::{self, Dg};
 
     #[test]
     fn a_run_keeps_extremes_and_is_read_at_the_times_given() {
         let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 4\n[time]\ndt = 0.1\nt_end = 2.0\n";
         let scene = Scene::parse(text, "s.toml").expect("a scene");
         let (times, mut read) = ([0.5, 1.0, 1.5, 2.0], vec![]);
-        let see = |motion: &mut dyn Motion| read.push(motion.sample());
+        let see = |motion: &mut AnyMotion| read.push(motion.sample());
         let run = Simulator::new(&scene)
             .expect("a motion")
             .read_at(Recording::Summary, &times, see)
@@ -224,7 +228,7 @@ mod tests {
     fn pushed(time: &str) -> Simulator {
         let text = format!("[mesh]\nelements = 4\n[time]\nt_end = 1.0\n{time}");
         let mut scene = Scene::parse(&text, "pushed.toml").expect("a scene");
-        let motion: Box<dyn Motion> = match &mut scene.method {
+        let motion: Box<AnyMotion> = match &mut scene.method {
             Method::OneStep(stepping) => {
                 stepping.loaded = true;
                 // (1, χ): h for an inner node, half of it for the last one.
@@ -238,7 +242,7 @@ mod tests {
             }
             Method::Dg(stepping) => {
                 let stepping = *stepping;
-                let simulation = dg::Simulation::with_load(scene.dg_problem(), stepping, |space| {
+                let simulation = Dg::with_load(scene.dg_problem(), stepping, |space| {
                     let points = dg::Space::gauss(12);
                     let mut constant = vec![[0.0; 3]; space.blocks()];
                     space.add_load(dg::Field::U, &points, |_| 1.0, &mut constant);
@@ -249,7 +253,7 @@ mod tests {
                     })
                 })
                 .expect("a simulation");
-                let motion = DgMotion::of(simulation, true, &scene.beam, None, stepping);
+                let motion = DgMotion::of(simulation, &scene.beam, None, stepping);
                 Box::new(motion)
             }
         };

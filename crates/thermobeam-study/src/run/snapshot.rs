@@ -1,8 +1,9 @@
 //! The state of a motion in full, for pictures, histories and comparisons on a mesh.
 
-use thermobeam::dg::{self, ContactEvent, Field, Phase};
+use thermobeam::dg::{self, ContactEvent, Dg, DgLevel, Field, Phase};
 use thermobeam::mesh::Mesh;
-use thermobeam::simulation::Simulation;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::OneStep;
 use thermobeam::solve::Level;
 
 /// Maximum number of rows of a history: every step up to this number, then every second, third, ...
@@ -33,7 +34,7 @@ pub enum Snapshot<'m> {
     /// By a one-step scheme.
     OneStep {
         /// The simulation, standing at the end of the step.
-        simulation: &'m Simulation,
+        simulation: &'m OneStep,
         /// The level at its start.
         old: &'m Level,
         /// The level at its end.
@@ -42,7 +43,7 @@ pub enum Snapshot<'m> {
         is_solved: bool,
     },
     /// By dG.
-    Dg(&'m dg::Simulation),
+    Dg(&'m Dg),
 }
 
 impl Snapshot<'_> {
@@ -54,7 +55,7 @@ impl Snapshot<'_> {
             Self::OneStep { simulation, .. } => {
                 let steps = (t_end / simulation.dt()).round() as usize;
                 let stride = steps.div_ceil(count).max(1);
-                if simulation.step().is_multiple_of(stride) {
+                if simulation.steps().is_multiple_of(stride) {
                     vec![simulation.t()]
                 } else {
                     vec![]
@@ -62,16 +63,9 @@ impl Snapshot<'_> {
             }
             Self::Dg(simulation) => {
                 let (from, to) = (simulation.old_level().t, simulation.t());
-                let time = |k: usize| {
-                    if k == count {
-                        t_end
-                    } else {
-                        t_end * k as f64 / count as f64
-                    }
-                };
                 let first = (from / t_end * count as f64).floor() as usize;
                 (first.max(1)..=count)
-                    .map(time)
+                    .map(|k| equidistant_time(t_end, k, count))
                     .skip_while(|&t| t <= from)
                     .take_while(|&t| t <= to)
                     .collect()
@@ -105,13 +99,14 @@ impl Snapshot<'_> {
     pub(crate) fn shape(&self, t: f64) -> Vec<f64> {
         match self {
             Self::OneStep { level, .. } => {
-                let shown = thinned(level.u.len(), MOST_POINTS);
-                shown.into_iter().map(|i| level.u[i]).collect()
+                let indices = thinned(level.u.len(), MOST_POINTS);
+                indices.into_iter().map(|i| level.u[i]).collect()
             }
-            Self::Dg(simulation) => {
-                let u = |x: f64| simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
-                self.points().into_iter().map(u).collect()
-            }
+            Self::Dg(simulation) => self
+                .points()
+                .into_iter()
+                .map(|x| simulation.value(Field::U, x, t).unwrap_or(f64::NAN))
+                .collect(),
         }
     }
 
@@ -155,14 +150,6 @@ impl Snapshot<'_> {
         }
     }
 
-    /// Whether the temperature is computed.
-    pub(crate) fn is_heated(&self) -> bool {
-        match self {
-            Self::OneStep { simulation, .. } => simulation.is_heated(),
-            Self::Dg(_) => true,
-        }
-    }
-
     /// What the free end touches, and where contact began and ended; `None` if the method does not
     /// locate events.
     pub(crate) fn contact(&self) -> Option<(Phase, &[ContactEvent])> {
@@ -201,18 +188,29 @@ pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Lev
     }
 }
 
+/// The end of the part with number `k` from 1, if the time to `t_end` has `count` equal parts; the
+/// last one is `t_end` to the last bit.
+pub(crate) fn equidistant_time(t_end: f64, k: usize, count: usize) -> f64 {
+    if k == count {
+        t_end
+    } else {
+        t_end * k as f64 / count as f64
+    }
+}
+
 /// The P1 functions of a level at the nodes of another mesh.
 pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
-    let (nodes, mut left) = (mesh.nodes(), 0);
-    let place = |&x: &f64| {
+    let nodes = mesh.nodes();
+    let mut elements = vec![];
+    let mut left = 0;
+    for &x in other.nodes() {
         while left + 2 < nodes.len() && nodes[left + 1] <= x {
             left += 1;
         }
-        (left, (x - nodes[left]) / (nodes[left + 1] - nodes[left]))
-    };
-    let places: Vec<(usize, f64)> = other.nodes().iter().map(place).collect();
+        elements.push((left, (x - nodes[left]) / (nodes[left + 1] - nodes[left])));
+    }
     map_fields(level, |y| {
-        places
+        elements
             .iter()
             .map(|&(i, s)| (1.0 - s) * y[i] + s * y[i + 1])
             .collect()
@@ -220,7 +218,7 @@ pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
 }
 
 /// A level of any order by its values at the nodes, without the contact force.
-pub(crate) fn nodal(space: &dg::Space, level: &dg::Level, nodes: &[f64]) -> Level {
+pub(crate) fn nodal(space: &dg::Space, level: &DgLevel, nodes: &[f64]) -> Level {
     let mut nodal = Level {
         u: Vec::with_capacity(nodes.len()),
         v: Vec::with_capacity(nodes.len()),

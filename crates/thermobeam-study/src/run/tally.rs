@@ -300,22 +300,23 @@ impl Watch for Run {
         motion: &mut AnyMotion,
         report: &Report,
     ) -> Result<ControlFlow<()>, RunError> {
-        let balance = if motion.is_loaded() {
+        let balance = if motion.motion().is_loaded() {
             let change = motion.sample().energy - self.energy.last;
             without_balance(change)
         } else {
             motion.balance()?
         };
-        let extremes = motion.extremes();
-        let unsound = |unsound| {
-            let Work { t, steps, .. } = motion.work();
-            RunError::unsound(steps, t, report.dt, unsound)
-        };
-        self.add(report, &balance, extremes, || {
+        let extremes = motion.motion().tip_range();
+        let outcome = self.add(report, &balance, extremes, || {
             motion.snapshot().energy_size()
-        })
-        .map_err(unsound)?;
-        Ok(ControlFlow::Continue(()))
+        });
+        match outcome {
+            Ok(()) => Ok(ControlFlow::Continue(())),
+            Err(unsound) => {
+                let Work { t, steps, .. } = motion.work();
+                Err(RunError::unsound(steps, t, report.dt, unsound))
+            }
+        }
     }
 }
 

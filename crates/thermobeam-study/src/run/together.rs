@@ -8,8 +8,8 @@ use convergence_harness::run::time_limit::{Patience, TimeUp};
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::simulate::{Run, problem};
@@ -67,8 +67,10 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
         common.settings,
     )?;
     let mut level = Level::new(common.elements + 1);
-    let lane = |(k, scene)| LaneRun::new(k, scene, driver.ensemble(), &mut level);
-    let mut lanes: Vec<LaneRun<'_>> = scenes.iter().enumerate().map(lane).collect();
+    let mut lanes = vec![];
+    for (k, scene) in scenes.iter().enumerate() {
+        lanes.push(LaneRun::new(k, scene, driver.ensemble(), &mut level));
+    }
     driver.run(common.steps, |ensemble, balances| {
         for (lane, balance) in lanes.iter_mut().zip(balances) {
             lane.see(ensemble, balance, &mut level);
@@ -80,16 +82,17 @@ pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
         }
     })?;
     let share = driver.wall() / scenes.len() as u32;
-    let ended = |mut lane: LaneRun<'_>| {
+    let mut runs = vec![];
+    for mut lane in lanes {
         if lane.run.failure.is_none() {
             lane.end(driver.ensemble(), &mut level);
         }
-        Run {
+        runs.push(Run {
             wall: share,
             ..lane.run
-        }
-    };
-    Ok(lanes.into_iter().map(ended).collect())
+        });
+    }
+    Ok(runs)
 }
 
 /// One of the scenes.
@@ -116,29 +119,23 @@ impl<'s> LaneRun<'s> {
         }
         let k = self.k;
         let dt = self.scene.dt();
-        let step = ensemble.step();
-        let outcome = ensemble.report(k).map_err(RunError::from).and_then(|done| {
-            let in_contact = ensemble.contact_force(k) != 0.0;
-            let report = Report {
-                dt,
-                iterations: done.iterations,
-                contraction: None,
-                in_contact,
-                unsound: None,
-            };
-            let unsound = |unsound| RunError::unsound(step, step as f64 * dt, dt, unsound);
-            let now = || {
-                ensemble.observe(k, level);
-                let case = &ensemble.cases()[k];
-                EnergySize {
-                    terms: case.energy_scale(level),
-                    rounding: case.rounding(level, level).total(),
-                }
-            };
-            self.run
-                .add(&report, balance, [ensemble.tip(k); 2], now)
-                .map_err(unsound)
-        });
+        let step = ensemble.steps();
+        let outcome = ensemble
+            .report(k)
+            .map_err(RunError::from)
+            .and_then(|solve| {
+                let report = Report::new(solve, None);
+                let tip = [ensemble.tip(k); 2];
+                let outcome = self.run.add(&report, balance, tip, || {
+                    ensemble.observe(k, level);
+                    let case = &ensemble.cases()[k];
+                    EnergySize {
+                        terms: case.energy_scale(level),
+                        rounding: case.rounding(level, level).total(),
+                    }
+                });
+                outcome.map_err(|unsound| RunError::unsound(step, step as f64 * dt, dt, unsound))
+            });
         if let Err(failure) = outcome {
             self.end(ensemble, level);
             self.run.failure = Some(failure);
@@ -213,11 +210,11 @@ impl EnsembleDriver {
     ///
     /// # Errors
     /// [`TimeUp`] if the time limit of the case is reached.
-    pub(crate) fn advance(&mut self) -> Result<(), TimeUp> {
-        let step = self.ensemble.step();
+    pub(crate) fn step_once(&mut self) -> Result<(), TimeUp> {
+        let step = self.ensemble.steps();
         self.patience.check(step, || step as f64 * self.dt)?;
         let started = Instant::now();
-        self.ensemble.advance();
+        self.ensemble.step_once();
         self.wall += started.elapsed();
         Ok(())
     }
@@ -226,7 +223,7 @@ impl EnsembleDriver {
     /// all simulations have failed.
     ///
     /// # Errors
-    /// As [`EnsembleDriver::advance`].
+    /// As [`EnsembleDriver::step_once`].
     pub(crate) fn run(
         &mut self,
         steps: usize,
@@ -247,14 +244,14 @@ impl EnsembleDriver {
     /// balances; `None` if all have failed.
     ///
     /// # Errors
-    /// As [`EnsembleDriver::advance`].
+    /// As [`EnsembleDriver::step_once`].
     pub(crate) fn stepped(&mut self) -> Result<Option<(&Ensemble, &[Balance])>, TimeUp> {
-        if self.ensemble.step() > 0
+        if self.ensemble.steps() > 0
             && (0..self.ensemble.cases().len()).all(|k| self.ensemble.report(k).is_err())
         {
             return Ok(None);
         }
-        self.advance()?;
+        self.step_once()?;
         self.ensemble.balances(&mut self.balances);
         Ok(Some((&self.ensemble, &self.balances)))
     }

@@ -1,11 +1,11 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
 use convergence_harness::input::{InputError, POSITIVE, Section};
-use thermobeam::dg::{self, MAX_DEGREE, MAX_TIME_DEGREE};
+use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::SCHEMES;
-use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Solver, Stopping};
 
 use super::{limits, tables};
@@ -42,7 +42,7 @@ pub enum Method {
     /// By a one-step scheme on linear elements.
     OneStep(Stepping),
     /// By dG(q) on elements of degree p.
-    Dg(dg::Stepping),
+    Dg(DgStepping),
 }
 
 impl Method {
@@ -63,7 +63,7 @@ impl Method {
     }
 
     /// The steps of dG; `None` for a one-step scheme.
-    pub fn dg(&self) -> Option<dg::Stepping> {
+    pub fn dg(&self) -> Option<DgStepping> {
         match self {
             Self::OneStep(_) => None,
             Self::Dg(stepping) => Some(*stepping),
@@ -97,7 +97,7 @@ impl Method {
     pub fn stopping(&self) -> Stopping {
         match self {
             Self::OneStep(stepping) => stepping.settings.stopping,
-            Self::Dg(dg::Stepping {
+            Self::Dg(DgStepping {
                 tolerance,
                 max_iterations,
                 ..
@@ -120,7 +120,7 @@ impl Method {
     pub(crate) fn with_dt(self, dt: f64) -> Self {
         match self {
             Self::OneStep(stepping) => Self::OneStep(Stepping { dt, ..stepping }),
-            Self::Dg(stepping) => Self::Dg(dg::Stepping {
+            Self::Dg(stepping) => Self::Dg(DgStepping {
                 dt,
                 restart_dt: stepping.restart_dt.min(dt),
                 ..stepping
@@ -229,9 +229,8 @@ fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
     }
     let candidates =
         [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
-    let distance = |candidate: f64| (candidate - dt).abs();
     let [low, high] = candidates;
-    let (steps, nearest) = if distance(low.1) <= distance(high.1) {
+    let (steps, nearest) = if (low.1 - dt).abs() <= (high.1 - dt).abs() {
         low
     } else {
         high
@@ -272,7 +271,7 @@ fn dg(
         Some(field) => field.number_where("a finite number >= 1", |growth| growth >= 1.0)?,
         None => GROWTH,
     };
-    let stepping = dg::Stepping {
+    let stepping = DgStepping {
         degree: count("degree", defaults.degree, 0..=MAX_TIME_DEGREE)?,
         dt,
         restart_dt,
@@ -288,13 +287,13 @@ pub(super) fn default_stepping(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
     t_end: f64,
-) -> dg::Stepping {
+) -> DgStepping {
     let dt = DT.min(t_end);
-    dg::Stepping {
+    DgStepping {
         dt,
         restart_dt: first_step(beam, obstacles, dt),
         growth: GROWTH,
-        ..dg::Stepping::default()
+        ..DgStepping::default()
     }
 }
 
@@ -309,7 +308,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    fn read(text: &str) -> Result<(Scene, dg::Stepping), String> {
+    fn read(text: &str) -> Result<(Scene, DgStepping), String> {
         let scene = Scene::parse(text, "s.toml").map_err(|error| error.to_string())?;
         let stepping = scene
             .method

@@ -42,11 +42,11 @@ pub(crate) mod tables;
 
 use std::path::Path;
 
-use thermobeam::dg;
+use thermobeam::dg::{DgProblem, DgStepping, InitialFunctions};
 use thermobeam::error::SetupError;
 use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::simulation::Stepping;
 
 pub use method::{DG, Method};
 pub use tables::Coefficients;
@@ -222,9 +222,10 @@ impl Scene {
     }
 
     /// The steps of dG; for a scene by a one-step scheme the default steps of dG.
-    pub fn dg_stepping(&self) -> dg::Stepping {
-        let default = || method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end);
-        self.method.dg().unwrap_or_else(default)
+    pub fn dg_stepping(&self) -> DgStepping {
+        self.method.dg().unwrap_or_else(|| {
+            method::default_stepping(&self.beam, self.obstacles.as_ref(), self.t_end)
+        })
     }
 
     /// Mesh, steps, scheme and solver in two lines.
@@ -253,13 +254,7 @@ impl Scene {
     }
 
     /// The scene as a problem for dG.
-    pub fn dg_problem(&self) -> dg::Problem {
-        let function = |function: &Option<Expression>| -> Box<dyn Fn(f64) -> f64> {
-            match function.clone() {
-                Some(function) => Box::new(move |x| function.eval(x)),
-                None => Box::new(|_| 0.0),
-            }
-        };
+    pub fn dg_problem(&self) -> DgProblem {
         let Initial {
             u,
             u_t,
@@ -267,12 +262,12 @@ impl Scene {
             phi_t,
             theta,
         } = &self.initial;
-        let initial = dg::Initial {
-            u: function(u),
-            u_t: function(u_t),
-            phi: function(phi),
-            phi_t: function(phi_t),
-            theta: function(theta),
+        let initial = InitialFunctions {
+            u: boxed(u),
+            u_t: boxed(u_t),
+            phi: boxed(phi),
+            phi_t: boxed(phi_t),
+            theta: boxed(theta),
         };
         let Self {
             beam,
@@ -280,7 +275,7 @@ impl Scene {
             degree,
             ..
         } = *self;
-        dg::Problem {
+        DgProblem {
             beam,
             obstacles,
             mesh: self.mesh.clone(),
@@ -308,16 +303,28 @@ pub(crate) fn resampled(mesh: &Mesh, elements: usize) -> Result<Mesh, MeshError>
         // The error for every mesh without elements.
         return Mesh::uniform(0);
     }
-    let (nodes, n) = (mesh.nodes(), mesh.elements());
-    let node = |j: usize| {
+    let nodes = mesh.nodes();
+    let n = mesh.elements();
+    let mut resampled = vec![];
+    for j in 0..=elements {
         // In integers: a rounded j/m would shift nested nodes by a bit.
-        let (index, rest) = (j * n / elements, j * n % elements);
-        if rest == 0 {
-            return nodes[index];
-        }
-        nodes[index] + (nodes[index + 1] - nodes[index]) * (rest as f64 / elements as f64)
-    };
-    Mesh::from_nodes((0..=elements).map(node).collect())
+        let index = j * n / elements;
+        let rest = j * n % elements;
+        resampled.push(if rest == 0 {
+            nodes[index]
+        } else {
+            nodes[index] + (nodes[index + 1] - nodes[index]) * (rest as f64 / elements as f64)
+        });
+    }
+    Mesh::from_nodes(resampled)
+}
+
+/// A function of the initial data for dG; one that is not given is zero.
+fn boxed(function: &Option<Expression>) -> Box<dyn Fn(f64) -> f64> {
+    match function.clone() {
+        Some(function) => Box::new(move |x| function.eval(x)),
+        None => Box::new(|_| 0.0),
+    }
 }
 
 /// The table `[mesh]`.
@@ -415,7 +422,7 @@ fn finite_at_nodes(
     function: &Expression,
     mesh: &Mesh,
 ) -> Result<(), InputError> {
-    let values = mesh.nodes().iter().map(|&at| (at, function.eval(at)));
+    let values = mesh.nodes().iter().map(|&x| (x, function.eval(x)));
     match values.into_iter().find(|(_, value)| !value.is_finite()) {
         None => Ok(()),
         Some((at, found)) => {
@@ -436,17 +443,17 @@ fn meets(
     field: &Field<'_>,
     function: &Expression,
     key: &str,
-    at: f64,
+    x: f64,
     expected: f64,
 ) -> Result<(), InputError> {
-    let found = function.eval(at);
+    let found = function.eval(x);
     // The rounding error takes thousands of evaluations, too expensive for every case of a sweep.
     if found == expected || (found - expected).abs() <= function.roundoff(1.0) {
         return Ok(());
     }
     Err(field.refuse(
-        format!("{key}({at}) = {found:?}"),
-        format!("{key}({at}) = {expected:?}, the boundary condition"),
+        format!("{key}({x}) = {found:?}"),
+        format!("{key}({x}) = {expected:?}, the boundary condition"),
     ))
 }
 

@@ -128,17 +128,20 @@ impl Serialize for SweepCase<'_> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Share {
     number: u64,
-    of: u64,
+    count: u64,
 }
 
 impl Share {
     /// The whole sweep.
-    pub const ALL: Self = Self { number: 1, of: 1 };
+    pub const ALL: Self = Self {
+        number: 1,
+        count: 1,
+    };
 
     /// Whether it holds a case with this [`content_hash`](convergence_harness::store::content_hash):
     /// exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
-        hash % self.of == self.number - 1
+        hash % self.count == self.number - 1
     }
 }
 
@@ -146,12 +149,12 @@ impl FromStr for Share {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let share = text.split_once('/').and_then(|(number, of)| {
+        let share = text.split_once('/').and_then(|(number, count)| {
             let share = Self {
                 number: number.parse().ok()?,
-                of: of.parse().ok()?,
+                count: count.parse().ok()?,
             };
-            (1..=share.of).contains(&share.number).then_some(share)
+            (1..=share.count).contains(&share.number).then_some(share)
         });
         share.ok_or_else(|| format!("expected k/n with 1 <= k <= n, such as 3/8; found {text:?}"))
     }
@@ -159,7 +162,7 @@ impl FromStr for Share {
 
 impl fmt::Display for Share {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
+        write!(f, "{}/{}", self.number, self.count)
     }
 }
 

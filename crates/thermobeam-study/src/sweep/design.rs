@@ -56,17 +56,18 @@ impl Design {
 }
 
 /// Rounds a drawn dt, or t_end if only t_end varies, so that dt divides t_end.
-fn with_whole_steps(mut drawn: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) -> Vec<f64> {
-    let place = |name| keys.iter().position(|key| key.is("time", name));
-    let t_end_drawn = place("t_end").map(|place| drawn[place]).unwrap_or(t_end);
-    match (place("dt"), place("t_end")) {
+fn with_whole_steps(mut values: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) -> Vec<f64> {
+    let dt_place = keys.iter().position(|key| key.is("time", "dt"));
+    let t_end_place = keys.iter().position(|key| key.is("time", "t_end"));
+    match (dt_place, t_end_place) {
         (Some(place), _) => {
-            drawn[place] = t_end_drawn / (t_end_drawn / drawn[place]).round().max(1.0);
+            let t_end = t_end_place.map_or(t_end, |place| values[place]);
+            values[place] = t_end / (t_end / values[place]).round().max(1.0);
         }
-        (None, Some(place)) => drawn[place] = dt * (drawn[place] / dt).round().max(1.0),
+        (None, Some(place)) => values[place] = dt * (values[place] / dt).round().max(1.0),
         (None, None) => {}
     }
-    drawn
+    values
 }
 
 /// `samples` numbers in [0, 1), one in each of `samples` equal slices, in random order.

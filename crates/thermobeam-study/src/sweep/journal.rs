@@ -60,21 +60,31 @@ impl Manifest {
         }
     }
 
+    /// The error for a file that is not the manifest of a sweep.
+    fn damaged(path: &Path, reason: &str) -> SweepError {
+        SweepError::damaged(path, format!("expected the manifest of a sweep: {reason}"))
+    }
+
     /// Reads the manifest of a folder; `None` if there is none.
     fn read(folder: &Path) -> Result<Option<Self>, SweepError> {
         let path = folder.join(MANIFEST);
-        let damaged = |reason: String| {
-            SweepError::damaged(&path, format!("expected the manifest of a sweep: {reason}"))
-        };
         match std::fs::read(&path) {
             Ok(bytes) => {
-                let read: Self =
-                    serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
+                let manifest: Self = serde_json::from_slice(&bytes)
+                    .map_err(|error| Self::damaged(&path, &error.to_string()))?;
                 // Messages quote it, and control characters would affect the terminal.
-                let texts = [&read.sweep, &read.fingerprint, &read.version, &read.share];
+                let texts = [
+                    &manifest.sweep,
+                    &manifest.fingerprint,
+                    &manifest.version,
+                    &manifest.share,
+                ];
                 match texts.iter().find(|text| text.contains(char::is_control)) {
-                    Some(text) => Err(damaged(format!("control characters in {text:?}"))),
-                    None => Ok(Some(read)),
+                    Some(text) => {
+                        let reason = format!("control characters in {text:?}");
+                        Err(Self::damaged(&path, &reason))
+                    }
+                    None => Ok(Some(manifest)),
                 }
             }
             Err(error)
@@ -195,30 +205,19 @@ impl Journal {
         } else {
             &self.path
         };
-        let is_of_the_share = |place: &Place, line: &[u8]| {
-            let case = sweep.case(place.case);
-            place.is_of(line, &case)?;
-            let of_another =
-                || format!("expected a case of the share {share}, found {}", place.case);
-            if share.holds(case.hash()) {
-                Ok(())
-            } else {
-                Err(of_another())
-            }
-        };
         let (places, end) = lines::places(
             std::slice::from_ref(source),
             self.done.len(),
-            is_of_the_share,
+            |place, line| check_share(sweep, share, place, line),
         )?;
         // A process killed after writing the results leaves a journal; the results contain all of
         // it.
         self.file
             .set_len(if is_complete { 0 } else { end })
             .map_err(atomic::naming(&self.path))?;
-        places
-            .iter()
-            .for_each(|place| self.count(place.case, place.passed));
+        for place in &places {
+            self.count(place.case, place.passed);
+        }
         Ok(())
     }
 
@@ -276,6 +275,26 @@ pub struct Merged {
     pub results: PathBuf,
 }
 
+/// Refuses a line of another sweep, or of a case outside the share.
+fn check_share(sweep: &Sweep, share: Share, place: &Place, line: &[u8]) -> Result<(), String> {
+    let case = sweep.case(place.case);
+    place.is_of(line, &case)?;
+    if share.holds(case.hash()) {
+        Ok(())
+    } else {
+        let index = place.case;
+        Err(format!(
+            "expected a case of the share {share}, found {index}"
+        ))
+    }
+}
+
+/// The file with the lines of a folder: its results, or its journal if it has not finished.
+fn source_of_lines(folder: &Path) -> PathBuf {
+    let [results, journal] = [RESULTS, JOURNAL].map(|name| folder.join(name));
+    if results.exists() { results } else { journal }
+}
+
 /// Joins the shares in `folders` into [`RESULTS`] in the folder `out`, the file that a single run
 /// would have written.
 ///
@@ -298,22 +317,21 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     for (folder, manifest) in folders.iter().zip(&manifests) {
         manifest.agrees(first, &manifest.share, folder)?;
     }
-    let file = |folder: &PathBuf| {
-        let [results, journal] = [RESULTS, JOURNAL].map(|name| folder.join(name));
-        if results.exists() { results } else { journal }
-    };
-    let files: Vec<PathBuf> = folders.iter().map(file).collect();
-    let (found, _) = lines::places(&files, first.cases, |_, _| Ok(()))?;
+    let files: Vec<PathBuf> = folders
+        .iter()
+        .map(|folder| source_of_lines(folder))
+        .collect();
+    let (places, _) = lines::places(&files, first.cases, |_, _| Ok(()))?;
     let shares: Vec<&str> = manifests
         .iter()
         .map(|manifest| manifest.share.as_str())
         .collect();
-    none_missing(&found, first.cases, &shares.join(", "))?;
+    none_missing(&places, first.cases, &shares.join(", "))?;
     atomic::prepare_folder(out)?;
-    lines::copy(&found, &files, &results)?;
+    lines::copy(&places, &files, &results)?;
     Ok(Merged {
-        cases: found.len(),
-        failed: found.iter().filter(|place| !place.passed).count(),
+        cases: places.len(),
+        failed: places.iter().filter(|place| !place.passed).count(),
         results,
     })
 }

@@ -102,6 +102,24 @@ struct LineHead<'a> {
     status: &'a str,
 }
 
+impl<'a> LineHead<'a> {
+    /// * `cases`: the number of cases of the sweep.
+    ///
+    /// # Errors
+    /// What is wrong with the line.
+    fn read(line: &'a [u8], cases: usize) -> Result<Self, String> {
+        let head: Self = serde_json::from_slice(line)
+            .map_err(|error| format!("not a line of results: {error}"))?;
+        if head.case < cases {
+            return Ok(head);
+        }
+        let case = head.case;
+        Err(format!(
+            "expected a case below {cases}, the number of cases, found {case}"
+        ))
+    }
+}
+
 /// A JSON object with the hash of its text as the last key.
 pub(super) fn sealed(object: &str) -> String {
     let content = object.strip_suffix('}').unwrap_or(object);
@@ -191,29 +209,24 @@ fn read(
         if line.last() != Some(&b'\n') {
             break;
         }
-        let damaged = |reason: String| SweepError::Damaged {
-            file: path.to_owned(),
-            line: Some(number),
-            reason,
-        };
-        let head: LineHead<'_> = serde_json::from_slice(&line)
-            .map_err(|error| damaged(format!("not a line of results: {error}")))?;
-        if head.case >= cases {
-            return Err(damaged(format!(
-                "expected a case below {cases}, the number of cases, found {}",
-                head.case
-            )));
-        }
-        let place = Place {
-            case: head.case,
-            passed: head.status == "done",
-            file,
-            offset,
-            bytes,
-        };
-        is_as_written(&line)
-            .and_then(|()| check(&place, &line))
-            .map_err(damaged)?;
+        let place = LineHead::read(&line, cases)
+            .map(|head| Place {
+                case: head.case,
+                passed: head.status == "done",
+                file,
+                offset,
+                bytes,
+            })
+            .and_then(|place| {
+                is_as_written(&line)?;
+                check(&place, &line)?;
+                Ok(place)
+            })
+            .map_err(|reason| SweepError::Damaged {
+                file: path.to_owned(),
+                line: Some(number),
+                reason,
+            })?;
         places.push(place);
         offset += bytes;
     }
@@ -222,12 +235,11 @@ fn read(
 
 /// Writes the lines at `places` in that order.
 pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Result<()> {
-    let open = |path: &PathBuf| {
-        File::open(path)
-            .map(BufReader::new)
-            .map_err(atomic::naming(path))
-    };
-    let mut readers = files.iter().map(open).collect::<io::Result<Vec<_>>>()?;
+    let mut readers = vec![];
+    for path in files {
+        let file = File::open(path).map_err(atomic::naming(path))?;
+        readers.push(BufReader::new(file));
+    }
     atomic::write_with(out, |output: &mut BufWriter<File>| {
         for place in places {
             let reader = &mut readers[place.file];

@@ -22,8 +22,21 @@ const TEXTS: [(&str, &str); 6] = [
     ("mesh", "map"),
 ];
 
-/// A value from `[set]` for all cases: dotted name, value as TOML, place.
-type Common<'a> = (String, String, Field<'a>);
+/// A value from `[set]`, the same in all cases.
+struct CommonValue<'a> {
+    /// The dotted path of its key.
+    path: String,
+    /// The value as TOML.
+    text: String,
+    field: Field<'a>,
+}
+
+/// A latin hypercube.
+#[derive(Clone, Copy)]
+struct Latin {
+    samples: usize,
+    seed: u64,
+}
 
 pub(super) fn read(
     root: &Section<'_>,
@@ -46,24 +59,24 @@ pub(super) fn read(
     };
     Scene::parse(&base.text, &base.file)?;
     let fingerprint = content_hash(format!("{text}\0{}", base.text).as_bytes());
-    let set = set(root)?;
-    let (varied, samples) = varied(root)?;
-    check_placeholders(&set, &varied)?;
-    base.set = set
+    let common = common_values(root)?;
+    let (varied, latin) = varied_keys(root)?;
+    check_placeholders(&common, &varied)?;
+    base.set = common
         .iter()
-        .map(|(name, text, _)| format!("{name} = {text}\n"))
+        .map(|value| format!("{} = {}\n", value.path, value.text))
         .collect();
-    let common = probe(&base, &set, &varied, samples.is_some())?;
+    let first = probe(&base, &common, &varied, latin.is_some())?;
     let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
     let values = varied.iter().map(|varied| varied.values.clone()).collect();
-    let design = match samples {
-        Some(samples) => {
-            let steps = common
+    let design = match latin {
+        Some(latin) => {
+            let steps = first
                 .one_step()
                 .ok()
-                .map(|stepping| (stepping.dt, common.t_end));
+                .map(|stepping| (stepping.dt, first.t_end));
             Design::Latin {
-                samples,
+                samples: latin.samples,
                 values,
                 steps,
             }
@@ -89,12 +102,12 @@ pub(super) fn read(
 }
 
 /// The table `[set]`.
-fn set<'a>(root: &Section<'a>) -> Result<Vec<Common<'a>>, InputError> {
+fn common_values<'a>(root: &Section<'a>) -> Result<Vec<CommonValue<'a>>, InputError> {
     let Some(section) = root.section("set")? else {
         return Ok(vec![]);
     };
     section.allow(&[&TABLES[..], &["initial"]].concat())?;
-    let mut set = vec![];
+    let mut values = vec![];
     for table in TABLES.into_iter().chain(["initial"]) {
         let Some(inner) = section.section(table)? else {
             continue;
@@ -105,7 +118,7 @@ fn set<'a>(root: &Section<'a>) -> Result<Vec<Common<'a>>, InputError> {
             .map(|key| (key.name, true));
         let texts = TEXTS
             .iter()
-            .filter(|(of, _)| *of == table)
+            .filter(|(known, _)| *known == table)
             .map(|(_, name)| (*name, false));
         let known: Vec<(&str, bool)> = numbers.chain(texts).collect();
         inner.allow(&known.iter().map(|(name, _)| *name).collect::<Vec<_>>())?;
@@ -113,15 +126,19 @@ fn set<'a>(root: &Section<'a>) -> Result<Vec<Common<'a>>, InputError> {
             let Some(field) = inner.get(name) else {
                 continue;
             };
-            let value = if is_number {
+            let text = if is_number {
                 written_number(&field)?
             } else {
                 quoted(&field)?
             };
-            set.push((format!("{table}.{name}"), value, field));
+            values.push(CommonValue {
+                path: format!("{table}.{name}"),
+                text,
+                field,
+            });
         }
     }
-    Ok(set)
+    Ok(values)
 }
 
 /// A number as TOML; an integer stays an integer.
@@ -140,8 +157,8 @@ fn quoted(field: &Field<'_>) -> Result<String, InputError> {
     Ok(format!("\"{text}\""))
 }
 
-/// The varied keys of `[grid]` or `[latin]`, and the samples of the latter.
-fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>), InputError> {
+/// The varied keys of `[grid]` or `[latin]`, and the hypercube of the latter.
+fn varied_keys<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<Latin>), InputError> {
     let either = "either [grid] or [latin]";
     let (name, section, others) = match (root.section("grid")?, root.section("latin")?) {
         (Some(grid), None) => ("grid", grid, &[][..]),
@@ -152,7 +169,7 @@ fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>),
         }
     };
     section.allow(&[&TABLES[..], others].concat())?;
-    let mut drawn = None;
+    let mut latin = None;
     if name == "latin" {
         let samples = section
             .require("samples", "a number of cases")?
@@ -160,7 +177,10 @@ fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>),
         let seed = section
             .require("seed", "a whole number >= 0")?
             .count(0..=usize::MAX)?;
-        drawn = Some((samples, seed as u64));
+        latin = Some(Latin {
+            samples,
+            seed: seed as u64,
+        });
     }
     let mut varied = vec![];
     for table in TABLES {
@@ -173,9 +193,9 @@ fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>),
             let Some(field) = inner.get(key.name) else {
                 continue;
             };
-            varied.push(match drawn {
+            varied.push(match latin {
                 None => design::grid(field, key)?,
-                Some((samples, seed)) => design::latin(field, key, samples, seed)?,
+                Some(Latin { samples, seed }) => design::latin(field, key, samples, seed)?,
             });
         }
     }
@@ -187,21 +207,24 @@ fn varied<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<usize>),
             format!("at least one of {}", names.join(", ")),
         ));
     }
-    Ok((varied, drawn.map(|(samples, _)| samples)))
+    Ok((varied, latin))
 }
 
 /// Refuses `{key}` for a key that does not vary.
-fn check_placeholders(set: &[Common<'_>], varied: &[VariedKey<'_>]) -> Result<(), InputError> {
+fn check_placeholders(
+    common: &[CommonValue<'_>],
+    varied: &[VariedKey<'_>],
+) -> Result<(), InputError> {
     let names: Vec<String> = varied
         .iter()
         .map(|varied| format!("{{{}}}", varied.key.path()))
         .collect();
-    for (_, text, field) in set {
-        let filled = names
+    for value in common {
+        let rest = names
             .iter()
-            .fold(text.clone(), |text, name| text.replace(name, ""));
-        if filled.contains(['{', '}']) {
-            return Err(field.refuse_as_written(format!(
+            .fold(value.text.clone(), |text, name| text.replace(name, ""));
+        if rest.contains(['{', '}']) {
+            return Err(value.field.refuse_as_written(format!(
                 "a function in which only {} are filled in",
                 names.join(", ")
             )));
@@ -217,12 +240,12 @@ fn check_placeholders(set: &[Common<'_>], varied: &[VariedKey<'_>]) -> Result<()
 /// that it does.
 fn probe(
     base: &Base,
-    set: &[Common<'_>],
+    common: &[CommonValue<'_>],
     varied: &[VariedKey<'_>],
-    is_drawn: bool,
+    is_latin: bool,
 ) -> Result<Scene, InputError> {
-    let is_step = |varied: &&VariedKey<'_>| STEPS.iter().any(|name| varied.key.is("time", name));
-    let together = is_drawn || varied.iter().filter(is_step).count() == STEPS.len();
+    let count = varied.iter().filter(|varied| is_step(varied)).count();
+    let together = is_latin || count == STEPS.len();
     let (steps, others): (Vec<_>, Vec<_>) = varied
         .iter()
         .partition(|varied| together && is_step(varied));
@@ -235,9 +258,9 @@ fn probe(
         .iter()
         .map(|varied| (varied.key, varied.probes[0].0))
         .collect();
-    let common = base
+    let first = base
         .scene(values.iter().copied())
-        .map_err(|error| traced(&error, set, &others))?;
+        .map_err(|error| traced(&error, common, &others))?;
     for (index, key) in others.iter().enumerate() {
         for (value, field) in &key.probes {
             values[index].1 = *value;
@@ -246,24 +269,28 @@ fn probe(
         }
         values[index].1 = key.probes[0].0;
     }
-    Ok(common)
+    Ok(first)
+}
+
+/// Whether a varied key is dt or t_end.
+fn is_step(varied: &VariedKey<'_>) -> bool {
+    STEPS.iter().any(|name| varied.key.is("time", name))
 }
 
 /// Converts an error of a scene into an error of the sweep file's field that caused it.
-fn traced(error: &InputError, set: &[Common<'_>], varied: &[&VariedKey<'_>]) -> InputError {
-    let named = |name: &str| error.field.as_deref() == Some(name);
-    let of_set = set
-        .iter()
-        .find(|(name, ..)| named(name))
-        .map(|(.., field)| field);
-    let of_key = varied
-        .iter()
-        .find(|varied| named(&varied.key.path()))
-        .map(|varied| &varied.probes[0].1);
-    let field = of_set
-        .or(of_key)
-        .or(varied.first().map(|varied| &varied.probes[0].1));
-    field.map_or_else(|| error.clone(), |field| at_field(error, field))
+fn traced(error: &InputError, common: &[CommonValue<'_>], varied: &[&VariedKey<'_>]) -> InputError {
+    if let Some(path) = &error.field {
+        if let Some(value) = common.iter().find(|value| value.path == *path) {
+            return at_field(error, &value.field);
+        }
+        if let Some(varied) = varied.iter().find(|varied| varied.key.path() == *path) {
+            return at_field(error, &varied.probes[0].1);
+        }
+    }
+    match varied.first() {
+        Some(varied) => at_field(error, &varied.probes[0].1),
+        None => error.clone(),
+    }
 }
 
 fn at_field(error: &InputError, field: &Field<'_>) -> InputError {

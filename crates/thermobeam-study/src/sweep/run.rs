@@ -107,7 +107,7 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
 
 /// A case on its own.
 fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
-    let simulated = || match Simulator::new(scene) {
+    let line = caught(|| match Simulator::new(scene) {
         Ok(simulator) => Line::of_run(
             sweep,
             index,
@@ -115,8 +115,8 @@ fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
             &simulator.run(Recording::Summary, &mut |_, _| ()),
         ),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
-    };
-    caught(simulated).unwrap_or_else(|| Line::panicked(sweep, index))
+    });
+    line.unwrap_or_else(|| Line::panicked(sweep, index))
 }
 
 /// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
@@ -126,17 +126,23 @@ struct Group {
     scenes: Vec<Scene>,
 }
 
+impl Group {
+    /// Whether a scene can be added; `None` stands for a scene that runs on its own.
+    fn has_room_for(&self, together: Option<Together>) -> bool {
+        together.is_some() && self.cases.len() < LANES && self.together == together
+    }
+}
+
 /// Groups cases, and returns the lines of cases without a scene.
 fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
-    let (mut groups, mut failed): (Vec<Group>, Vec<Line>) = (vec![], vec![]);
+    let mut groups: Vec<Group> = vec![];
+    let mut failed = vec![];
     for &index in indices {
         match scene(sweep, index) {
             Err(line) => failed.push(line),
             Ok(scene) => {
                 let together = Together::of(&scene);
-                let fits =
-                    |group: &&mut Group| group.cases.len() < LANES && group.together == together;
-                match groups.iter_mut().find(fits).filter(|_| together.is_some()) {
+                match groups.iter_mut().find(|group| group.has_room_for(together)) {
                     Some(group) => {
                         group.cases.push(index);
                         group.scenes.push(scene);
@@ -154,25 +160,41 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
 }
 
 /// The lines of a group: its cases together, or one after the other if that fails.
-fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
-    let each = || cases.iter().copied().zip(scenes);
-    let together = || {
-        let runs = (scenes.len() > 1)
-            .then(|| run_together(scenes).ok())
-            .flatten()?;
-        Some(
-            each()
-                .zip(&runs)
-                .map(|((index, scene), run)| Line::of_run(sweep, index, scene, run))
-                .collect(),
-        )
-    };
-    let one_by_one = || {
-        each()
-            .map(|(index, scene)| simulate(sweep, index, scene))
-            .collect()
-    };
-    caught(together).flatten().unwrap_or_else(one_by_one)
+fn lines(sweep: &Sweep, group: &Group) -> Vec<Line> {
+    if let Some(lines) = caught(|| lines_together(sweep, group)).flatten() {
+        return lines;
+    }
+    let cases = group.cases.iter().zip(&group.scenes);
+    cases
+        .map(|(&index, scene)| simulate(sweep, index, scene))
+        .collect()
+}
+
+/// The lines of a group of several cases; `None` if they cannot run together.
+fn lines_together(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Option<Vec<Line>> {
+    if scenes.len() == 1 {
+        return None;
+    }
+    let runs = run_together(scenes).ok()?;
+    let mut lines = vec![];
+    for ((&index, scene), run) in cases.iter().zip(scenes).zip(&runs) {
+        lines.push(Line::of_run(sweep, index, scene, run));
+    }
+    Some(lines)
+}
+
+/// Computes a batch of cases, and passes their lines to `sink`.
+fn run_batch(
+    sweep: &Sweep,
+    cases: &[usize],
+    sink: &impl Fn(Line) -> io::Result<()>,
+) -> io::Result<()> {
+    let (groups, failed) = groups(sweep, cases);
+    failed.into_iter().try_for_each(sink)?;
+    for group in &groups {
+        lines(sweep, group).into_iter().try_for_each(sink)?;
+    }
+    Ok(())
 }
 
 /// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes
@@ -206,17 +228,12 @@ pub fn run(
             .div_ceil(pool.current_num_threads())
             .clamp(1, BATCH)
     };
-    let compute = |batch: &[usize]| {
-        let compute = || {
-            let (groups, failed) = groups(sweep, batch);
-            failed.into_iter().try_for_each(&sink)?;
-            groups
-                .iter()
-                .try_for_each(|group| lines(sweep, group).into_iter().try_for_each(&sink))
-        };
-        time_limit::within(limit, compute).0
-    };
-    pool.install(|| cases.chunks(batch).par_bridge().try_for_each(compute))
+    pool.install(|| {
+        cases
+            .chunks(batch)
+            .par_bridge()
+            .try_for_each(|batch| time_limit::within(limit, || run_batch(sweep, batch, &sink)).0)
+    })
 }
 
 /// Writes lines in the order of their cases; lines that arrive early are kept until their turn.

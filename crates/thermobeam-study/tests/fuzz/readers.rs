@@ -7,7 +7,7 @@ use convergence_harness::input::error_table::{Choice, RateTable};
 use convergence_harness::judge::{claims::Claim, verdict::Judge};
 use convergence_harness::store::Baseline;
 use tempfile::TempDir;
-use thermobeam::dg;
+use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
 use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
@@ -216,7 +216,7 @@ impl Bench {
                     }
                     Method::Dg(stepping) => {
                         drop(
-                            dg::Simulation::new(scene.dg_problem(), stepping)
+                            Dg::new(scene.dg_problem(), stepping)
                                 .map_err(|error| refused(&error))?,
                         );
                     }

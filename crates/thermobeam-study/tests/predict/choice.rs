@@ -5,7 +5,7 @@ use thermobeam::scheme::SCHEMES;
 use thermobeam_study::error::{Evaluator, free_vibration};
 use thermobeam_study::predict::choice::{Choice, Quantity};
 use thermobeam_study::predict::{self, Reason, Unreachable, Work};
-use thermobeam_study::run::Motion;
+use thermobeam_study::run::ObservableMotion;
 use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::{Recording, Simulator};
 

@@ -1,7 +1,8 @@
 //! Initial data with narrow features, kinks, jumps and layers.
 
-use thermobeam::dg::{self, Stepping};
+use thermobeam::dg::{self, Dg, DgStepping};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam_study::predict::choice::Quantity;
 use thermobeam_study::predict::{self, Unreachable};
 use thermobeam_study::scene::{Method, Scene};
@@ -56,12 +57,12 @@ fn short_waves_that_grow_while_the_axial_force_is_below_minus_one_do_not_exceed_
          [time]\nscheme = \"dg\"\nt_end = 0.2\n",
     );
     let mesh = Mesh::mapped(16, |s| 1.0 - (1.0 - s).powf(1.6)).expect("a mesh");
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: 3,
         dt: 0.003,
         restart_dt: 1e-5,
         growth: 1.2,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     let exact = run(
         &Scene {
@@ -90,7 +91,13 @@ fn short_waves_that_grow_while_the_axial_force_is_below_minus_one_do_not_exceed_
 
 /// The scene by dG on nodes that crowd at some points, down to a distance: a discretisation that no
 /// search tries.
-fn crowded(scene: &Scene, points: &[f64], least: f64, degree: usize, stepping: Stepping) -> Scene {
+fn crowded(
+    scene: &Scene,
+    points: &[f64],
+    least: f64,
+    degree: usize,
+    stepping: DgStepping,
+) -> Scene {
     let distances = || {
         std::iter::successors(Some(least), |distance| Some(2.0 * distance)).take_while(|d| *d < 0.2)
     };
@@ -121,12 +128,12 @@ const KINKED: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.2\ng2 = 0.2\n[mesh]\n
 
 /// Two scenes with a blow at x = 0.6137: all meshes without nodes there miss it.
 fn blows() -> [(Scene, Scene); 2] {
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: 3,
         dt: 2e-3,
         restart_dt: 1e-5,
         growth: 1.2,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     [
         "\"0.3*x + 66.66666666666667*x*exp(-((x-0.6137)/0.0015)^2)\"",
@@ -142,9 +149,8 @@ fn blows() -> [(Scene, Scene); 2] {
 /// The largest distance of two runs by dG in the norm of Theorem 3.4, inside the steps of the
 /// first.
 fn distance_in_norm(scene: &Scene, exact: &Scene) -> f64 {
-    let begun = |scene: &Scene| {
-        dg::Simulation::new(scene.dg_problem(), scene.dg_stepping()).expect("a problem")
-    };
+    let begun =
+        |scene: &Scene| Dg::new(scene.dg_problem(), scene.dg_stepping()).expect("a problem");
     let (mut own, mut exact) = (begun(scene), begun(exact));
     let mut nodes = [own.space().mesh().nodes(), exact.space().mesh().nodes()].concat();
     nodes.sort_by(f64::total_cmp);
@@ -157,7 +163,7 @@ fn distance_in_norm(scene: &Scene, exact: &Scene) -> f64 {
                 .map(|(xi, weight)| (x[0] + half * (1.0 + xi), half * weight)),
         );
     }
-    let read = |simulation: &dg::Simulation, t: f64| -> Vec<[f64; 5]> {
+    let read = |simulation: &Dg, t: f64| -> Vec<[f64; 5]> {
         let mut level = simulation.level().clone();
         assert!(simulation.level_into(t, &mut level));
         let at = |(x, _): &(f64, f64)| {
@@ -219,7 +225,7 @@ fn a_blow_between_the_nodes_is_in_every_error() {
     let (found, _) = limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-2, work));
     let choice = found.expect("a run");
     // The blow spreads within 5e-6.
-    let from_the_start = Stepping {
+    let from_the_start = DgStepping {
         restart_dt: 1e-8,
         ..exact.dg_stepping()
     };
@@ -237,12 +243,12 @@ fn a_blow_between_the_nodes_is_in_every_error() {
 #[test]
 fn kinks_are_nodes_and_what_they_cost_is_in_the_error() {
     let scene = parsed(KINKED);
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: 4,
         dt: 3.5e-3,
         restart_dt: 1e-9,
         growth: 1.2,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     let exact = crowded(&scene, &[0.0, 0.37, 0.5, 1.0], 1e-5, 9, stepping);
     for target in [1e-1, 1e-2] {
@@ -285,12 +291,12 @@ fn narrow_data_are_resolved_or_refused_in_each_field_on_each_kind_of_mesh() {
                      [time]\ndt = 1e-3\nt_end = 0.03\n"
                 ))
             };
-            let stepping = Stepping {
+            let stepping = DgStepping {
                 degree: 3,
                 dt: 2e-3,
                 restart_dt: 1e-7,
                 growth: 1.25,
-                ..Stepping::default()
+                ..DgStepping::default()
             };
             let exact = run(
                 &crowded(&of_mesh(meshes[0]), &[X, 1.0], 0.5 * width, 11, stepping),

@@ -1,6 +1,6 @@
 //! `--estimate-error`: the parts of the error of a run.
 
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 use thermobeam_exact::vibration::TimeFactor;
 use thermobeam_study::predict::estimate::Source;
 use thermobeam_study::run::simulate::{Recording, Simulator};
@@ -76,7 +76,7 @@ fn the_parts_of_an_error_are_what_much_finer_elements_and_much_shorter_steps_tak
         let Method::Dg(by) = choice.scene.method else {
             panic!("{choice:?}")
         };
-        let shorter = Stepping {
+        let shorter = DgStepping {
             dt: by.dt / 6.0,
             restart_dt: by.restart_dt / 36.0,
             growth: 1.0 + (by.growth - 1.0) / 6.0,

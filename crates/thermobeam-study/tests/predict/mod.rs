@@ -5,7 +5,7 @@ mod choice;
 mod data;
 mod estimate;
 
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::vibration::Mode;
 use thermobeam_study::predict::choice::{Choice, Quantity};
@@ -64,12 +64,12 @@ fn samples(run: &Run) -> Vec<Sample> {
 /// A reference with ten digits or more, from a discretisation that the search never tries.
 fn reference(scene: &Scene) -> Run {
     let mesh = Mesh::from_nodes(vec![0.0, 0.7, 0.9, 0.97, 1.0]).expect("nodes");
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: 5,
         dt: 0.003,
         restart_dt: 1e-4,
         growth: 1.12,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     let fine = Scene {
         mesh,
@@ -103,12 +103,12 @@ fn parsed(text: &str) -> Scene {
 /// A reference for the first steps and for contact, on elements that resolve their layers.
 fn layered_reference(scene: &Scene) -> Run {
     let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.8, 0.95, 0.99, 0.998, 1.0]).expect("nodes");
-    let stepping = Stepping {
+    let stepping = DgStepping {
         degree: 4,
         dt: 0.0035,
         restart_dt: 1e-6,
         growth: 1.18,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     let fine = Scene {
         mesh,

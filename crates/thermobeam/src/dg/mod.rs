@@ -27,20 +27,21 @@
 //! `simulation`, `observe`: the interface for users, with the balance of the energy.
 //!
 //! ```
-//! use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+//! use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 //! use thermobeam::mesh::Mesh;
+//! use thermobeam::motion::Motion;
 //! use thermobeam::parameters::{Beam, Obstacles};
 //!
 //! // The paper's first experiment on a single element.
-//! let initial = Initial {
+//! let initial = InitialFunctions {
 //!     u: Box::new(|x| 0.01 * x * (x - 2.0)),
 //!     u_t: Box::new(|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
 //!     theta: Box::new(|x| (std::f64::consts::PI * x).sin()),
-//!     ..Initial::at_rest(0.0)
+//!     ..InitialFunctions::at_rest(0.0)
 //! };
 //! let problem =
-//!     Problem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh: Mesh::uniform(1)?, degree: 14, initial };
-//! let mut simulation = Simulation::new(problem, Stepping::default())?;
+//!     DgProblem { beam: Beam::default(), obstacles: Some(Obstacles::default()), mesh: Mesh::uniform(1)?, degree: 14, initial };
+//! let mut simulation = Dg::new(problem, DgStepping::default())?;
 //! simulation.advance(1.0)?;
 //! let u = simulation.value(Field::U, 1.0, 1.0).expect("a time in the last step");
 //! assert!((u - -0.011764243810).abs() < 1e-8);
@@ -69,8 +70,8 @@ mod time;
 pub use crate::contact::Phase;
 pub use contact_event::ContactEvent;
 pub use element::MAX_DEGREE;
-pub use problem::{Initial, Problem, Stepping};
-pub use simulation::{Simulation, StepReport};
+pub use problem::{DgProblem, DgStepping, InitialFunctions};
+pub use simulation::Dg;
 pub use space::{Field, Point, Space};
 pub use time::Load;
 
@@ -80,7 +81,7 @@ pub const MAX_TIME_DEGREE: usize = time::MAX_STAGES - 1;
 /// The discrete solution at one time: coefficients, block by block, in the numbering of
 /// [`Space::place`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Level {
+pub struct DgLevel {
     /// The time t.
     pub t: f64,
     /// u and φ.
@@ -89,7 +90,7 @@ pub struct Level {
     pub rates: Vec<[f64; 3]>,
 }
 
-impl Level {
+impl DgLevel {
     /// A level of zeros for a space.
     pub fn new(space: &Space) -> Self {
         Self {
@@ -141,19 +142,4 @@ impl Level {
         self.places.copy_from_slice(&other.places);
         self.rates.copy_from_slice(&other.rates);
     }
-}
-
-/// Operation counts, which are reproducible, unlike times.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Work {
-    /// Steps taken.
-    pub steps: usize,
-    /// Solves of the linear system of a step.
-    pub solves: usize,
-    /// Factorisations of that system.
-    pub factorizations: usize,
-    /// Contact events.
-    pub events: usize,
-    /// Steps that failed and were repeated with a shorter length.
-    pub shortened: usize,
 }

@@ -11,16 +11,15 @@
 //! obstacle, to round-off.
 
 use super::phase::TIP_SLACK;
-use super::simulation::Simulation;
-use super::{Field, Level};
+use super::simulation::Dg;
+use super::{DgLevel, Field};
 use crate::energy::{Balance, Energy};
-use crate::norms::max_or_nan;
 
 /// Rounding errors of a balance, in units of ε and of the energy's size: some ten terms, each a sum
 /// over at most 40 degrees and a few elements.
 const BALANCE_TERMS: f64 = 4096.0;
 
-impl Simulation {
+impl Dg {
     /// The s of a time in the last step; `None` outside.
     fn within(&self, t: f64) -> Option<f64> {
         if !(t >= self.old.t && t <= self.level.t) {
@@ -44,24 +43,6 @@ impl Simulation {
         Some(self.space.evaluate(field, &self.space.locate(x), at).0)
     }
 
-    /// Smallest and largest u(1, t) over the last step, including extrema inside it; at first, the
-    /// initial value.
-    pub fn tip_range(&self) -> [f64; 2] {
-        let u = self.level.places[self.space.tip()][0];
-        if self.last_dt == 0.0 {
-            return [u, u];
-        }
-        let tip = self.stages.coefficient(Field::U, self.space.tip(), 0);
-        let (extrema, count) = tip.derivative().sign_changes();
-        let values = extrema[..count]
-            .iter()
-            .map(|&s| tip.at(s))
-            .chain([tip.at(0.0)]);
-        values.fold([u, u], |[low, high], value| {
-            [-max_or_nan(-low, -value), max_or_nan(high, value)]
-        })
-    }
-
     /// The physical temperature, including the lifting, at x and at a time in the last step; `None`
     /// for other times.
     pub fn temperature(&self, x: f64, t: f64) -> Option<f64> {
@@ -70,7 +51,7 @@ impl Simulation {
     }
 
     /// Copies the state at a time in the last step into `level`; returns false for other times.
-    pub fn level_into(&self, t: f64, level: &mut Level) -> bool {
+    pub fn level_into(&self, t: f64, level: &mut DgLevel) -> bool {
         match self.within(t) {
             Some(s) if self.last_dt > 0.0 && t < self.level.t => {
                 self.stages.level_into(s, &self.old, self.last_dt, level);
@@ -86,7 +67,7 @@ impl Simulation {
     }
 
     /// The energy of a level, term by term.
-    pub fn energy(&self, level: &Level) -> Energy {
+    pub fn energy(&self, level: &DgLevel) -> Energy {
         let (space, beam) = (&self.space, &self.beam);
         let (places, rates) = (&level.places, &level.rates);
         let moving = |b: usize| [rates[b][0], rates[b][1], 0.0];

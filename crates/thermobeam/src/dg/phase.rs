@@ -1,8 +1,8 @@
-//! The phase of the free end in a step of a [`Simulation`]: where the step leaves it, and whether
+//! The phase of the free end in a step of a [`Dg`]: where the step leaves it, and whether
 //! the contact force agrees.
 
 use super::contact_event::{ContactEvent, Fall, Polynomial, bounds};
-use super::simulation::Simulation;
+use super::simulation::Dg;
 use crate::contact::Phase;
 use crate::error::{StepError, StepFailure};
 
@@ -15,7 +15,7 @@ const COLLAPSED: f64 = 64.0;
 
 /// Force of the wrong sign at which contact contradicts the motion, for an axial force of at
 /// most 1. If rounding errors of the free end's position are a larger force, the balance of
-/// momentum decides instead ([`Simulation::is_blurred`]).
+/// momentum decides instead ([`Dg::is_blurred`]).
 const WRONG_FORCE: f64 = 1e-2;
 
 /// Force of the wrong sign, for an axial force of at most 1, at which contact ends by the balance
@@ -42,7 +42,7 @@ pub(super) struct PhaseBound {
     next: Phase,
 }
 
-impl Simulation {
+impl Dg {
     /// Whether the phase of the free end agrees with the step just found.
     ///
     /// A free end must not penetrate, and closed contact must not pull. If ε is so small that the

@@ -3,7 +3,7 @@
 use super::element::MAX_DEGREE;
 use super::lengths::MAX_RUNGS;
 use super::space::{Field, Space};
-use super::{Level, MAX_TIME_DEGREE};
+use super::{DgLevel, MAX_TIME_DEGREE};
 use crate::error::SetupError;
 use crate::mesh::Mesh;
 use crate::parameters::{Beam, Obstacles, check, check_positive};
@@ -13,7 +13,7 @@ use crate::parameters::{Beam, Obstacles, check, check_positive};
 const BOUNDARY_SLACK: f64 = 64.0 * f64::EPSILON;
 
 /// The initial data (1.2) as functions of x.
-pub struct Initial {
+pub struct InitialFunctions {
     /// u_0, zero at x = 0.
     pub u: Box<dyn Fn(f64) -> f64>,
     /// u_1, zero at x = 0.
@@ -26,7 +26,7 @@ pub struct Initial {
     pub theta: Box<dyn Fn(f64) -> f64>,
 }
 
-impl Initial {
+impl InitialFunctions {
     /// A straight beam at rest, with the steady temperature θ_A (1 - x).
     pub fn at_rest(theta_a: f64) -> Self {
         let zero = || Box::new(|_: f64| 0.0);
@@ -41,7 +41,7 @@ impl Initial {
 }
 
 /// A beam, its obstacles, its elements and its initial data.
-pub struct Problem {
+pub struct DgProblem {
     /// Coefficients of (1.1).
     pub beam: Beam,
     /// The obstacles of (1.3), if any.
@@ -51,12 +51,12 @@ pub struct Problem {
     /// The degree p of the elements, 1..=[`MAX_DEGREE`].
     pub degree: usize,
     /// The initial data.
-    pub initial: Initial,
+    pub initial: InitialFunctions,
 }
 
 /// Settings of the time steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stepping {
+pub struct DgStepping {
     /// The degree q in time, 0..=[`MAX_TIME_DEGREE`].
     pub degree: usize,
     /// The largest step.
@@ -73,7 +73,7 @@ pub struct Stepping {
     pub max_iterations: usize,
 }
 
-impl Default for Stepping {
+impl Default for DgStepping {
     /// For the paper's beam: the peak of an impact has the time scale (ε √ζ)^(2/3) = 5e-3.
     fn default() -> Self {
         Self {
@@ -91,11 +91,11 @@ pub(super) fn check_problem(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
     degree: usize,
-    stepping: &Stepping,
+    stepping: &DgStepping,
 ) -> Result<(), SetupError> {
     beam.validate()?;
     obstacles.map_or(Ok(()), Obstacles::validate)?;
-    let Stepping {
+    let DgStepping {
         degree: q,
         dt,
         restart_dt,
@@ -147,9 +147,9 @@ pub(super) fn check_problem(
 pub(super) fn initial_level(
     space: &Space,
     beam: &Beam,
-    initial: &Initial,
-) -> Result<Level, SetupError> {
-    let mut level = Level::new(space);
+    initial: &InitialFunctions,
+) -> Result<DgLevel, SetupError> {
+    let mut level = DgLevel::new(space);
     let theta_a = beam.theta_a;
     let lifted = |x: f64| (initial.theta)(x) - theta_a * (1.0 - x);
     let fields: [(_, _, &dyn Fn(f64) -> f64); 5] = [

@@ -1,6 +1,6 @@
 //! The equations of a step, tested with every basis function and every L_i(t): their residuals.
 
-use super::Level;
+use super::DgLevel;
 use super::block::{Block, add_columns};
 use super::space::Space;
 use super::time::{Forcing, MAX_STAGES, Path, TimeForms};
@@ -54,7 +54,7 @@ pub(super) struct Equations<'a> {
     pub(super) beam: &'a Beam,
     pub(super) obstacles: Option<&'a Obstacles>,
     /// The level at the start of the step.
-    pub(super) level: &'a Level,
+    pub(super) level: &'a DgLevel,
     /// The step's length τ.
     pub(super) h: f64,
     /// The phase of the free end throughout the step.

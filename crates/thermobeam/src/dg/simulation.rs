@@ -1,15 +1,17 @@
-//! A simulation, which holds one level and does steps of the right lengths.
+//! [`Dg`], which holds one level and does steps of the right lengths.
 
+use super::DgLevel;
 use super::contact_event::ContactEvent;
 use super::lengths::Lengths;
-use super::problem::{Problem, Stepping, check_problem, initial_level};
+use super::problem::{DgProblem, DgStepping, check_problem, initial_level};
 use super::residual::Equations;
-use super::space::Space;
+use super::space::{Field, Space};
 use super::stages::{Stages, stepper};
 use super::time::Load;
-use super::{Level, Work};
 use crate::contact::Phase;
 use crate::error::{SetupError, StepError, StepFailure};
+use crate::motion::{Motion, StepReport, Work};
+use crate::norms::max_or_nan;
 use crate::parameters::{Beam, Obstacles};
 
 /// Maximum number of cuts of one step: at a crossing, at an earlier one that the shorter step
@@ -19,29 +21,18 @@ const CUTS: usize = 64;
 /// Initial capacity of the list of contact events.
 const EVENTS: usize = 1024;
 
-/// The result of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepReport {
-    /// Its length.
-    pub dt: f64,
-    /// Iterations of the last attempt.
-    pub iterations: usize,
-    /// The contact event at its end, if any.
-    pub event: Option<ContactEvent>,
-}
-
-/// A running simulation at one level, with the step that led there.
-pub struct Simulation {
+/// A beam at one level, in motion by dG, with the step that led there.
+pub struct Dg {
     pub(super) beam: Beam,
     pub(super) obstacles: Option<Obstacles>,
     pub(super) space: Space,
-    pub(super) stepping: Stepping,
+    pub(super) stepping: DgStepping,
     pub(super) lengths: Lengths,
     pub(super) stages: Box<dyn Stages>,
     pub(super) load: Option<Box<Load>>,
-    pub(super) level: Level,
+    pub(super) level: DgLevel,
     /// The level before the last step.
-    pub(super) old: Level,
+    pub(super) old: DgLevel,
     /// The length of the last step, 0 at the start.
     pub(super) last_dt: f64,
     /// The phase of the free end during the last step.
@@ -50,19 +41,21 @@ pub struct Simulation {
     /// Whether the last step's polynomials predict those of the next one.
     pub(super) smooth: bool,
     pub(super) events: Vec<ContactEvent>,
+    /// Steps done.
+    pub(super) steps: usize,
     /// Steps repeated with a shorter length.
     pub(super) shortened: usize,
     /// Number of events since the given time, all within `restart_dt`.
     pub(super) crowd: (f64, usize),
 }
 
-impl Simulation {
+impl Dg {
     /// Checks all data once and starts at t = 0.
     ///
     /// # Errors
     /// [`SetupError`] for coefficients, degrees or settings out of range, and for initial data that
     /// are not finite or violate a boundary condition.
-    pub fn new(problem: Problem, stepping: Stepping) -> Result<Self, SetupError> {
+    pub fn new(problem: DgProblem, stepping: DgStepping) -> Result<Self, SetupError> {
         Self::build(problem, stepping, |_| None)
     }
 
@@ -72,19 +65,19 @@ impl Simulation {
     /// # Errors
     /// Those of [`Self::new`].
     pub fn with_load(
-        problem: Problem,
-        stepping: Stepping,
+        problem: DgProblem,
+        stepping: DgStepping,
         load: impl FnOnce(&Space) -> Box<Load>,
     ) -> Result<Self, SetupError> {
         Self::build(problem, stepping, |space| Some(load(space)))
     }
 
     fn build(
-        problem: Problem,
-        stepping: Stepping,
+        problem: DgProblem,
+        stepping: DgStepping,
         load: impl FnOnce(&Space) -> Option<Box<Load>>,
     ) -> Result<Self, SetupError> {
-        let Problem {
+        let DgProblem {
             beam,
             obstacles,
             mesh,
@@ -114,59 +107,17 @@ impl Simulation {
             phase,
             smooth: false,
             events: Vec::with_capacity(EVENTS),
+            steps: 0,
             shortened: 0,
             crowd: (0.0, 0),
         })
     }
 
-    /// Does steps until t_end, which the last step meets exactly.
-    ///
-    /// # Errors
-    /// [`StepError`] with step, time and numbers; the simulation then remains at the start of that
-    /// step.
-    pub fn advance(&mut self, t_end: f64) -> Result<(), StepError> {
-        while self.step(t_end)?.is_some() {}
-        Ok(())
-    }
-
-    /// Does one step that does not exceed `limit`; allocates nothing up to 1024 contact events.
-    ///
-    /// A step that fails is repeated with at most half of its length, down to a thousandth of
-    /// `restart_dt`.
-    ///
-    /// Returns `None` if the simulation has reached the limit.
-    ///
-    /// # Errors
-    /// [`StepError`] with step, time and numbers; the simulation then remains at its old level.
-    pub fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
-        let phase = self.phase;
-        let events = self.events.len();
-        let crowd = self.crowd;
-        let rung = self.lengths.next;
-        let mut first = None;
-        loop {
-            let outcome = self.try_step(limit);
-            let Err(error) = outcome else { return outcome };
-            self.phase = phase;
-            self.events.truncate(events);
-            self.crowd = crowd;
-            self.smooth = false;
-            // Shorter steps may succeed after a failure; otherwise the first failure is the most
-            // informative.
-            let error = first.get_or_insert(error);
-            if !self.lengths.shorten() {
-                self.lengths.next = rung;
-                return Err(error.clone());
-            }
-            self.shortened += 1;
-        }
-    }
-
     fn try_step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
-        let remaining = limit - self.level.t;
-        if !(remaining > 0.0) {
+        if self.has_reached(limit) {
             return Ok(None);
         }
+        let remaining = limit - self.level.t;
         let mut h = self.propose(remaining);
         if self.smooth {
             self.stages.guess_continued(h / self.last_dt);
@@ -250,10 +201,14 @@ impl Simulation {
             self.lengths.climb();
         }
         (self.last_dt, self.last_phase, self.smooth) = (h, phase, next.is_none());
+        self.steps += 1;
         let event = next.and(self.events.last().copied());
         Ok(StepReport {
             dt: h,
             iterations,
+            increment: self.stages.increment(),
+            contraction: None,
+            in_contact: phase != Phase::Free,
             event,
         })
     }
@@ -275,7 +230,7 @@ impl Simulation {
 
     pub(super) fn failed(&self, dt: f64, failure: StepFailure) -> StepError {
         StepError {
-            step: self.stages.work().steps + 1,
+            step: self.steps + 1,
             t: self.level.t,
             dt,
             failure,
@@ -305,18 +260,13 @@ impl Simulation {
         outcome.map_err(|failure| self.failed(h, failure))
     }
 
-    /// The current time.
-    pub fn t(&self) -> f64 {
-        self.level.t
-    }
-
     /// The current level.
-    pub fn level(&self) -> &Level {
+    pub fn level(&self) -> &DgLevel {
         &self.level
     }
 
     /// The level at the start of the last step.
-    pub fn old_level(&self) -> &Level {
+    pub fn old_level(&self) -> &DgLevel {
         &self.old
     }
 
@@ -335,12 +285,83 @@ impl Simulation {
         &self.events
     }
 
-    /// Counts of the work done so far.
-    pub fn work(&self) -> Work {
-        Work {
-            events: self.events.len(),
-            shortened: self.shortened,
-            ..self.stages.work()
+    /// Number of steps that failed and were repeated with a shorter length.
+    pub fn shortened(&self) -> usize {
+        self.shortened
+    }
+}
+
+impl Motion for Dg {
+    /// The last step before the limit ends exactly there. Up to 1024 contact events nothing is
+    /// allocated.
+    ///
+    /// A step that fails is repeated with at most half of its length, down to a thousandth of
+    /// `restart_dt`.
+    ///
+    /// # Errors
+    /// [`StepError`] of the first attempt, which is the most informative.
+    fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
+        let phase = self.phase;
+        let events = self.events.len();
+        let crowd = self.crowd;
+        let rung = self.lengths.next;
+        let mut first = None;
+        loop {
+            let outcome = self.try_step(limit);
+            let Err(error) = outcome else { return outcome };
+            self.phase = phase;
+            self.events.truncate(events);
+            self.crowd = crowd;
+            self.smooth = false;
+            // Shorter steps may succeed after a failure; otherwise the first failure is the most
+            // informative.
+            let error = first.get_or_insert(error);
+            if !self.lengths.shorten() {
+                self.lengths.next = rung;
+                return Err(error.clone());
+            }
+            self.shortened += 1;
         }
+    }
+
+    fn has_reached(&self, limit: f64) -> bool {
+        !(limit - self.level.t > 0.0)
+    }
+
+    fn t(&self) -> f64 {
+        self.level.t
+    }
+
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn work(&self) -> Work {
+        self.stages.work()
+    }
+
+    /// Extrema inside the last step count.
+    fn tip_range(&self) -> [f64; 2] {
+        let u = self.level.places[self.space.tip()][0];
+        if self.last_dt == 0.0 {
+            return [u, u];
+        }
+        let tip = self.stages.coefficient(Field::U, self.space.tip(), 0);
+        let (extrema, count) = tip.derivative().sign_changes();
+        let values = extrema[..count]
+            .iter()
+            .map(|&s| tip.at(s))
+            .chain([tip.at(0.0)]);
+        values.fold([u, u], |[low, high], value| {
+            [-max_or_nan(-low, -value), max_or_nan(high, value)]
+        })
+    }
+
+    fn is_loaded(&self) -> bool {
+        self.load.is_some()
+    }
+
+    fn is_heated(&self) -> bool {
+        true
     }
 }

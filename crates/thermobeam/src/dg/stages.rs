@@ -8,10 +8,11 @@ use super::operator::Operator;
 use super::residual::{Equations, Terms};
 use super::space::{Field, Space};
 use super::time::{Forcing, Load, MAX_STAGES, Path, TimeForms};
-use super::{Level, Stepping, Work};
+use super::{DgLevel, DgStepping};
 use crate::contact::Phase;
 use crate::energy::Balance;
 use crate::error::StepFailure;
+use crate::motion::Work;
 use crate::parameters::Beam;
 
 /// Relative difference up to which lengths share a factorisation; the iteration then contracts by
@@ -27,7 +28,7 @@ const SPARE: usize = 3;
 /// The step for any degree q in time, without q as a parameter of the type.
 pub(super) trait Stages: Send {
     /// Starts the iteration from velocities and a temperature that are constant in time.
-    fn guess_constant(&mut self, level: &Level);
+    fn guess_constant(&mut self, level: &DgLevel);
     /// Starts it from the last step's polynomials, continued over a step that is `ratio` times as
     /// long.
     fn guess_continued(&mut self, ratio: f64);
@@ -37,7 +38,7 @@ pub(super) trait Stages: Send {
     fn solve(
         &mut self,
         task: &Equations<'_>,
-        by: &Stepping,
+        by: &DgStepping,
         load: Option<&mut Load>,
     ) -> Result<usize, StepFailure>;
     /// u(1, t).
@@ -48,13 +49,15 @@ pub(super) trait Stages: Send {
     /// The mean axial force over the step.
     fn axial_force(&self) -> f64;
     /// Accepts the solution as the last step, from the given level.
-    fn accept(&mut self, start: &Level);
+    fn accept(&mut self, start: &DgLevel);
     /// The level at s of the last step, 0 < s <= 1, from the level at its start.
-    fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level);
+    fn level_into(&self, s: f64, start: &DgLevel, h: f64, level: &mut DgLevel);
     /// One coefficient of the space, as a polynomial over the last step.
     fn coefficient(&self, field: Field, block: usize, place: usize) -> Polynomial;
     /// The losses of the last step, except those of contact; the other terms are zero.
     fn losses(&self, space: &Space, beam: &Beam, h: f64) -> Balance;
+    /// The last increment of the last solution.
+    fn increment(&self) -> f64;
     /// Counts.
     fn work(&self) -> Work;
 }
@@ -90,6 +93,8 @@ pub(super) struct DgStepper<const S: usize> {
     contact_force: [f64; S],
     /// Mean axial force of the last iteration.
     axial_force: f64,
+    /// The last increment of the last solution.
+    increment: f64,
     work: Work,
     clock: usize,
 }
@@ -124,6 +129,7 @@ impl<const S: usize> DgStepper<S> {
             forcing: loaded.then(|| Forcing::new(blocks)),
             contact_force: [0.0; S],
             axial_force: 0.0,
+            increment: f64::NAN,
             work: Work::default(),
             clock: 0,
         }
@@ -208,7 +214,7 @@ impl<const S: usize> DgStepper<S> {
             Some(slot) => slot,
             None => self.slot(task, n_value)?,
         };
-        self.work.solves += 1;
+        self.work.passes += 1;
         let in_contact = task.phase != Phase::Free;
         self.slots[slot]
             .factor
@@ -298,7 +304,7 @@ fn transform<const S: usize>(columns: &[[f64; S]; S], y: &[f64; S]) -> [f64; S] 
 }
 
 impl<const S: usize> Stages for DgStepper<S> {
-    fn guess_constant(&mut self, level: &Level) {
+    fn guess_constant(&mut self, level: &DgLevel) {
         for (x, rates) in self.trial.x.iter_mut().zip(&level.rates) {
             *x = [[0.0; S]; 3];
             for field in 0..3 {
@@ -328,7 +334,7 @@ impl<const S: usize> Stages for DgStepper<S> {
     fn solve(
         &mut self,
         task: &Equations<'_>,
-        by: &Stepping,
+        by: &DgStepping,
         load: Option<&mut Load>,
     ) -> Result<usize, StepFailure> {
         if let Some((forcing, load)) = self.forcing.as_mut().zip(load) {
@@ -340,6 +346,7 @@ impl<const S: usize> Stages for DgStepper<S> {
             last = self.iterate(task, &last)?;
             if last.has_converged(by.tolerance) {
                 task.displace(&self.trial.x, &mut self.trial.terms);
+                self.increment = last.increment;
                 return Ok(last.number);
             }
             if last.is_slow() && !replaced {
@@ -368,7 +375,7 @@ impl<const S: usize> Stages for DgStepper<S> {
         self.axial_force
     }
 
-    fn accept(&mut self, start: &Level) {
+    fn accept(&mut self, start: &DgLevel) {
         std::mem::swap(&mut self.trial, &mut self.accepted);
         let at_start = |y: &[f64; S]| {
             y.iter()
@@ -384,10 +391,9 @@ impl<const S: usize> Stages for DgStepper<S> {
         {
             *jump = std::array::from_fn(|field| at_start(&x[field]) - start[field]);
         }
-        self.work.steps += 1;
     }
 
-    fn level_into(&self, s: f64, start: &Level, h: f64, level: &mut Level) {
+    fn level_into(&self, s: f64, start: &DgLevel, h: f64, level: &mut DgLevel) {
         level.t = start.t + h * s;
         let motion = self.accepted.x.iter().zip(&self.accepted.terms);
         for ((x, terms), (places, rates)) in
@@ -430,6 +436,10 @@ impl<const S: usize> Stages for DgStepper<S> {
             }
         }
         losses
+    }
+
+    fn increment(&self) -> f64 {
+        self.increment
     }
 
     fn work(&self) -> Work {

@@ -4,7 +4,7 @@
 use crate::energy::Balance;
 use crate::energy::sums::{Element, Fields, Sums};
 use crate::lanes::Lane;
-use crate::solve::Work;
+use crate::motion::Work;
 use crate::solve::control::Progress;
 use crate::solve::newton::Newton;
 use crate::solve::stepper::Batch;
@@ -31,13 +31,6 @@ impl<T: Lane, const B: usize> Batch<T> for Newton<T, B> {
 
     fn work_of(&self, k: usize) -> Work {
         self.controls[k].work
-    }
-
-    fn tip(&self, k: usize) -> f64 {
-        let tip = self.old.len() - 1;
-        self.failed_levels[k]
-            .as_ref()
-            .map_or(self.old[tip][0].lane(k), |level| level.u[tip])
     }
 
     fn contact_force(&self, k: usize) -> f64 {

@@ -2,9 +2,10 @@
 //! current step, and those kept from step to step.
 
 use crate::contact::Tip;
+use crate::motion::Work;
 use crate::norms::slope_squared;
 use crate::scheme::Case;
-use crate::solve::{Level, Work};
+use crate::solve::Level;
 
 /// The coefficients of a step that do not depend on the node.
 #[derive(Debug, Clone, Copy)]

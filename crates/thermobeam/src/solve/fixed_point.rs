@@ -15,11 +15,12 @@
 //! stopping test", says why. The convergence is analysed in [`contraction`](crate::contraction).
 
 use crate::error::{Loop, StepFailure};
+use crate::motion::{StepReport, Work};
 use crate::norms::{TheoremSquares, slope_squared};
 use crate::parameters::Obstacles;
 use crate::scheme::{Case, ContactRule};
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, StepReport, Stopping, Work};
+use crate::solve::{Level, Settings, Stopping};
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for
@@ -116,9 +117,12 @@ impl FixedPoint {
                 self.commit();
                 let contraction = contraction.is_finite().then_some(contraction);
                 return Ok(StepReport {
+                    dt: self.case.dt,
                     iterations: iteration,
                     increment,
                     contraction,
+                    in_contact: self.force != 0.0,
+                    event: None,
                 });
             }
             self.remember();
@@ -329,6 +333,10 @@ impl Stepper<f64> for FixedPoint {
 
     fn read(&self, _: usize, level: &mut Level) {
         level.copy_from(&self.old);
+    }
+
+    fn tip(&self, _: usize) -> f64 {
+        self.old.u[self.old.u.len() - 1]
     }
 
     fn work(&self) -> Work {

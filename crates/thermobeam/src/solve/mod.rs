@@ -58,7 +58,7 @@ pub enum Stopping {
     /// As soon as the increment is small; a step that needs too many iterations fails.
     Converged {
         /// η* > 0, the bound on the last increment in the norm of (3.14); see
-        /// [`StepReport::increment`].
+        /// [`StepReport::increment`](crate::motion::StepReport::increment).
         tolerance: f64,
         /// Largest number of iterations of a step, at least 1.
         max_iterations: usize,
@@ -124,29 +124,6 @@ pub enum Start {
     Extrapolated,
     /// The previous level, as in (4.1).
     Previous,
-}
-
-/// Iterations of a step and their convergence.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepReport {
-    /// Number of iterations, each at least one solve of the linear system.
-    pub iterations: usize,
-    /// Fixed point: the last increment. Newton: an upper bound on the increment of one more
-    /// iteration.
-    pub increment: f64,
-    /// Fixed point: ratio of the last two increments, `None` after a single iteration. Newton:
-    /// `None`.
-    pub contraction: Option<f64>,
-}
-
-/// Counts of the work done. Unlike run times they are exact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Work {
-    /// Solves of the linear system of the whole step: passes of Newton's method, or iterations of
-    /// the fixed point.
-    pub passes: usize,
-    /// Factorisations of that system; for the fixed point, of the equation of u.
-    pub factorizations: usize,
 }
 
 /// The discrete solution at one time level: n + 1 nodal values of each field.

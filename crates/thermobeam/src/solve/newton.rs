@@ -20,10 +20,11 @@
 use crate::block_tridiagonal::{Node, factorize, uninitialised};
 use crate::error::StepFailure;
 use crate::lanes::Lane;
+use crate::motion::{StepReport, Work};
 use crate::scheme::Case;
 use crate::solve::control::{Control, Element, Progress, Scalars};
 use crate::solve::stepper::{Batch, Stepper};
-use crate::solve::{Level, Settings, Start, StepReport, Work};
+use crate::solve::{Level, Settings, Start};
 
 /// Passes with the kept factorisation before the safeguarded iteration takes over.
 const KEPT_PASSES: usize = 6;
@@ -318,9 +319,12 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                 n2,
             ];
             report[k] = Ok(StepReport {
+                dt: self.cases[k].dt,
                 iterations: control.iterations,
                 increment: control.increment,
                 contraction: None,
+                in_contact: control.force != 0.0,
+                event: None,
             });
         }
         if let [old, new] = &mut self.velocity
@@ -397,6 +401,13 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
             level.w[i] = velocity[1].lane(k);
         }
         level.contact_force = self.controls[k].force;
+    }
+
+    fn tip(&self, k: usize) -> f64 {
+        let tip = self.old.len() - 1;
+        self.failed_levels[k]
+            .as_ref()
+            .map_or(self.old[tip][0].lane(k), |level| level.u[tip])
     }
 
     fn work(&self) -> Work {

@@ -1,9 +1,10 @@
-//! The interface of a solver to a simulation, and its extension for several cases in lanes.
+//! The interface of a solver to a motion, and its extension for several cases in lanes.
 
 use crate::energy::Balance;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
-use crate::solve::{Level, StepReport, Work};
+use crate::motion::{StepReport, Work};
+use crate::solve::Level;
 
 /// A solver of the steps of one case (`T = f64`) or of several cases in lanes.
 pub(crate) trait Stepper<T: Lane>: Send + Sync {
@@ -23,6 +24,10 @@ pub(crate) trait Stepper<T: Lane>: Send + Sync {
     /// before the failure.
     fn read(&self, k: usize, level: &mut Level);
 
+    /// u(1) at the current level of case k; if the case has failed, at the last level before the
+    /// failure.
+    fn tip(&self, k: usize) -> f64;
+
     /// Counts of the work done so far; a pass over all lanes counts once.
     fn work(&self) -> Work;
 }
@@ -32,10 +37,6 @@ pub(crate) trait Batch<T: Lane>: Stepper<T> {
     /// The [`Balance`] of the last step of every case that has done it; the others are left
     /// unchanged.
     fn balances(&self, balances: &mut [Balance]);
-
-    /// u(1) at the current level of case k; if the case has failed, at the last level before the
-    /// failure.
-    fn tip(&self, k: usize) -> f64;
 
     /// The contact force of the last step of case k.
     fn contact_force(&self, k: usize) -> f64;

@@ -1,19 +1,20 @@
 //! Neither a step nor its observation allocates memory.
 
 use super::scenes::{experiment, simulate};
-use thermobeam::dg::{Field, Level, Stepping};
+use thermobeam::dg::{DgLevel, DgStepping, Field};
+use thermobeam::motion::Motion;
 
 #[test]
 fn steps_and_their_observation_allocate_nothing() {
     for q in 0..=5 {
         let mut simulation = simulate(
             experiment(0.0, 0.0, 9),
-            Stepping {
+            DgStepping {
                 degree: q,
-                ..Stepping::default()
+                ..DgStepping::default()
             },
         );
-        let mut level = Level::new(simulation.space());
+        let mut level = DgLevel::new(simulation.space());
         let info = allocation_counter::measure(|| {
             while simulation.step(1.0).unwrap().is_some() {
                 let t = 0.5 * (simulation.old_level().t + simulation.t());

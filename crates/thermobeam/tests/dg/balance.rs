@@ -1,12 +1,13 @@
 //! The energy balance closes to round-off in every step, including contact events.
 
 use super::scenes::{EXPERIMENTS, experiment, larger, simulate};
-use thermobeam::dg::{Problem, Simulation, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// Largest residual of a step, the sum of residuals, and the largest rise of the energy.
-fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
+fn residuals(simulation: &mut Dg, t: f64) -> (f64, f64, f64) {
     let (mut worst, mut sum, mut rise) = (0.0, 0.0, f64::NEG_INFINITY);
     while simulation
         .step(t)
@@ -36,9 +37,9 @@ fn residuals(simulation: &mut Simulation, t: f64) -> (f64, f64, f64) {
 fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time() {
     for (beta, theta_a) in EXPERIMENTS {
         for q in 0..=5 {
-            let stepping = Stepping {
+            let stepping = DgStepping {
                 degree: q,
-                ..Stepping::default()
+                ..DgStepping::default()
             };
             let mut simulation = simulate(experiment(beta, theta_a, 10), stepping);
             let scale = simulation.energy(simulation.level()).total();
@@ -64,7 +65,7 @@ fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time()
 
 #[test]
 fn the_change_in_the_balance_is_the_difference_of_the_energies() {
-    let mut simulation = simulate(experiment(-0.5, 20.0, 9), Stepping::default());
+    let mut simulation = simulate(experiment(-0.5, 20.0, 9), DgStepping::default());
     while simulation.step(0.5).unwrap().is_some() {
         let [old, new] = [simulation.old_level(), simulation.level()]
             .map(|level| simulation.energy(level).total());
@@ -91,7 +92,7 @@ fn every_beam_and_obstacle_has_an_answer_whose_balance_closes() {
                         ..Obstacles::default()
                     });
                     let mesh = Mesh::mapped(elements, |s| 1.3 * s - 0.3 * s * s).unwrap();
-                    let problem = Problem {
+                    let problem = DgProblem {
                         beam,
                         obstacles,
                         mesh,
@@ -99,9 +100,9 @@ fn every_beam_and_obstacle_has_an_answer_whose_balance_closes() {
                     };
                     let mut simulation = simulate(
                         problem,
-                        Stepping {
+                        DgStepping {
                             degree: q,
-                            ..Stepping::default()
+                            ..DgStepping::default()
                         },
                     );
                     let scale = simulation.energy(simulation.level()).total();

@@ -3,21 +3,22 @@
 
 use super::scenes::{advanced, close, experiment, larger, simulate, tip};
 use std::f64::consts::FRAC_PI_2;
-use thermobeam::dg::{ContactEvent, Field, Initial, Phase, Problem, Simulation, Stepping};
+use thermobeam::dg::{ContactEvent, Dg, DgProblem, DgStepping, Field, InitialFunctions, Phase};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
-use thermobeam::simulation as p1;
 use thermobeam::solve::Settings;
 
 /// A straight, cold beam whose free end moves with the given velocity.
-fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> Problem {
-    let initial = Initial {
+fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> DgProblem {
+    let initial = InitialFunctions {
         u_t: Box::new(move |x| velocity * (FRAC_PI_2 * x).sin()),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
     let mesh = Mesh::from_nodes(vec![0.0, 0.6, 0.9, 1.0]).unwrap();
-    Problem {
+    DgProblem {
         beam: Beam::default(),
         obstacles: Some(obstacles),
         mesh,
@@ -29,28 +30,28 @@ fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> Problem {
 /// The same by `midpoint` on a fine graded P1 mesh: u(1, t).
 fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
     let mesh = Mesh::mapped(200, |s| 1.0 - (1.0 - s).powi(3)).unwrap();
-    let mut initial = p1::Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     initial.u_t = mesh
         .nodes()
         .iter()
         .map(|x| velocity * (FRAC_PI_2 * x).sin())
         .collect();
-    let problem = p1::Problem {
+    let problem = Problem {
         beam: Beam::default(),
         obstacles: Some(obstacles),
         mesh,
         initial,
     };
     let steps = 4000;
-    let stepping = p1::Stepping {
+    let stepping = Stepping {
         scheme: MIDPOINT,
         settings: Settings::default(),
         dt: t / f64::from(steps),
         loaded: false,
     };
-    let mut simulation = p1::Simulation::new(problem, stepping).unwrap();
+    let mut simulation = OneStep::new(problem, stepping).unwrap();
     for _ in 0..steps {
-        simulation.advance().unwrap();
+        simulation.step_once().unwrap();
     }
     simulation.level().u[200]
 }
@@ -58,7 +59,7 @@ fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
 /// Runs to the end; the worst residual of the balance, relative to the initial energy, must be
 /// round-off.
 #[track_caller]
-fn balanced(mut simulation: Simulation, t: f64) -> Simulation {
+fn balanced(mut simulation: Dg, t: f64) -> Dg {
     let scale = simulation.energy(simulation.level()).total();
     let (mut worst, mut contact) = (0.0, 0.0);
     while simulation
@@ -85,12 +86,12 @@ fn phases(events: &[ContactEvent]) -> Vec<Phase> {
     events.iter().map(|event| event.to).collect()
 }
 
-fn stepping() -> Stepping {
-    Stepping {
+fn stepping() -> DgStepping {
+    DgStepping {
         degree: 2,
         dt: 0.01,
         restart_dt: 2e-4,
-        ..Stepping::default()
+        ..DgStepping::default()
     }
 }
 
@@ -151,11 +152,11 @@ fn two_obstacles_at_one_place_are_touched_in_turn() {
 #[test]
 fn a_free_end_that_starts_beyond_an_obstacle_presses_on_it() {
     for (sign, phase) in [(1.0, Phase::Upper), (-1.0, Phase::Lower)] {
-        let initial = Initial {
+        let initial = InitialFunctions {
             u: Box::new(move |x| sign * 0.15 * x * x),
-            ..Initial::at_rest(0.0)
+            ..InitialFunctions::at_rest(0.0)
         };
-        let problem = Problem {
+        let problem = DgProblem {
             initial,
             ..experiment(0.0, 0.0, 12)
         };
@@ -186,9 +187,9 @@ fn narrow_gaps_are_crossed() {
 }
 
 /// The first maximum of u(1, t) in the first experiment without obstacles, to round-off.
-fn highest(stepping: Stepping) -> f64 {
+fn highest(stepping: DgStepping) -> f64 {
     let mut simulation = simulate(
-        Problem {
+        DgProblem {
             obstacles: None,
             ..experiment(0.0, 0.0, 8)
         },
@@ -211,7 +212,7 @@ fn highest(stepping: Stepping) -> f64 {
 
 #[test]
 fn a_free_end_may_graze_an_obstacle() {
-    let stepping = Stepping::default();
+    let stepping = DgStepping::default();
     let top = highest(stepping);
     let mut touched = 0;
     for exponent in 3..=17 {
@@ -222,7 +223,7 @@ fn a_free_end_may_graze_an_obstacle() {
                 g2,
                 ..Obstacles::default()
             };
-            let problem = Problem {
+            let problem = DgProblem {
                 obstacles: Some(obstacles),
                 ..experiment(0.0, 0.0, 8)
             };
@@ -235,10 +236,11 @@ fn a_free_end_may_graze_an_obstacle() {
                 "{exponent} {sign}: {found:?}"
             );
             touched += usize::from(!found.is_empty());
+            let steps = simulation.steps();
             let work = simulation.work();
             assert!(
-                work.steps < 150 && work.solves < 400,
-                "{exponent} {sign}: {work:?}"
+                steps < 150 && work.passes < 400,
+                "{exponent} {sign}: {steps} steps, {work:?}"
             );
         }
     }
@@ -247,10 +249,10 @@ fn a_free_end_may_graze_an_obstacle() {
 
 #[test]
 fn the_range_of_the_tip_has_its_extrema_inside_steps() {
-    let long = Stepping {
+    let long = DgStepping {
         degree: 4,
         dt: 0.02,
-        ..Stepping::default()
+        ..DgStepping::default()
     };
     let mut simulation = simulate(experiment(0.0, 0.0, 8), long);
     let start = tip(&simulation, Field::U);
@@ -308,32 +310,34 @@ fn every_compliance_is_solved() {
             epsilon,
             ..Obstacles::default()
         };
-        let problem = Problem {
+        let problem = DgProblem {
             obstacles: Some(obstacles),
             ..experiment(0.0, 0.0, 8)
         };
         let restart_dt = (0.2 * obstacles.impact_time(0.1)).min(5e-3);
         let mut simulation = simulate(
             problem,
-            Stepping {
+            DgStepping {
                 restart_dt,
-                ..Stepping::default()
+                ..DgStepping::default()
             },
         );
         simulation
             .advance(0.7)
             .unwrap_or_else(|error| panic!("epsilon {epsilon}: {error}"));
-        let work = simulation.work();
+        let events = simulation.events().len();
+        let steps = simulation.steps();
+        let shortened = simulation.shortened();
         assert!(
-            work.events > 0 && work.steps < 10_000 && work.shortened == 0,
-            "epsilon {epsilon}: {work:?}"
+            events > 0 && steps < 10_000 && shortened == 0,
+            "epsilon {epsilon}: {events} events, {steps} steps, {shortened} shortened"
         );
     }
 }
 
 #[test]
 fn an_event_ends_its_step_on_the_obstacle_exactly() {
-    let mut simulation = simulate(experiment(5.0, 0.0, 10), Stepping::default());
+    let mut simulation = simulate(experiment(5.0, 0.0, 10), DgStepping::default());
     let mut events = 0;
     while let Some(report) = simulation.step(3.0).unwrap() {
         if let Some(event) = report.event {
@@ -370,9 +374,9 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
                 let simulation = balanced(
                     simulate(
                         problem,
-                        Stepping {
+                        DgStepping {
                             degree: q,
-                            ..Stepping::default()
+                            ..DgStepping::default()
                         },
                     ),
                     0.05,
@@ -383,8 +387,9 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
                     "p = {degree}, q = {q}, zeta = {zeta}, distance {distance}"
                 );
                 assert!(tip(&simulation, Field::U) > -0.01);
+                let steps = simulation.steps();
                 let work = simulation.work();
-                assert!(work.steps < 16 && work.solves < 60, "{work:?}");
+                assert!(steps < 16 && work.passes < 60, "{steps} steps, {work:?}");
             }
         }
     }
@@ -399,13 +404,13 @@ fn the_first_contact_lasts_as_long_whatever_the_compliance() {
             epsilon,
             ..Obstacles::default()
         });
-        let fine = Stepping {
+        let fine = DgStepping {
             dt: 0.01,
             restart_dt: 1e-5,
-            ..Stepping::default()
+            ..DgStepping::default()
         };
         let simulation = advanced(
-            Problem {
+            DgProblem {
                 obstacles,
                 ..experiment(0.0, 0.0, 20)
             },

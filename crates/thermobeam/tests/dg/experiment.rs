@@ -1,23 +1,24 @@
 //! The paper's first experiment, to the digits in which independent discretisations agree.
 
 use super::scenes::{advanced, close, experiment, tip};
-use thermobeam::dg::{ContactEvent, Field, Phase, Simulation, Stepping};
+use thermobeam::dg::{ContactEvent, Dg, DgStepping, Field, Phase};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
-use thermobeam::simulation as p1;
 use thermobeam::solve::Settings;
 
 /// u(1, 1), by an independent prototype.
 const REFERENCE: f64 = -0.011764243810;
 
-fn first(p: usize, q: usize, dt: f64, t: f64) -> Simulation {
+fn first(p: usize, q: usize, dt: f64, t: f64) -> Dg {
     advanced(
         experiment(0.0, 0.0, p),
-        Stepping {
+        DgStepping {
             degree: q,
             dt,
-            ..Stepping::default()
+            ..DgStepping::default()
         },
         t,
     )
@@ -96,16 +97,16 @@ fn the_error_falls_exponentially_with_the_degree() {
 #[test]
 fn one_element_and_several_agree() {
     let mesh = Mesh::from_nodes(vec![0.0, 0.5, 0.85, 1.0]).unwrap();
-    let several = thermobeam::dg::Problem {
+    let several = thermobeam::dg::DgProblem {
         mesh,
         ..experiment(0.0, 0.0, 12)
     };
     let several = advanced(
         several,
-        Stepping {
+        DgStepping {
             degree: 3,
             dt: 0.01,
-            ..Stepping::default()
+            ..DgStepping::default()
         },
         1.0,
     );
@@ -117,7 +118,7 @@ fn linear_elements_and_small_steps_lead_to_the_same_answer() {
     let expected = tip(&first(16, 3, 0.01, 0.5), Field::U);
     let errors = [40, 80].map(|elements| {
         let mesh = Mesh::uniform(elements).unwrap();
-        let mut initial = p1::Initial::at_rest(&mesh, 0.0);
+        let mut initial = InitialValues::at_rest(&mesh, 0.0);
         for (i, &x) in mesh.nodes().iter().enumerate() {
             initial.u[i] = 0.01 * x * (x - 2.0);
             initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
@@ -127,22 +128,22 @@ fn linear_elements_and_small_steps_lead_to_the_same_answer() {
                 (std::f64::consts::PI * x).sin()
             };
         }
-        let problem = p1::Problem {
+        let problem = Problem {
             beam: Beam::default(),
             obstacles: Some(Obstacles::default()),
             mesh,
             initial,
         };
         let dt = 0.04 / elements as f64;
-        let stepping = p1::Stepping {
+        let stepping = Stepping {
             scheme: MIDPOINT,
             settings: Settings::default(),
             dt,
             loaded: false,
         };
-        let mut simulation = p1::Simulation::new(problem, stepping).unwrap();
+        let mut simulation = OneStep::new(problem, stepping).unwrap();
         while simulation.t() < 0.5 - 0.5 * dt {
-            simulation.advance().unwrap();
+            simulation.step_once().unwrap();
         }
         simulation.level().u[elements] - expected
     });

@@ -1,20 +1,21 @@
 //! Bad input and failed steps give errors with names and numbers.
 
 use super::scenes::{experiment, simulate};
-use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::error::{SetupError, StepError, StepFailure};
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 #[track_caller]
-fn refused(problem: Problem, stepping: Stepping) -> String {
-    match Simulation::new(problem, stepping) {
+fn refused(problem: DgProblem, stepping: DgStepping) -> String {
+    match Dg::new(problem, stepping) {
         Ok(_) => panic!("it was taken"),
         Err(error) => error.to_string(),
     }
 }
 
-fn good() -> Stepping {
-    Stepping::default()
+fn good() -> DgStepping {
+    DgStepping::default()
 }
 
 #[test]
@@ -28,74 +29,74 @@ fn settings_out_of_range_are_refused_by_name() {
     }
     let cases = [
         (
-            Stepping {
+            DgStepping {
                 degree: 6,
                 ..good()
             },
             "degree in time: expected an integer from 0 to 5, found 6",
         ),
         (
-            Stepping { dt: 0.0, ..good() },
+            DgStepping { dt: 0.0, ..good() },
             "dt: expected a finite number > 0, found 0",
         ),
         (
-            Stepping {
+            DgStepping {
                 dt: f64::NAN,
                 ..good()
             },
             "dt: expected a finite number > 0, found NaN",
         ),
         (
-            Stepping {
+            DgStepping {
                 dt: f64::INFINITY,
                 ..good()
             },
             "dt: expected a finite number > 0, found inf",
         ),
         (
-            Stepping {
+            DgStepping {
                 restart_dt: 0.03,
                 ..good()
             },
             "restart_dt: expected a number > 0 and at most dt = 0.02, found 0.03",
         ),
         (
-            Stepping {
+            DgStepping {
                 restart_dt: -1.0,
                 ..good()
             },
             "restart_dt: expected a number > 0 and at most dt = 0.02, found -1",
         ),
         (
-            Stepping {
+            DgStepping {
                 growth: 0.9,
                 ..good()
             },
             "growth: expected a finite number >= 1, found 0.9",
         ),
         (
-            Stepping {
+            DgStepping {
                 growth: f64::NAN,
                 ..good()
             },
             "growth: expected a finite number >= 1, found NaN",
         ),
         (
-            Stepping {
+            DgStepping {
                 growth: 1.0001,
                 ..good()
             },
             "growth: expected a ratio that leads from restart_dt to dt in 1000 steps, found 1.0001",
         ),
         (
-            Stepping {
+            DgStepping {
                 tolerance: 0.0,
                 ..good()
             },
             "tolerance: expected a finite number > 0, found 0",
         ),
         (
-            Stepping {
+            DgStepping {
                 max_iterations: 0,
                 ..good()
             },
@@ -108,9 +109,9 @@ fn settings_out_of_range_are_refused_by_name() {
     for degree in [1, 40] {
         for q in [0, 5] {
             assert!(
-                Simulation::new(
+                Dg::new(
                     experiment(0.0, 0.0, degree),
-                    Stepping {
+                    DgStepping {
                         degree: q,
                         ..good()
                     }
@@ -124,7 +125,7 @@ fn settings_out_of_range_are_refused_by_name() {
 #[test]
 fn coefficients_and_initial_data_are_checked() {
     let base = || experiment(0.0, 0.0, 4);
-    let beam = Problem {
+    let beam = DgProblem {
         beam: Beam {
             rho: -1.0,
             ..Beam::default()
@@ -135,7 +136,7 @@ fn coefficients_and_initial_data_are_checked() {
         refused(beam, good()),
         "rho: expected a finite number >= 0, found -1"
     );
-    let obstacles = Problem {
+    let obstacles = DgProblem {
         obstacles: Some(Obstacles {
             epsilon: 0.0,
             ..Obstacles::default()
@@ -146,28 +147,28 @@ fn coefficients_and_initial_data_are_checked() {
         refused(obstacles, good()),
         "epsilon: expected a finite number > 0, found 0"
     );
-    let with = |initial: Initial| Problem { initial, ..base() };
-    let lifted = Initial {
+    let with = |initial: InitialFunctions| DgProblem { initial, ..base() };
+    let lifted = InitialFunctions {
         u: Box::new(|x| 0.5 + x),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
     assert_eq!(
         refused(with(lifted), good()),
         "initial u at x = 0: expected 0 from the boundary condition, found 0.5"
     );
-    let hot = Initial {
+    let hot = InitialFunctions {
         theta: Box::new(|x| 2.0 * (1.0 - x)),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
     assert_eq!(
         refused(with(hot), good()),
         "initial theta at x = 0: expected 0 from the boundary condition, found 2"
     );
-    let wild = Initial {
+    let wild = InitialFunctions {
         phi_t: Box::new(|x| 1.0 / (x - x)),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
-    let found = Simulation::new(with(wild), good()).err();
+    let found = Dg::new(with(wild), good()).err();
     assert!(
         matches!(
             found,
@@ -179,7 +180,7 @@ fn coefficients_and_initial_data_are_checked() {
 
 /// The error of a step that must fail, after which the simulation stays at its level.
 #[track_caller]
-fn failed(mut simulation: Simulation) -> StepError {
+fn failed(mut simulation: Dg) -> StepError {
     let (level, events) = (simulation.level().clone(), simulation.events().to_vec());
     let error = simulation
         .step(1e6)
@@ -193,8 +194,8 @@ fn failed(mut simulation: Simulation) -> StepError {
 }
 
 /// The linear beam, pushed.
-fn pushed(beta: f64) -> Problem {
-    Problem {
+fn pushed(beta: f64) -> DgProblem {
+    DgProblem {
         beam: Beam {
             beta,
             rho: 0.0,
@@ -206,7 +207,7 @@ fn pushed(beta: f64) -> Problem {
 
 #[test]
 fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
-    let long = Stepping {
+    let long = DgStepping {
         dt: 50.0,
         restart_dt: 50.0,
         ..good()
@@ -214,9 +215,9 @@ fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
     let mut simulation = simulate(pushed(-3.0), long);
     let report = simulation.step(50.0).unwrap().expect("a step");
     assert!(
-        report.dt < 1.0 && simulation.work().shortened > 5,
-        "{report:?} {:?}",
-        simulation.work()
+        report.dt < 1.0 && simulation.shortened() > 5,
+        "{report:?} {}",
+        simulation.shortened()
     );
     let error = failed(simulate(pushed(-1e6), long));
     let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else {
@@ -232,7 +233,7 @@ fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
 fn iterations_that_are_not_enough_are_an_error() {
     let error = failed(simulate(
         experiment(0.0, 0.0, 6),
-        Stepping {
+        DgStepping {
             max_iterations: 1,
             ..good()
         },
@@ -254,12 +255,12 @@ fn iterations_that_are_not_enough_are_an_error() {
 
 #[test]
 fn numbers_beyond_all_bounds_are_an_error() {
-    let initial = Initial {
+    let initial = InitialFunctions {
         u_t: Box::new(|x| 1e200 * x),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     };
     let error = failed(simulate(
-        Problem {
+        DgProblem {
             initial,
             ..experiment(0.0, 0.0, 6)
         },
@@ -295,20 +296,20 @@ fn contact_that_the_position_cannot_tell_ends_where_its_force_changes_sign() {
             epsilon,
             ..Obstacles::default()
         };
-        let initial = Initial {
+        let initial = InitialFunctions {
             theta: Box::new(|_| 0.0),
             ..experiment(0.0, 0.0, 12).initial
         };
-        let problem = Problem {
+        let problem = DgProblem {
             obstacles: Some(obstacles),
             initial,
             ..experiment(0.0, 0.0, 12)
         };
         let mut simulation = simulate(
             problem,
-            Stepping {
+            DgStepping {
                 degree: 3,
-                ..Stepping::default()
+                ..DgStepping::default()
             },
         );
         simulation.advance(0.65).unwrap();

@@ -1,11 +1,12 @@
 //! For q = 0 and p = 1 the family begins with (3.7)-(3.8), with three differences.
 
 use super::scenes::{equal_steps, experiment, simulate};
-use thermobeam::dg::{Field, Problem, Simulation};
+use thermobeam::dg::{Dg, DgProblem, Field};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::simulation as p1;
 use thermobeam::solve::{Level, Settings, Stopping};
 
 fn graded() -> Mesh {
@@ -13,9 +14,9 @@ fn graded() -> Mesh {
 }
 
 /// The first member and the paper's scheme after `steps` steps to t = 0.2.
-fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
+fn both(beam: Beam, steps: usize) -> (Dg, Level) {
     let dt = 0.2 / steps as f64;
-    let problem = Problem {
+    let problem = DgProblem {
         beam,
         obstacles: None,
         mesh: graded(),
@@ -23,7 +24,7 @@ fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
     };
     let mut simulation = simulate(problem, equal_steps(0, dt));
     let mesh = graded();
-    let mut initial = p1::Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     let last = mesh.elements();
     for (i, &x) in mesh.nodes().iter().enumerate() {
         initial.u[i] = 0.01 * x * (x - 2.0);
@@ -38,29 +39,29 @@ fn both(beam: Beam, steps: usize) -> (Simulation, Level) {
         stopping: Stopping::below(1e-14),
         ..Settings::default()
     };
-    let stepping = p1::Stepping {
+    let stepping = Stepping {
         scheme: EULER_CRANK_NICOLSON,
         settings,
         dt,
         loaded: false,
     };
-    let problem = p1::Problem {
+    let problem = Problem {
         beam,
         obstacles: None,
         mesh,
         initial,
     };
-    let mut paper = p1::Simulation::new(problem, stepping).unwrap();
+    let mut paper = OneStep::new(problem, stepping).unwrap();
     for _ in 0..steps {
         simulation.step(f64::INFINITY).unwrap();
-        paper.advance().unwrap();
+        paper.step_once().unwrap();
     }
     let level = paper.level();
     (simulation, level)
 }
 
 /// Largest difference of a nodal value of u, φ and their velocities.
-fn difference((simulation, level): &(Simulation, Level)) -> f64 {
+fn difference((simulation, level): &(Dg, Level)) -> f64 {
     let fields = [
         (Field::U, &level.u),
         (Field::Phi, &level.phi),

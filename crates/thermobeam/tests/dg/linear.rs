@@ -3,7 +3,7 @@
 use super::scenes::{advanced, close, equal_steps};
 use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::dg::{Field, Initial, Problem};
+use thermobeam::dg::{DgProblem, Field, InitialFunctions};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::Beam;
 
@@ -60,8 +60,8 @@ fn system() -> (DMatrix<f64>, DVector<f64>) {
     (a, b)
 }
 
-fn initial() -> Initial {
-    Initial {
+fn initial() -> InitialFunctions {
+    InitialFunctions {
         u: Box::new(|x| 0.1 * x * x),
         u_t: Box::new(|x| 3.0 * x * (1.0 - x)),
         phi: Box::new(|x| 0.2 * x),
@@ -99,7 +99,7 @@ fn steps_of_every_degree_lead_to_the_matrix_exponential() {
         (5, 40, 1e-11),
     ] {
         let mesh = Mesh::uniform(ELEMENTS).unwrap();
-        let problem = Problem {
+        let problem = DgProblem {
             beam: BEAM,
             obstacles: None,
             mesh,

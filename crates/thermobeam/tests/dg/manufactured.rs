@@ -2,8 +2,9 @@
 //! x = 1.
 
 use std::f64::consts::PI;
-use thermobeam::dg::{Field, Initial, Load, Problem, Simulation, Space, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions, Load, Space};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 const BEAM: Beam = Beam {
@@ -101,8 +102,8 @@ fn sources(space: &Space) -> Box<Load> {
     })
 }
 
-fn run(elements: usize, degree: usize, stepping: Stepping) -> Simulation {
-    let initial = Initial {
+fn run(elements: usize, degree: usize, stepping: DgStepping) -> Dg {
+    let initial = InitialFunctions {
         u: Box::new(|x| u_x(x)[0] * u_t(0.0)[0]),
         u_t: Box::new(|x| u_x(x)[0] * u_t(0.0)[1]),
         phi: Box::new(|x| phi_x(x)[0] * phi_t(0.0)[0]),
@@ -110,29 +111,29 @@ fn run(elements: usize, degree: usize, stepping: Stepping) -> Simulation {
         theta: Box::new(|x| theta_x(x)[0]),
     };
     let mesh = Mesh::mapped(elements, |s| 0.8 * s + 0.2 * s * s).unwrap();
-    let problem = Problem {
+    let problem = DgProblem {
         beam: BEAM,
         obstacles: Some(OBSTACLES),
         mesh,
         degree,
         initial,
     };
-    let mut simulation = Simulation::with_load(problem, stepping, sources).unwrap();
+    let mut simulation = Dg::with_load(problem, stepping, sources).unwrap();
     simulation.advance(END).unwrap();
     simulation
 }
 
-fn fine_steps() -> Stepping {
-    Stepping {
+fn fine_steps() -> DgStepping {
+    DgStepping {
         degree: 4,
         dt: 0.02,
         restart_dt: 0.02,
-        ..Stepping::default()
+        ..DgStepping::default()
     }
 }
 
 /// L² errors of u, φ, θ and of u_x, φ_x, θ_x at the end.
-fn errors(simulation: &Simulation) -> [f64; 6] {
+fn errors(simulation: &Dg) -> [f64; 6] {
     let mut squares = [0.0; 6];
     let points = Space::gauss(simulation.space().degree() + 6);
     let exact: [Exact; 3] = [

@@ -1,26 +1,27 @@
 //! Orders in time: 2q + 1 at the ends of steps, q + 2 for u and q + 1 for its velocity inside.
 
 use super::scenes::{equal_steps, experiment, larger, simulate};
-use thermobeam::dg::{Field, Level, Problem, Simulation};
+use thermobeam::dg::{Dg, DgLevel, DgProblem, Field};
+use thermobeam::motion::Motion;
 
 const T: f64 = 0.4;
 
-fn free() -> Problem {
-    Problem {
+fn free() -> DgProblem {
+    DgProblem {
         obstacles: None,
         ..experiment(0.0, 0.0, 3)
     }
 }
 
-fn run(q: usize, steps: usize) -> Simulation {
+fn run(q: usize, steps: usize) -> Dg {
     let mut simulation = simulate(free(), equal_steps(q, T / steps as f64));
     simulation.advance(T).unwrap();
-    assert_eq!(simulation.work().steps, steps);
+    assert_eq!(simulation.steps(), steps);
     simulation
 }
 
 /// The norm of Theorem 3.4's left-hand side.
-fn distance(simulation: &Simulation, level: &Level) -> f64 {
+fn distance(simulation: &Dg, level: &DgLevel) -> f64 {
     let mut difference = simulation.level().clone();
     for (one, other) in difference.places.iter_mut().zip(&level.places) {
         (0..2).for_each(|field| one[field] -= other[field]);
@@ -57,7 +58,7 @@ fn inside_a_step_the_order_is_that_of_interpolation() {
             for t in [0.9, 0.7, 0.5, 0.3, 0.1].map(|part| T - part * dt) {
                 reference.advance(t).unwrap();
                 for (worst, field) in worst.iter_mut().zip([Field::U, Field::V]) {
-                    let value = |simulation: &Simulation| {
+                    let value = |simulation: &Dg| {
                         simulation
                             .value(field, 0.8, t)
                             .expect("a time in the last step")

@@ -1,8 +1,9 @@
 //! Problems that several tests share.
 
 use std::f64::consts::PI;
-use thermobeam::dg::{Field, Initial, Problem, Simulation, Stepping};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The paper's seven experiments in section 5: β and θ_A.
@@ -17,7 +18,7 @@ pub(crate) const EXPERIMENTS: [(f64, f64); 7] = [
 ];
 
 /// (5.3), with (5.4) for a cold clamped end and (5.5) for a heated one.
-pub(crate) fn initial(theta_a: f64) -> Initial {
+pub(crate) fn initial(theta_a: f64) -> InitialFunctions {
     let theta = move |x: f64| {
         if theta_a == 0.0 {
             (PI * x).sin()
@@ -25,23 +26,23 @@ pub(crate) fn initial(theta_a: f64) -> Initial {
             theta_a * (2.5 * PI * x).cos()
         }
     };
-    Initial {
+    InitialFunctions {
         u: Box::new(|x| 0.01 * x * (x - 2.0)),
         u_t: Box::new(|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
         theta: Box::new(theta),
-        ..Initial::at_rest(0.0)
+        ..InitialFunctions::at_rest(0.0)
     }
 }
 
 /// An experiment of section 5 on one element.
-pub(crate) fn experiment(beta: f64, theta_a: f64, degree: usize) -> Problem {
+pub(crate) fn experiment(beta: f64, theta_a: f64, degree: usize) -> DgProblem {
     let beam = Beam {
         beta,
         theta_a,
         ..Beam::default()
     };
     let initial = initial(theta_a);
-    Problem {
+    DgProblem {
         beam,
         obstacles: Some(Obstacles::default()),
         mesh: Mesh::uniform(1).unwrap(),
@@ -51,23 +52,23 @@ pub(crate) fn experiment(beta: f64, theta_a: f64, degree: usize) -> Problem {
 }
 
 /// Equal steps.
-pub(crate) fn equal_steps(q: usize, dt: f64) -> Stepping {
-    Stepping {
+pub(crate) fn equal_steps(q: usize, dt: f64) -> DgStepping {
+    DgStepping {
         degree: q,
         dt,
         restart_dt: dt,
         tolerance: 1e-14,
-        ..Stepping::default()
+        ..DgStepping::default()
     }
 }
 
 #[track_caller]
-pub(crate) fn simulate(problem: Problem, stepping: Stepping) -> Simulation {
-    Simulation::new(problem, stepping).unwrap_or_else(|error| panic!("{error}"))
+pub(crate) fn simulate(problem: DgProblem, stepping: DgStepping) -> Dg {
+    Dg::new(problem, stepping).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[track_caller]
-pub(crate) fn advanced(problem: Problem, stepping: Stepping, t: f64) -> Simulation {
+pub(crate) fn advanced(problem: DgProblem, stepping: DgStepping, t: f64) -> Dg {
     let mut simulation = simulate(problem, stepping);
     simulation
         .advance(t)
@@ -77,7 +78,7 @@ pub(crate) fn advanced(problem: Problem, stepping: Stepping, t: f64) -> Simulati
 
 /// The current value of a field at the free end.
 #[track_caller]
-pub(crate) fn tip(simulation: &Simulation, field: Field) -> f64 {
+pub(crate) fn tip(simulation: &Dg, field: Field) -> f64 {
     simulation
         .value(field, 1.0, simulation.t())
         .expect("the present time")

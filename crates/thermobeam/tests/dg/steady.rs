@@ -1,13 +1,13 @@
 //! Beams at rest.
 
 use super::scenes::{advanced, experiment};
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 
 #[test]
 fn a_beam_at_rest_stays_at_rest_to_the_last_bit() {
     let mut problem = experiment(0.0, 0.0, 8);
-    problem.initial = thermobeam::dg::Initial::at_rest(0.0);
-    let simulation = advanced(problem, Stepping::default(), 1.0);
+    problem.initial = thermobeam::dg::InitialFunctions::at_rest(0.0);
+    let simulation = advanced(problem, DgStepping::default(), 1.0);
     assert!(
         simulation
             .level()

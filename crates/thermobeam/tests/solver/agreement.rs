@@ -5,7 +5,7 @@ use super::scenes::{
     EXPERIMENTS, advance, distance, from_level, paper, relative_difference, schemes_and_meshes,
     simulate, stepping, uniform,
 };
-use thermobeam::simulation::Stepping;
+use thermobeam::one_step::Stepping;
 use thermobeam::solve::{Settings, Solver, Start, Stopping};
 
 /// Runs all experiments twice in parallel, and compares every nodal value at every step.
@@ -27,7 +27,7 @@ fn agree(one: Settings, other: Settings, dt: f64, steps: usize, allowed: f64) {
             for step in 1..=steps {
                 for simulation in &mut pair {
                     simulation
-                        .advance()
+                        .step_once()
                         .unwrap_or_else(|error| panic!("{experiment:?} {}: {error}", scheme.name));
                 }
                 let [one, other] = pair.each_mut().map(|simulation| simulation.level());
@@ -82,7 +82,7 @@ fn a_fixed_point_step_depends_on_the_previous_level_only() {
         advance(&mut simulation, 5);
         let mut afresh = simulate(&from_level(&problem, &simulation.level()), stepping);
         for _ in 0..5 {
-            assert_eq!(simulation.advance(), afresh.advance());
+            assert_eq!(simulation.step_once(), afresh.step_once());
             assert_eq!(simulation.level(), afresh.level(), "{}", scheme.name);
         }
     }
@@ -114,7 +114,7 @@ fn newton_and_the_fixed_point_agree_under_loads() {
                         0.05 * (2.0 * phase).sin(),
                     ];
                 }
-                simulation.advance().unwrap();
+                simulation.step_once().unwrap();
                 simulation.level()
             });
             let difference = relative_difference(&levels[0], &levels[1]);
@@ -147,7 +147,7 @@ fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
         );
         for _ in 0..3 {
             let old = simulation.level();
-            let report = simulation.advance().unwrap();
+            let report = simulation.step_once().unwrap();
             let new = simulation.level();
             let expected = distance(&problem.mesh, &new, &old);
             assert_eq!((report.iterations, report.contraction), (1, None));
@@ -202,7 +202,7 @@ fn a_fixed_number_of_iterations_is_done_in_every_step() {
                 ..stepping(1e-3)
             },
         );
-        let reports: Vec<_> = (0..300).map(|_| simulation.advance().unwrap()).collect();
+        let reports: Vec<_> = (0..300).map(|_| simulation.step_once().unwrap()).collect();
         (reports, simulation.level())
     };
     let (_, solved) = run(Stopping::below(1e-13));

@@ -2,8 +2,8 @@
 
 use super::scenes::{EXPERIMENTS, paper, schemes_and_meshes, simulate, stepping};
 use thermobeam::norms::max_or_nan;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::scheme::{Case, MIDPOINT};
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Start, Stopping};
 
 /// The largest residual relative to the initial energy, over 1000 steps of every experiment, both
@@ -29,7 +29,7 @@ fn largest_residual(tolerance: f64, dt: f64) -> f64 {
             let initial = simulation.energy(&old).total();
             let mut of_run = 0.0;
             for step in 1..=1000 {
-                simulation.advance().unwrap();
+                simulation.step_once().unwrap();
                 simulation.observe(&mut new);
                 let balance = simulation.balance(&old, &new);
                 of_run = max_or_nan(of_run, balance.residual.abs() / initial.abs());
@@ -91,7 +91,7 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
             );
             for _ in 0..200 {
                 let old = simulation.level();
-                simulation.advance().unwrap();
+                simulation.step_once().unwrap();
                 let new = simulation.level();
                 let (before, after) = (
                     simulation.energy(&old).total(),

@@ -4,13 +4,14 @@
 use super::dense_iteration::{dense_iteration, spectral_radius};
 use super::scenes::{advance, graded, simulate, stepping, uniform};
 use thermobeam::error::{Loop, StepFailure};
+use thermobeam::motion::Motion;
 use thermobeam::norms::slope_squared;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
-fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> Simulation {
+fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> OneStep {
     let settings = Settings {
         solver: Solver::FixedPoint,
         stopping: Stopping::Converged {
@@ -32,7 +33,7 @@ fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) ->
 /// A beam whose tip penetrates the upper obstacle by a fifth of the gap, at rest or moving upwards.
 fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
     let mesh = uniform(100);
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     initial.u = mesh.nodes().iter().map(|x| 0.12 * x).collect();
     initial.u_t = mesh.nodes().iter().map(|x| speed * x).collect();
     let obstacles = Some(Obstacles {
@@ -67,7 +68,7 @@ fn in_contact_the_fixed_point_contracts_by_alpha() {
         for scheme in SCHEMES {
             let problem = pressed(zeta, epsilon, 0.0);
             let report = by_fixed_point(&problem, scheme, dt, 1e-9)
-                .advance()
+                .step_once()
                 .unwrap();
             let (measured, alpha) = (
                 report.contraction.unwrap(),
@@ -95,7 +96,7 @@ fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
         assert!(predicted(&problem, &scheme, dt) > 1.05);
         let mut simulation = by_fixed_point(&problem, scheme, dt, 1e-10);
         let before = simulation.level();
-        let error = simulation.advance().unwrap_err();
+        let error = simulation.step_once().unwrap_err();
         assert_eq!((error.step, error.t, error.dt), (1, 0.0, dt));
         let StepFailure::Diverged {
             iterations,
@@ -112,7 +113,7 @@ fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
             increment > 1e-3 && contraction >= 1.0,
             "{increment} {contraction}"
         );
-        assert_eq!((simulation.step(), simulation.t()), (0, 0.0));
+        assert_eq!((simulation.steps(), simulation.t()), (0, 0.0));
         assert_eq!(simulation.level(), before);
         advance(
             &mut simulate(
@@ -133,7 +134,7 @@ fn below_a_factor_of_one_the_fixed_point_converges() {
     let alpha = predicted(&problem, &EULER_CRANK_NICOLSON, 4.5e-3);
     assert!((0.9..1.0).contains(&alpha), "{alpha}");
     let mut simulation = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 4.5e-3, 1e-10);
-    assert!(simulation.advance().unwrap().iterations > 100);
+    assert!(simulation.step_once().unwrap().iterations > 100);
 }
 
 #[test]
@@ -141,7 +142,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
     let mesh = graded(40);
     for dt in [0.01, 0.1, 1.0, 10.0] {
         for scheme in SCHEMES {
-            let mut initial = Initial::at_rest(&mesh, 0.0);
+            let mut initial = InitialValues::at_rest(&mesh, 0.0);
             initial.u_t = mesh
                 .nodes()
                 .iter()
@@ -159,7 +160,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
                 initial,
             };
             let report = by_fixed_point(&problem, scheme, dt, 1e-12)
-                .advance()
+                .step_once()
                 .unwrap();
             let measured = report.contraction.unwrap();
             let predicted = problem.case(scheme, dt).coupling_contraction(0.0);
@@ -185,7 +186,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
 fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
     let mesh = uniform(50);
     for (a, diverges) in [(20.0, true), (10.0, false)] {
-        let mut initial = Initial::at_rest(&mesh, 0.0);
+        let mut initial = InitialValues::at_rest(&mesh, 0.0);
         initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
         let beam = Beam {
             a,
@@ -210,7 +211,7 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
                 ..stepping(1e-2)
             },
         )
-        .advance();
+        .step_once();
         assert_eq!(
             (outcome.is_err(), factor > 1.0),
             (diverges, diverges),
@@ -240,7 +241,7 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
 #[test]
 fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
     let mesh = uniform(50);
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
     let beam = Beam {
         zeta: 0.1,
@@ -263,7 +264,7 @@ fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
     );
     assert!((together - 0.9002).abs() < 1e-4, "{together}");
     let report = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 1.0, 1e-10)
-        .advance()
+        .step_once()
         .expect("it converges");
     assert!(
         (report.contraction.expect("a factor") - together).abs() < 0.01,
@@ -289,7 +290,7 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
         beta: 0.0,
         ..Beam::default()
     };
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     initial.u.clone_from(&u);
     let problem = Problem {
         beam,
@@ -324,7 +325,7 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
 /// step; both obstacles stand at 0.
 fn is_stable(iterations: usize, dt: f64) -> bool {
     let mesh = uniform(20);
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     initial.u = mesh.nodes().iter().map(|x| 0.01 * x * x).collect();
     let beam = Beam {
         rho: 0.0,
@@ -355,7 +356,7 @@ fn is_stable(iterations: usize, dt: f64) -> bool {
             ..stepping(dt)
         },
     );
-    (0..4000).all(|_| simulation.advance().is_ok()) && simulation.level().u[20].abs() < 1.0
+    (0..4000).all(|_| simulation.step_once().is_ok()) && simulation.level().u[20].abs() < 1.0
 }
 
 /// α = 1 is at dt = 5.22e-3 here. The limits are those of the table in THEORY.md, ζ = 0.1, with 2 %

@@ -5,9 +5,9 @@
 
 use crate::p1_matrices::over_all_nodes;
 use nalgebra::{DMatrix, DVector};
+use thermobeam::one_step::Problem;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, Scheme};
-use thermobeam::simulation::Problem;
 use thermobeam::solve::Level;
 
 /// Position of the tip at the end of a step.

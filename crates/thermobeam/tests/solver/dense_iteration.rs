@@ -5,9 +5,9 @@ use super::scenes::graded;
 use crate::p1_matrices::P1Matrices;
 use nalgebra::{DMatrix, DVector};
 use thermobeam::norms::max_or_nan;
+use thermobeam::one_step::{InitialValues, Problem};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};
-use thermobeam::simulation::{Initial, Problem};
 
 /// The linearised iteration from dense matrices of (4.2), and three of its loops alone.
 pub(super) struct DenseIteration {
@@ -91,7 +91,7 @@ pub(super) fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> De
 /// All loops at once, on a graded mesh: contact, rotation, heat and axial force.
 fn coupled(scheme: &Scheme) -> Problem {
     let mesh = graded(10);
-    let mut initial = Initial::at_rest(&mesh, 0.0);
+    let mut initial = InitialValues::at_rest(&mesh, 0.0);
     initial.u = mesh.nodes().iter().map(|x| 0.15 * x * x).collect();
     let beam = Beam {
         a: 3.0,

@@ -8,9 +8,9 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::cell::Cell;
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::{InitialValues, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{ContactRule, SCHEMES, Scheme};
-use thermobeam::simulation::{Initial, Problem, Stepping};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
 const STEPS: usize = 3;
@@ -112,7 +112,7 @@ prop_compose! {
             theta[i] += if cold { 0.0 } else { fields[4][i] };
         }
         let half: Vec<f64> = fields[0].iter().map(|slope| 0.5 * slope).collect();
-        let initial = Initial {
+        let initial = InitialValues {
             u: integrate(&half, &mesh),
             u_t: integrate(&fields[1], &mesh),
             phi: integrate(&fields[2], &mesh),
@@ -145,7 +145,7 @@ fn compare(case: &Random) -> Result<[bool; 2], TestCaseError> {
             to.copy_from_slice(load);
             given = load;
         }
-        if let Err(error) = simulation.advance() {
+        if let Err(error) = simulation.step_once() {
             return Err(TestCaseError::fail(error.to_string()));
         }
         let Some(expected) = dense.step(

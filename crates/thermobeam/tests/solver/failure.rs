@@ -4,9 +4,10 @@
 use super::scenes::{paper, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thermobeam::scheme::SCHEMES;
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
 fn all_steppings() -> impl Iterator<Item = Stepping> {
@@ -42,13 +43,13 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                     for _ in 0..3 {
                         simulation.load_mut().unwrap().fill([0.1; 3]);
                         undisturbed.load_mut().unwrap().fill([0.1; 3]);
-                        simulation.advance().unwrap();
-                        undisturbed.advance().unwrap();
+                        simulation.step_once().unwrap();
+                        undisturbed.step_once().unwrap();
                     }
                     let before = simulation.level();
                     simulation.load_mut().unwrap()[node][component] = bad;
                     for _ in 0..2 {
-                        let error = simulation.advance().unwrap_err();
+                        let error = simulation.step_once().unwrap_err();
                         let StepError {
                             step,
                             t,
@@ -61,7 +62,7 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                             matches!(failure, StepFailure::NonFinite { .. }),
                             "{stepping:?} {bad}: {failure:?}"
                         );
-                        assert_eq!((simulation.step(), simulation.t()), (3, 3.0 * stepping.dt));
+                        assert_eq!((simulation.steps(), simulation.t()), (3, 3.0 * stepping.dt));
                         assert_eq!(
                             simulation.level(),
                             before,
@@ -70,8 +71,8 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                     }
                     simulation.load_mut().unwrap().fill([0.1; 3]);
                     undisturbed.load_mut().unwrap().fill([0.1; 3]);
-                    simulation.advance().unwrap();
-                    undisturbed.advance().unwrap();
+                    simulation.step_once().unwrap();
+                    undisturbed.step_once().unwrap();
                     let difference = super::scenes::relative_difference(
                         &simulation.level(),
                         &undisturbed.level(),
@@ -119,7 +120,7 @@ fn too_few_iterations_are_reported_with_the_contraction_of_the_last_two() {
                     ..stepping
                 },
             )
-            .advance()
+            .step_once()
             .unwrap_err();
             let (StepFailure::IterationLimit {
                 iterations,
@@ -166,7 +167,7 @@ fn a_lost_pivot_is_reported_by_both_solvers() {
             ..stepping
         };
         let mut simulation = simulate(&paper(uniform(10), (-3.0, 0.0)), stepping);
-        let error = simulation.advance().unwrap_err();
+        let error = simulation.step_once().unwrap_err();
         let StepFailure::Indefinite {
             node,
             pivot,
@@ -180,7 +181,7 @@ fn a_lost_pivot_is_reported_by_both_solvers() {
             "{error}"
         );
         assert_eq!(
-            simulation.advance().unwrap_err(),
+            simulation.step_once().unwrap_err(),
             error,
             "the same failure again"
         );
@@ -191,7 +192,7 @@ fn a_lost_pivot_is_reported_by_both_solvers() {
 fn rejection(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
     let (mut problem, mut stepping) = (paper(uniform(4), (0.0, 20.0)), stepping(1e-3));
     change(&mut problem, &mut stepping);
-    match Simulation::new(problem, stepping) {
+    match OneStep::new(problem, stepping) {
         Ok(_) => panic!("accepted"),
         Err(error) => error,
     }
@@ -199,7 +200,7 @@ fn rejection(change: impl FnOnce(&mut Problem, &mut Stepping)) -> SetupError {
 
 #[test]
 fn initial_data_that_violate_a_boundary_condition_are_rejected() {
-    type Field = fn(&mut Initial) -> &mut Vec<f64>;
+    type Field = fn(&mut InitialValues) -> &mut Vec<f64>;
     let fields: [(&str, Field, usize, f64); 6] = [
         ("u", |i| &mut i.u, 0, 0.0),
         ("u_t", |i| &mut i.u_t, 0, 0.0),

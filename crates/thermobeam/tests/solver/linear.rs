@@ -1,8 +1,9 @@
 //! For the linear beam (ρ = 0) one pass of Newton's method solves a step.
 
 use super::scenes::{EXPERIMENTS, advance, paper, schemes_and_meshes, simulate, stepping};
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::parameters::Beam;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Settings, Start, Stopping};
 
 #[test]
@@ -47,7 +48,7 @@ fn newton_takes_one_pass_per_step_on_a_linear_beam() {
                     "{experiment:?} {}",
                     scheme.name
                 );
-                assert_eq!(simulation.advance().unwrap().increment, 0.0);
+                assert_eq!(simulation.step_once().unwrap().increment, 0.0);
             }
         }
     }

@@ -4,8 +4,8 @@
 use super::dense::{Dense, State};
 use super::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, simulate, stepping};
 use nalgebra::{DMatrix, DVector};
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::parameters::Beam;
-use thermobeam::simulation::{Problem, Stepping};
 
 /// y(t) of `y' = A y + b`, by the exponential of `[A b; 0 0]`.
 fn exact(problem: &Problem, t: f64) -> State {

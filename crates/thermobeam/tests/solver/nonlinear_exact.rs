@@ -6,8 +6,8 @@ use super::scenes::{advance, distance, last_rate, paper, schemes_and_meshes, sim
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 use thermobeam::norms::max_or_nan;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::scheme::Scheme;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Stopping};
 
 struct SemiDiscrete<F> {

@@ -1,7 +1,7 @@
 //! Comparison with numbers from an independent implementation of the scheme.
 
 use super::scenes::{advance, paper, simulate, stepping, uniform};
-use thermobeam::simulation::Stepping;
+use thermobeam::one_step::Stepping;
 use thermobeam::solve::{Settings, Solver, Stopping};
 
 #[test]

@@ -5,9 +5,9 @@ use super::scenes::{graded, paper, simulate, stepping, uniform};
 use thermobeam::error::StepFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::max_or_nan;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::SCHEMES;
-use thermobeam::simulation::{Problem, Stepping};
 use thermobeam::solve::{Level, Settings, Start};
 
 const BETAS: [f64; 4] = [-0.8, -0.5, 0.0, 5.0];
@@ -38,7 +38,7 @@ fn run(problem: &Problem, stepping: Stepping) -> (usize, f64) {
     let scale = simulation.energy(&old).total().abs();
     let (mut most, mut worst) = (0, 0.0);
     for _ in 0..50 {
-        let report = simulation.advance().unwrap_or_else(|error| {
+        let report = simulation.step_once().unwrap_or_else(|error| {
             panic!(
                 "{:?} {:?} dt = {:e}: {error}",
                 problem.beam, problem.obstacles, stepping.dt
@@ -123,7 +123,7 @@ fn beyond_the_buckling_force_only_large_steps_are_rejected() {
         run(&problem, stepping(1.0));
         let mut simulation = simulate(&problem, stepping(10.0));
         let before = simulation.level();
-        let error = simulation.advance().unwrap_err();
+        let error = simulation.step_once().unwrap_err();
         assert_eq!((error.step, error.dt), (1, 10.0));
         let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else {
             panic!("{error}")
@@ -151,7 +151,7 @@ fn a_step_succeeds_despite_a_bad_prediction_of_the_axial_force() {
                         ..stepping(dt)
                     },
                 );
-                (0..100).map_while(|_| simulation.advance().ok()).count()
+                (0..100).map_while(|_| simulation.step_once().ok()).count()
             };
             let (rough, extrapolated) = (outcome(Start::Previous), outcome(Start::Extrapolated));
             assert_eq!(extrapolated, rough, "dt = {dt}, rho = {rho}");

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::{TheoremSquares, max_or_nan};
+use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, Scheme};
-use thermobeam::simulation::{Initial, Problem, Simulation, Stepping};
 use thermobeam::solve::{Level, Settings};
 
 /// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with
@@ -24,7 +24,7 @@ pub(crate) const EXPERIMENTS: [(f64, f64); 7] = [
 /// θ_A = 20.
 pub(crate) fn paper(mesh: Mesh, (beta, theta_a): (f64, f64)) -> Problem {
     let on_nodes = |f: &dyn Fn(f64) -> f64| mesh.nodes().iter().map(|&x| f(x)).collect::<Vec<_>>();
-    let initial = Initial {
+    let initial = InitialValues {
         u: on_nodes(&|x| 0.01 * x * (x - 2.0)),
         u_t: on_nodes(&|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
         phi: on_nodes(&|_| 0.0),
@@ -69,16 +69,16 @@ pub(crate) fn stepping(dt: f64) -> Stepping {
 }
 
 #[track_caller]
-pub(crate) fn simulate(problem: &Problem, stepping: Stepping) -> Simulation {
-    Simulation::new(problem.clone(), stepping).unwrap_or_else(|error| panic!("{error}"))
+pub(crate) fn simulate(problem: &Problem, stepping: Stepping) -> OneStep {
+    OneStep::new(problem.clone(), stepping).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Does the given number of steps, each of which must succeed.
 #[track_caller]
-pub(crate) fn advance(simulation: &mut Simulation, steps: usize) {
+pub(crate) fn advance(simulation: &mut OneStep, steps: usize) {
     for _ in 0..steps {
         simulation
-            .advance()
+            .step_once()
             .unwrap_or_else(|error| panic!("{error}"));
     }
 }
@@ -92,7 +92,7 @@ pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
         .zip(problem.mesh.nodes())
         .map(|(theta, x)| theta + theta_a * (1.0 - x))
         .collect();
-    let initial = Initial {
+    let initial = InitialValues {
         u: level.u.clone(),
         u_t: level.v.clone(),
         phi: level.phi.clone(),

@@ -4,8 +4,9 @@ use super::scenes::{
     EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping,
     uniform,
 };
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{InitialValues, Problem, Stepping};
 use thermobeam::parameters::Beam;
-use thermobeam::simulation::{Initial, Problem, Stepping};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
 /// The paper's data without temperature.
@@ -18,7 +19,7 @@ fn cold(problem: Problem) -> Problem {
     let theta = vec![0.0; problem.initial.theta.len()];
     Problem {
         beam,
-        initial: Initial {
+        initial: InitialValues {
             theta,
             ..problem.initial
         },

@@ -4,7 +4,7 @@ use super::scenes::{
     EXPERIMENTS, distance, from_level, paper, schemes_and_meshes, simulate, stepping,
 };
 use thermobeam::norms::max_or_nan;
-use thermobeam::simulation::Stepping;
+use thermobeam::one_step::Stepping;
 use thermobeam::solve::{Settings, Solver, Start, Stopping};
 
 /// The largest distance of a step to the same step solved to round-off, over the first steps of
@@ -29,7 +29,7 @@ fn largest_distance(settings: Settings, dt: f64, steps: usize) -> f64 {
             );
             for _ in 0..steps {
                 let old = simulation.level();
-                let report = simulation.advance().unwrap();
+                let report = simulation.step_once().unwrap();
                 assert!(
                     report.increment <= settings.stopping.tolerance().expect("a tolerance"),
                     "{report:?}"
@@ -42,7 +42,7 @@ fn largest_distance(settings: Settings, dt: f64, steps: usize) -> f64 {
                         ..stepping(dt)
                     },
                 );
-                same.advance().unwrap();
+                same.step_once().unwrap();
                 worst = max_or_nan(
                     worst,
                     distance(&problem.mesh, &simulation.level(), &same.level()),
@@ -135,7 +135,7 @@ fn newtons_error_bound_holds_near_buckling() {
             );
             for step in 1..=50 {
                 let old = simulation.level();
-                let report = simulation.advance().unwrap();
+                let report = simulation.step_once().unwrap();
                 let mut same = simulate(
                     &from_level(&problem, &old),
                     Stepping {
@@ -144,7 +144,7 @@ fn newtons_error_bound_holds_near_buckling() {
                         ..stepping(dt)
                     },
                 );
-                same.advance().unwrap();
+                same.step_once().unwrap();
                 let distance = distance(&problem.mesh, &simulation.level(), &same.level());
                 assert!(
                     distance <= tolerance,

@@ -1,7 +1,8 @@
 //! Unnecessary work is not done. Counts are tested because, unlike times, they are exact.
 
 use super::scenes::{EXPERIMENTS, advance, paper, simulate, stepping, uniform};
-use thermobeam::simulation::{Problem, Stepping};
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::solve::{Settings, Solver, Start};
 
 const STEPS: usize = 50;

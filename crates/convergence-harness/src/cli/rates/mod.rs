@@ -1,13 +1,15 @@
-//! `rates FILE`: errors of any code, judged by the rule of the studies.
+//! `rates FILE...`: errors of any code, judged by the rule of the studies.
 
 mod shown;
 
+use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
+use super::screen::{self, Format};
 use crate::input::error_table::{Choice, Column, RateTable, names::position};
 use crate::judge::claims::{Claim, order_from_text};
 use crate::judge::richardson::{Estimate, Estimator};
@@ -15,17 +17,19 @@ use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 use crate::project::Project;
 use crate::text::names::{did_you_mean, nearest, quoted};
 
-/// Judge a table of step sizes and errors made elsewhere
+/// Judge tables of step sizes and errors made elsewhere
 ///
 /// The input may be tables, logs, lists or JSON. The step is the column that falls, or counts up,
 /// by regular ratios; errors are positive and fall; rates are recognised by their numbers. A line
-/// says how the table was read. Exit status 0 if every rate with a claim agrees with its order, 1
-/// if one does not, the data cannot tell or nothing is claimed, 2 if the table cannot be read: then
-/// the message has the command that reads it.
+/// says how the table was read. Several tables of one file are judged each under its heading. Exit
+/// status 0 if every rate with a claim agrees with its order, 1 if one does not, the data cannot
+/// tell or nothing is claimed in a table, 2 if a table cannot be read: then the message has the
+/// command that reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The table, - for standard input
-    file: PathBuf,
+    /// The tables, - for standard input, which is read without a file, too
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
     /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may
     /// be repeated. Without one nothing passes
     #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
@@ -90,7 +94,8 @@ fn claimed(text: &str) -> Result<Claimed, String> {
     let (name, order) = text.split_at(at.unwrap_or(0));
     let name = name.trim_end();
     let order = order_from_text(order).filter(|_| name.is_empty() || name.ends_with('='));
-    let (order, at_least) = order.ok_or("expected a number > 0, or NAME= and a number > 0")?;
+    let (order, at_least) = order
+        .ok_or("expected a number > 0, '>=P' with such a number P, or NAME= before one of them")?;
     Ok(Claimed {
         text: text.to_owned(),
         name: name.strip_suffix('=').map(str::to_owned),
@@ -133,66 +138,120 @@ impl JudgedColumn<'_> {
     }
 }
 
-/// Everything that is printed and written.
+/// A table that was read.
+struct Source {
+    /// As the command line names it.
+    file: String,
+    /// The file, and the heading of the table if the file has several.
+    name: String,
+    table: RateTable,
+}
+
+/// Everything that is printed and written about a table.
 struct Judgement<'t> {
     project: &'t Project,
-    source: String,
-    table: &'t RateTable,
+    source: &'t Source,
     columns: Vec<JudgedColumn<'t>>,
     judge: &'t Judge,
     verdict: Verdict,
 }
 
-/// Judges the table, prints rates and verdicts, and writes the files requested.
+/// Judges the tables, prints rates and verdicts, and writes the files requested.
 ///
 /// # Errors
-/// A table or claims that cannot be used, and a folder that cannot be written.
+/// Tables or claims that cannot be used, and a folder that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
     let estimator = Estimator::new(arguments.tolerance)?;
-    let source = arguments.file.display().to_string();
-    let table = RateTable::read_with(&arguments.file, &choice(project, arguments, &source))?;
-    let judged = |(k, (column, claim)): (usize, (_, Claim))| {
-        let column: &Column = column;
-        let estimate = (k >= table.columns.len()).then(|| column.estimate(&estimator, claim.order));
+    let sources = sources(project, arguments)?;
+    let claims = claims(arguments, &sources)?;
+    let judged = |(source, claims): (_, Vec<Claim>)| {
+        let columns = judged_columns(source, &claims, &judge, &estimator, arguments.all);
+        let deciding = columns.iter().filter(|column| column.decides);
+        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
+        Judgement {
+            project,
+            source,
+            columns,
+            judge: &judge,
+            verdict,
+        }
+    };
+    let findings: Vec<Judgement<'_>> = sources.iter().zip(claims).map(judged).collect();
+    let verdict = Verdict::worst(findings.iter().map(|judgement| judgement.verdict));
+    let flags = &arguments.flags;
+    if let Some(folder) = &flags.out {
+        shown::write(&findings, verdict, folder)?;
+    }
+    let words = match flags.format {
+        Format::Csv => shown::csv(&findings),
+        Format::Md => shown::rows_in_markdown(&findings),
+        Format::Text | Format::Json => {
+            shown::text_of_all(&findings, verdict, flags.quiet, screen::verdict)
+        }
+    };
+    Ok(flags.show("rates", verdict, &shown::object_of_all(&findings), &words)?)
+}
+
+/// The columns of a table with their judgements.
+///
+/// * `claims`: one for each column, errors first.
+/// * `all`: whether columns without a claim count, too.
+fn judged_columns<'t>(
+    source: &'t Source,
+    claims: &[Claim],
+    judge: &Judge,
+    estimator: &Estimator,
+    all: bool,
+) -> Vec<JudgedColumn<'t>> {
+    let errors = source.table.columns.len();
+    let judged = |(k, (column, claim)): (usize, (&'t Column, &Claim))| {
+        let estimate = (k >= errors).then(|| column.estimate(estimator, claim.order));
         let rate = estimate.as_ref().map_or_else(
-            || column.judge(&judge, &claim),
+            || column.judge(judge, claim),
             |estimate| estimate.judged.clone(),
         );
         JudgedColumn {
             column,
-            claim,
+            claim: *claim,
             rate,
             estimate,
-            decides: arguments.all || !claim.order.is_nan(),
+            decides: all || !claim.order.is_nan(),
         }
     };
-    let claims = claims_of(arguments, &table)?;
-    let columns: Vec<JudgedColumn<'_>> = all(&table).zip(claims).enumerate().map(judged).collect();
-    let verdict = Verdict::worst(
-        columns
-            .iter()
-            .filter(|column| column.decides)
-            .map(|column| column.rate.verdict),
-    );
-    let findings = Judgement {
-        project,
-        source,
-        table: &table,
-        columns,
-        judge: &judge,
-        verdict,
-    };
-    let flags = &arguments.flags;
-    if let Some(folder) = &flags.out {
-        shown::write(&findings, folder)?;
+    let columns = columns(&source.table).zip(claims).enumerate();
+    columns.map(judged).collect()
+}
+
+/// Reads the tables of all files; without a file those of standard input, unless it is a terminal.
+fn sources(project: &Project, arguments: &Arguments) -> Result<Vec<Source>, Unusable> {
+    let mut files: Vec<String> = arguments
+        .files
+        .iter()
+        .map(|file| file.display().to_string())
+        .collect();
+    if files.is_empty() {
+        if io::stdin().is_terminal() {
+            return Err(Unusable::because(
+                "rates: found no FILE; expected a table, or one that another program writes to standard input",
+            ));
+        }
+        files.push("-".to_owned());
     }
-    Ok(flags.show(
-        "rates",
-        verdict,
-        &shown::object(&findings),
-        &shown::text(&findings, flags.quiet),
-    )?)
+    let mut sources = vec![];
+    for file in files {
+        let choice = choice(project, arguments, &file);
+        for (heading, table) in RateTable::read_all_with(&file, &choice)? {
+            let name = if heading.is_empty() {
+                file.clone()
+            } else {
+                format!("{file}: {heading}")
+            };
+            let file = file.clone();
+            sources.push(Source { file, name, table });
+        }
+    }
+    Ok(sources)
 }
 
 /// What the arguments say about the table.
@@ -217,20 +276,46 @@ fn choice(project: &Project, arguments: &Arguments, source: &str) -> Choice {
 }
 
 /// The columns to judge: errors, then values.
-fn all(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
+fn columns(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
     table.columns.iter().chain(&table.values)
+}
+
+/// The claims for each column of each table. Each column that is named must be in one of them.
+fn claims(arguments: &Arguments, sources: &[Source]) -> Result<Vec<Vec<Claim>>, Unusable> {
+    let all: Vec<&str> = sources
+        .iter()
+        .flat_map(|source| columns(&source.table))
+        .map(|column| column.name.as_str())
+        .collect();
+    for claimed in &arguments.order {
+        let is_in = |source: &Source, name: &str| {
+            let names = columns(&source.table).map(|column| column.name.as_str());
+            position(names, name).is_some()
+        };
+        if let Some(name) = &claimed.name
+            && !sources.iter().any(|source| is_in(source, name))
+        {
+            return Err(unknown(name, &claimed.text, &all));
+        }
+    }
+    sources
+        .iter()
+        .map(|source| claims_of(arguments, &source.table))
+        .collect()
 }
 
 /// The claim for each column; the order is NaN without one.
 fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unusable> {
-    let names: Vec<&str> = all(table).map(|column| column.name.as_str()).collect();
+    let names: Vec<&str> = columns(table).map(|column| column.name.as_str()).collect();
     // The last entry is the claim for all columns.
     let mut of: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
     for claimed in &arguments.order {
         let text = &claimed.text;
-        let k = claimed.name.as_deref().map_or(Ok(names.len()), |name| {
-            position(names.iter().copied(), name).ok_or_else(|| unknown(name, text, &names))
-        })?;
+        let place = claimed.name.as_deref().map_or(Some(names.len()), |name| {
+            position(names.iter().copied(), name)
+        });
+        // Another table has the column.
+        let Some(k) = place else { continue };
         if let Some(Claimed { text: first, .. }) = of[k].replace(claimed) {
             let expected = "expected one order for all columns, and --order NAME=P for others";
             return Err(Unusable::because(&match names.get(k) {

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::{JudgedColumn, Judgement};
 use crate::cli::explain::section;
-use crate::cli::{github, screen};
+use crate::cli::github;
 use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
@@ -15,9 +15,9 @@ use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict, judged_in_words};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
-use crate::store::{atomic, junit_of};
+use crate::store::{JudgedSuite, atomic, junit_of};
 use crate::text::number::{
-    committed_rate, error_text, order_text, pair_text, plain_text, short_text,
+    committed_rate, counted, error_text, order_text, pair_text, plain_text, short_text,
 };
 use crate::text::visible::{self, visible};
 
@@ -82,24 +82,134 @@ impl JudgedColumn<'_> {
     }
 }
 
+/// What is found in all tables: each under its name if there are several, then the verdict on all.
+///
+/// * `shown`: a verdict as it is printed, perhaps in its colour.
+pub(super) fn text_of_all(
+    findings: &[Judgement<'_>],
+    verdict: Verdict,
+    quiet: bool,
+    shown: fn(Verdict) -> String,
+) -> String {
+    if let [alone] = findings {
+        return text(alone, quiet, shown);
+    }
+    let one = |findings: &Judgement<'_>| {
+        let text = text(findings, quiet, shown);
+        format!("{}\n{text}\n", visible(&findings.source.name))
+    };
+    let tables: String = findings
+        .iter()
+        .filter(|findings| !(quiet && findings.verdict.is_pass()))
+        .map(one)
+        .collect();
+    format!(
+        "{tables}{}: {}\n",
+        shown(verdict),
+        sentence_of_all(findings)
+    )
+}
+
+/// How many tables agree, or what the only one says.
+fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
+    if let [alone] = findings {
+        return sentence(alone);
+    }
+    let passed = findings
+        .iter()
+        .filter(|findings| findings.verdict.is_pass())
+        .count();
+    format!("{passed} of {} agree", counted(findings.len(), "table"))
+}
+
+impl Judgement<'_> {
+    fn columns_with_rates(&self) -> Vec<Shown<'_>> {
+        self.columns
+            .iter()
+            .map(JudgedColumn::column_with_rate)
+            .collect()
+    }
+}
+
+/// The rows of each table, separated by commas, without marks; a line with its name before each of
+/// several.
+pub(super) fn csv(findings: &[Judgement<'_>]) -> String {
+    let cell = |cell: &String| {
+        let cell = cell.trim_end_matches([' ', '_', '~', '\'']).trim();
+        if cell.contains([',', '"', '\n']) {
+            format!("\"{}\"", cell.replace('"', "\"\""))
+        } else {
+            cell.to_owned()
+        }
+    };
+    let line = |row: &Vec<String>| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
+    let table = |judgement: &Judgement<'_>| {
+        let rows = shown::rows(
+            &judgement.source.table.step,
+            &judgement.columns_with_rates(),
+        );
+        let head = if findings.len() > 1 {
+            format!("# {}\n", visible(&judgement.source.name))
+        } else {
+            String::new()
+        };
+        head + &rows.iter().map(line).collect::<String>()
+    };
+    findings.iter().map(table).collect::<Vec<_>>().join("\n")
+}
+
+/// The rows of each table in Markdown, with the meaning of their marks; each of several under its
+/// name.
+pub(super) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
+    let line = |row: &Vec<String>| {
+        let cells: Vec<String> = row.iter().map(|cell| escaped(cell.trim())).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let table = |judgement: &Judgement<'_>| {
+        let columns = judgement.columns_with_rates();
+        let rows = shown::rows(&judgement.source.table.step, &columns);
+        let head = if findings.len() > 1 {
+            format!("## {}\n\n", escaped(&judgement.source.name))
+        } else {
+            String::new()
+        };
+        let rule = format!("|{}\n", " --: |".repeat(rows[0].len()));
+        let body: String = rows[1..].iter().map(line).collect();
+        let legend: String = shown::legend(&columns, judgement.judge.floor())
+            .lines()
+            .map(|line| format!("\n{}\n", escaped(line)))
+            .collect();
+        head + &line(&rows[0]) + &rule + &body + &legend
+    };
+    findings.iter().map(table).collect::<Vec<_>>().join("\n")
+}
+
+/// A text in Markdown, without markup of its own.
+fn escaped(text: &str) -> String {
+    let plain = |c: char| {
+        if "\\|*_`<[]".contains(c) {
+            vec!['\\', c]
+        } else {
+            vec![c]
+        }
+    };
+    visible(text).chars().flat_map(plain).collect()
+}
+
 /// The errors with their rates, a verdict for each column, advice, and the overall verdict.
-pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
-    let table = findings.table;
+fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {
+    let table = &findings.source.table;
     let columns = &findings.columns;
     let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
     let line = |judged: &JudgedColumn<'_>| {
         format!(
             "{}: {}: {}\n",
             judged.column.name,
-            screen::verdict(judged.rate.verdict),
+            shown(judged.rate.verdict),
             judged.answer()
         )
     };
-    let last = format!(
-        "{}: {}\n",
-        screen::verdict(findings.verdict),
-        sentence(findings)
-    );
+    let last = format!("{}: {}\n", shown(findings.verdict), sentence(findings));
     let reading = format!("{}\n", table.reading);
     if quiet {
         let lines: String = columns
@@ -114,8 +224,13 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
         } + &lines
             + &last;
     }
-    let shown: Vec<Shown<'_>> = columns.iter().map(JudgedColumn::column_with_rate).collect();
-    let mut text = reading + &shown::table(&table.step, &shown, findings.judge.floor()) + "\n";
+    let mut text = reading
+        + &shown::table(
+            &table.step,
+            &findings.columns_with_rates(),
+            findings.judge.floor(),
+        )
+        + "\n";
     text.extend(columns.iter().map(line));
     // Words common to several columns appear once.
     let mut said = vec![];
@@ -130,7 +245,10 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
         }
     }
     if !columns.iter().all(JudgedColumn::is_claimed) {
-        let command = format!("{} rates {}", findings.project.command, findings.source);
+        let command = format!(
+            "{} rates {}",
+            findings.project.command, findings.source.file
+        );
         text += &format!(
             "\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n"
         );
@@ -143,7 +261,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool) -> String {
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let rate = &judged.rate;
     let name = &judged.column.name;
-    let step = &findings.table.step;
+    let step = &findings.source.table.step;
     let general = rate.advice().unwrap_or_default();
     let errors: Vec<f64> = judged
         .column
@@ -239,7 +357,7 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
             continue;
         }
         let name = &judged.column.name;
-        let step = &findings.table.step;
+        let step = &findings.source.table.step;
         let parts = ratio.powi(ahead) / finest;
         let is_part = step == "h" && (parts - parts.round()).abs() < 1e-9 * parts;
         let at = if is_part {
@@ -280,9 +398,23 @@ fn sentence(findings: &Judgement<'_>) -> String {
     }
 }
 
-/// What `rates --format json` prints in addition to the verdict: rates as in `study --format json`,
-/// with the column's name as the norm's.
-pub(super) fn object(findings: &Judgement<'_>) -> Value {
+/// What `rates --format json` prints in addition to the verdict: the object of a table, or a list of
+/// several, each with its name and verdict.
+pub(super) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
+    if let [alone] = findings {
+        return object(alone);
+    }
+    let table = |findings: &Judgement<'_>| {
+        let mut object = object(findings);
+        object["table"] = json!(findings.source.name);
+        object["verdict"] = json!(findings.verdict.name());
+        object
+    };
+    json!({"tables": findings.iter().map(table).collect::<Vec<_>>()})
+}
+
+/// Rates as in `study --format json`, with the column's name as the norm's.
+fn object(findings: &Judgement<'_>) -> Value {
     let rate = |judged: &JudgedColumn<'_>| {
         let mut object = json!(judged.rate);
         let level = |level: &Level| json!({"step": level.step, "error": level.error});
@@ -305,29 +437,53 @@ pub(super) fn object(findings: &Judgement<'_>) -> Value {
         object
     };
     let not_errors = findings
+        .source
         .table
         .not_errors
         .iter()
         .map(|(column, because)| json!({"column": column, "because": because}));
     json!({
-        "step": findings.table.step, "floor": findings.judge.floor(),
+        "step": findings.source.table.step, "floor": findings.judge.floor(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.table.reading],
+        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.source.table.reading],
     })
 }
 
-/// Writes figure, Markdown and JUnit XML, each atomically, and appends to the job summary of
-/// GitHub.
+/// Writes figures, Markdown and JUnit XML, each atomically, and appends to the job summary of
+/// GitHub. The figure of an only table is `rates.svg`, those of several are `rates-1.svg`, ...
 ///
 /// # Errors
 /// The error of the operating system, with the name of the file.
-pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
+pub(super) fn write(findings: &[Judgement<'_>], verdict: Verdict, folder: &Path) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
-    atomic::write(&folder.join("rates.svg"), figure(findings))?;
-    atomic::write(
-        &folder.join("rates.md"),
-        markdown(findings, "![Errors over steps](rates.svg)\n\n"),
-    )?;
+    let mut pages = vec![];
+    for (k, judgement) in findings.iter().enumerate() {
+        let name = if findings.len() == 1 {
+            "rates.svg".to_owned()
+        } else {
+            format!("rates-{}.svg", k + 1)
+        };
+        atomic::write(&folder.join(&name), figure(judgement))?;
+        let picture = format!("![Errors over steps]({name})\n\n");
+        pages.push(markdown(judgement, &picture));
+    }
+    if findings.len() > 1 {
+        pages.push(format!("**{verdict}**: {}\n", sentence_of_all(findings)));
+    }
+    atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
+    let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
+    let project = findings.first().map_or("", |first| first.project.name);
+    let junit = junit_of(project, &suites).map_err(io::Error::other)?;
+    atomic::write(&folder.join("junit.xml"), junit)?;
+    // A picture would need an address on the web.
+    for judgement in findings {
+        github::summarise(&markdown(judgement, ""));
+    }
+    Ok(())
+}
+
+/// A test case for each column that decides; without one a case that fails for want of a claim.
+fn suite(findings: &Judgement<'_>) -> JudgedSuite {
     let case = |judged: &JudgedColumn<'_>| {
         let least = if judged.claim.at_least {
             "at least "
@@ -345,21 +501,15 @@ pub(super) fn write(findings: &Judgement<'_>, folder: &Path) -> io::Result<()> {
             judged.answer(),
         )
     };
-    let mut cases: Vec<_> = findings
-        .columns
-        .iter()
-        .filter(|column| column.decides)
-        .map(case)
-        .collect();
+    let deciding = findings.columns.iter().filter(|column| column.decides);
+    let mut cases: Vec<_> = deciding.map(case).collect();
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
     }
-    let junit =
-        junit_of(findings.project.name, &findings.source, &cases).map_err(io::Error::other)?;
-    atomic::write(&folder.join("junit.xml"), junit)?;
-    // A picture would need an address on the web.
-    github::summarise(&markdown(findings, ""));
-    Ok(())
+    JudgedSuite {
+        name: findings.source.name.clone(),
+        cases,
+    }
 }
 
 /// The errors over the steps, columns with a claim first.
@@ -401,10 +551,10 @@ fn figure(findings: &Judgement<'_>) -> String {
         Xy {
             title: Some(format!(
                 "Errors over {}, and the lines of their rates",
-                findings.table.step
+                findings.source.table.step
             )),
             guides,
-            ..Xy::of_errors(&findings.table.step)
+            ..Xy::of_errors(&findings.source.table.step)
         },
         &series,
         &[],
@@ -415,19 +565,17 @@ fn figure(findings: &Judgement<'_>) -> String {
 ///
 /// * `picture`: the link to the figure, with the empty line below it.
 fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
-    let plain = |c: char| {
-        if "\\|*_`<[]".contains(c) {
-            vec!['\\', c]
-        } else {
-            vec![c]
-        }
-    };
-    let source: String = visible(&findings.source).chars().flat_map(plain).collect();
-    let text = visible::lines(&text(findings, false));
+    let source = escaped(&findings.source.name);
+    let text = visible::lines(&text(findings, false, plain_verdict));
     let block: String = text.lines().map(|line| format!("    {line}\n")).collect();
     format!(
         "# Rates of {source}\n\n**{}**: {}\n\n{picture}{block}",
         findings.verdict,
         sentence(findings)
     )
+}
+
+/// A verdict without a colour.
+fn plain_verdict(verdict: Verdict) -> String {
+    verdict.to_string()
 }

@@ -9,20 +9,23 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `TABLES.md`
+//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `reading-tables.md`
 //! shows which. The numbers decide what a column is, and its name if they do not: the step falls,
 //! or grows if it is a count, by regular ratios; errors are positive and fall; rates are those of
 //! another column; values tend to a limit. [`RateTable::reading`] says in a line how the table was
 //! read. Ambiguous tables are refused, with the command that works. `NaN` and `inf` are errors; a
 //! column with one of them fails.
 
+mod blocks;
 mod columns;
 mod digits;
+mod forms;
 pub(crate) mod names;
 mod number;
-mod pairs;
+pub(crate) mod pairs;
 mod reader;
 mod roles;
+mod stated;
 mod step;
 mod text;
 
@@ -96,17 +99,8 @@ impl RateTable {
     /// [`InputError`] with line, column and the name of the table's column; also for a choice of
     /// missing columns.
     pub fn read_with(path: impl AsRef<Path>, choice: &Choice) -> Result<Self, InputError> {
-        const STANDARD_INPUT: &str = "standard input";
-        let path = path.as_ref();
-        if path == Path::new("-") {
-            let text = input::read_from(STANDARD_INPUT, io::stdin().lock())?;
-            return Self::parse_with(&text, STANDARD_INPUT, choice);
-        }
-        Self::parse_with(
-            &input::read_text(path)?,
-            &path.display().to_string(),
-            choice,
-        )
+        let (text, file_name) = text_and_name(path.as_ref())?;
+        Self::parse_with(&text, &file_name, choice)
     }
 
     /// Reads a table from `text`; messages name `file_name`.
@@ -115,6 +109,47 @@ impl RateTable {
     /// As [`RateTable::read_with`], except for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
         roles::read(&text::plain(text), file_name, choice)
+    }
+
+    /// Reads all tables of a file, each with its heading, which is empty for an only one; `-` is
+    /// standard input.
+    ///
+    /// # Errors
+    /// As [`RateTable::read_with`].
+    pub fn read_all_with(
+        path: impl AsRef<Path>,
+        choice: &Choice,
+    ) -> Result<Vec<(String, Self)>, InputError> {
+        let (text, file_name) = text_and_name(path.as_ref())?;
+        Self::parse_all_with(&text, &file_name, choice)
+    }
+
+    /// Reads all tables of `text`; messages name `file_name`.
+    ///
+    /// A text that can be read as one table is one. Otherwise lines of words part it, and it has
+    /// several tables if each part can be read.
+    ///
+    /// # Errors
+    /// As [`RateTable::parse_with`], about the whole text.
+    pub fn parse_all_with(
+        text: &str,
+        file_name: &str,
+        choice: &Choice,
+    ) -> Result<Vec<(String, Self)>, InputError> {
+        let text = text::plain(text);
+        let error = match roles::read(&text, file_name, choice) {
+            Ok(table) => return Ok(vec![(String::new(), table)]),
+            Err(error) => error,
+        };
+        let blocks = blocks::split(&text);
+        let tables: Result<Vec<_>, InputError> = blocks
+            .into_iter()
+            .map(|block| {
+                let table = roles::read(block.text, file_name, choice)?;
+                Ok((block.heading, table))
+            })
+            .collect();
+        tables.ok().filter(|tables| tables.len() > 1).ok_or(error)
     }
 
     /// The column of errors of this name, with or without its unit.
@@ -127,6 +162,16 @@ impl RateTable {
 /// The names in a list of the command line; `None` without any.
 fn list(names: &[String]) -> Option<String> {
     Some(names.join(",")).filter(|list| !list.is_empty())
+}
+
+/// The text of a file, and its name in messages.
+fn text_and_name(path: &Path) -> Result<(String, String), InputError> {
+    const STANDARD_INPUT: &str = "standard input";
+    if path == Path::new("-") {
+        let text = input::read_from(STANDARD_INPUT, io::stdin().lock())?;
+        return Ok((text, STANDARD_INPUT.to_owned()));
+    }
+    Ok((input::read_text(path)?, path.display().to_string()))
 }
 
 impl Choice {

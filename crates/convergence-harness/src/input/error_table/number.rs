@@ -99,13 +99,15 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
         text.replace("\\frac{", "").replace("}{", "/"),
         |text, (from, to)| text.replace(from, to),
     );
-    text.retain(|c| !c.is_whitespace() && !matches!(c, '$' | '{' | '}'));
+    text.retain(|c| !c.is_whitespace() && !matches!(c, '$' | '{' | '}' | '\\'));
+    // A column in per cent is one throughout: see `in_percent`.
+    let text = text.strip_suffix('%').unwrap_or(&text);
     match text.split_once(',') {
         // Three digits after a comma, and no zero before it, may be thousands.
         Some((whole, rest)) if rest.len() == 3 && !matches!(whole, "0" | "-0") => None,
         Some((whole, rest)) if decimal_comma => value(&format!("{whole}.{rest}")),
         Some(_) => None,
-        None => value(&text),
+        None => value(text),
     }
 }
 
@@ -121,6 +123,22 @@ fn is_no_number(cell: &str) -> bool {
 /// A whole number, perhaps in parentheses.
 fn integer(text: &str) -> Option<i32> {
     text.trim_matches(['(', ')']).parse().ok()
+}
+
+/// Whether a cell ends with the sign of per cent.
+pub(super) fn has_percent(cell: &str) -> bool {
+    cell.trim_end_matches('$').ends_with('%')
+}
+
+/// Whether all numbers of a column are in per cent; `None` if some are and others are not.
+pub(super) fn in_percent(cells: &[&str]) -> Option<bool> {
+    if !cells.iter().any(|cell| has_percent(cell)) {
+        return Some(false);
+    }
+    let of_numbers = cells.iter().filter(|cell| number(cell, true).is_some());
+    let mut signs = of_numbers.map(|cell| has_percent(cell));
+    let first = signs.next().unwrap_or(false);
+    signs.all(|sign| sign == first).then_some(first)
 }
 
 /// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number

@@ -40,6 +40,21 @@ struct Pair<'t> {
     is_marked: bool,
 }
 
+/// A name, and the place of a number in the list behind it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Key<'t> {
+    name: &'t str,
+    place: usize,
+}
+
+impl<'t> Pair<'t> {
+    /// A key for each of its numbers.
+    fn keys(&self) -> impl Iterator<Item = Key<'t>> + use<'t> {
+        let name = self.name;
+        (0..self.values.len()).map(move |place| Key { name, place })
+    }
+}
+
 /// Characters around names and values.
 fn is_mark(c: char) -> bool {
     c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
@@ -63,11 +78,28 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     if is_table_of_rows {
         return None;
     }
-    Some(if longest > 1 {
+    Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
         records(&pairs)
     })
+}
+
+/// The numbers of a line that `=` or `:` separates from their names, such as `max error = 1.5e-3`.
+pub(crate) fn named_numbers(line: &str) -> Vec<(&str, f64)> {
+    if !line.contains(['=', ':']) {
+        return vec![];
+    }
+    let mut numbers = vec![];
+    for pair in find_pairs(line).pairs {
+        if let [text] = pair.values[..]
+            && pair.is_marked
+            && let Some(number) = number(text, false)
+        {
+            numbers.push((pair.name, number.value));
+        }
+    }
+    numbers
 }
 
 /// What a text holds.
@@ -196,20 +228,27 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
     grid
 }
 
-/// How often a text has a name before a number.
+/// Whether a name with several numbers occurs again: then each list is the errors of one level.
+fn repeats_a_list(pairs: &[Pair<'_>]) -> bool {
+    let mut lists = HashSet::new();
+    let mut several = pairs.iter().filter(|pair| pair.values.len() > 1);
+    several.any(|pair| !lists.insert(pair.name))
+}
+
+/// How often a text has a number with this name and place.
 struct Repetition<'t> {
-    name: &'t str,
+    key: Key<'t>,
     count: usize,
 }
 
-/// The names of a text in order of occurrence.
-fn count_names<'t>(pairs: &[Pair<'t>]) -> Vec<Repetition<'t>> {
-    let mut places: HashMap<&str, usize> = HashMap::new();
+/// The numbers of a text, by name and place, in order of occurrence.
+fn count_keys<'t>(pairs: &[Pair<'t>]) -> Vec<Repetition<'t>> {
+    let mut places: HashMap<Key<'_>, usize> = HashMap::new();
     let mut repetitions: Vec<Repetition<'_>> = vec![];
-    for Pair { name, .. } in pairs {
-        let place = *places.entry(name).or_insert(repetitions.len());
+    for key in pairs.iter().flat_map(Pair::keys) {
+        let place = *places.entry(key).or_insert(repetitions.len());
         if place == repetitions.len() {
-            repetitions.push(Repetition { name, count: 0 });
+            repetitions.push(Repetition { key, count: 0 });
         }
         repetitions[place].count += 1;
     }
@@ -218,8 +257,8 @@ fn count_names<'t>(pairs: &[Pair<'t>]) -> Vec<Repetition<'t>> {
 
 /// The number of levels: the count of the step, or else the one that most names share.
 fn count_levels(repetitions: &[Repetition<'_>]) -> usize {
-    let step = repetitions.iter().find(|Repetition { name, count }| {
-        *count > 1 && matches!(Word::of(name), Word::Step | Word::Count(_))
+    let step = repetitions.iter().find(|Repetition { key, count }| {
+        *count > 1 && matches!(Word::of(key.name), Word::Step | Word::Count(_))
     });
     if let Some(step) = step {
         return step.count;
@@ -237,36 +276,36 @@ fn count_levels(repetitions: &[Repetition<'_>]) -> usize {
 /// A row for each repetition of the names. Names that a solver prints more often than the step are
 /// left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
-    let repetitions = count_names(pairs);
+    let repetitions = count_keys(pairs);
     let levels = count_levels(&repetitions);
     let mut names = vec![];
+    let mut columns: HashMap<Key<'_>, usize> = HashMap::new();
     let mut left_out = vec![];
     let mut first = None;
-    for Repetition { name, count } in repetitions {
+    for Repetition { key, count } in repetitions {
         if count > levels || 2 * count < levels {
             left_out.push(LeftOut {
-                name: name.to_owned(),
+                name: key.name.to_owned(),
                 reason: format!("printed {count} times for {levels} levels"),
             });
             continue;
         }
         if count == levels && first.is_none() {
-            first = Some(name);
+            first = Some(key.name);
         }
-        names.push(name);
+        columns.insert(key, names.len());
+        names.push(key.name);
     }
-    let columns: HashMap<&str, usize> = names
-        .iter()
-        .enumerate()
-        .map(|(column, name)| (*name, column))
-        .collect();
     let mut rows: Vec<Vec<&str>> = vec![];
     for pair in pairs {
         if Some(pair.name) == first {
             rows.push(vec![&pair.name[..0]; names.len()]);
         }
-        if let (Some(row), Some(column)) = (rows.last_mut(), columns.get(pair.name)) {
-            row[*column] = pair.values[0];
+        let Some(row) = rows.last_mut() else { continue };
+        for (key, value) in pair.keys().zip(&pair.values) {
+            if let Some(column) = columns.get(&key) {
+                row[*column] = value;
+            }
         }
     }
     RawTable {

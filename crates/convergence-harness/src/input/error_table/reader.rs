@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::Choice;
 use super::columns::Cells;
 use super::names::{self, Word};
-use super::number::{halves, number};
+use super::number::{halves, has_percent, in_percent, number};
 use super::pairs::{LeftOut, RawTable};
 use super::text::counts_rows;
 use crate::input::{Complaint, InputError, Source, shorten};
@@ -24,6 +24,8 @@ pub(super) struct TableReader<'t> {
     pub(super) choice: &'t Choice,
     table: &'t RawTable<'t>,
     pub(super) columns: Vec<Cells<'t>>,
+    /// The column that the reader has added: the numbers of the rows.
+    pub(super) rows: Option<usize>,
     /// What is not an error.
     pub(super) left_out: Vec<LeftOut>,
 }
@@ -77,9 +79,15 @@ impl<'t> TableReader<'t> {
             choice,
             table,
             columns: vec![],
+            rows: None,
             left_out: table.left_out.clone(),
         };
         reader.columns = reader.columns()?;
+        let has_levels = reader.columns.iter().any(|column| column.is_index);
+        if choice.ratio.is_some() && choice.step.is_none() && !has_levels {
+            reader.rows = Some(reader.columns.len());
+            reader.columns.push(reader.numbers_of_rows());
+        }
         Ok(reader)
     }
 
@@ -138,13 +146,33 @@ impl<'t> TableReader<'t> {
                 )
                 .into());
         }
-        if width < 2 {
+        let columns = self.columns_of(names);
+        if width < 2 && self.choice.ratio.is_none() {
             let found = "one column: write the table as CSV";
-            return Err(self
-                .refuse("a column of steps and at least one of errors", found)
-                .into());
+            let refusal = self.refuse("a column of steps and at least one of errors", found);
+            let halved = Offer {
+                comment: "if each row halves the step",
+                ..self.offer(|choice| choice.ratio = Some(2.0))
+            };
+            let is_column = columns[0].is_steep();
+            return Err(Refusal::from(refusal).offering(is_column.then_some(halved)));
         }
-        Ok(self.columns_of(names))
+        Ok(columns)
+    }
+
+    /// A column that the table lacks: the numbers of its rows, for `--ratio`.
+    fn numbers_of_rows(&self) -> Cells<'t> {
+        let rows = self.table.rows.len();
+        Cells {
+            name: "row".to_owned(),
+            word: Word::Cost,
+            texts: vec![""; rows],
+            values: (0..rows).map(|row| row as f64).collect(),
+            is_number: vec![true; rows],
+            halves: vec![0.0; rows],
+            is_claimed: false,
+            is_index: false,
+        }
     }
 
     fn columns_of(&self, names: Vec<String>) -> Vec<Cells<'t>> {
@@ -180,13 +208,20 @@ impl<'t> TableReader<'t> {
         let mut columns = Vec::with_capacity(names.len());
         for (k, name) in names.into_iter().enumerate() {
             let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
+            let percent = in_percent(&texts);
             let numbers: Vec<_> = texts
                 .iter()
                 .map(|text| {
-                    number(text, *decimal_comma).filter(|_| !(has_comma && text.contains('.')))
+                    let is_ambiguous =
+                        has_comma && text.contains('.') || percent.is_none() && has_percent(text);
+                    number(text, *decimal_comma).filter(|_| !is_ambiguous)
                 })
                 .collect();
             let word = Word::of(&name);
+            let name = match percent {
+                Some(true) if !name.contains('%') => format!("{name} [%]"),
+                _ => name,
+            };
             let may_count =
                 matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
             columns.push(Cells {
@@ -234,7 +269,9 @@ impl<'t> TableReader<'t> {
         } = &self.columns[column];
         is_number[row].then_some(values[row]).ok_or_else(|| {
             let cell = texts[row];
-            let more = if cell.len() > 1 && cell.chars().all(|c| c == '*') {
+            let more = if has_percent(cell) && number(cell, true).is_some() {
+                "; of its column, some numbers have `%` and others do not"
+            } else if cell.len() > 1 && cell.chars().all(|c| c == '*') {
                 "; Fortran writes stars where the field is too narrow"
             } else if self.table.decimal_comma && cell.contains(',') {
                 "; its comma may be that of decimals or of thousands"

@@ -356,6 +356,10 @@ impl TableReader<'_> {
                 let reason = format!("factors by which `{}` falls, not its rates", error.name);
                 Ok(Content::Other(reason))
             }
+            (Some((error, Derived::Factors)), _) => {
+                let reason = format!("the factors by which `{}` falls", error.name);
+                Ok(Content::Other(reason))
+            }
             (_, Some(_)) if column.is_constant() => Ok(Content::other("the same in each row")),
             (Some((error, _)), _) => Ok(Content::Other(format!("the rates of `{}`", error.name))),
             (None, Some(_)) if column.word == Word::Rate && column.is_steep() => Ok(Content::Error),

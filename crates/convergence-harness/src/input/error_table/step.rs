@@ -73,7 +73,8 @@ impl TableReader<'_> {
             None if self.choice.ratio.is_some() => StepColumn::certain(self.levels()?),
             None => self.natural_step()?,
         };
-        let measure = self.measure(column)?;
+        let (measure, by_rates) = self.measure(column)?;
+        let how = how + &by_rates;
         let name = &self.columns[column].name;
         let label = match measure {
             Measure::Step => name.to_owned(),
@@ -91,8 +92,14 @@ impl TableReader<'_> {
         })
     }
 
-    /// The column that numbers the levels: one named so rather than any that counts the rows.
+    /// The column that numbers the levels: one named so rather than any that counts the rows, or the
+    /// rows themselves where no column is a step.
     fn levels(&self) -> Result<usize, Refusal> {
+        if let Some(rows) = self.rows
+            && (self.columns.len() == 2 || self.natural_step().is_err())
+        {
+            return Ok(rows);
+        }
         let indices: Vec<usize> = (0..self.columns.len())
             .filter(|k| self.columns[*k].is_index)
             .collect();
@@ -100,8 +107,8 @@ impl TableReader<'_> {
             .iter()
             .find(|k| self.columns[**k].word == Word::Cost);
         named.or(indices.first()).copied().ok_or_else(|| {
-            let columns = self.columns.iter();
-            let names = listed(columns.map(|column| format!("`{}`", column.name)));
+            let printed = self.columns[..self.rows.unwrap_or(self.columns.len())].iter();
+            let names = listed(printed.map(|column| format!("`{}`", column.name)));
             let expected = "a column of levels 0, 1, 2, ... for --ratio, or --step COLUMN";
             Refusal::from(self.refuse(expected, &names))
                 .offering([self.offer(|choice| choice.ratio = None)])
@@ -116,6 +123,12 @@ impl TableReader<'_> {
             .filter(|(k, column)| accepts(*k, column.word))
             .map(|(k, _)| k)
             .collect()
+    }
+
+    /// The level whose ratio the rates of the table decide.
+    fn level_with_rates(&self) -> Option<usize> {
+        let level = self.columns.iter().position(is_named_level)?;
+        self.stated_ratio(level).map(|_| level)
     }
 
     /// The step by its name, else the count closest to it, else the column that falls by regular
@@ -197,20 +210,29 @@ impl TableReader<'_> {
                 how: format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4)),
             });
         }
+        if let Some(level) = self.level_with_rates() {
+            return Ok(StepColumn::certain(level));
+        }
         let with_first = first
             .filter(|k| unknown.contains(k))
             .map(|k| self.with_step(k));
-        let has_levels = self
-            .columns
-            .iter()
-            .any(|column| column.is_index && column.word == Word::Cost);
+        let has_levels = self.columns.iter().any(is_named_level);
         let with_levels = has_levels.then(|| Offer {
             comment: "if each level halves the step",
             ..self.offer(|choice| choice.ratio = Some(2.0))
         });
+        let offers_rows = with_first.is_none()
+            && !has_levels
+            && self.columns.iter().any(is_steep_error)
+            && !self.columns.iter().any(has_power_of_step);
+        let with_rows = offers_rows.then(|| Offer {
+            comment: "if each row halves the step",
+            ..self.offer(|choice| choice.ratio = Some(2.0))
+        });
         let names = listed(self.columns.iter().map(name_with_reason));
         let refusal = self.refuse("a column of steps: add `h`, or name it with --step", &names);
-        Err(Refusal::from(refusal).offering(with_first.into_iter().chain(with_levels)))
+        let offers = with_first.into_iter().chain(with_levels).chain(with_rows);
+        Err(Refusal::from(refusal).offering(offers))
     }
 
     /// The command with a column as the step.
@@ -223,8 +245,8 @@ impl TableReader<'_> {
         self.offer(|choice| (choice.step, choice.dim) = (Some(name), dim))
     }
 
-    /// What the column of the step holds.
-    fn measure(&self, step: usize) -> Result<Measure, Refusal> {
+    /// What the column of the step holds, and the rates that say so where no option does.
+    fn measure(&self, step: usize) -> Result<(Measure, String), Refusal> {
         let Cells { name, word, .. } = &self.columns[step];
         let is_edge =
             reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
@@ -235,7 +257,7 @@ impl TableReader<'_> {
         }
         let (expected, found) = match (self.choice.dim, self.choice.ratio) {
             (Some(_), Some(_)) => ("one of --dim and --ratio", "both".to_owned()),
-            (None, Some(ratio)) => return Ok(Measure::Level(ratio)),
+            (None, Some(ratio)) => return Ok((Measure::Level(ratio), String::new())),
             (Some(dim), None) if is_count && is_edge && dim != 1.0 => (
                 "no --dim but 1",
                 format!("`{name}`, which is known to be of one dimension"),
@@ -245,10 +267,26 @@ impl TableReader<'_> {
                 format!("the step `{name}`"),
             ),
             (None, None) if is_count && is_edge && matches!(word, Word::Count(_)) => {
-                return Ok(Measure::Count(1.0));
+                return Ok((Measure::Count(1.0), String::new()));
             }
-            (None, None) if is_count => return Err(self.without_dimension(step)),
-            (dim, None) => return Ok(dim.map_or(Measure::Step, Measure::Count)),
+            (None, None) if is_count => {
+                let stated = self
+                    .stated_dimension(step)
+                    .ok_or_else(|| self.without_dimension(step))?;
+                let how = format!(", as the rates of `{}` say", stated.error);
+                return Ok((Measure::Count(stated.number), how));
+            }
+            (None, None) if self.level_with_rates() == Some(step) => {
+                let stated = self
+                    .stated_ratio(step)
+                    .ok_or_else(|| self.without_dimension(step))?;
+                let how = format!(", as the rates of `{}` say", stated.error);
+                return Ok((Measure::Level(stated.number), how));
+            }
+            (dim, None) => {
+                let measure = dim.map_or(Measure::Step, Measure::Count);
+                return Ok((measure, String::new()));
+            }
         };
         Err(Refusal::from(self.refuse(expected, &found))
             .offering([self.offer(|choice| choice.dim = None)]))
@@ -361,6 +399,22 @@ impl TableReader<'_> {
         near.filter(move |(k, _)| *k != column)
             .map(|(_, cells)| cells)
     }
+}
+
+/// Whether a column numbers the rows and has the name of a level.
+fn is_named_level(column: &Cells<'_>) -> bool {
+    column.is_index && column.word == Word::Cost
+}
+
+/// Whether a column has the name of an error and falls like one.
+fn is_steep_error(column: &Cells<'_>) -> bool {
+    column.word == Word::Error && column.is_steep()
+}
+
+/// Whether a column is named after a power of the step: `h^2`.
+fn has_power_of_step(column: &Cells<'_>) -> bool {
+    let power = column.name.split_once('^');
+    power.is_some_and(|(base, _)| Word::of(base) == Word::Step)
 }
 
 /// The name of a column in a message, with the reason why it is not the step.

@@ -1,5 +1,6 @@
 //! Any text as rows of cells below names.
 
+use super::forms::joined;
 use super::names::Word;
 use super::number::{is_dash, number};
 use super::pairs::{self, RawTable};
@@ -30,7 +31,7 @@ pub(super) fn plain(text: &str) -> String {
     let marked = MARKS
         .iter()
         .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
-
+    let marked = joined(&marked);
     let text = without_numpy_types(&without_colours(&marked));
     let text: String = text.lines().map(plain_line).collect();
     if is_list(&text, &['{']) {

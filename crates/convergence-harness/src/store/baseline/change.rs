@@ -7,6 +7,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Guarded;
+use crate::run::Finished;
 use crate::study::Header;
 use crate::study::outcome::Quantity;
 use crate::text::json;
@@ -165,6 +166,29 @@ impl Movement {
             _ => f64::INFINITY,
         }
     }
+}
+
+/// How many numbers there are to accept if the baseline has nothing of the studies that were run;
+/// `None` if it has some of it, or if something else has changed.
+pub fn without_baseline(finished: &[Finished], changes: &[Change]) -> Option<usize> {
+    let of_new_files = changes
+        .iter()
+        .filter(|change| matches!(change.movement, Movement::NewFile { guarded: 0, .. }));
+    let numbers = changes
+        .iter()
+        .filter(|change| matches!(change.movement, Movement::New { .. }))
+        .count();
+    let all: usize = finished
+        .iter()
+        .map(|study| study.outcome.quantities.len())
+        .sum();
+    let claims = finished
+        .iter()
+        .filter(|study| !study.header.settings.is_empty())
+        .count();
+    let files = of_new_files.count();
+    let is_all_new = numbers == all && files >= claims && numbers + files == changes.len();
+    (is_all_new && !changes.is_empty()).then_some(numbers)
 }
 
 /// Whether two values agree within a finite tolerance; NaN and infinity agree with nothing.

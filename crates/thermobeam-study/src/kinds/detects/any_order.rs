@@ -67,8 +67,10 @@ impl FromFile for Detects<AnyOrder> {
         faults.extend(listed.into_iter().map(Fault::Coefficient));
         faults.extend(defects(&section)?.into_iter().map(Fault::Defect));
         for study in &studies {
-            let is_absent = |fault: &&Fault| fault.plant(study.kind.theory, relative).is_none();
-            if let Some(absent) = faults.iter().find(is_absent) {
+            let absent = faults
+                .iter()
+                .find(|fault| fault.plant(study.kind.theory, relative).is_none());
+            if let Some(absent) = absent {
                 let key = if matches!(absent, Fault::Defect(_)) {
                     "defects"
                 } else {

@@ -66,19 +66,15 @@ impl<S: Plantable> Kind for Detects<S> {
     type Found = UnderFaults<S::Found>;
 
     fn cases(&self) -> Vec<Case<RunOf<S::Data>>> {
-        let of_study = |(study, described): (usize, &Described<Orders<S>>)| {
-            let id = described.header.id.clone();
-            let faults = self.faults.len() as f64;
-            let case = move |Case { label, cost, data }: Case<S::Data>| {
-                Case::new(
-                    format!("{id}, {label}"),
-                    cost * faults,
-                    RunOf { study, data },
-                )
-            };
-            described.kind.cases().into_iter().map(case)
-        };
-        self.studies.iter().enumerate().flat_map(of_study).collect()
+        let faults = self.faults.len() as f64;
+        let mut cases = vec![];
+        for (study, described) in self.studies.iter().enumerate() {
+            for Case { label, cost, data } in described.kind.cases() {
+                let label = format!("{}, {label}", described.header.id);
+                cases.push(Case::new(label, cost * faults, RunOf { study, data }));
+            }
+        }
+        cases
     }
 
     fn run(
@@ -145,21 +141,25 @@ impl<S: Plantable> Detects<S> {
 
     /// The verdict of one study under one fault, or why there is none.
     fn judged(&self, study: usize, fault: Fault, ran: &[RanOf<S>]) -> Result<Judged, &'static str> {
-        let of_study = &self.studies[study].kind.0;
+        let source = &self.studies[study].kind.0;
         fault
-            .plant(of_study.theory(), self.relative)
+            .plant(source.theory(), self.relative)
             .ok_or(LACKS_THE_TERM)?;
-        let own = || ran.iter().filter(|ran| ran.case.data.study == study);
-        // A case without any result is no detection.
-        if own().count() == 0 || own().any(|ran| ran.found.is_err()) {
-            return Err(NO_RESULT);
+        let mut runs = vec![];
+        for ran in ran.iter().filter(|ran| ran.case.data.study == study) {
+            // A case without any result is no detection.
+            if ran.found.is_err() {
+                return Err(NO_RESULT);
+            }
+            runs.push(with_fault::<S>(ran, fault));
         }
-        let runs: Vec<Ran<S::Data, S::Found>> =
-            own().map(|ran| with_fault::<S>(ran, fault)).collect();
-        let errors = runs.last().and_then(Ran::ok).map(S::errors);
+        let Some(finest) = runs.last() else {
+            return Err(NO_RESULT);
+        };
+        let errors = finest.ok().map(S::errors);
         let first = errors.and_then(|errors| errors.first().map(|(_, error)| *error));
         Ok(Judged {
-            verdict: verdict(of_study, &runs),
+            verdict: verdict(source, &runs),
             error: first.unwrap_or(f64::NAN),
         })
     }
@@ -189,7 +189,7 @@ impl<S: Plantable> Detects<S> {
         }
         let pairs = self.studies.iter().zip(&row.judged);
         let others: Vec<String> = pairs
-            .filter(|(_, judged)| !judged.as_ref().is_ok_and(|it| it.verdict.is_pass()))
+            .filter(|(_, judged)| !judged.as_ref().is_ok_and(|judged| judged.verdict.is_pass()))
             .map(|(study, _)| study.header.id.clone())
             .collect();
         let not = if others.is_empty() {
@@ -222,14 +222,17 @@ impl<S: Plantable> Detects<S> {
 
     /// A row of the table.
     fn cells(&self, row: &Row) -> Vec<String> {
-        let cell = |judged: &Result<Judged, &'static str>| match (judged, self.needed) {
-            (Err(reason), _) if *reason == NO_RESULT => "missing".to_owned(),
-            (Err(_), _) => "n/a".to_owned(),
-            (Ok(Judged { verdict, .. }), Needed::One) => verdict.name().to_owned(),
-            (Ok(Judged { verdict, error }), Needed::Every) => format!("{verdict} ({error:.1e})"),
-        };
         let mut cells = vec![row.fault.name().to_owned()];
-        cells.extend(row.judged.iter().map(cell));
+        for judged in &row.judged {
+            cells.push(match (judged, self.needed) {
+                (Err(reason), _) if *reason == NO_RESULT => "missing".to_owned(),
+                (Err(_), _) => "n/a".to_owned(),
+                (Ok(Judged { verdict, .. }), Needed::One) => verdict.name().to_owned(),
+                (Ok(Judged { verdict, error }), Needed::Every) => {
+                    format!("{verdict} ({error:.1e})")
+                }
+            });
+        }
         cells
     }
 
@@ -275,25 +278,32 @@ impl Row {
 /// The run of a study with one fault.
 fn with_fault<S: Plantable>(ran: &RanOf<S>, fault: Fault) -> Ran<S::Data, S::Found> {
     let Case { label, cost, data } = &ran.case;
-    let not_run = || CaseFailure::new(format!("no run with the fault {}", fault.name()));
-    let planted = |results: &UnderFaults<S::Found>| {
-        let result = results.iter().find(|(planted, _)| *planted == fault);
-        result.map_or_else(|| Err(not_run()), |(_, result)| result.clone())
+    let found = match &ran.found {
+        Ok(results) => match results.iter().find(|(planted, _)| *planted == fault) {
+            Some((_, result)) => result.clone(),
+            None => Err(CaseFailure::new(format!(
+                "no run with the fault {}",
+                fault.name()
+            ))),
+        },
+        Err(failure) => Err(failure.clone()),
     };
     Ran {
         case: Case::new(label.clone(), *cost, data.data.clone()),
-        found: ran.found.as_ref().map_err(Clone::clone).and_then(planted),
+        found,
     }
 }
 
 /// Errors without a fault that are not finite; with a fault such an error is a detection.
 fn not_finite_without_a_fault<S: Plantable>(results: &UnderFaults<S::Found>) -> Vec<String> {
     let honest = results.iter().find(|(fault, _)| *fault == Fault::None);
-    let is_finite = |found: &S::Found| S::errors(found).iter().all(|(_, error)| error.is_finite());
-    match honest {
-        Some((_, Ok(found))) if is_finite(found) => vec![],
-        _ => vec!["an error without a fault".to_owned()],
+    if let Some((_, Ok(found))) = honest {
+        let errors = S::errors(found);
+        if errors.iter().all(|(_, error)| error.is_finite()) {
+            return vec![];
+        }
     }
+    vec!["an error without a fault".to_owned()]
 }
 
 /// The name of the error of a study under a fault.

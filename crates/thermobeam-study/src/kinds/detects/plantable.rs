@@ -36,12 +36,11 @@ pub trait Plantable: Source<Found: Clone> {
 
 /// The verdict of a study on the results of its cases.
 pub(super) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
-    let is_complete = |run: &Ran<S::Data, S::Found>| {
-        run.ok()
-            .is_some_and(|found| source.not_finite(found).is_empty())
-    };
-    if !runs.iter().all(is_complete) {
-        return Verdict::Fail;
+    for run in runs {
+        match run.ok() {
+            Some(found) if source.not_finite(found).is_empty() => (),
+            _ => return Verdict::Fail,
+        }
     }
     let measured = source.measured(runs);
     let checks = measured.checks.iter().map(|check| check.verdict);
@@ -65,15 +64,12 @@ impl<'a, S: Plantable> Detector<'a, S> {
     /// # Errors
     /// [`CaseFailure`]: a case cannot be set up.
     pub(super) fn new(study: &'a S) -> Result<Self, CaseFailure> {
-        let prepare = |case: Case<S::Data>| {
+        let mut cases = vec![];
+        for case in study.cases() {
             let shared = study.share(&case.data)?;
-            Ok(Prepared { case, shared })
-        };
-        let cases = study.cases().into_iter().map(prepare);
-        Ok(Self {
-            study,
-            cases: cases.collect::<Result<_, CaseFailure>>()?,
-        })
+            cases.push(Prepared { case, shared });
+        }
+        Ok(Self { study, cases })
     }
 
     /// The results of all cases without a fault.
@@ -86,11 +82,14 @@ impl<'a, S: Plantable> Detector<'a, S> {
 
     /// The results of all cases with a fault.
     fn run(&mut self, planted: Planted) -> Vec<Ran<S::Data, S::Found>> {
-        let run = |Prepared { case, shared }: &mut Prepared<'_, S>| Ran {
-            case: case.clone(),
-            found: S::run_planted(shared, &case.data, planted),
-        };
-        self.cases.iter_mut().map(run).collect()
+        let mut results = vec![];
+        for Prepared { case, shared } in &mut self.cases {
+            results.push(Ran {
+                case: case.clone(),
+                found: S::run_planted(shared, &case.data, planted),
+            });
+        }
+        results
     }
 
     /// Whether the study fails with a relative error in a coefficient; a run that breaks down is a

@@ -50,40 +50,31 @@ impl Kind for Sensitivity {
     type Found = Option<f64>;
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
-        let cost = |spec: &Described<Orders<Convergence>>| -> f64 {
-            let runs = BISECTIONS as f64 + 2.0;
-            let cases = spec.kind.cases();
-            cases.iter().map(|case| runs * case.cost).sum()
-        };
-        let of_study = |(study, spec): (usize, &Described<Orders<Convergence>>)| {
-            let can_be_planted =
-                |key: &&'static str| spec.kind.theory.off(key, self.at_most).is_some();
-            let case = |key| {
-                Case::new(
-                    format!("{key} in {}", spec.header.id),
-                    cost(spec),
-                    (study, key),
-                )
-            };
-            Coefficients::names()
-                .filter(can_be_planted)
-                .map(case)
-                .collect::<Vec<_>>()
-        };
-        self.studies.iter().enumerate().flat_map(of_study).collect()
+        let runs = BISECTIONS as f64 + 2.0;
+        let mut pairs = vec![];
+        for (study, described) in self.studies.iter().enumerate() {
+            let cases = described.kind.cases();
+            let cost: f64 = cases.iter().map(|case| runs * case.cost).sum();
+            for key in Coefficients::names() {
+                if described.kind.theory.off(key, self.at_most).is_some() {
+                    let label = format!("{key} in {}", described.header.id);
+                    pairs.push(Case::new(label, cost, (study, key)));
+                }
+            }
+        }
+        pairs
     }
 
     fn run(&self, &(study, key): &Self::Data) -> Result<Option<f64>, CaseFailure> {
         let mut detector = Detector::new(&self.studies[study].kind.0)?;
-        let mut detects = |relative| detector.detects(key, relative) == Some(true);
         let [least, most] = self.range;
-        if detects(least) || !detects(most) {
+        if detector.detects(key, least) == Some(true) || detector.detects(key, most) != Some(true) {
             return Ok(None);
         }
         let [mut missed, mut detected] = self.range.map(f64::log10);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (missed + detected);
-            if detects(10f64.powf(middle)) {
+            if detector.detects(key, 10f64.powf(middle)) == Some(true) {
                 detected = middle;
             } else {
                 missed = middle;
@@ -96,36 +87,33 @@ impl Kind for Sensitivity {
         let mut checks = vec![completion(ran, |smallest| {
             not_finite([("the smallest error", *smallest)])
         })];
-        let (mut rows, mut quantities) = (vec![], vec![]);
+        let mut rows = vec![];
+        let mut quantities = vec![];
         let mut left_out = vec![];
         for key in Coefficients::names() {
-            let cells: Vec<(f64, String)> = (0..self.studies.len())
-                .map(|study| cell(study, key, ran))
-                .collect();
-            left_out.extend((0..self.studies.len()).map(|study| not_judged(study, key, ran)));
-            let best = cells
-                .iter()
-                .map(|(smallest, _)| *smallest)
-                .fold(f64::INFINITY, min_or_nan);
+            let mut best = f64::INFINITY;
+            let mut row = vec![key.to_owned()];
+            for study in 0..self.studies.len() {
+                let result = PairResult::new(study, key, ran);
+                best = min_or_nan(best, result.smallest());
+                row.push(result.cell());
+                left_out.push(result.omission());
+            }
             let claim = format!("{key} off by {:e} is detected", self.at_most);
             let evidence = format!("detected from {best:.1e} on");
             let check = Check::that(best <= self.at_most, claim, evidence);
             checks.push(check.about(Subject::of(key)));
             let smallest = Quantity::new(format!("smallest {key} seen"), best, 0.2);
             quantities.push(smallest.about(Subject::of(key)));
-            rows.push(
-                std::iter::once(key.to_owned())
-                    .chain(cells.into_iter().map(|(_, text)| text))
-                    .collect(),
-            );
+            rows.push(row);
         }
         let holds = checks.iter().all(|check| check.verdict == Verdict::Pass);
-        let [which, is] = if holds {
-            ["every", "detected, most from far less"]
+        let off = format!("coefficient off by {:e}", self.at_most);
+        let summary = if holds {
+            format!("every {off} is detected, most from far less")
         } else {
-            ["some", "not detected"]
+            format!("some {off} is not detected")
         };
-        let summary = format!("{which} coefficient off by {:e} is {is}", self.at_most);
         let head = ["coefficient"]
             .into_iter()
             .chain(self.studies.iter().map(|spec| spec.header.id.as_str()));
@@ -142,29 +130,54 @@ impl Kind for Sensitivity {
     }
 }
 
-/// Why the smallest error that a study detects is not known; `None` if it is.
-fn not_judged(
-    study: usize,
-    key: &str,
-    ran: &[Ran<(usize, &'static str), Option<f64>>],
-) -> Option<&'static str> {
-    let case = ran.iter().find(|ran| ran.case.data == (study, key));
-    match case.map(|case| &case.found) {
-        None => Some("the coefficient is absent or zero"),
-        Some(Err(_)) => Some(NO_RESULT),
-        Some(Ok(None)) => Some("not in the range"),
-        Some(Ok(Some(_))) => None,
-    }
+/// The smallest error in a coefficient that a study detects.
+enum PairResult {
+    /// The coefficient is absent or zero.
+    Absent,
+    /// The case failed.
+    Failed,
+    /// The range does not bracket it.
+    NotInRange,
+    /// A relative error.
+    Smallest(f64),
 }
 
-/// The smallest error that a study detects, and its table cell: NaN if the case failed, infinite if
-/// the study lacks the coefficient or the range does not bracket it.
-fn cell(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> (f64, String) {
-    let case = ran.iter().find(|ran| ran.case.data == (study, key));
-    match case.map(|case| &case.found) {
-        None => (f64::INFINITY, "n/a".to_owned()),
-        Some(Err(_)) => (f64::NAN, "failed".to_owned()),
-        Some(Ok(None)) => (f64::INFINITY, "not in the range".to_owned()),
-        Some(Ok(Some(smallest))) => (*smallest, format!("{smallest:.1e}")),
+impl PairResult {
+    fn new(study: usize, key: &str, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> Self {
+        let case = ran.iter().find(|ran| ran.case.data == (study, key));
+        match case.map(|case| &case.found) {
+            None => Self::Absent,
+            Some(Err(_)) => Self::Failed,
+            Some(Ok(None)) => Self::NotInRange,
+            Some(Ok(Some(smallest))) => Self::Smallest(*smallest),
+        }
+    }
+
+    /// The error; NaN if the case failed, infinite if the study detects none in the range.
+    fn smallest(&self) -> f64 {
+        match self {
+            Self::Absent | Self::NotInRange => f64::INFINITY,
+            Self::Failed => f64::NAN,
+            Self::Smallest(error) => *error,
+        }
+    }
+
+    fn cell(&self) -> String {
+        match self {
+            Self::Absent => "n/a".to_owned(),
+            Self::Failed => "failed".to_owned(),
+            Self::NotInRange => "not in the range".to_owned(),
+            Self::Smallest(error) => format!("{error:.1e}"),
+        }
+    }
+
+    /// Why the error is not known; `None` if it is.
+    fn omission(&self) -> Option<&'static str> {
+        match self {
+            Self::Absent => Some("the coefficient is absent or zero"),
+            Self::Failed => Some(NO_RESULT),
+            Self::NotInRange => Some("not in the range"),
+            Self::Smallest(_) => None,
+        }
     }
 }

@@ -96,11 +96,12 @@ impl Source for Frequencies {
 
     fn cases(&self) -> Vec<Case<usize>> {
         // Bisection to the last bit takes some 60 counts per frequency.
-        let cost = |n: usize| 60.0 * (n * self.degree.pow(3) * self.count) as f64;
-        self.elements
-            .iter()
-            .map(|&n| Case::new(format!("n = {n}"), cost(n), n))
-            .collect()
+        let mut cases = vec![];
+        for &n in &self.elements {
+            let cost = 60.0 * (n * self.degree.pow(3) * self.count) as f64;
+            cases.push(Case::new(format!("n = {n}"), cost, n));
+        }
+        cases
     }
 
     fn run(&self, &elements: &usize) -> Result<Vec<f64>, CaseFailure> {
@@ -147,26 +148,30 @@ impl Source for Frequencies {
 impl Frequencies {
     fn levels(&self, runs: &Runs<Self>) -> Levels {
         let exact = frequencies(self.count);
-        let refinement = |run: &Ran<usize, Vec<f64>>| {
+        let mut refinements = vec![];
+        for run in runs {
             let n = run.case.data;
             let label = run.case.label.clone();
-            Refinement::new(label, &[("elements", n)], self.layout.size(n))
-        };
-        let column = |mode: usize| ErrorColumn {
-            name: format!("omega-{}", mode + 1),
-            symbol: Some(format!("ω{}", subscript(mode + 1))),
-            errors: runs
-                .iter()
-                .map(|run| Some(run.ok()?.get(mode)? - exact[mode]))
-                .collect(),
-            claim: Some(self.claim),
-            look: mode,
-        };
-        Levels::new(
-            Axis::Space,
-            runs.iter().map(refinement),
-            (self.first - 1..self.count).map(column),
-        )
+            refinements.push(Refinement::new(
+                label,
+                &[("elements", n)],
+                self.layout.size(n),
+            ));
+        }
+        let mut columns = vec![];
+        for mode in self.first - 1..self.count {
+            columns.push(ErrorColumn {
+                name: format!("omega-{}", mode + 1),
+                symbol: Some(format!("ω{}", subscript(mode + 1))),
+                errors: runs
+                    .iter()
+                    .map(|run| Some(run.ok()?.get(mode)? - exact[mode]))
+                    .collect(),
+                claim: Some(self.claim),
+                look: mode,
+            });
+        }
+        Levels::new(Axis::Space, refinements, columns)
     }
 
     /// Each judged frequency on the finest mesh, with its rate.
@@ -219,10 +224,9 @@ impl Frequencies {
     }
 
     fn equation_holds(&self) -> Check {
-        let rounding = |omega: f64| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega));
         let worst = frequencies(self.count)
             .into_iter()
-            .map(rounding)
+            .map(|omega| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega)))
             .fold(0.0, max_or_nan);
         Check::that(
             worst <= ROUNDING_ERRORS,
@@ -282,6 +286,8 @@ fn determinant(omega: f64) -> f64 {
 /// A number in small digits below the line.
 fn subscript(number: usize) -> String {
     let digits = number.to_string().into_bytes();
-    let small = |digit: u8| char::from_u32('₀' as u32 + u32::from(digit - b'0'));
-    digits.into_iter().filter_map(small).collect()
+    digits
+        .into_iter()
+        .filter_map(|digit| char::from_u32('₀' as u32 + u32::from(digit - b'0')))
+        .collect()
 }

@@ -17,25 +17,27 @@ pub(super) fn levels<'r>(
     step: impl Fn(usize, usize) -> f64,
     runs: impl Iterator<Item = ((usize, usize), Option<&'r Norms>)> + Clone,
 ) -> Levels {
-    let refinement = |((elements, steps), _)| Refine::level(elements, steps, step(elements, steps));
-    let column = |norm: Norm| ErrorColumn {
-        name: norm.name().to_owned(),
-        symbol: Some(norm.symbol().to_owned()),
-        errors: runs
-            .clone()
-            .map(|(_, errors)| errors.map(|errors| errors[norm]))
-            .collect(),
-        claim: expect
-            .iter()
-            .find(|(of, _)| *of == norm)
-            .map(|(_, claim)| *claim),
-        look: norm as usize,
-    };
-    Levels::new(
-        refine.axis,
-        runs.clone().map(refinement),
-        Norm::ALL.into_iter().map(column),
-    )
+    let mut refinements = vec![];
+    for ((elements, steps), _) in runs.clone() {
+        refinements.push(Refine::level(elements, steps, step(elements, steps)));
+    }
+    let mut columns = vec![];
+    for norm in Norm::ALL {
+        columns.push(ErrorColumn {
+            name: norm.name().to_owned(),
+            symbol: Some(norm.symbol().to_owned()),
+            errors: runs
+                .clone()
+                .map(|(_, errors)| errors.map(|errors| errors[norm]))
+                .collect(),
+            claim: expect
+                .iter()
+                .find(|(claimed, _)| *claimed == norm)
+                .map(|(_, claim)| *claim),
+            look: norm as usize,
+        });
+    }
+    Levels::new(refine.axis, refinements, columns)
 }
 
 /// Names of the norms whose errors are NaN or infinite.

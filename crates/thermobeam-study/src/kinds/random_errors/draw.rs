@@ -1,8 +1,8 @@
 //! The scenes: random ones, those that are rough, and the discretisations to which the runs of a
 //! search are compared.
 
-use thermobeam::dg::Stepping;
-use thermobeam::simulation::Stepping as OneStep;
+use thermobeam::dg::DgStepping;
+use thermobeam::one_step::Stepping;
 
 use super::{Drawn, RandomErrors};
 use crate::kinds::prelude::*;
@@ -28,15 +28,15 @@ impl RandomErrors {
     /// The scene of a case, and its feature if it has one.
     pub(super) fn scene(&self, drawn: Drawn) -> Result<(Scene, Option<Feature>), InputError> {
         // Far from the seeds of other studies, which are small.
-        let seed = |first: u64, number: usize| (self.seed << 32) + first + number as u64;
+        let first_seed = self.seed << 32;
         Ok(match drawn {
             Drawn::Given(number) => (self.given[number].clone(), None),
             Drawn::Smooth(number) => (
-                random_scene(&mut SplitMix::new(seed(0, number)), number, None)?,
+                random_scene(&mut SplitMix::new(first_seed + number as u64), number, None)?,
                 None,
             ),
             Drawn::Rough(number) => {
-                let mut random = SplitMix::new(seed(1 << 24, number));
+                let mut random = SplitMix::new(first_seed + (1 << 24) + number as u64);
                 let feature = Feature::random(&mut random, number);
                 (
                     random_scene(&mut random, number, Some(&feature))?,
@@ -63,10 +63,10 @@ impl RandomErrors {
         if let Some(&Feature { x, width, .. }) = feature {
             restart_dt *= 1e-3;
             let distances =
-                || std::iter::successors(Some(width), |d| Some(3.0 * d)).take_while(|d| *d < 0.1);
+                std::iter::successors(Some(width), |d| Some(3.0 * d)).take_while(|d| *d < 0.1);
             // A function may have no value at its jump; a kink is between the innermost nodes, 1e-5
             // apart.
-            let around = distances().flat_map(|d| [x - d, x + d]);
+            let around = distances.flat_map(|d| [x - d, x + d]);
             nodes.retain(|node| *node == 0.0 || *node == 1.0 || (node - x).abs() > 0.03);
             nodes.extend(around.filter(|node| 0.0 < *node && *node < 1.0));
             nodes.sort_by(f64::total_cmp);
@@ -79,12 +79,12 @@ impl RandomErrors {
         } else {
             [14, 4]
         };
-        let stepping = Stepping {
+        let stepping = DgStepping {
             degree: time_degree,
             dt,
             restart_dt,
             growth: 1.25,
-            ..Stepping::default()
+            ..DgStepping::default()
         };
         let mesh = Mesh::from_nodes(nodes)?;
         Ok(Scene {
@@ -99,7 +99,7 @@ impl RandomErrors {
     pub(super) fn linear(scene: &Scene, times: usize) -> Result<Scene, CaseFailure> {
         let [elements, steps] = COARSEST;
         let dt = 1.0 / (steps * times) as f64;
-        let stepping = OneStep {
+        let stepping = Stepping {
             scheme: MIDPOINT,
             settings: Settings::default(),
             dt,

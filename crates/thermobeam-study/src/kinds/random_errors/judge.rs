@@ -159,6 +159,9 @@ fn refusals<'r>(
 }
 
 fn in_words(refusals: &[(&str, &Refusal)]) -> String {
-    let one = |(scene, refusal): &(&str, &Refusal)| format!("{scene}, {}", refusal.words);
-    refusals.iter().map(one).collect::<Vec<_>>().join("; ")
+    refusals
+        .iter()
+        .map(|(scene, refusal)| format!("{scene}, {}", refusal.words))
+        .collect::<Vec<_>>()
+        .join("; ")
 }

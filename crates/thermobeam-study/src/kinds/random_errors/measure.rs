@@ -91,8 +91,8 @@ impl RandomErrors {
 
     /// The searches of a scene, and the runs on linear elements if it has them.
     fn search(&self, drawn: Drawn, scene: &Scene) -> Result<Searched, CaseFailure> {
-        let mut ignored = |_: f64| ();
-        let work = &mut Work::new(MOST_WORK, &mut ignored);
+        let mut no_progress = |_: f64| ();
+        let work = &mut Work::new(MOST_WORK, &mut no_progress);
         let mut refused = vec![];
         let estimates = estimate(scene, work).map_or_else(
             |why: Unreachable| {

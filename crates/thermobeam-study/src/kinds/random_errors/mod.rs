@@ -171,13 +171,14 @@ impl RandomErrors {
     /// Each scene has an estimate and a search for each target; some are refused.
     fn searches(&self, ran: &[Ran<Drawn, Found>]) -> Coverage {
         let each = 1 + self.targets.len() + self.norm_targets.len();
-        let of_scene = |ran: &Ran<Drawn, Found>| {
+        let mut left_out = vec![];
+        for ran in ran {
             let (reason, count) = match ran.ok() {
                 Some(found) => ("refused with a reason", found.refused.len()),
                 None => (NO_RESULT, each),
             };
-            (0..each).map(move |k| (k < count).then_some(reason))
-        };
-        Coverage::of("searches", ran.iter().flat_map(of_scene))
+            left_out.extend((0..each).map(|k| (k < count).then_some(reason)));
+        }
+        Coverage::of("searches", left_out)
     }
 }

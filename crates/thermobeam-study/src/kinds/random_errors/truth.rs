@@ -5,6 +5,7 @@
 //! shows.
 
 use thermobeam::dg::{self, Field};
+use thermobeam::motion::Motion;
 
 use crate::kinds::prelude::*;
 use crate::predict::estimate::{Estimate, Kind as Value};

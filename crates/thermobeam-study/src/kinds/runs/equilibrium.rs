@@ -140,7 +140,6 @@ impl Runs for EndStates {
 
     fn run(&self, &LongRun { scene, elements }: &LongRun) -> Result<AtRest, CaseFailure> {
         let scene = &self.scenes[scene];
-        let is_stable = |state: &Equilibrium| state.stable;
         let end = match (elements, &self.any_order) {
             (Some(elements), _) => {
                 let scene = scene.at(Mesh::uniform(elements)?, self.dt);
@@ -198,13 +197,9 @@ impl Runs for EndStates {
             "Ends of long runs ({elements} elements, and extrapolated) and exact steady states"
         );
         let worst = scenes.iter().map(Ends::error).fold(0.0, max_or_nan);
-        let straight = |ends: &Ends<'_>| {
-            ends.is_straight()
-                .then_some("straight, so that the mesh causes no error")
-        };
         let count = scenes.len();
         let checks = scenes.iter().map(Ends::check);
-        let found = Findings {
+        let findings = Findings {
             summary: format!(
                 "{count} long runs end at most {worst:.1e} from an exact steady state"
             ),
@@ -214,7 +209,10 @@ impl Runs for EndStates {
                 .collect(),
             coverage: vec![Coverage::of(
                 "ends for the order",
-                scenes.iter().map(straight),
+                scenes.iter().map(|ends| {
+                    ends.is_straight()
+                        .then_some("straight, so that the mesh causes no error")
+                }),
             )],
             listings: vec![Listing::of(title, &["scene"], rows)],
             figures: vec![figure],
@@ -222,7 +220,7 @@ impl Runs for EndStates {
         };
         Findings {
             levels: self.levels(scenes.iter()).errors(),
-            ..found.with_orders(&bent, rates)
+            ..findings.with_orders(&bent, rates)
         }
     }
 }
@@ -249,19 +247,29 @@ impl EndStates {
                 columns.push(column);
             }
         }
-        let refinement =
-            |&n: &usize| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64);
-        Levels::new(Axis::Space, self.elements.iter().map(refinement), columns)
-            .with_subjects(subjects)
+        let refinements = self
+            .elements
+            .iter()
+            .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64));
+        Levels::new(Axis::Space, refinements, columns).with_subjects(subjects)
     }
 
     fn ends<'r>(&'r self, results: &Results<'r, Self>, scene: usize) -> Ends<'r> {
-        let end = |elements: Option<usize>| results.of(&LongRun { scene, elements });
+        let mut ends = vec![];
+        for &n in &self.elements {
+            ends.push(results.of(&LongRun {
+                scene,
+                elements: Some(n),
+            }));
+        }
         Ends {
             study: self,
             scene: &self.scenes[scene],
-            ends: self.elements.iter().map(|&n| end(Some(n))).collect(),
-            any_order: end(None),
+            ends,
+            any_order: results.of(&LongRun {
+                scene,
+                elements: None,
+            }),
         }
     }
 }
@@ -274,14 +282,23 @@ struct Ends<'r> {
     any_order: Option<&'r AtRest>,
 }
 
+fn is_stable(state: &Equilibrium) -> bool {
+    state.stable
+}
+
+/// A number in the digits of the table.
+fn tip_reading(head: &str, value: f64) -> Reading {
+    Reading::new(head, value).shown(|value| decimals(value, 10))
+}
+
 impl Ends<'_> {
     fn finest(&self) -> Option<&AtRest> {
         self.ends.last().copied().flatten()
     }
 
     /// Two numbers of the finest end, of u and of φ; NaN if that run failed.
-    fn numbers(&self, of: fn(&AtRest) -> [f64; 2]) -> [f64; 2] {
-        self.finest().map_or([f64::NAN; 2], of)
+    fn numbers(&self, numbers: fn(&AtRest) -> [f64; 2]) -> [f64; 2] {
+        self.finest().map_or([f64::NAN; 2], numbers)
     }
 
     /// The larger error on the finest mesh.
@@ -321,7 +338,10 @@ impl Ends<'_> {
         // The beam may buckle to either side, but errors are comparable only if it is the same side
         // on all meshes.
         let contact = self.finest().and_then(AtRest::contact);
-        let is_there = |end: &Option<&AtRest>| end.is_some_and(|end| end.contact() == contact);
+        let is_same = self
+            .ends
+            .iter()
+            .all(|end| end.is_some_and(|end| end.contact() == contact));
         let n = self.study.elements.last().unwrap_or(&0);
         let [of_u, of_phi] = self.numbers(AtRest::errors);
         let [extrapolated, expected] = [u, exact].map(|u| decimals(u, 10));
@@ -334,10 +354,7 @@ impl Ends<'_> {
             [
                 at_most(self.error(), allowed, errors),
                 within(u, exact, EXTRAPOLATED * allowed, tips),
-                Condition::or(
-                    self.ends.iter().all(is_there),
-                    "not all meshes end in the same state of contact",
-                ),
+                Condition::or(is_same, "not all meshes end in the same state of contact"),
             ],
         )
     }
@@ -357,32 +374,36 @@ impl Ends<'_> {
     /// Tips on the finest mesh, extrapolated, and of the exact state; those of bent beams are
     /// guarded.
     fn readings(&self) -> Vec<Reading> {
-        let name = &self.scene.name;
         let contact = self.finest().and_then(AtRest::contact);
-        let shown =
-            |head: &str, value: f64| Reading::new(head, value).shown(|value| decimals(value, 10));
-        let guarded = |reading: Reading, quantity: &str, tolerance: f64| {
-            if self.is_straight() {
-                return reading;
-            }
-            reading.guarded_in(name, quantity, tolerance)
-        };
-        let exact = |reading: Reading, quantity: &str| {
-            let subject = Subject::of(quantity).in_case(name).by(ItemMethod::Exact);
-            guarded(reading, quantity, EXACT_TIP).about(subject)
-        };
         let [u, phi] = self.numbers(|end| end.tip);
         let [exact_u, exact_phi] = self.numbers(AtRest::exact_tip);
         vec![
             Reading::text("at rest", contact.map_or("?", name_of)),
-            guarded(shown("u(1)", u), "u_tip", TIP),
+            self.guarded(tip_reading("u(1)", u), "u_tip", TIP),
             // The table shows the extrapolated value instead.
-            guarded(Reading::new("φ(1)", phi), "phi_tip", TIP),
-            shown("extrapolated", self.extrapolated(0)),
-            exact(shown("exact", exact_u), "exact_u_tip"),
-            shown("φ(1) extrapolated", self.extrapolated(1)),
-            exact(shown("φ(1) exact", exact_phi), "exact_phi_tip"),
+            self.guarded(Reading::new("φ(1)", phi), "phi_tip", TIP),
+            tip_reading("extrapolated", self.extrapolated(0)),
+            self.exact_reading("exact", exact_u, "exact_u_tip"),
+            tip_reading("φ(1) extrapolated", self.extrapolated(1)),
+            self.exact_reading("φ(1) exact", exact_phi, "exact_phi_tip"),
             Reading::new("at rest by t", self.finest().map_or(f64::NAN, |end| end.t)).fixed(0),
         ]
+    }
+
+    /// The reading, guarded if the beam is bent.
+    fn guarded(&self, reading: Reading, quantity: &str, tolerance: f64) -> Reading {
+        if self.is_straight() {
+            return reading;
+        }
+        reading.guarded_in(&self.scene.name, quantity, tolerance)
+    }
+
+    /// A number of the exact state.
+    fn exact_reading(&self, head: &str, value: f64, quantity: &str) -> Reading {
+        let subject = Subject::of(quantity)
+            .in_case(&self.scene.name)
+            .by(ItemMethod::Exact);
+        self.guarded(tip_reading(head, value), quantity, EXACT_TIP)
+            .about(subject)
     }
 }

@@ -41,6 +41,24 @@ pub(crate) struct StepOfBoth {
     pub(crate) newton: Report,
 }
 
+/// A scene by one of the solvers.
+fn driver_by(
+    scene: &Scene,
+    solver: Solver,
+    tolerance: f64,
+) -> Result<Driver<'static>, CaseFailure> {
+    let settings = Settings {
+        solver,
+        stopping: Stopping::below(tolerance),
+        ..Settings::default()
+    };
+    let stepping = Stepping {
+        settings,
+        ..scene.one_step()?
+    };
+    Ok(Driver::new(simulate::problem(scene), stepping)?)
+}
+
 impl SideBySide {
     /// Both at t = 0.
     ///
@@ -49,21 +67,9 @@ impl SideBySide {
     /// # Errors
     /// The solver refuses the scene.
     pub(crate) fn new(scene: &Scene, tolerance: f64) -> Result<Self, CaseFailure> {
-        let driver = |solver: Solver, tolerance: f64| {
-            let settings = Settings {
-                solver,
-                stopping: Stopping::below(tolerance),
-                ..Settings::default()
-            };
-            let stepping = Stepping {
-                settings,
-                ..scene.one_step()?
-            };
-            Driver::new(simulate::problem(scene), stepping)
-        };
         Ok(Self {
-            fixed_point: driver(Solver::FixedPoint, tolerance)?,
-            newton: driver(Solver::Newton, SOLVED)?,
+            fixed_point: driver_by(scene, Solver::FixedPoint, tolerance)?,
+            newton: driver_by(scene, Solver::Newton, SOLVED)?,
             lengths: scene.mesh.lengths().collect(),
             difference: Level::new(scene.mesh.nodes().len()),
             steps: 0,

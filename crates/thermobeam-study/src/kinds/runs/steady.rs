@@ -13,11 +13,10 @@ pub(crate) fn listed_scenes(
     section: &Section<'_>,
     folder: &Path,
 ) -> Result<Vec<Scene>, InputError> {
-    let scene = |item: &Field<'_>| listed_scene(item, folder);
     section.list(
         "scenes",
         "a list of at least one scene file",
-        scene,
+        |item| listed_scene(item, folder),
         |list| !list.is_empty(),
     )
 }
@@ -194,7 +193,7 @@ impl AtRest {
         mesh: &Mesh,
         t: f64,
         level: &Level,
-        meant: impl Fn(&Equilibrium) -> bool,
+        is_candidate: impl Fn(&Equilibrium) -> bool,
     ) -> Result<Self, CaseFailure> {
         let states = exact_states(scene)?;
         Ok(Self {
@@ -204,7 +203,7 @@ impl AtRest {
             is_complete: completeness(&scene.beam, scene.obstacles.as_ref())
                 == Completeness::Complete,
             stable: states.iter().filter(|state| state.stable).count(),
-            nearest: Nearest::of(mesh, level, states.into_iter().filter(meant)),
+            nearest: Nearest::of(mesh, level, states.into_iter().filter(is_candidate)),
         })
     }
 
@@ -259,16 +258,20 @@ const QUIET: f64 = 5.0;
 /// A step that fails, or motion beyond `t_max`.
 pub(crate) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     match scene.method {
-        Method::OneStep(_) => {
-            let level = |driver: &Driver<'_>| driver.level().clone();
-            let is_slow = |driver: &Driver<'_>| driver.level().is_slow(speed);
-            quiet(&mut simulate::driver(scene)?, t_max, is_slow, level)?
-        }
+        Method::OneStep(_) => quiet(
+            &mut simulate::driver(scene)?,
+            t_max,
+            |driver| driver.level().is_slow(speed),
+            |driver| driver.level().clone(),
+        )?,
         Method::Dg(_) => {
-            let nodes = compared(scene)?;
-            let level = |motion: &AnyMotion| motion.snapshot().on(&nodes);
-            let is_slow = |motion: &AnyMotion| level(motion).is_slow(speed);
-            quiet(&mut *simulate::motion(scene)?, t_max, is_slow, level)?
+            let mesh = compared(scene)?;
+            quiet(
+                &mut *simulate::motion(scene)?,
+                t_max,
+                |motion| motion.snapshot().on(&mesh).is_slow(speed),
+                |motion| motion.snapshot().on(&mesh),
+            )?
         }
     }
     .ok_or_else(|| {
@@ -280,7 +283,7 @@ pub(crate) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
 }
 
 /// Steps a motion until it has been slow for a while; `None` if it still moves at `t_max`.
-fn quiet<M: Motion + ?Sized>(
+fn quiet<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     t_max: f64,
     is_slow: impl Fn(&M) -> bool,
@@ -320,21 +323,21 @@ pub struct Nearest {
     pub errors: [f64; 2],
 }
 
+/// The largest difference of nodal values to a function.
+fn largest_error(mesh: &Mesh, values: &[f64], exact: impl Fn(f64) -> f64) -> f64 {
+    let pairs = mesh.nodes().iter().zip(values);
+    pairs
+        .map(|(&x, value)| (value - exact(x)).abs())
+        .fold(0.0, max_or_nan)
+}
+
 impl Nearest {
     /// `None` if there is no state.
     fn of(mesh: &Mesh, level: &Level, states: impl Iterator<Item = Equilibrium>) -> Option<Self> {
         let measured = states.map(|state| {
-            let largest = |values: &[f64], exact: &dyn Fn(f64) -> f64| {
-                let differences = mesh
-                    .nodes()
-                    .iter()
-                    .zip(values)
-                    .map(|(&x, value)| (value - exact(x)).abs());
-                differences.fold(0.0, max_or_nan)
-            };
             let errors = [
-                largest(&level.u, &|x| state.shape.u(x)),
-                largest(&level.phi, &|x| state.shape.phi(x)),
+                largest_error(mesh, &level.u, |x| state.shape.u(x)),
+                largest_error(mesh, &level.phi, |x| state.shape.phi(x)),
             ];
             Self {
                 state,

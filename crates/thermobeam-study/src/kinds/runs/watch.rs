@@ -166,13 +166,17 @@ impl EnergyWatch {
     /// A term T with a wrong factor 1 + c leaves r = c T in every step: the cosine of the angle
     /// between r and T is then 1, and c = Σ r T / Σ T².
     pub(crate) fn open_term(&self) -> Option<(&'static str, f64)> {
-        let cosine = |[product, square]: [f64; 2]| (product / (self.squares * square).sqrt()).abs();
-        let named = TERMS
+        let mut candidates = vec![];
+        for (term, [product, square]) in TERMS.into_iter().zip(self.products) {
+            let cosine = (product / (self.squares * square).sqrt()).abs();
+            if cosine > ALIKE {
+                candidates.push((cosine, term, product / square));
+            }
+        }
+        let most = candidates
             .into_iter()
-            .zip(self.products)
-            .filter(|(_, sums)| cosine(*sums) > ALIKE);
-        let most = named.max_by(|(_, one), (_, next)| cosine(*one).total_cmp(&cosine(*next)));
-        most.map(|(term, [product, square])| (term, product / square))
+            .max_by(|(one, ..), (next, ..)| one.total_cmp(next));
+        most.map(|(_, term, factor)| (term, factor))
     }
 }
 
@@ -206,35 +210,39 @@ pub(crate) fn watched(
             .map_or(0, |problem| problem.mesh.nodes().len()),
     );
     let mut driver = EnsembleDriver::new(problems, dts, scheme, settings)?;
-    let start = |k: usize| {
+    let mut watches = vec![];
+    let mut old_levels = vec![];
+    for k in 0..dts.len() {
         let mut level = new.clone();
         driver.ensemble().observe(k, &mut level);
-        (
-            EnergyWatch::new(driver.ensemble().cases()[k].energy_scale(&level)),
-            level,
-        )
-    };
-    let mut runs: Vec<(EnergyWatch, Level)> = (0..dts.len()).map(start).collect();
+        let scale = driver.ensemble().cases()[k].energy_scale(&level);
+        watches.push(EnergyWatch::new(scale));
+        old_levels.push(level);
+    }
     driver.run(steps, |ensemble, balances| {
-        for (k, ((watch, old), balance)) in runs.iter_mut().zip(balances).enumerate() {
+        for (k, balance) in balances.iter().enumerate() {
             let Ok(report) = ensemble.report(k) else {
                 continue;
             };
             ensemble.observe(k, &mut new);
             see(k, report.iterations, &new);
             let case = &ensemble.cases()[k];
-            watch.add(balance, case.energy_scale(&new), || {
+            let old = &mut old_levels[k];
+            watches[k].add(balance, case.energy_scale(&new), || {
                 case.rounding(old, &new)
             });
             std::mem::swap(old, &mut new);
         }
         ControlFlow::Continue(())
     })?;
-    let ended = |(k, (watch, _)): (usize, &(EnergyWatch, Level))| Watched {
-        worst: watch.worst,
-        failure: driver.ensemble().report(k).err(),
-    };
-    Ok(runs.iter().enumerate().map(ended).collect())
+    let mut results = vec![];
+    for (k, watch) in watches.iter().enumerate() {
+        results.push(Watched {
+            worst: watch.worst,
+            failure: driver.ensemble().report(k).err(),
+        });
+    }
+    Ok(results)
 }
 
 #[cfg(test)]

@@ -98,14 +98,23 @@ impl Comparison {
             format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
         let rows: Vec<_> = all
             .iter()
-            .map(|of| (vec![format!("{:e}", of.tolerance)], of.readings()))
+            .map(|agreement| {
+                (
+                    vec![format!("{:e}", agreement.tolerance)],
+                    agreement.readings(),
+                )
+            })
             .collect();
         let title = "Fixed point against Newton's method on the scene";
         Outcome {
             headline: summary.clone(),
             tables: vec![readings::table(title, &["tolerance"], &rows)],
             figures: vec![iterations(last.unwrap_or(&Agreement::default()))],
-            ..Outcome::new(summary, vec![], all.iter().map(|of| of.check()).collect())
+            ..Outcome::new(
+                summary,
+                vec![],
+                all.iter().map(|agreement| agreement.check()).collect(),
+            )
         }
     }
 }
@@ -139,12 +148,12 @@ impl Agreement {
     }
 }
 
-fn iterations(of: &Agreement) -> Figure {
+fn iterations(agreement: &Agreement) -> Figure {
     let series = [
-        Series::new("fixed point", of.iterations.clone()),
-        Series::new("Newton's method", of.newton.clone()),
+        Series::new("fixed point", agreement.iterations.clone()),
+        Series::new("Newton's method", agreement.newton.clone()),
     ];
-    let (title, shaded) = if of.contact.is_empty() {
+    let (title, shaded) = if agreement.contact.is_empty() {
         ("Newton's method takes fewer iterations", "")
     } else {
         (
@@ -155,7 +164,7 @@ fn iterations(of: &Agreement) -> Figure {
     let xy = Xy {
         phases: Phases {
             label: "in contact".to_owned(),
-            intervals: of.contact.clone(),
+            intervals: agreement.contact.clone(),
         },
         ..plots::iterations(&series)
     };

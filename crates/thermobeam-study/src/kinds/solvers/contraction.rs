@@ -1,5 +1,7 @@
 //! The contraction factor of one step in contact, measured and predicted.
 
+use std::fmt;
+
 use convergence_harness::plots::Series;
 
 use super::spectrum::spectral_radius;
@@ -62,8 +64,9 @@ impl Grid {
         for &zeta in &self.zeta {
             for &epsilon in &self.epsilon {
                 for &dt in &self.dt {
-                    let at = [dt, epsilon, zeta];
-                    cases.push(Case::new(name(at), cost, SolverTask::Contraction(at)));
+                    let place = Place { dt, epsilon, zeta };
+                    let task = SolverTask::Contraction(place);
+                    cases.push(Case::new(place.to_string(), cost, task));
                 }
             }
         }
@@ -71,9 +74,9 @@ impl Grid {
     }
 
     /// The beam at rest in contact, before it is disturbed.
-    fn state(&self, [_, epsilon, zeta]: [f64; 3]) -> Result<Problem, MeshError> {
+    fn state(&self, Place { epsilon, zeta, .. }: Place) -> Result<Problem, MeshError> {
         let mesh = Mesh::uniform(self.elements)?;
-        let mut initial = Initial::at_rest(&mesh, 0.0);
+        let mut initial = InitialValues::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
         Ok(Problem {
             beam: Beam {
@@ -94,9 +97,9 @@ impl Grid {
     /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper
     /// obstacle. On a uniform mesh they are, by (3.7) at rest, `(1 + N) p + g(p)` at the free end
     /// in the first equation, and `-p (1, χ_i)` in the second.
-    pub(super) fn measure(&self, at: [f64; 3]) -> Result<Contraction, CaseFailure> {
-        let [dt, ..] = at;
-        let mut problem = self.state(at)?;
+    pub(super) fn measure(&self, place: Place) -> Result<Contraction, CaseFailure> {
+        let dt = place.dt;
+        let mut problem = self.state(place)?;
         let n_value = problem.beam.axial_force(PRESSED * PRESSED);
         let [alpha, gamma] = factors(&problem, dt, n_value);
         let case = problem.case(EULER_CRANK_NICOLSON, dt);
@@ -125,7 +128,7 @@ impl Grid {
         map.apply(v, w);
         let increment = difference(&two.velocities, &one.velocities);
         Ok(Contraction {
-            at,
+            place,
             alpha,
             gamma,
             radius,
@@ -162,11 +165,26 @@ impl Grid {
     }
 }
 
+/// The parameters of a measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    dt: f64,
+    epsilon: f64,
+    zeta: f64,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { dt, epsilon, zeta } = self;
+        write!(f, "dt = {dt:e}, epsilon = {epsilon:e}, zeta = {zeta}")
+    }
+}
+
 /// The factor of an iteration in contact: predictions and measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contraction {
-    /// dt, ε and ζ.
-    at: [f64; 3],
+    /// Where it is measured.
+    place: Place,
     /// Predicted factor of the contact alone; infinite if its operator is not definite.
     pub alpha: f64,
     /// Predicted factor of the coupling between rotation and displacement alone; infinite if its
@@ -205,13 +223,13 @@ impl Held {
             loaded: true,
             ..by_fixed_point(self.dt, Stopping::Iterations(iterations))
         };
-        let hold = |_, load: &mut [[f64; 3]]| {
+        let driver = Driver::new(self.problem.clone(), stepping)?;
+        let mut driver = driver.loaded(|_, load| {
             let n = load.len() - 1;
             let moment = -PRESSED / n as f64;
             load.iter_mut().for_each(|load| load[1] = moment);
             load[n] = [self.tip_load, 0.5 * moment, 0.0];
-        };
-        let mut driver = Driver::new(self.problem.clone(), stepping)?.loaded(hold);
+        });
         let mut contraction = None;
         run_to(&mut driver, self.dt, |_, report| {
             contraction = report.contraction;
@@ -234,10 +252,6 @@ fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
 /// Euclidean length.
 fn length(vector: &[f64]) -> f64 {
     vector.iter().map(|value| value * value).sum::<f64>().sqrt()
-}
-
-fn name([dt, epsilon, zeta]: [f64; 3]) -> String {
-    format!("dt = {dt:e}, epsilon = {epsilon:e}, zeta = {zeta}")
 }
 
 /// How far the increments are those of the linearised iteration.
@@ -293,7 +307,7 @@ impl Contraction {
     }
 
     pub(super) fn readings(&self) -> Vec<Reading> {
-        let name = name(self.at);
+        let name = self.place.to_string();
         let subject = Subject::of("contraction").by(ItemMethod::FixedPoint);
         vec![
             Reading::new("alpha", self.alpha).fixed(5),
@@ -310,9 +324,9 @@ impl Contraction {
 
     /// The row of a table: dt, ε, ζ and the readings.
     fn row(&self) -> (Vec<String>, Vec<Reading>) {
-        let [dt, epsilon, zeta] = self.at;
-        let at = vec![format!("{dt:e}"), format!("{epsilon:e}"), zeta.to_string()];
-        (at, self.readings())
+        let Place { dt, epsilon, zeta } = self.place;
+        let cells = vec![format!("{dt:e}"), format!("{epsilon:e}"), zeta.to_string()];
+        (cells, self.readings())
     }
 
     fn checks(&self) -> Vec<Check> {
@@ -338,20 +352,20 @@ impl Contraction {
 
     fn subject(&self, quantity: &str) -> Subject {
         Subject::of(quantity)
-            .in_case(name(self.at))
+            .in_case(self.place.to_string())
             .by(ItemMethod::FixedPoint)
     }
 }
 
 fn figure(points: &[&Contraction]) -> Figure {
-    let mut zetas: Vec<f64> = points.iter().map(|point| point.at[2]).collect();
+    let mut zetas: Vec<f64> = points.iter().map(|point| point.place.zeta).collect();
     zetas.dedup();
     let mut measured = vec![];
     for zeta in zetas {
-        let of_zeta = points.iter().filter(|point| point.at[2] == zeta);
+        let series = points.iter().filter(|point| point.place.zeta == zeta);
         measured.push(Series::new(
             format!("ζ = {zeta}"),
-            of_zeta.map(|point| (point.radius, point.measured)),
+            series.map(|point| (point.radius, point.measured)),
         ));
     }
     // Elsewhere α lies under the marker of the measured factor.

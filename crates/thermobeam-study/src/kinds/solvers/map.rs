@@ -161,7 +161,7 @@ impl Map {
             obstacles.epsilon = value;
         }
         let mesh = Mesh::uniform(self.elements(value).round().max(1.0) as usize)?;
-        let mut initial = Initial::at_rest(&mesh, HEAT);
+        let mut initial = InitialValues::at_rest(&mesh, HEAT);
         initial.u = mesh.nodes().iter().map(|x| GAP * x * (2.0 - x)).collect();
         initial.u_t = mesh.nodes().iter().map(|x| SPEED * x).collect();
         Ok(Problem {
@@ -248,14 +248,10 @@ pub struct NewtonSteps {
 impl Point {
     pub(super) fn readings(&self) -> Vec<Reading> {
         let step = self.step;
-        // A predicted factor may be infinite.
-        let factor = |name: &str, factor: f64| {
-            Reading::new(name, Some(factor).filter(|factor| !factor.is_infinite()))
-        };
         let contraction = step.contraction.filter(|_| step.converged);
         let mut readings = vec![
-            factor("alpha", step.alpha),
-            factor("gamma", step.gamma),
+            Reading::new("alpha", unless_infinite(step.alpha)),
+            Reading::new("gamma", unless_infinite(step.gamma)),
             Reading::new("contraction", contraction),
         ];
         if let Some(steps) = self.newton {
@@ -280,34 +276,39 @@ pub struct MapRow {
     pub points: Vec<Point>,
 }
 
+/// A run by Newton's method.
+#[derive(Debug, Clone, Default)]
+struct NewtonRun {
+    /// The most in a step.
+    iterations: usize,
+    /// After the first step, if it succeeded.
+    contact_force: Option<f64>,
+}
+
 impl Map {
     pub(super) fn row(&self, value: f64) -> Result<MapRow, CaseFailure> {
         let problem = self.problem(value)?;
         let dts = self.time_steps();
         let n_value = axial_force(&problem);
-        // By Newton's method the most iterations, and the contact force after the first step if it
-        // succeeded.
-        let mut seen: Vec<(usize, Option<f64>)> = vec![(0, None); dts.len()];
+        let mut newton = vec![NewtonRun::default(); dts.len()];
         let runs = watched(
             vec![problem.clone(); dts.len()],
             &dts,
             EULER_CRANK_NICOLSON,
             self.steps,
             |k, iterations, level| {
-                let (most, contact_force) = &mut seen[k];
-                *most = iterations.max(*most);
-                contact_force.get_or_insert(level.contact_force);
+                let run = &mut newton[k];
+                run.iterations = iterations.max(run.iterations);
+                run.contact_force.get_or_insert(level.contact_force);
             },
         )?;
         let mut points = Vec::with_capacity(dts.len());
-        for ((Watched { worst, failure }, dt), (iterations, contact_force)) in
-            runs.into_iter().zip(dts).zip(seen)
-        {
+        for ((Watched { worst, failure }, dt), newton) in runs.into_iter().zip(dts).zip(newton) {
             points.push(Point {
                 step: FixedPointStep::run(&problem, dt, n_value, ITERATIONS)?,
                 newton_completes: failure.is_none(),
-                newton: contact_force.map(|contact_force| NewtonSteps {
-                    iterations,
+                newton: newton.contact_force.map(|contact_force| NewtonSteps {
+                    iterations: newton.iterations,
                     contact_force,
                     worst,
                 }),
@@ -331,25 +332,29 @@ pub struct Boundary {
 }
 
 impl Map {
+    /// The dt in the map at which the predicted factor α is `limit`; `None` if there is none.
+    fn dt_of_alpha(
+        &self,
+        problem: &Problem,
+        n_value: f64,
+        limit: f64,
+    ) -> Result<Option<f64>, CaseFailure> {
+        let Interval { low, high, .. } = self.dt;
+        bisect(low, high, |dt| Ok(factors(problem, dt, n_value)[0] < limit))
+    }
+
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
         let problem = self.problem(value)?;
         let Interval { low, high, .. } = self.dt;
         let n_value = axial_force(&problem);
-        let alpha_is_below = |limit: f64| {
-            bisect(
-                low,
-                high,
-                |dt| Ok(factors(&problem, dt, n_value)[0] < limit),
-            )
-        };
-        let far = alpha_is_below(FAR)?.unwrap_or(high);
+        let far = self.dt_of_alpha(&problem, n_value, FAR)?.unwrap_or(high);
         let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?
             .map(|dt| FixedPointStep::run(&problem, dt, n_value, ITERATIONS))
             .transpose()?;
         Ok(Boundary {
             over: self.over,
             value,
-            predicted: alpha_is_below(1.0)?,
+            predicted: self.dt_of_alpha(&problem, n_value, 1.0)?,
             found,
         })
     }
@@ -368,6 +373,11 @@ fn contracts(problem: &Problem, dt: f64, n_value: f64) -> Result<bool, CaseFailu
         }
     }
     Ok(true)
+}
+
+/// A predicted factor; an infinite one has no value in the records.
+fn unless_infinite(factor: f64) -> Option<f64> {
+    (!factor.is_infinite()).then_some(factor)
 }
 
 /// The boundary between a `low` that satisfies the condition and a `high` that does not; `None` for

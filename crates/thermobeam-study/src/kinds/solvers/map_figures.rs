@@ -125,9 +125,13 @@ impl MapResults<'_> {
 
     /// The boundaries found, line by line.
     fn crossings(&self) -> Series {
-        let has_place = |value: f64| self.map.over.is_linear() || value > 0.0;
-        let lines = self.lines.iter().filter(|line| has_place(line.value));
-        let points = lines.filter_map(|line| Some((line.found?.dt, line.value)));
+        let mut points = vec![];
+        for line in &self.lines {
+            // A logarithmic axis has no place for 0.
+            if self.map.over.is_linear() || line.value > 0.0 {
+                points.extend(line.found.map(|step| (step.dt, line.value)));
+            }
+        }
         let mut series = Series::new("found by bisection", points);
         series.points.sort_by(|a, b| a.1.total_cmp(&b.1));
         series

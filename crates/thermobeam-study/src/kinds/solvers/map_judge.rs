@@ -257,7 +257,7 @@ impl Boundary {
     pub(super) fn readings(&self) -> Vec<Reading> {
         let at = format!("{} = {:e}", self.over.name(), self.value);
         let name = format!("boundary at {at}");
-        let mut dt = Reading::new("dt found", self.found.map(|at| at.dt)).scientific(4);
+        let mut dt = Reading::new("dt found", self.found.map(|step| step.dt)).scientific(4);
         if self.found.is_some() {
             let subject = Subject::of("boundary").by(ItemMethod::FixedPoint).at(at);
             dt = dt.guarded(name, 1e-2).about(subject);
@@ -267,8 +267,8 @@ impl Boundary {
             Reading::new("dt where alpha = 1", self.predicted).scientific(4),
             dt,
             Reading::new("difference", percent).shown(|percent| format!("{percent:+.3} %")),
-            Reading::new("alpha there", self.found.map(|at| at.alpha)).fixed(4),
-            Reading::new("gamma there", self.found.map(|at| at.gamma)).scientific(1),
+            Reading::new("alpha there", self.found.map(|step| step.alpha)).fixed(4),
+            Reading::new("gamma there", self.found.map(|step| step.gamma)).scientific(1),
         ]
     }
 

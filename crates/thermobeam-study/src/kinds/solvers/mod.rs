@@ -46,7 +46,7 @@ use map::Map;
 
 pub use super::runs::side_by_side::SolverComparison;
 pub use comparison::Agreement;
-pub use contraction::Contraction;
+pub use contraction::{Contraction, Place};
 pub use map::{Boundary, MapRow, NewtonSteps, Point};
 pub use step::FixedPointStep;
 
@@ -80,7 +80,7 @@ pub struct Solvers {
 pub enum SolverTask {
     /// One step by the fixed point in contact, with this time step, compliance of the obstacles and
     /// viscosity.
-    Contraction([f64; 3]),
+    Contraction(Place),
     /// The scene by both solvers, the fixed point to this tolerance η*.
     Comparison(f64),
     /// A row of the map: all time steps at this value of the second parameter.
@@ -176,8 +176,8 @@ impl Kind for Solvers {
 
     fn run(&self, task: &SolverTask) -> Result<Found, CaseFailure> {
         Ok(match *task {
-            SolverTask::Contraction(at) => {
-                Found::Contraction(part(&self.contraction)?.measure(at)?)
+            SolverTask::Contraction(place) => {
+                Found::Contraction(part(&self.contraction)?.measure(place)?)
             }
             SolverTask::Comparison(tolerance) => {
                 Found::Comparison(part(&self.comparison)?.run(tolerance)?)

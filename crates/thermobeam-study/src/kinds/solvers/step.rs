@@ -46,10 +46,10 @@ impl FixedPointStep {
         let stepping = by_fixed_point(dt, stopping);
         let mut driver = Driver::new(problem.clone(), stepping)?;
         let mut reached = (0, None);
-        let ended = run_to(&mut driver, dt, |_, report| {
+        let outcome = run_to(&mut driver, dt, |_, report| {
             reached = (report.iterations, report.contraction);
         });
-        let failure = match ended {
+        let failure = match outcome {
             Ok(()) => None,
             Err(RunError::Step(error)) => Some(error.failure),
             Err(other) => return Err(other.into()),

@@ -4,7 +4,7 @@
 mod refine;
 
 use convergence_harness::project::Term;
-use thermobeam::dg::Stepping as DgStepping;
+use thermobeam::dg::DgStepping;
 
 use super::prelude::*;
 use crate::exact::function::Factor;

@@ -21,11 +21,16 @@ impl Perturbation {
             return i as f64 / n;
         }
         // Every level has its own random numbers: nested displacements would not be random.
-        let scramble = |state: u64| SplitMix::new(state).next_u64();
-        let seed = scramble(scramble(self.seed ^ scramble(elements as u64)).wrapping_add(i as u64));
+        let level = scramble(self.seed ^ scramble(elements as u64));
+        let seed = scramble(level.wrapping_add(i as u64));
         let unit = SplitMix::new(seed).within([-1.0, 1.0]);
         (i as f64 + 0.5 * self.amount * unit) / n
     }
+}
+
+/// A number of 64 random bits for each state.
+fn scramble(state: u64) -> u64 {
+    SplitMix::new(state).next_u64()
 }
 
 /// Positions of the nodes of a mesh: equidistant, displaced, then mapped.

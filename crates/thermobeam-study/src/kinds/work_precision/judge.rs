@@ -26,11 +26,32 @@ struct Side {
     run: Option<Costed>,
 }
 
+impl Side {
+    /// The cheapest run of a method that reaches the error of the target.
+    fn new(name: &'static str, target: &Target, runs: &[Costed]) -> Self {
+        Self {
+            name,
+            run: cheapest(runs, name, target.error).cloned(),
+        }
+    }
+
+    /// NaN if the method does not reach the error.
+    fn cost(&self) -> f64 {
+        self.run.as_ref().map_or(f64::NAN, |run| run.cost)
+    }
+
+    fn words(&self) -> String {
+        match &self.run {
+            Some(run) => format!("{:.2e} ({})", run.cost, run.resolution),
+            None => "not reached".to_owned(),
+        }
+    }
+}
+
 impl Ratio<'_> {
     /// NaN if one of the methods does not reach the error.
     fn value(&self) -> f64 {
-        let cost = |side: &Side| side.run.as_ref().map_or(f64::NAN, |run| run.cost);
-        cost(&self.dear) / cost(&self.cheap)
+        self.dear.cost() / self.cheap.cost()
     }
 
     fn name(&self) -> String {
@@ -51,15 +72,11 @@ impl Ratio<'_> {
             self.times,
             self.cheap.name
         );
-        let side = |side: &Side| match &side.run {
-            Some(run) => format!("{:.2e} ({})", run.cost, run.resolution),
-            None => "not reached".to_owned(),
-        };
         let ratio = self.value();
         let evidence = format!(
             "{ratio:.2} times: {} against {} node-solves",
-            side(&self.dear),
-            side(&self.cheap)
+            self.dear.words(),
+            self.cheap.words()
         );
         Check::that(ratio >= self.times && ratio.is_finite(), claim, evidence).about(self.subject())
     }
@@ -122,30 +139,32 @@ pub(super) fn judge(study: &WorkPrecision, ran: &[Ran<Trial, Measurement>]) -> O
 
 /// All runs that finished, with their counted work.
 fn costed(ran: &[Ran<Trial, Measurement>], measure: ErrorMeasure) -> Vec<Costed> {
-    let finished = ran
-        .iter()
-        .filter_map(|ran| Some((&ran.case.data, ran.ok()?)));
-    let one = |(trial, run): (&Trial, &Measurement)| Costed {
-        method: trial.method.name.to_owned(),
-        resolution: trial.resolution.to_string(),
-        error: run.errors.of(measure),
-        cost: run.spent.node_solves,
-    };
-    finished.map(one).collect()
+    let mut runs = vec![];
+    for ran in ran {
+        let trial = &ran.case.data;
+        if let Some(measurement) = ran.ok() {
+            runs.push(Costed {
+                method: trial.method.name.to_owned(),
+                resolution: trial.resolution.to_string(),
+                error: measurement.errors.of(measure),
+                cost: measurement.spent.node_solves,
+            });
+        }
+    }
+    runs
 }
 
 fn ratios<'t>(target: &'t Target, runs: &[Costed]) -> Vec<Ratio<'t>> {
-    let side = |k: usize| Side {
-        name: target.methods[k].name,
-        run: cheapest(runs, target.methods[k].name, target.error).cloned(),
-    };
-    let ratio = |(k, &times): (usize, &f64)| Ratio {
-        target,
-        dear: side(k),
-        cheap: side(k + 1),
-        times,
-    };
-    target.times.iter().enumerate().map(ratio).collect()
+    let mut ratios = vec![];
+    for (methods, &times) in target.methods.windows(2).zip(&target.times) {
+        ratios.push(Ratio {
+            target,
+            dear: Side::new(methods[0].name, target, runs),
+            cheap: Side::new(methods[1].name, target, runs),
+            times,
+        });
+    }
+    ratios
 }
 
 /// No method that reaches a target may be left out of its claims.
@@ -210,39 +229,39 @@ fn readings_of(Measurement { errors, spent, .. }: &Measurement) -> Vec<Reading> 
 fn fastest(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measurement>]) -> Table {
     let runs = costed(ran, measure);
     let methods: Vec<&str> = study.methods().map(|method| method.name).collect();
-    let row = |target: &Target| {
-        let cell = |name: &&str| match cheapest(&runs, name, target.error) {
-            Some(run) => format!("{:.2e} ({})", run.cost, run.resolution),
-            None => "-".to_owned(),
-        };
-        let cells = methods.iter().map(cell);
-        [format!("{:e}", target.error)]
-            .into_iter()
-            .chain(cells)
-            .collect()
-    };
+    let mut rows = vec![];
+    for target in &study.targets {
+        if target.measure != measure {
+            continue;
+        }
+        let mut row = vec![format!("{:e}", target.error)];
+        for name in &methods {
+            row.push(match cheapest(&runs, name, target.error) {
+                Some(run) => format!("{:.2e} ({})", run.cost, run.resolution),
+                None => "-".to_owned(),
+            });
+        }
+        rows.push(row);
+    }
     let title = format!(
         "Node-solves for an error in {} by the cheapest run (elements x steps, or degrees and step); a dash: no run of this study \
          reaches it",
         measure.in_words()
     );
-    let targets = study
-        .targets
-        .iter()
-        .filter(|target| target.measure == measure);
     let head = ["error"].into_iter().chain(methods.iter().copied());
-    Table::new(title, head, targets.map(row).collect::<Vec<_>>())
+    Table::new(title, head, rows)
 }
 
 fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Table {
-    let row = |ran: &Ran<Trial, Measurement>| {
+    let mut rows = vec![];
+    for ran in ran {
         let readings = ran.ok().map_or_else(Vec::new, readings_of);
-        (vec![ran.case.label.clone()], readings)
-    };
+        rows.push((vec![ran.case.label.clone()], readings));
+    }
     readings::table(
         "Largest errors over time, and counted work",
         &["run"],
-        &ran.iter().map(row).collect::<Vec<_>>(),
+        &rows,
     )
 }
 
@@ -274,10 +293,11 @@ fn guarded(
     ratios: &[Ratio<'_>],
     ran: &[Ran<Trial, Measurement>],
 ) -> Vec<Quantity> {
-    let ratio = |ratio: &Ratio<'_>| {
-        Quantity::new(ratio.name(), ratio.value(), RATIO_TOLERANCE).about(ratio.subject())
-    };
-    let mut quantities: Vec<Quantity> = ratios.iter().map(ratio).collect();
+    let mut quantities = vec![];
+    for ratio in ratios {
+        let quantity = Quantity::new(ratio.name(), ratio.value(), RATIO_TOLERANCE);
+        quantities.push(quantity.about(ratio.subject()));
+    }
     for &measure in measures {
         let runs = costed(ran, measure);
         for method in study.methods() {

@@ -6,13 +6,14 @@
 //! unknowns per block, each of which costs (q + 1)² as much; its factorisation counts as 3 (q + 1)
 //! solves.
 
-use thermobeam::dg;
+use thermobeam::dg::{self, Dg, DgLevel, DgStepping};
 
 use crate::error::polynomials::Polynomials;
 use crate::error::reference::combine;
 use crate::error::{AnyOrderEvaluator, Errors, Evaluator};
 use crate::kinds::prelude::*;
 use crate::run::family::Spent;
+use crate::run::snapshot::equidistant_time;
 
 /// A method of solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -285,7 +286,7 @@ pub(super) enum Audience<'r> {
     /// An evaluator, against this reference or the exact solution.
     Errors(Option<&'r Polynomials>),
     /// The levels are kept.
-    Levels(&'r mut Vec<dg::Level>),
+    Levels(&'r mut Vec<DgLevel>),
     /// Nobody: the run only takes its time.
     Nobody,
 }
@@ -313,24 +314,21 @@ impl Degrees {
             }
             Audience::Levels(_) | Audience::Nobody => None,
         };
-        let time = |k: usize| {
-            if k == times {
-                family.t_end
-            } else {
-                family.t_end * k as f64 / times as f64
-            }
-        };
         let mut level = motion.simulation().level().clone();
         let mut errors = Errors::default();
         let mut index = 0;
         let mut seconds = 0.0;
         let mut begun = clock();
         run_to(&mut motion, family.t_end, |motion, _| {
-            if motion.work().t < time(index + 1) {
+            if motion.work().t < equidistant_time(family.t_end, index + 1, times) {
                 return;
             }
             seconds += clock() - begun;
-            while index < times && motion.simulation().level_into(time(index + 1), &mut level) {
+            while index < times {
+                let t = equidistant_time(family.t_end, index + 1, times);
+                if !motion.simulation().level_into(t, &mut level) {
+                    break;
+                }
                 if let Some(evaluator) = &mut evaluator {
                     errors = errors.worst(evaluator.measure(&level, index));
                 }
@@ -342,7 +340,7 @@ impl Degrees {
             begun = clock();
         })?;
         drop(evaluator);
-        let spent = self.spent(&space, motion.simulation().work());
+        let spent = self.spent(motion.simulation());
         let measurement = Measurement {
             errors,
             spent,
@@ -351,24 +349,25 @@ impl Degrees {
         Ok((space, measurement))
     }
 
-    fn stepping(self) -> dg::Stepping {
+    fn stepping(self) -> DgStepping {
         let Self { q, dt, .. } = self;
-        dg::Stepping {
+        DgStepping {
             degree: q,
             dt,
             restart_dt: RESTART * dt,
             growth: 1.0 + 0.5 * dt / COARSE,
-            ..dg::Stepping::default()
+            ..DgStepping::default()
         }
     }
 
     /// The counted work, in the unit of the head of this file.
-    fn spent(self, space: &dg::Space, work: dg::Work) -> Spent {
+    fn spent(self, simulation: &Dg) -> Spent {
         let stages = (self.q + 1) as f64;
-        let solves = work.solves as f64 + 3.0 * stages * work.factorizations as f64;
-        let weight = space.blocks() as f64 * stages * stages;
+        let work = simulation.work();
+        let solves = work.passes as f64 + 3.0 * stages * work.factorizations as f64;
+        let weight = simulation.space().blocks() as f64 * stages * stages;
         Spent {
-            node_steps: weight * work.steps as f64,
+            node_steps: weight * simulation.steps() as f64,
             node_solves: weight * solves,
         }
     }

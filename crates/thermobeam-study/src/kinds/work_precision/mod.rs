@@ -198,8 +198,9 @@ impl WorkPrecision {
 
 impl Trial {
     fn scheme(&self) -> Result<method::OneStep, CaseFailure> {
-        let no_steps = || CaseFailure::new(format!("{} has no equal steps", self.method.name));
-        self.method.one_step.ok_or_else(no_steps)
+        self.method
+            .one_step
+            .ok_or_else(|| CaseFailure::new(format!("{} has no equal steps", self.method.name)))
     }
 
     /// The work of a run in node-solves, roughly.
@@ -228,11 +229,13 @@ impl Kind for WorkPrecision {
     type Found = Measurement;
 
     fn cases(&self) -> Vec<Case<Trial>> {
-        let case = |trial: &Trial| {
+        let mut cases = vec![];
+        for trial in &self.trials {
             let label = format!("{}, {}", trial.method.name, trial.resolution);
-            Case::new(label, trial.cost(self.family.t_end), trial.clone())
-        };
-        self.trials.iter().map(case).collect()
+            let cost = trial.cost(self.family.t_end);
+            cases.push(Case::new(label, cost, trial.clone()));
+        }
+        cases
     }
 
     fn run(&self, trial: &Trial) -> Result<Measurement, CaseFailure> {

@@ -3,9 +3,9 @@ mod refused;
 use super::says;
 use std::path::Path;
 use thermobeam::mesh::Mesh;
+use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
-use thermobeam::simulation::Stepping;
 use thermobeam::solve::{Settings, Solver, Stopping};
 use thermobeam_study::scene::{Initial, Scene};
 

@@ -28,7 +28,7 @@
 mod runs;
 
 use convergence_harness::judge::fit::FLOOR_MARGIN;
-use thermobeam::dg::Stepping;
+use thermobeam::dg::DgStepping;
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
@@ -247,12 +247,12 @@ fn root_of_squares(errors: [f64; 5]) -> f64 {
 impl AnyOrder {
     fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
         let dt = self.t_end / resolution.steps as f64;
-        let stepping = Stepping {
+        let stepping = DgStepping {
             degree: resolution.time_degree,
             dt,
             restart_dt: dt,
             growth: 1.0,
-            ..Stepping::default()
+            ..DgStepping::default()
         };
         Ok(DgMotion::manufactured(
             &self.exact,
@@ -419,10 +419,12 @@ impl Errors {
 
 /// The error in the fields over the degree; NaN if the run failed.
 fn points(runs: &[Ran<Resolution, Errors>]) -> Vec<(f64, f64)> {
-    let error = |run: &Ran<_, Errors>| run.ok().and_then(|errors| errors.of("fields"));
-    runs.iter()
-        .map(|run| (run.case.data.degree as f64, error(run).unwrap_or(f64::NAN)))
-        .collect()
+    let mut points = vec![];
+    for run in runs {
+        let error = run.ok().and_then(|errors| errors.of("fields"));
+        points.push((run.case.data.degree as f64, error.unwrap_or(f64::NAN)));
+    }
+    points
 }
 
 /// Whether every run starts from the projection (3.6) of its initial data; with none, completion

@@ -151,9 +151,12 @@ impl<'a> Prepared<'a> {
 /// Smallest and largest u(1, t) of the exact solution over the time levels of the finest run.
 pub(super) fn range_of_the_tip(study: &Convergence) -> [f64; 2] {
     let steps = study.refine.steps.iter().copied().max().unwrap_or(1);
-    let tip = |n: usize| study.exact.tip(n as f64 * study.refine.dt(steps));
-    let ends = |[low, high]: [f64; 2], u: f64| [low.min(u), high.max(u)];
-    (0..=steps)
-        .map(tip)
-        .fold([f64::INFINITY, f64::NEG_INFINITY], ends)
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+    for n in 0..=steps {
+        let u = study.exact.tip(n as f64 * study.refine.dt(steps));
+        low = low.min(u);
+        high = high.max(u);
+    }
+    [low, high]
 }

@@ -137,9 +137,13 @@ impl Source for Convergence {
             Axis::Both => "the mesh width 1/n, refined together with the time step",
         };
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
-        let step = |elements, steps| self.step_size(elements, steps);
         let errors = runs.iter().map(|run| (run.case.data, run.ok()));
-        let levels = levels(&self.refine, &self.expect, step, errors);
+        let levels = levels(
+            &self.refine,
+            &self.expect,
+            |elements, steps| self.step_size(elements, steps),
+            errors,
+        );
         let series = if self.refine.grid {
             Series::on_grid(levels, self.grid(runs))
         } else {
@@ -210,12 +214,14 @@ impl Convergence {
         }
         let mut columns = vec![];
         for &(norm, claim) in &self.expect {
-            let error = |run: &Ran<_, Norms>| run.ok().map_or(f64::NAN, |errors| errors[norm]);
             columns.push(GridColumn {
                 name: norm.name().to_owned(),
                 space: claim,
                 time: claim.order,
-                errors: runs.iter().map(error).collect(),
+                errors: runs
+                    .iter()
+                    .map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm]))
+                    .collect(),
             });
         }
         Grid {

@@ -55,13 +55,15 @@ impl SelfConvergence {
             if !wanted(claim) {
                 continue;
             }
-            let difference = |k: usize| {
+            let mut errors = vec![];
+            for k in 0..count {
                 let other = match reading {
                     Reading::Successive => k + 1,
                     Reading::Reference => reference,
                 };
-                Some(observable.difference(found(runs, &k)?, found(runs, &other)?))
-            };
+                let pair = found(runs, &k).zip(found(runs, &other));
+                errors.push(pair.map(|(level, other)| observable.difference(level, other)));
+            }
             let smooth = Claim::new(self.smooth_order(observable), SHOWN_TOLERANCE);
             // A norm that is also one of errors has its look wherever it is drawn.
             let mut norms = Norm::ALL.iter();
@@ -69,16 +71,16 @@ impl SelfConvergence {
             columns.push(ErrorColumn {
                 name: format!("{}, {}", observable.name, reading.name()),
                 symbol: Some(observable.symbol.to_owned()),
-                errors: (0..count).map(difference).collect(),
+                errors,
                 claim: claim.or(Some(smooth)),
                 look: norm.unwrap_or(Norm::ALL.len() + place),
             });
         }
-        let refinement = |k: usize| {
-            let (elements, steps) = self.levels[k];
-            Refine::level(elements, steps, self.step_size(k))
-        };
-        Levels::new(self.axis, (0..count).map(refinement), columns)
+        let mut refinements = vec![];
+        for (k, &(elements, steps)) in self.levels.iter().enumerate().take(count) {
+            refinements.push(Refine::level(elements, steps, self.step_size(k)));
+        }
+        Levels::new(self.axis, refinements, columns)
     }
 
     fn observables(&self) -> impl Iterator<Item = &'static Observable> {
@@ -134,20 +136,20 @@ impl SelfConvergence {
                 Axis::Time => format!("{steps} steps"),
                 Axis::Space | Axis::Both => format!("n = {elements}"),
             };
-            let point = |k: usize| {
+            let points = (1..=self.samples).map(|k| {
                 let distance = (tip_at(runs, level, k) - tip_at(runs, reference, k)).abs();
                 (self.time(k), distance)
-            };
-            curves.push(plots::Series::new(name, (1..=self.samples).map(point)));
+            });
+            curves.push(plots::Series::new(name, points));
         }
         let y = plots::Axis::log("|u(1, t) − reference| (dimensionless)");
-        let drawn = plots::history(y, &curves)
+        let figure = plots::history(y, &curves)
             .marked()
             .titled("Each refinement brings the tip nearer to the reference, at all times");
         Figure::new(
             "tip",
             "Distance of u(1, t) to the reference on each level.",
-            drawn.draw(),
+            figure.draw(),
         )
     }
 

@@ -14,7 +14,7 @@ pub(super) struct Observable {
     pub(super) symbol: &'static str,
     /// The order in h for a smooth solution.
     in_space: f64,
-    of: fn(&Traced, &Traced) -> f64,
+    distance: fn(&Traced, &Traced) -> f64,
 }
 
 static OBSERVABLES: [Observable; 7] = [
@@ -23,21 +23,21 @@ static OBSERVABLES: [Observable; 7] = [
         name: "rotation",
         symbol: "φ(1, t)",
         in_space: 2.0,
-        of: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
+        distance: |a, b| largest(a, b, |a, b| (last(&a.phi) - last(&b.phi)).abs()),
     },
     // The energy (3.9).
     Observable {
         name: "energy",
         symbol: "E",
         in_space: 2.0,
-        of: |a, b| distance_of_curves(&a.energies, &b.energies),
+        distance: |a, b| distance_of_curves(&a.energies, &b.energies),
     },
     // The largest u(1) over all time levels.
     Observable {
         name: "tip-max",
         symbol: "max u(1, t)",
         in_space: 2.0,
-        of: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
+        distance: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
     },
     // The largest defect of the energy balance in a step; of a fixed number of iterations it has an
     // order of its own.
@@ -45,21 +45,21 @@ static OBSERVABLES: [Observable; 7] = [
         name: "balance",
         symbol: "defect of the balance",
         in_space: 2.0,
-        of: |a, b| (a.energy_defect - b.energy_defect).abs(),
+        distance: |a, b| (a.energy_defect - b.energy_defect).abs(),
     },
     // The solutions as functions.
     Observable {
         name: "theorem-3.4",
         symbol: Norm::Theorem34.symbol(),
         in_space: 1.0,
-        of: |coarse, fine| functions(coarse, fine)[0],
+        distance: |coarse, fine| functions(coarse, fine)[0],
     },
     // The same norm of their values at the nodes of the coarser mesh.
     Observable {
         name: "superclose",
         symbol: Norm::Superclose.symbol(),
         in_space: 2.0,
-        of: |coarse, fine| functions(coarse, fine)[1],
+        distance: |coarse, fine| functions(coarse, fine)[1],
     },
 ];
 
@@ -67,16 +67,16 @@ pub(super) const TIP: Observable = Observable {
     name: "tip",
     symbol: "u(1, t)",
     in_space: 2.0,
-    of: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()),
+    distance: |a, b| largest(a, b, |a, b| (last(&a.u) - last(&b.u)).abs()),
 };
 
 /// The largest over the times compared.
-fn largest(coarse: &Traced, fine: &Traced, of: impl Fn(&Level, &Level) -> f64) -> f64 {
+fn largest(coarse: &Traced, fine: &Traced, distance: impl Fn(&Level, &Level) -> f64) -> f64 {
     coarse
         .levels
         .iter()
         .zip(&fine.levels)
-        .map(|(coarse, fine)| of(coarse, fine))
+        .map(|(coarse, fine)| distance(coarse, fine))
         .fold(0.0, max_or_nan)
 }
 
@@ -123,7 +123,7 @@ impl Observable {
     pub(super) fn difference(&self, coarse: &Traced, fine: &Traced) -> f64 {
         let is_nested = fine.mesh.elements().is_multiple_of(coarse.mesh.elements());
         if coarse.levels.len() == fine.levels.len() && is_nested {
-            (self.of)(coarse, fine)
+            (self.distance)(coarse, fine)
         } else {
             f64::NAN
         }

@@ -152,14 +152,18 @@ impl Source for Vibration {
     }
 
     fn measured(&self, runs: &Runs<Self>) -> Measured {
-        let step = |elements: usize, steps: usize| match self.refine.axis {
-            Axis::Time => self.refine.dt(steps),
-            Axis::Space | Axis::Both => self.refine.layout.size(elements),
-        };
         let errors = runs
             .iter()
             .map(|run| (run.case.data, run.ok().map(|found| &found.errors)));
-        let levels = levels(&self.refine, &self.expect, step, errors);
+        let levels = levels(
+            &self.refine,
+            &self.expect,
+            |elements, steps| match self.refine.axis {
+                Axis::Time => self.refine.dt(steps),
+                Axis::Space | Axis::Both => self.refine.layout.size(elements),
+            },
+            errors,
+        );
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
         let mut measured = Measured {
             series: vec![Series::new(levels).drawn("errors", Some("Damped vibration"), caption)],

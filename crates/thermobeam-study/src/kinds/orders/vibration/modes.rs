@@ -38,11 +38,51 @@ use crate::kinds::prelude::*;
 #[derive(Default)]
 pub(super) struct Modes {
     pub(super) exact: Manufactured,
-    /// ω² of each vibration, and its position and velocity at t = 0.
-    vibrations: Vec<(f64, [f64; 2])>,
-    /// κ² of each temperature, and its amplitude at t = 0.
-    temperatures: Vec<(f64, f64)>,
+    vibrations: Vec<VibrationStart>,
+    temperatures: Vec<TemperatureStart>,
     zeta: f64,
+}
+
+/// A vibration at t = 0.
+struct VibrationStart {
+    /// ω².
+    square: f64,
+    /// Position and velocity.
+    state: [f64; 2],
+}
+
+/// A temperature at t = 0.
+struct TemperatureStart {
+    /// κ².
+    square: f64,
+    amplitude: f64,
+}
+
+/// A vibration of a mesh, scaled to U(1) = 1 like the exact ones.
+#[derive(Clone)]
+struct MeshVibration {
+    /// ω².
+    square: f64,
+    /// Nodal values of U.
+    u: Vec<f64>,
+    /// Nodal values of Φ.
+    phi: Vec<f64>,
+}
+
+/// A temperature of a mesh that vanishes at both ends, scaled to a largest value of 1.
+#[derive(Clone)]
+struct MeshTemperature {
+    /// κ².
+    square: f64,
+    /// Nodal values.
+    theta: Vec<f64>,
+}
+
+/// A solution of `A x = λ B x`.
+struct Eigenpair {
+    /// λ.
+    value: f64,
+    vector: DVector<f64>,
 }
 
 impl Modes {
@@ -54,30 +94,32 @@ impl Modes {
         };
         for &(index, start) in &study.modes {
             free_vibration::add_mode(&mut modes.exact, index, modes.zeta, start)?;
-            modes
-                .vibrations
-                .push((Mode::new(index).omega().powi(2), start));
+            modes.vibrations.push(VibrationStart {
+                square: Mode::new(index).omega().powi(2),
+                state: start,
+            });
         }
         for &(k, amplitude) in &study.heat {
             free_vibration::add_temperature(&mut modes.exact, k, amplitude);
-            modes
-                .temperatures
-                .push(((k as f64 * PI).powi(2), amplitude));
+            modes.temperatures.push(TemperatureStart {
+                square: (k as f64 * PI).powi(2),
+                amplitude,
+            });
         }
         Ok(modes)
     }
 
     /// The modes of the mesh itself: P1 functions that oscillate at their own frequencies.
     pub(super) fn of_mesh(study: &Vibration, mesh: &Mesh) -> Result<Self, CaseFailure> {
-        let none = || CaseFailure::new("the mesh has no modes");
         let mut modes = Self {
             zeta: study.theory.beam.zeta,
             ..Self::default()
         };
-        let vibrations = vibrations(mesh).ok_or_else(none)?;
-        for &(index, start) in &study.modes {
-            let (square, [u, phi]) = vibrations.get(index).cloned().ok_or_else(none)?;
-            let t = free_vibration::damped(square.sqrt(), modes.zeta, start)?;
+        let vibrations = vibrations(mesh).ok_or_else(no_modes)?;
+        for &(index, state) in &study.modes {
+            let MeshVibration { square, u, phi } =
+                vibrations.get(index).cloned().ok_or_else(no_modes)?;
+            let t = free_vibration::damped(square.sqrt(), modes.zeta, state)?;
             modes.exact.u.push(Product {
                 x: piecewise_linear(mesh, u),
                 t: t.clone(),
@@ -86,22 +128,25 @@ impl Modes {
                 x: piecewise_linear(mesh, phi),
                 t,
             });
-            modes.vibrations.push((square, start));
+            modes.vibrations.push(VibrationStart { square, state });
         }
         let temperatures = if study.heat.is_empty() {
             Some(vec![])
         } else {
             temperatures(mesh)
         };
-        let temperatures = temperatures.ok_or_else(none)?;
+        let temperatures = temperatures.ok_or_else(no_modes)?;
         for &(k, amplitude) in &study.heat {
-            let (square, theta) = temperatures.get(k - 1).cloned().ok_or_else(none)?;
+            let MeshTemperature { square, theta } =
+                temperatures.get(k - 1).cloned().ok_or_else(no_modes)?;
             let t = free_vibration::decay(square, amplitude);
             modes.exact.theta.push(Product {
                 x: piecewise_linear(mesh, theta),
                 t,
             });
-            modes.temperatures.push((square, amplitude));
+            modes
+                .temperatures
+                .push(TemperatureStart { square, amplitude });
         }
         Ok(modes)
     }
@@ -110,18 +155,18 @@ impl Modes {
     /// after the other. All schemes treat the temperature by Crank-Nicolson.
     pub(super) fn moved(
         &self,
-        by: Option<SchemeFormulas>,
+        scheme: Option<SchemeFormulas>,
         dt: f64,
     ) -> impl FnMut(usize, &mut Factors) {
-        let (mut level, mut states): (usize, Vec<[f64; 2]>) =
-            (0, self.vibrations.iter().map(|(_, at)| *at).collect());
+        let mut level = 0;
+        let mut states: Vec<[f64; 2]> = self.vibrations.iter().map(|start| start.state).collect();
         move |n, factors| {
-            let Some(scheme) = by else {
+            let Some(scheme) = scheme else {
                 return factors.at(&self.exact, n as f64 * dt);
             };
             for _ in level..n {
-                for (state, (square, _)) in states.iter_mut().zip(&self.vibrations) {
-                    *state = scheme_step(scheme, *square, self.zeta, dt, *state);
+                for (state, start) in states.iter_mut().zip(&self.vibrations) {
+                    *state = scheme_step(scheme, start.square, self.zeta, dt, *state);
                 }
             }
             level = n;
@@ -131,15 +176,12 @@ impl Modes {
                 field.rate.clear();
                 field.rate.extend(states.iter().map(|[_, v]| v));
             }
-            let temperature = |(square, start): &(f64, f64)| {
-                let half = 0.5 * dt * square;
-                start * ((1.0 - half) / (1.0 + half)).powi(n as i32)
-            };
             factors.theta.value.clear();
-            factors
-                .theta
-                .value
-                .extend(self.temperatures.iter().map(temperature));
+            for start in &self.temperatures {
+                let half = 0.5 * dt * start.square;
+                let factor = ((1.0 - half) / (1.0 + half)).powi(n as i32);
+                factors.theta.value.push(start.amplitude * factor);
+            }
         }
     }
 }
@@ -157,58 +199,64 @@ fn scheme_step(
     [q + dt * carrying, v + scheme.inertia() * (carrying - v)]
 }
 
-/// All vibrations `A x = ω² B x` of a mesh, lowest first: ω², and nodal values of U and Φ, scaled
-/// to U(1) = 1 like the exact ones.
+fn no_modes() -> CaseFailure {
+    CaseFailure::new("the mesh has no modes")
+}
+
+/// All vibrations `A x = ω² B x` of a mesh, lowest first.
 ///
 /// A and B are the forms `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on the n free nodes of each field.
 /// The method is dense and shares nothing with the solver's sweeps.
-fn vibrations(mesh: &Mesh) -> Option<Vec<(f64, [Vec<f64>; 2])>> {
+fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
     let n = mesh.elements();
     let [mass, stiffness, coupling] = [mass(mesh), stiffness(mesh), coupling(mesh)]
         .map(|matrix| dense(&matrix).view((1, 1), (n, n)).into_owned());
-    let (mut a, mut b) = (DMatrix::zeros(2 * n, 2 * n), DMatrix::zeros(2 * n, 2 * n));
+    let mut a = DMatrix::zeros(2 * n, 2 * n);
+    let mut b = DMatrix::zeros(2 * n, 2 * n);
     a.view_mut((0, 0), (n, n)).copy_from(&stiffness);
     a.view_mut((n, n), (n, n)).copy_from(&(stiffness + &mass));
     a.view_mut((0, n), (n, n)).copy_from(&-&coupling);
     a.view_mut((n, 0), (n, n)).copy_from(&-coupling.transpose());
     b.view_mut((0, 0), (n, n)).copy_from(&mass);
     b.view_mut((n, n), (n, n)).copy_from(&mass);
-    let mode = |(square, x): (f64, DVector<f64>)| {
-        let field = |from: usize| {
-            std::iter::once(0.0)
-                .chain((from..from + n).map(|i| x[i] / x[n - 1]))
-                .collect()
-        };
-        (square, [field(0), field(n)])
-    };
-    Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
+    let mut vibrations = vec![];
+    for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
+        let tip = x[n - 1];
+        let mut u = vec![0.0];
+        u.extend((0..n).map(|i| x[i] / tip));
+        let mut phi = vec![0.0];
+        phi.extend((n..2 * n).map(|i| x[i] / tip));
+        vibrations.push(MeshVibration {
+            square: value,
+            u,
+            phi,
+        });
+    }
+    Some(vibrations)
 }
 
-/// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first: κ² and nodal
-/// values, scaled to a largest value of 1.
-fn temperatures(mesh: &Mesh) -> Option<Vec<(f64, Vec<f64>)>> {
+/// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first.
+fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
     let n = mesh.elements();
     let [a, b] = [stiffness(mesh), mass(mesh)]
         .map(|matrix| dense(&matrix).view((1, 1), (n - 1, n - 1)).into_owned());
-    let mode = |(square, x): (f64, DVector<f64>)| {
-        let larger = |largest: f64, value: &f64| {
+    let mut temperatures = vec![];
+    for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
+        let mut largest = 0.0_f64;
+        for &value in &x {
             if value.abs() > largest.abs() {
-                *value
-            } else {
-                largest
+                largest = value;
             }
-        };
-        let largest = x.iter().fold(0.0, larger);
-        let inner = x.iter().map(|value| value / largest);
-        (
-            square,
-            std::iter::once(0.0)
-                .chain(inner)
-                .chain(std::iter::once(0.0))
-                .collect(),
-        )
-    };
-    Some(eigenpairs(&a, &b)?.into_iter().map(mode).collect())
+        }
+        let mut theta = vec![0.0];
+        theta.extend(x.iter().map(|value| value / largest));
+        theta.push(0.0);
+        temperatures.push(MeshTemperature {
+            square: value,
+            theta,
+        });
+    }
+    Some(temperatures)
 }
 
 fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
@@ -222,21 +270,25 @@ fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
 }
 
 /// Eigenpairs of `A x = λ B x`, increasing, by Cholesky of B; `None` if B is not positive definite.
-fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
+fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<Eigenpair>> {
     let factor = b.clone().cholesky()?.l();
     let half = factor.solve_lower_triangular(a)?;
     let standard = factor.solve_lower_triangular(&half.transpose())?;
     let eigen = (0.5 * (&standard + standard.transpose())).symmetric_eigen();
     let mut order: Vec<usize> = (0..a.nrows()).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    let pair = |index: usize| {
+    let mut pairs = vec![];
+    for index in order {
         let x = factor
             .transpose()
             .solve_upper_triangular(&eigen.eigenvectors.column(index).clone_owned())?;
-        // Rayleigh quotient: its error is the square of the eigenvector's.
-        Some(((a * &x).dot(&x) / (b * &x).dot(&x), x))
-    };
-    order.into_iter().map(pair).collect()
+        pairs.push(Eigenpair {
+            // Rayleigh quotient: its error is the square of the eigenvector's.
+            value: (a * &x).dot(&x) / (b * &x).dot(&x),
+            vector: x,
+        });
+    }
+    Some(pairs)
 }
 
 #[cfg(test)]
@@ -275,9 +327,9 @@ mod tests {
             let mesh = mesh.expect("a mesh");
             let modes = vibrations(&mesh).expect("a positive mass");
             let expected = discrete_frequencies(&mesh, 1, modes.len()).expect("all of them");
-            for ((square, _), expected) in modes.iter().zip(expected) {
+            for (mode, expected) in modes.iter().zip(expected) {
                 assert!(
-                    (square.sqrt() - expected).abs() < 1e-11 * expected.max(1.0),
+                    (mode.square.sqrt() - expected).abs() < 1e-11 * expected.max(1.0),
                     "{expected}"
                 );
             }
@@ -288,7 +340,7 @@ mod tests {
     fn temperatures_on_a_uniform_mesh_are_sines() {
         let n = 10;
         let modes = temperatures(&Mesh::uniform(n).expect("a mesh")).expect("a positive mass");
-        for (k, (square, theta)) in modes.iter().enumerate() {
+        for (k, MeshTemperature { square, theta }) in modes.iter().enumerate() {
             let angle = PI * (k + 1) as f64 / n as f64;
             let exact = 6.0 * (n * n) as f64 * (1.0 - angle.cos()) / (2.0 + angle.cos());
             assert!((square - exact).abs() < 1e-11 * exact, "{k}");

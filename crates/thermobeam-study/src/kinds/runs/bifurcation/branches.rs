@@ -178,8 +178,9 @@ impl Diagram {
         let mut grid = betas.to_vec();
         if buckles(scene) && !event[0].is_nan() {
             // Additional points around a fork for its close-up.
-            let close = |k: usize| event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0);
-            grid.extend((0..=FORK_POINTS).map(close));
+            for k in 0..=FORK_POINTS {
+                grid.push(event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0));
+            }
             grid.sort_by(f64::total_cmp);
         }
         Ok(Self::trace(&sample(scene, &grid, HALVINGS)?, event))

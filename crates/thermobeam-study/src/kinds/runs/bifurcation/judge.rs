@@ -206,14 +206,15 @@ impl<'r> OfScene<'r> {
     }
 
     fn drawing(&self, diagram: &Diagram, title: String, [low, high]: [f64; 2]) -> String {
-        let is_shown = |(beta, _): &(f64, f64)| (low..=high).contains(beta);
+        let range = low..=high;
         let mut sorted: Vec<_> = diagram.branches.iter().collect();
         sorted.sort_by_key(|branch| (branch.key.place(), !branch.key.stable));
         let mut branches: Vec<figures::Branch> = vec![];
         for branch in sorted {
             let label = branch.key.name();
             let stable = branch.key.stable;
-            let points = branch.points.iter().copied().filter(is_shown);
+            let points = branch.points.iter().copied();
+            let points = points.filter(|(beta, _)| range.contains(beta));
             match branches.last_mut() {
                 Some(last)
                     if branch.key.is_straight()
@@ -230,11 +231,12 @@ impl<'r> OfScene<'r> {
         }
         // A branch found at a single β is a corner of the diagram, not a line.
         branches.retain(|branch| branch.points.len() > 1);
+        let tips = self.tips().filter(|(beta, _)| range.contains(beta));
         figures::bifurcation(&figures::Bifurcation {
             title,
             branches,
             obstacles: figures::obstacle_lines(self.scene.obstacles),
-            ends: plots::Series::new("end of a run", self.tips().filter(is_shown)),
+            ends: plots::Series::new("end of a run", tips),
         })
     }
 }
@@ -252,7 +254,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     }
     let limit = extrapolated(&study.meshes, &forces);
     let mut checks = vec![discrete_limit(limit)];
-    checks.extend(scenes.iter().flat_map(|of| of.checks(study)));
+    checks.extend(scenes.iter().flat_map(|scene| scene.checks(study)));
     let errors = forces
         .iter()
         .map(|force| force.map(|force| (force - BUCKLING).abs()));
@@ -269,10 +271,10 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     let rates = levels.judge();
     let events: Vec<String> = scenes
         .iter()
-        .map(|of| format!("{:.6}", of.event()))
+        .map(|scene| format!("{:.6}", scene.event()))
         .collect();
     let headline = format!("buckling and lift-off at β = {}", events.join(", "));
-    let ends = scenes.iter().flat_map(|of| &of.rests);
+    let ends = scenes.iter().flat_map(|scene| &scene.rests);
     let left_out: Vec<_> = ends
         .map(|(_, rest)| rest.is_none().then_some(NO_RESULT))
         .collect();
@@ -289,7 +291,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
             forces_over_meshes(&study.meshes, &forces, limit),
             rests(study, &scenes),
         ],
-        figures: scenes.iter().flat_map(|of| of.figures()).collect(),
+        figures: scenes.iter().flat_map(|scene| scene.figures()).collect(),
         quantities: scenes.iter().map(OfScene::guarded_event).collect(),
         ..Findings::default()
     }
@@ -360,14 +362,17 @@ fn forces_over_meshes(meshes: &[usize], forces: &[Option<f64>], limit: f64) -> L
 
 fn rests(study: &Bifurcation, scenes: &[OfScene<'_>]) -> Listing {
     let mut head = vec!["β".to_owned()];
-    for of in scenes {
-        head.extend([format!("u(1) at rest, {}", of.name()), "exact".to_owned()]);
+    for scene in scenes {
+        head.extend([
+            format!("u(1) at rest, {}", scene.name()),
+            "exact".to_owned(),
+        ]);
     }
     let mut rows = vec![];
     for (place, beta) in study.rest.betas.iter().enumerate() {
         let mut row = vec![beta.to_string()];
-        for of in scenes {
-            let tips = of.rests[place]
+        for scene in scenes {
+            let tips = scene.rests[place]
                 .1
                 .map_or([f64::NAN; 2], |rest| [rest.tip[0], rest.exact_tip()[0]]);
             row.extend(tips.map(|tip| decimals(tip, 8)));

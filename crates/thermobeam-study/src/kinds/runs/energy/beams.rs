@@ -10,22 +10,21 @@ const MODES: usize = 4;
 /// A beam with moderate random coefficients and smooth random data, the same on every machine.
 pub(super) fn smooth(mesh: &Mesh, seed: u64) -> Problem {
     let mut random = SplitMix::new(seed);
-    let mut between = |low: f64, high: f64| random.within([low, high]);
     let beam = Beam {
-        zeta: 10f64.powf(between(-2.0, 0.0)),
-        a: between(-1.0, 1.0),
-        rho: if between(0.0, 1.0) < 0.2 {
+        zeta: power(&mut random, -2.0, 0.0),
+        a: random.within([-1.0, 1.0]),
+        rho: if random.within([0.0, 1.0]) < 0.2 {
             0.0
         } else {
-            10f64.powf(between(-1.0, 2.0))
+            power(&mut random, -1.0, 2.0)
         },
-        beta: between(-0.65, 6.0),
-        theta_a: between(-20.0, 20.0),
+        beta: random.within([-0.65, 6.0]),
+        theta_a: random.within([-20.0, 20.0]),
     };
     let obstacles = Obstacles {
-        epsilon: 10f64.powf(between(-5.0, -1.0)),
-        g1: -between(0.0, 0.1),
-        g2: between(0.0, 0.1),
+        epsilon: power(&mut random, -5.0, -1.0),
+        g1: -random.within([0.0, 0.1]),
+        g2: random.within([0.0, 0.1]),
     };
     let initial = random_data(mesh, beam.theta_a, |size, wave| {
         modes(&mut random, mesh, size, wave)
@@ -45,13 +44,7 @@ pub(super) fn wild(elements: usize, seed: u64) -> Result<(Problem, f64), MeshErr
     let mut random = SplitMix::new(seed);
     let mesh = wild_mesh(&mut random, elements)?;
     let beam = wild_beam(&mut random);
-    let gap = |random: &mut SplitMix| or_zero(random, |random| power(random, -6.0, 0.0));
-    let mut pair = || Obstacles {
-        epsilon: power(&mut random, -8.0, 1.0),
-        g1: -gap(&mut random),
-        g2: gap(&mut random),
-    };
-    let obstacles = pair();
+    let obstacles = wild_obstacles(&mut random);
     let without = random.uniform() < 0.1;
     let dt = power(&mut random, -6.0, 1.0);
     let rough = random.uniform() < 0.3;
@@ -82,6 +75,14 @@ fn power(random: &mut SplitMix, low: f64, high: f64) -> f64 {
 fn or_zero(random: &mut SplitMix, value: impl FnOnce(&mut SplitMix) -> f64) -> f64 {
     let value = value(random);
     if random.uniform() < 0.1 { 0.0 } else { value }
+}
+
+fn wild_obstacles(random: &mut SplitMix) -> Obstacles {
+    Obstacles {
+        epsilon: power(random, -8.0, 1.0),
+        g1: -or_zero(random, |random| power(random, -6.0, 0.0)),
+        g2: or_zero(random, |random| power(random, -6.0, 0.0)),
+    }
 }
 
 fn wild_beam(random: &mut SplitMix) -> Beam {
@@ -118,35 +119,41 @@ fn random_data(
     mesh: &Mesh,
     theta_a: f64,
     mut field: impl FnMut(f64, fn(f64) -> f64) -> Vec<f64>,
-) -> Initial {
-    let clamped = |k: f64| k + 0.5;
+) -> InitialValues {
     let mut theta = field(5.0, |k| k + 1.0);
     let last = theta.len() - 1;
     (theta[0], theta[last]) = (0.0, 0.0);
     for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
         *theta += theta_a * (1.0 - x);
     }
-    Initial {
-        u: field(0.1, clamped),
-        u_t: field(2.0, clamped),
-        phi: field(0.1, clamped),
-        phi_t: field(2.0, clamped),
+    InitialValues {
+        u: field(0.1, clamped_wave),
+        u_t: field(2.0, clamped_wave),
+        phi: field(0.1, clamped_wave),
+        phi_t: field(2.0, clamped_wave),
         theta,
     }
+}
+
+/// The wave number of mode k, in π, of a field that is clamped at x = 0 and free at x = 1.
+fn clamped_wave(k: f64) -> f64 {
+    k + 0.5
 }
 
 /// A sum of sines with random factors.
 fn modes(random: &mut SplitMix, mesh: &Mesh, size: f64, wave: fn(f64) -> f64) -> Vec<f64> {
     let factors: [f64; MODES] =
         std::array::from_fn(|k| random.within([-size, size]) / (1.0 + k as f64));
-    let value = |x: f64| {
-        factors
-            .iter()
-            .enumerate()
-            .map(|(k, c)| c * (wave(k as f64) * PI * x).sin())
-            .sum::<f64>()
-    };
-    mesh.nodes().iter().map(|&x| value(x)).collect()
+    let mut values = vec![];
+    for x in mesh.nodes() {
+        let terms = factors.iter().enumerate();
+        values.push(
+            terms
+                .map(|(k, c)| c * (wave(k as f64) * PI * x).sin())
+                .sum(),
+        );
+    }
+    values
 }
 
 /// Independent values at the nodes, zero at the clamped end.

@@ -84,11 +84,12 @@ impl Runs for RandomScenes {
     fn runs(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
-        let label =
-            |batch: usize| format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
-        (0..self.batches)
-            .map(|batch| Case::new(label(batch), cost, batch))
-            .collect()
+        let mut cases = vec![];
+        for batch in 0..self.batches {
+            let label = format!("scenes {} to {}", batch * BATCH, (batch + 1) * BATCH - 1);
+            cases.push(Case::new(label, cost, batch));
+        }
+        cases
     }
 
     /// Runs the scenes in lanes, each to its end.
@@ -205,9 +206,12 @@ impl RandomScenes {
     /// The largest residuals, with the causes of rounding errors: dt, the axial stiffness, and
     /// short elements.
     fn table(&self, exceptions: &[(usize, f64)]) -> Table {
-        let row = |&(scene, residual): &(usize, f64)| {
-            let (problem, dt) = self.problem(scene).ok()?;
-            Some(vec![
+        let mut rows = vec![];
+        for &(scene, residual) in exceptions.iter().take(LISTED) {
+            let Ok((problem, dt)) = self.problem(scene) else {
+                continue;
+            };
+            rows.push(vec![
                 scene.to_string(),
                 self.scheme(scene / BATCH).name.to_owned(),
                 problem.mesh.elements().to_string(),
@@ -219,13 +223,13 @@ impl RandomScenes {
                     format!("{:.1e}", obstacles.epsilon)
                 }),
                 format!("{residual:.1e}"),
-            ])
-        };
+            ]);
+        }
         let head = [
             "scene", "scheme", "elements", "shortest", "dt", "beta", "rho", "epsilon", "residual",
         ];
         let title = "Largest residuals above 1e-12: long steps (Δu as large as u) over short elements (u/h cancels)";
-        Table::new(title, head, exceptions.iter().take(LISTED).filter_map(row))
+        Table::new(title, head, rows)
     }
 }
 
@@ -270,11 +274,10 @@ impl Batch {
 
     /// Scenes with an answer, with an indefinite operator, and with another failure.
     fn ended(&self) -> [usize; 3] {
-        let count = |end: End| self.ends[end as usize];
         [
-            count(End::Answer),
-            count(End::Indefinite),
-            count(End::IterationLimit) + count(End::NotFinite),
+            self.ends[End::Answer as usize],
+            self.ends[End::Indefinite as usize],
+            self.ends[End::IterationLimit as usize] + self.ends[End::NotFinite as usize],
         ]
     }
 
@@ -356,6 +359,7 @@ fn index([low, high]: [f64; 2], value: f64) -> Option<usize> {
 }
 
 fn centres([low, high]: [f64; 2]) -> Vec<f64> {
-    let centre = |k: usize| 10f64.powf(low + (high - low) * (k as f64 + 0.5) / CELLS as f64);
-    (0..CELLS).map(centre).collect()
+    (0..CELLS)
+        .map(|k| 10f64.powf(low + (high - low) * (k as f64 + 0.5) / CELLS as f64))
+        .collect()
 }

@@ -28,12 +28,18 @@ impl<'r> OfScene<'r> {
         results: &Results<'r, ExactExperiments>,
         scene: usize,
     ) -> Self {
-        let by = |by: Option<usize>| results.of(&SceneRun { scene, by });
+        let [first, second, own] =
+            [Some(0), Some(1), None].map(|by| results.of(&SceneRun { scene, by }));
         Self {
             scene: &study.scenes[scene],
-            any_order: [by(Some(0)), by(Some(1))],
-            own: by(None),
+            any_order: [first, second],
+            own,
         }
+    }
+
+    /// θ_A.
+    pub(super) fn heating(&self) -> f64 {
+        self.scene.beam.theta_a
     }
 
     /// `(t, u(1, t))` by the first discretisation.
@@ -54,11 +60,10 @@ impl<'r> OfScene<'r> {
 
     /// The largest difference of any number at any time; NaN where one of the runs is missing.
     pub(super) fn difference(&self) -> f64 {
-        let numbers = |shown: Option<&ShownStates>| {
-            let states = shown.map_or(&[][..], |shown| &shown.states);
+        let [one, other] = self.any_order.map(|run| {
+            let states = run.map_or(&[][..], |run| &run.states);
             states.iter().flat_map(Sample::numbers).collect::<Vec<_>>()
-        };
-        let [one, other] = self.any_order.map(numbers);
+        });
         largest_difference(&one, &other)
     }
 
@@ -82,17 +87,18 @@ impl<'r> OfScene<'r> {
         let [Some(one), Some(other)] = self.any_order else {
             return all(claim, subject, [Condition::that(false, "a run is missing")]);
         };
-        let pairs = || one.events.iter().zip(&other.events);
-        let alike = pairs().all(|(a, b)| (a.from, a.to) == (b.from, b.to));
-        let [count, of_other] = [one, other].map(|shown| shown.events.len());
-        let mut evidence = format!("{count} and {of_other} events");
+        let mut pairs = one.events.iter().zip(&other.events);
+        let distances = pairs.clone().map(|(a, b)| (a.t - b.t).abs());
+        let alike = pairs.all(|(a, b)| (a.from, a.to) == (b.from, b.to));
+        let [count, other_count] = [one, other].map(|run| run.events.len());
+        let mut evidence = format!("{count} and {other_count} events");
         let mut close = true;
-        if let Some(apart) = largest_of(pairs().map(|(a, b)| (a.t - b.t).abs())) {
+        if let Some(apart) = largest_of(distances) {
             evidence += &format!(", times at most {apart:.1e} apart");
             // Times are of order 10, the other numbers of order 1.
             close = apart <= 10.0 * agreement;
         }
-        let holds = count == of_other && alike && close;
+        let holds = count == other_count && alike && close;
         all(claim, subject, [Condition::that(holds, evidence)])
     }
 

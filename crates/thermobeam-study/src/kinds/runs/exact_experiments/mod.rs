@@ -154,9 +154,10 @@ impl Runs for ExactExperiments {
             },
         };
         let mut states = vec![];
-        let read = |motion: &mut dyn Motion| states.push(motion.sample());
-        let curve = Recording::Curve(TIP_TIMES);
-        let run = Simulator::new(&scene)?.read_at(curve, &self.times, read)?;
+        let simulator = Simulator::new(&scene)?;
+        let run = simulator.read_at(Recording::Curve(TIP_TIMES), &self.times, |motion| {
+            states.push(motion.sample());
+        })?;
         Ok(ShownStates {
             states,
             tip: run.tip(),
@@ -228,10 +229,12 @@ impl Runs for ExactExperiments {
 /// would pass for an error.
 fn comparable(section: &Section<'_>, scenes: &[Scene], times: &[f64]) -> Result<(), InputError> {
     for scene in scenes {
-        let steps = |t: &f64| t / scene.dt();
-        let is_level = |t: &f64| (steps(t) - steps(t).round()).abs() <= 1e-9 * steps(t);
-        let last = times.last().map_or(0, |t| steps(t).round() as usize);
-        if !(times.iter().all(is_level) && last.is_multiple_of(TIP_TIMES)) {
+        let steps: Vec<f64> = times.iter().map(|t| t / scene.dt()).collect();
+        let are_levels = steps
+            .iter()
+            .all(|steps| (steps - steps.round()).abs() <= 1e-9 * steps);
+        let last = steps.last().map_or(0, |steps| steps.round() as usize);
+        if !(are_levels && last.is_multiple_of(TIP_TIMES)) {
             let found = format!("{}, whose dt is {:?}", scene.name, scene.dt());
             let last =
                 format!("the last after a multiple of {TIP_TIMES} steps, where compare = true");
@@ -248,9 +251,9 @@ impl ExactExperiments {
         let mut rows = vec![];
         for (k, how) in self.discretisations.iter().enumerate() {
             let stepping = &how.stepping;
-            let steps = scenes
-                .iter()
-                .map(|of| of.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string()));
+            let steps = scenes.iter().map(|runs| {
+                runs.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string())
+            });
             let mut row: Vec<String> = [how.elements, how.degree, stepping.degree]
                 .map(|count| count.to_string())
                 .to_vec();
@@ -279,7 +282,7 @@ impl ExactExperiments {
             "the free end bounces, faster for larger β",
             plots::Axis::linear("displacement u(1, t) (dimensionless)"),
             &figures::obstacle_lines(obstacles),
-            |of| of.tip(),
+            |runs| runs.tip(),
         );
         let caption = format!(
             "The free end of every experiment by dG; two discretisations agree within {agreement:.1e}."
@@ -291,7 +294,7 @@ impl ExactExperiments {
                 "the error jumps where contact begins",
                 plots::Axis::log("error of u(1, t) (dimensionless)"),
                 &[],
-                |of| of.error_over_time(),
+                |runs| runs.error_over_time(),
             );
             let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of \
                            the free end.";
@@ -314,19 +317,19 @@ fn over_time(
     guides: &[plots::Guide],
     points: fn(&OfScene<'_>) -> Vec<(f64, f64)>,
 ) -> Vec<Xy> {
-    let heating = |of: &OfScene<'_>| of.scene.beam.theta_a;
     let mut sorted: Vec<&OfScene<'_>> = scenes.iter().collect();
     sorted.sort_by(|one, other| one.scene.beam.beta.total_cmp(&other.scene.beam.beta));
-    sorted.sort_by(|one, other| heating(one).total_cmp(&heating(other)));
+    sorted.sort_by(|one, other| one.heating().total_cmp(&other.heating()));
     let mut panels = vec![];
-    for group in sorted.chunk_by(|one, other| heating(one) == heating(other)) {
-        let beams = group.iter().map(|of| &of.scene.beam);
-        let looks: Vec<usize> = beams.map(|beam| figures::look_of_beta(beam.beta)).collect();
-        let curves: Vec<plots::Series> = group
-            .iter()
-            .map(|of| plots::Series::new(figures::beta_label(&of.scene.beam), points(of)))
-            .collect();
-        let heated = match heating(group[0]) {
+    for group in sorted.chunk_by(|one, other| one.heating() == other.heating()) {
+        let mut looks = vec![];
+        let mut curves = vec![];
+        for runs in group {
+            let beam = &runs.scene.beam;
+            looks.push(figures::look_of_beta(beam.beta));
+            curves.push(plots::Series::new(figures::beta_label(beam), points(runs)));
+        }
+        let heated = match group[0].heating() {
             0.0 => "Without heating (θ_A = 0)".to_owned(),
             theta_a => format!("Heated (θ_A = {theta_a})"),
         };

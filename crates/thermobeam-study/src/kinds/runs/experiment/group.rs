@@ -25,16 +25,6 @@ impl<'r> OfExperiment<'r> {
         results: &Results<'r, Experiments>,
         experiment: usize,
     ) -> Option<Self> {
-        let any_order = |discretisation: usize| {
-            let task = Task::AnyOrder {
-                experiment,
-                discretisation,
-            };
-            match results.of(&task) {
-                Some(Found::Run(run)) => Some(&**run),
-                _ => None,
-            }
-        };
         let paper = match results.of(&Task::FixedPoint(experiment)) {
             Some(Found::FixedPoint(run)) => Some(&**run),
             _ => None,
@@ -42,8 +32,8 @@ impl<'r> OfExperiment<'r> {
         let is_complete = paper.is_some() || study.fixed_point.is_none();
         is_complete.then_some(Self {
             experiment: &study.experiments[experiment],
-            first: any_order(0)?,
-            second: any_order(1)?,
+            first: run_by_dg(results, experiment, 0)?,
+            second: run_by_dg(results, experiment, 1)?,
             paper,
         })
     }
@@ -60,6 +50,22 @@ impl<'r> OfExperiment<'r> {
 
     pub(super) fn beam(&self) -> &'r Beam {
         &self.experiment.scene.beam
+    }
+}
+
+/// The run of an experiment with a discretisation of dG, if it completed.
+fn run_by_dg<'r>(
+    results: &Results<'r, Experiments>,
+    experiment: usize,
+    discretisation: usize,
+) -> Option<&'r Measured> {
+    let task = Task::AnyOrder {
+        experiment,
+        discretisation,
+    };
+    match results.of(&task) {
+        Some(Found::Run(run)) => Some(&**run),
+        _ => None,
     }
 }
 
@@ -139,7 +145,6 @@ pub(super) struct SectionFive<'r> {
 
 impl<'r> SectionFive<'r> {
     pub(super) fn of(study: &'r Experiments, results: &Results<'r, Experiments>) -> Self {
-        let group = |belongs: fn(SectionGroup) -> bool| OfGroup::of(study, results, belongs);
         let mut rests = vec![];
         for (place, &beta) in study.rest.betas.iter().enumerate() {
             if let Some(Found::Rest(rest)) = results.of(&Task::Rest(place)) {
@@ -147,10 +152,12 @@ impl<'r> SectionFive<'r> {
             }
         }
         Self {
-            all: group(|_| true),
-            first: group(|group| group == SectionGroup::First),
-            second: group(|group| matches!(group, SectionGroup::Second(_))),
-            third: group(|group| group == SectionGroup::Third),
+            all: OfGroup::of(study, results, |_| true),
+            first: OfGroup::of(study, results, |group| group == SectionGroup::First),
+            second: OfGroup::of(study, results, |group| {
+                matches!(group, SectionGroup::Second(_))
+            }),
+            third: OfGroup::of(study, results, |group| group == SectionGroup::Third),
             rests,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::group::{OfExperiment, OfGroup, SectionFive};
 use super::plotted::{Plotted, U_TIP, largest_difference};
-use super::{Experiments, Measured, SectionGroup, Trace, rests, straight_energy};
+use super::{Experiments, Measured, SectionGroup, rests, straight_energy};
 use crate::kinds::prelude::*;
 use crate::kinds::runs::checks::{Condition, all, at_most, increasing};
 use crate::kinds::runs::steady::name_of;
@@ -59,29 +59,35 @@ pub(super) fn checks(
 /// With ‖φ‖ <= (2/π) ‖φ_x‖, the norm d of (3.14) bounds |u(1)| <= ‖u_x‖ <= ‖u_x - φ‖ + ‖φ‖ <= (1 +
 /// 4/π²)^½ d.
 fn solved(all_runs: &OfGroup<'_>) -> Check {
-    let of_tip = |runs: &OfExperiment<'_>| {
-        let distance = runs.paper.map_or(f64::NAN, |paper| paper.solvers.distance);
-        distance / BUCKLING.sqrt()
-    };
     let evidence = all_runs.joined(", ", |runs| {
+        let bound = bound_of_tolerance(runs);
         let error = error_of_paper(runs);
-        format!("{} {:.1e} of {error:.1e}", runs.name(), of_tip(runs))
+        format!("{} {bound:.1e} of {error:.1e}", runs.name())
     });
-    let is_small = |runs: &OfExperiment<'_>| of_tip(runs) <= NEGLIGIBLE * error_of_paper(runs);
+    let are_small =
+        all_runs.all(|runs| bound_of_tolerance(runs) <= NEGLIGIBLE * error_of_paper(runs));
     all(
         format!("η* causes at most {NEGLIGIBLE} of the error of u(1, t)"),
         Subject::of("distance to Newton's solution").by(ItemMethod::FixedPoint),
-        [Condition::that(all_runs.all(is_small), evidence)],
+        [Condition::that(are_small, evidence)],
     )
+}
+
+/// A bound on the error of u(1, t) that η* causes; NaN if the study does not run the paper's
+/// algorithm.
+fn bound_of_tolerance(runs: &OfExperiment<'_>) -> f64 {
+    let distance = runs.paper.map_or(f64::NAN, |paper| paper.solvers.distance);
+    distance / BUCKLING.sqrt()
 }
 
 /// The largest error of u(1, t) by the paper's algorithm; NaN if the study does not run that.
 fn error_of_paper(runs: &OfExperiment<'_>) -> f64 {
-    let tip = |trace: &Trace| U_TIP.points(runs.experiment, trace);
-    let exact = tip(&runs.first.trace);
-    runs.paper.map_or(f64::NAN, |paper| {
-        largest_difference(plots::Scale::Linear, &exact, &tip(&paper.trace))
-    })
+    let Some(paper) = runs.paper else {
+        return f64::NAN;
+    };
+    let exact = U_TIP.points(runs.experiment, &runs.first.trace);
+    let tip = U_TIP.points(runs.experiment, &paper.trace);
+    largest_difference(plots::Scale::Linear, &exact, &tip)
 }
 
 /// The figures are drawn from curves whose error cannot be seen.
@@ -105,25 +111,26 @@ fn time(t: Option<f64>) -> String {
 }
 
 fn never_rises(all_runs: &OfGroup<'_>) -> Check {
-    let increase = |runs: &OfExperiment<'_>| runs.trace().largest_increase;
     let each = all_runs.joined(", ", |runs| {
-        format!("{} {:.1e}", runs.name(), increase(runs))
+        format!("{} {:.1e}", runs.name(), runs.trace().largest_increase)
     });
     let evidence = format!("largest change in a step: {each}");
+    let largest = all_runs.largest(|runs| runs.trace().largest_increase);
     all(
         "the energy rises in none of the experiments",
         Subject::of("energy"),
-        [at_most(all_runs.largest(increase), ROUND_OFF, evidence)],
+        [at_most(largest, ROUND_OFF, evidence)],
     )
 }
 
 /// * `allowed`: upper bound on the remaining energy.
 fn ends_straight(group: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
-    let straight = |runs: &OfExperiment<'_>| straight_energy(&runs.experiment.scene);
-    let remains = group.largest(|runs| (runs.first.energy - straight(runs)).abs());
+    let remains =
+        group.largest(|runs| (runs.first.energy - straight_energy(&runs.experiment.scene)).abs());
     let energies = group.list(|runs| {
         let Measured { energy, end, .. } = runs.first;
-        format!("{energy:.9} for {:.9} at t = {:.0}", straight(runs), end.t)
+        let straight = straight_energy(&runs.experiment.scene);
+        format!("{energy:.9} for {straight:.9} at t = {:.0}", end.t)
     });
     let largest = group.largest(|runs| runs.first.largest_field);
     let fields = group.list(|runs| format!("{:.1e}", runs.first.largest_field));
@@ -144,28 +151,19 @@ fn ends_straight(group: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
 
 /// First contacts, frequency and amplitude; the experiments are in ascending order of β.
 fn moves(group: &OfGroup<'_>) -> [Check; 3] {
-    let touches_both = |runs: &OfExperiment<'_>| {
-        let until = BEGINNING * runs.experiment.scene.t_end;
-        let trace = runs.trace();
-        [trace.first_upper, trace.first_lower]
-            .into_iter()
-            .all(|contact| contact.is_some_and(|t| t > 0.0 && t <= until))
-    };
     let contacts = group.list(|runs| {
         let trace = runs.trace();
         let [upper, lower] = [trace.first_upper, trace.first_lower].map(time);
         format!("upper {upper}, lower {lower}")
     });
-    let frequency = |runs: &OfExperiment<'_>| runs.trace().frequency.unwrap_or(f64::NAN);
     let frequencies = group.list(|runs| {
         let crossings = runs.trace().crossings;
         format!("{:.4} from {crossings} upward crossings", frequency(runs))
     });
     let frequencies = format!("frequency of u(1), in the order of β, not of |β|: {frequencies}");
-    let amplitude = |runs: &OfExperiment<'_>| runs.trace().phi_amplitude;
-    let amplitudes = group.list(|runs| format!("{:.4}", amplitude(runs)));
+    let amplitudes = group.list(|runs| format!("{:.4}", runs.trace().phi_amplitude));
     let amplitudes = format!("largest minus smallest φ(1): {amplitudes}");
-    let is_largest = match &group.numbers(amplitude)[..] {
+    let is_largest = match &group.numbers(|runs| runs.trace().phi_amplitude)[..] {
         [first, others @ ..] => !others.is_empty() && others.iter().all(|other| first > other),
         [] => false,
     };
@@ -191,6 +189,20 @@ fn moves(group: &OfGroup<'_>) -> [Check; 3] {
             [Condition::that(is_largest, amplitudes)],
         ),
     ]
+}
+
+/// The frequency of u(1); NaN if it is not known.
+fn frequency(runs: &OfExperiment<'_>) -> f64 {
+    runs.trace().frequency.unwrap_or(f64::NAN)
+}
+
+/// Whether the beam touches both obstacles at the beginning.
+fn touches_both(runs: &OfExperiment<'_>) -> bool {
+    let until = BEGINNING * runs.experiment.scene.t_end;
+    let trace = runs.trace();
+    [trace.first_upper, trace.first_lower]
+        .into_iter()
+        .all(|contact| contact.is_some_and(|t| t > 0.0 && t <= until))
 }
 
 fn comes_to_rest(runs: &OfExperiment<'_>, contact: Phase) -> Check {

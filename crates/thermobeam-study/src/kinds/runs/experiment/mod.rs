@@ -290,14 +290,20 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
         |list| list.len() == second.len(),
     )?;
     let third = listed_scene(&section.require("third", "a scene file")?, folder)?;
-    let one = |(group, scene): (SectionGroup, Scene)| Experiment { group, scene };
-    let first = first.into_iter().map(|scene| (SectionGroup::First, scene));
-    let second = rests.into_iter().map(SectionGroup::Second).zip(second);
-    Ok(first
-        .chain(second)
-        .chain([(SectionGroup::Third, third)])
-        .map(one)
-        .collect())
+    let mut experiments = vec![];
+    for scene in first {
+        let group = SectionGroup::First;
+        experiments.push(Experiment { group, scene });
+    }
+    for (rest, scene) in rests.into_iter().zip(second) {
+        let group = SectionGroup::Second(rest);
+        experiments.push(Experiment { group, scene });
+    }
+    experiments.push(Experiment {
+        group: SectionGroup::Third,
+        scene: third,
+    });
+    Ok(experiments)
 }
 
 impl Experiments {
@@ -328,8 +334,11 @@ impl Experiments {
     /// The experiment that is shown in motion: the middle one of the first group, which has no
     /// axial force at rest.
     fn animated(&self) -> usize {
-        let first = |experiment: &&Experiment| experiment.group == SectionGroup::First;
-        self.experiments.iter().filter(first).count() / 2
+        let first = self
+            .experiments
+            .iter()
+            .filter(|experiment| experiment.group == SectionGroup::First);
+        first.count() / 2
     }
 
     /// Runs an experiment by dG until its energy is steady.
@@ -406,7 +415,7 @@ impl Experiments {
 }
 
 /// The beam at its end.
-fn measured(scene: &Scene, trace: Trace, motion: &mut dyn Motion) -> Result<Measured, CaseFailure> {
+fn measured(scene: &Scene, trace: Trace, motion: &mut AnyMotion) -> Result<Measured, CaseFailure> {
     let nodes = compared(scene)?;
     let t = motion.work().t;
     let (level, last) = (motion.snapshot().on(&nodes), motion.sample());

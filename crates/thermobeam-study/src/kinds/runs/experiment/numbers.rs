@@ -28,32 +28,19 @@ impl OfExperiment<'_> {
 impl Trace {
     /// * `name`: the experiment's.
     pub(super) fn readings(&self, name: &str) -> Vec<Reading> {
-        let of = |reading: Reading, guard: &str, tolerance: f64| {
-            reading
-                .fixed(4)
-                .guarded(format!("{name}: {guard}"), tolerance)
-        };
         vec![
-            of(
-                Reading::new("first contact above", self.first_upper),
-                "first_upper",
-                SMOOTH,
-            ),
-            of(
-                Reading::new("below", self.first_lower),
-                "first_lower",
-                AFTER_BOUNCES,
-            ),
-            of(
-                Reading::new("frequency of u(1)", self.frequency),
-                "frequency",
-                AFTER_BOUNCES,
-            ),
-            of(
-                Reading::new("range of φ(1)", self.phi_amplitude),
-                "phi_amplitude",
-                AFTER_BOUNCES,
-            ),
+            Reading::new("first contact above", self.first_upper)
+                .fixed(4)
+                .guarded(format!("{name}: first_upper"), SMOOTH),
+            Reading::new("below", self.first_lower)
+                .fixed(4)
+                .guarded(format!("{name}: first_lower"), AFTER_BOUNCES),
+            Reading::new("frequency of u(1)", self.frequency)
+                .fixed(4)
+                .guarded(format!("{name}: frequency"), AFTER_BOUNCES),
+            Reading::new("range of φ(1)", self.phi_amplitude)
+                .fixed(4)
+                .guarded(format!("{name}: phi_amplitude"), AFTER_BOUNCES),
             Reading::new("largest change of the energy", self.largest_increase),
             Reading::new("largest residual of the balance", self.largest_residual),
         ]
@@ -63,14 +50,15 @@ impl Trace {
 impl PaperRun {
     /// * `name`: the experiment's.
     pub(super) fn readings(&self, name: &str) -> Vec<Reading> {
-        let of = |reading: Reading, guard: &str| reading.guarded_in(name, guard, OF_ITERATIONS);
         let solvers = &self.solvers;
-        let per_step = Reading::new("iterations per step", solvers.mean_iterations).fixed(4);
-        let distance = Reading::new("distance to Newton's solution", solvers.distance);
         vec![
-            of(per_step, "iterations_per_step"),
+            Reading::new("iterations per step", solvers.mean_iterations)
+                .fixed(4)
+                .guarded_in(name, "iterations_per_step", OF_ITERATIONS),
             Reading::text("most", solvers.most_iterations.to_string()),
-            of(distance.scientific(2), "distance_to_newton"),
+            Reading::new("distance to Newton's solution", solvers.distance)
+                .scientific(2)
+                .guarded_in(name, "distance_to_newton", OF_ITERATIONS),
             Reading::new("largest change of the energy", self.trace.largest_increase).scientific(1),
             Reading::new(
                 "largest residual of its balance",
@@ -85,28 +73,22 @@ impl Measured {
     /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those
     ///   of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {
-        let ends = |reading: Reading, guard: &str| {
-            if bent {
-                reading.guarded_in(name, guard, SMOOTH)
-            } else {
-                reading
-            }
-        };
         let exact = self.end.nearest.map(|nearest| nearest.state.u_tip);
+        let mut energy = Reading::new("E at the end", self.energy).fixed(8);
+        let mut exact = Reading::new("u(1) of the exact state", exact);
+        if bent {
+            energy = energy.guarded_in(name, "energy", SMOOTH);
+            exact = exact.guarded_in(name, "exact_u_tip", SMOOTH);
+        }
+        let exact_subject = Subject::of("exact_u_tip")
+            .in_case(name)
+            .by(ItemMethod::Exact);
         vec![
             Reading::new("steady by t", self.end.t).fixed(0),
-            ends(Reading::new("E at the end", self.energy).fixed(8), "energy"),
+            energy,
             Reading::new("u(1)", self.end.tip[0]).scientific(3),
             Reading::new("φ(1)", self.end.tip[1]).scientific(3),
-            ends(
-                Reading::new("u(1) of the exact state", exact),
-                "exact_u_tip",
-            )
-            .about(
-                Subject::of("exact_u_tip")
-                    .in_case(name)
-                    .by(ItemMethod::Exact),
-            ),
+            exact.about(exact_subject),
             Reading::new("contact force", self.contact_force),
             Reading::new("largest field", self.largest_field),
             Reading::new("distance to a steady state", self.end.distance()),

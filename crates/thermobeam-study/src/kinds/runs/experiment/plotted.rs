@@ -115,12 +115,12 @@ impl Plotted {
     /// inset; NaN if some are missing.
     fn over_width(&self, other: &dyn Fn(&PlottedCurve) -> Option<&Points>) -> f64 {
         let scale = self.xy.y.scale;
-        let difference = |curve: &PlottedCurve| {
+        let differences = self.curves.iter().map(|curve| {
             other(curve).map_or(f64::NAN, |other| {
                 largest_difference(scale, &curve.drawn, other)
             })
-        };
-        let largest = self.curves.iter().map(difference).reduce(max_or_nan);
+        });
+        let largest = differences.reduce(max_or_nan);
         let here = largest.unwrap_or(f64::NAN) / self.xy.line_width();
         match &self.inset {
             None => here,
@@ -198,11 +198,13 @@ impl Quantity {
             // Time levels of a one-step scheme differ from t_end by round-off.
             experiment.scene.t_end * (1.0 + SAME_TIME)
         };
-        let is_shown = |point: &&Sample| self.from <= point.t && point.t <= end;
-        let shown = trace.points.iter().filter(is_shown);
-        shown
-            .map(|point| (point.t, (self.value)(experiment, point)))
-            .collect()
+        let mut points = vec![];
+        for point in &trace.points {
+            if self.from <= point.t && point.t <= end {
+                points.push((point.t, (self.value)(experiment, point)));
+            }
+        }
+        points
     }
 }
 
@@ -211,15 +213,14 @@ const SAME_TIME: f64 = 1e-9;
 
 /// The largest difference as far as both go; NaN if there is none, or times differ.
 pub(super) fn largest_difference(scale: plots::Scale, one: &Points, other: &Points) -> f64 {
-    let place = |value: f64| on_scale(scale, value).unwrap_or(f64::NAN);
-    let difference = |((t, a), (s, b)): (&(f64, f64), &(f64, f64))| {
+    let differences = one.iter().zip(other).map(|(&(t, a), &(s, b))| {
         if (t - s).abs() > SAME_TIME * t {
             return f64::NAN;
         }
-        (place(*a) - place(*b)).abs()
-    };
-    let pairs = one.iter().zip(other);
-    pairs.map(difference).reduce(max_or_nan).unwrap_or(f64::NAN)
+        let [a, b] = [a, b].map(|value| on_scale(scale, value).unwrap_or(f64::NAN));
+        (a - b).abs()
+    });
+    differences.reduce(max_or_nan).unwrap_or(f64::NAN)
 }
 
 /// The paper's algorithm as dots on the exact curve.

@@ -61,15 +61,10 @@ fn names_of(runs: &OfExperiment<'_>) -> Vec<String> {
 /// How many statements hold: the paper's as printed, what holds in place of one that does not, and
 /// ours. That every case completes is no statement.
 fn headline(checks: &[Check]) -> String {
-    let count = |origin: Origin| checks.iter().filter(|check| check.origin == origin).count();
-    let holding = |origin: Origin| {
-        checks
-            .iter()
-            .filter(|check| check.origin == origin && check.verdict == Verdict::Pass)
-            .count()
-    };
-    let [printed, refuted, own] = [Origin::Source, Origin::Correction, Origin::Own].map(holding);
-    let all = count(Origin::Source) + count(Origin::Correction);
+    let printed = Tally::of(checks, Origin::Source);
+    let corrected = Tally::of(checks, Origin::Correction);
+    let own = Tally::of(checks, Origin::Own);
+    let refuted = corrected.holding;
     let refutation = if refuted == 0 {
         "the last is not decided".to_owned()
     } else {
@@ -79,14 +74,34 @@ fn headline(checks: &[Check]) -> String {
         )
     };
     format!(
-        "the paper's {all} statements: {printed} hold as printed, {refutation}; {own} of {} of ours hold",
-        count(Origin::Own)
+        "the paper's {} statements: {} hold as printed, {refutation}; {} of {} of ours hold",
+        printed.count + corrected.count,
+        printed.holding,
+        own.holding,
+        own.count
     )
 }
 
+/// Statements of one origin.
+struct Tally {
+    count: usize,
+    holding: usize,
+}
+
+impl Tally {
+    fn of(checks: &[Check], origin: Origin) -> Self {
+        let own = checks.iter().filter(|check| check.origin == origin);
+        Self {
+            count: own.clone().count(),
+            holding: own.filter(|check| check.verdict == Verdict::Pass).count(),
+        }
+    }
+}
+
 fn animation(all: &[OfExperiment<'_>]) -> Option<Figure> {
-    let shown = |runs: &&OfExperiment<'_>| !runs.first.trace.frames.times.is_empty();
-    let runs = all.iter().find(shown)?;
+    let runs = all
+        .iter()
+        .find(|runs| !runs.first.trace.frames.times.is_empty())?;
     let caption = format!(
         "The experiment at {}, θ_A = 0, in motion up to t = {SPAN}, by dG.",
         figures::beta_label(runs.beam())

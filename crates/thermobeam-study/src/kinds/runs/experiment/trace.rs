@@ -1,7 +1,5 @@
 //! What the free end does: recorded step by step, by any method.
 
-use thermobeam::dg::ContactEvent;
-
 use super::*;
 use crate::run::Loaded;
 
@@ -79,7 +77,7 @@ pub(super) struct Recorder {
 
 impl Recorder {
     /// The motion stands at t = 0.
-    pub(super) fn new(observed: Observed, motion: &mut dyn Motion) -> Self {
+    pub(super) fn new(observed: Observed, motion: &mut AnyMotion) -> Self {
         let mut recorder = Self {
             observed,
             levels: vec![],
@@ -100,7 +98,7 @@ impl Recorder {
     ///
     /// # Errors
     /// [`Loaded`]: a beam with loads has no balance of its energy.
-    pub(super) fn add(&mut self, motion: &mut dyn Motion) -> Result<f64, Loaded> {
+    pub(super) fn add(&mut self, motion: &mut AnyMotion) -> Result<f64, Loaded> {
         let Observed {
             t_end,
             t_max,
@@ -141,7 +139,7 @@ impl Recorder {
         });
     }
 
-    fn push_frame(&mut self, motion: &dyn Motion, t: f64) {
+    fn push_frame(&mut self, motion: &AnyMotion, t: f64) {
         self.frames.times.push(t);
         self.frames.u.push(motion.snapshot().shape(t));
     }
@@ -157,16 +155,12 @@ impl Recorder {
 
     /// When the free end first touches an obstacle in the span: located by the method, or
     /// interpolated.
-    fn first_contact(
-        &self,
-        motion: &dyn Motion,
-        phase: Phase,
-        obstacles: Obstacles,
-    ) -> Option<f64> {
+    fn first_contact(&self, motion: &AnyMotion, phase: Phase, obstacles: Obstacles) -> Option<f64> {
         if let Some((_, events)) = motion.snapshot().contact() {
-            let touches =
-                |event: &&ContactEvent| event.to == phase && event.t <= self.observed.t_end;
-            return events.iter().find(touches).map(|event| event.t);
+            let touch = events
+                .iter()
+                .find(|event| event.to == phase && event.t <= self.observed.t_end);
+            return touch.map(|event| event.t);
         }
         let Obstacles { g1, g2, .. } = obstacles;
         let passings = match phase {
@@ -177,19 +171,28 @@ impl Recorder {
     }
 
     /// The motion so far.
-    pub(super) fn finish(self, motion: &dyn Motion, obstacles: Option<Obstacles>) -> Trace {
-        let first = |phase: Phase| self.first_contact(motion, phase, obstacles?);
+    pub(super) fn finish(self, motion: &AnyMotion, obstacles: Option<Obstacles>) -> Trace {
+        let (first_upper, first_lower) = match obstacles {
+            Some(obstacles) => (
+                self.first_contact(motion, Phase::Upper, obstacles),
+                self.first_contact(motion, Phase::Lower, obstacles),
+            ),
+            None => (None, None),
+        };
         let crossings = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0);
         let count = crossings.len();
         let frequency =
             (count >= 2).then(|| (count as f64 - 1.0) / (crossings[count - 1] - crossings[0]));
+        let mut largest = f64::NEG_INFINITY;
+        let mut smallest = f64::INFINITY;
         // The start is not a step.
-        let rotations = || self.levels.iter().skip(1).map(|level| level.phi);
-        let largest = rotations().fold(f64::NEG_INFINITY, max_or_nan);
-        let smallest = rotations().fold(f64::INFINITY, min_or_nan);
+        for level in self.levels.iter().skip(1) {
+            largest = max_or_nan(largest, level.phi);
+            smallest = min_or_nan(smallest, level.phi);
+        }
         Trace {
-            first_upper: first(Phase::Upper),
-            first_lower: first(Phase::Lower),
+            first_upper,
+            first_lower,
             crossings: count,
             frequency,
             phi_amplitude: largest - smallest,

@@ -39,8 +39,8 @@ struct Compliance<'r> {
 }
 
 /// A number of a run; NaN if missing.
-fn number(run: Option<&ShownImpact>, of: fn(&ShownImpact) -> Option<f64>) -> f64 {
-    run.and_then(of).unwrap_or(f64::NAN)
+fn number(run: Option<&ShownImpact>, value: fn(&ShownImpact) -> Option<f64>) -> f64 {
+    run.and_then(value).unwrap_or(f64::NAN)
 }
 
 fn penetration(run: Option<&ShownImpact>) -> Option<f64> {
@@ -214,25 +214,42 @@ fn rows<'r>(
 ) -> Vec<Row> {
     compliances
         .iter()
-        .map(|of| (vec![format!("{:.1e}", of.epsilon)], readings(of)))
+        .map(|compliance| {
+            (
+                vec![format!("{:.1e}", compliance.epsilon)],
+                readings(compliance),
+            )
+        })
         .collect()
 }
 
 /// The four orders in ε.
 fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
-    let averaged: Vec<_> = compliances.iter().filter(|of| of.is_averaged()).collect();
-    let stiff: Vec<_> = compliances.iter().filter(|of| of.is_stiff()).collect();
+    let averaged: Vec<_> = compliances
+        .iter()
+        .filter(|compliance| compliance.is_averaged())
+        .collect();
+    let stiff: Vec<_> = compliances
+        .iter()
+        .filter(|compliance| compliance.is_stiff())
+        .collect();
     let linear = Claim::new(1.0, study.tolerance);
     let resolved = Claim::new(2.0 / 3.0, study.tolerance);
     let distance = "distance to the rigid limit, fixed h and dt";
     let peak = "peak penetration of an impact, resolved";
     [
-        rate(&averaged, LARGEST, linear, |of| penetration(of.bouncing)),
-        rate(&averaged, distance, linear, |of| of.distance),
-        rate(&stiff, "penetration at rest", linear, |of| {
-            penetration(of.rest)
+        rate(&averaged, LARGEST, linear, |compliance| {
+            penetration(compliance.bouncing)
         }),
-        rate(&stiff, peak, resolved, |of| penetration(of.impact)),
+        rate(&averaged, distance, linear, |compliance| {
+            compliance.distance
+        }),
+        rate(&stiff, "penetration at rest", linear, |compliance| {
+            penetration(compliance.rest)
+        }),
+        rate(&stiff, peak, resolved, |compliance| {
+            penetration(compliance.impact)
+        }),
     ]
     .concat()
 }
@@ -244,18 +261,18 @@ fn rate(
     claim: Claim,
     error: fn(&Compliance<'_>) -> Option<f64>,
 ) -> Vec<(String, RateVerdict)> {
-    let errors = range.iter().map(|of| error(of));
+    let errors = range.iter().map(|compliance| error(compliance));
     let levels = range
         .iter()
-        .map(|of| Refinement::new(of.label(), &[], of.epsilon));
+        .map(|compliance| Refinement::new(compliance.label(), &[], compliance.epsilon));
     // The axis is that of a figure which this study does not draw.
     Levels::new(Axis::Both, levels, [ErrorColumn::new(name, claim, errors)]).judge()
 }
 
 fn peak_as_predicted(study: &RigidObstacles, last: Option<&Compliance<'_>>) -> Check {
     let exact = peak_penetration();
-    let epsilon = last.map_or(f64::NAN, |of| of.epsilon);
-    let impact = last.and_then(|of| of.impact);
+    let epsilon = last.map_or(f64::NAN, |compliance| compliance.epsilon);
+    let impact = last.and_then(|compliance| compliance.impact);
     let velocity = number(impact, |run| run.velocity);
     let measured = number(impact, |run| run.penetration) / (velocity * study.impact_time(epsilon));
     let evidence = format!("{measured:.5} for {exact:.5} at ε = {epsilon:.0e}");
@@ -273,7 +290,7 @@ fn newton_does_not_depend_on_epsilon(
 ) -> Check {
     let bouncing: Vec<&ShownImpact> = compliances
         .iter()
-        .filter_map(|of| of.bouncing)
+        .filter_map(|compliance| compliance.bouncing)
         .chain(limit)
         .collect();
     let means = bouncing
@@ -309,34 +326,37 @@ fn newton_does_not_depend_on_epsilon(
 fn fixed_point_fails_at_one(compliances: &[Compliance<'_>]) -> Check {
     let (failed, converged): (Vec<_>, Vec<_>) = compliances
         .iter()
-        .filter(|of| of.fixed_point.is_some())
-        .partition(|of| of.fails());
+        .filter(|compliance| compliance.fixed_point.is_some())
+        .partition(|compliance| compliance.fails());
     // Between SLOW and 1 either is allowed; NaN is neither.
-    let holds =
-        converged.iter().all(|of| of.alpha() <= 1.0) && failed.iter().all(|of| of.alpha() >= SLOW);
-    let name = |run: Option<&&Compliance<'_>>| {
-        run.map_or("none".to_owned(), |of| {
-            format!("{} (α = {:.3})", of.label(), of.alpha())
-        })
-    };
+    let holds = converged.iter().all(|compliance| compliance.alpha() <= 1.0)
+        && failed.iter().all(|compliance| compliance.alpha() >= SLOW);
     Check::that(
         holds && !converged.is_empty() && !failed.is_empty(),
         "the fixed point converges while α < 1 and fails beyond; Newton's method does every step",
         format!(
             "last that converges: {}, first that fails: {}",
-            name(converged.last()),
-            name(failed.first())
+            label_with_alpha(converged.last()),
+            label_with_alpha(failed.first())
         ),
     )
     .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
 }
 
+/// A compliance and its predicted factor, in words.
+fn label_with_alpha(compliance: Option<&&Compliance<'_>>) -> String {
+    match compliance {
+        Some(compliance) => format!("{} (α = {:.3})", compliance.label(), compliance.alpha()),
+        None => "none".to_owned(),
+    }
+}
+
 fn contraction_as_predicted(compliances: &[Compliance<'_>]) -> Check {
     let judged = compliances
         .iter()
-        .filter(|of| of.factor_left_out().is_none());
+        .filter(|compliance| compliance.factor_left_out().is_none());
     let deviations: Vec<f64> = judged
-        .map(|of| (of.contraction() / of.alpha() - 1.0).abs())
+        .map(|compliance| (compliance.contraction() / compliance.alpha() - 1.0).abs())
         .collect();
     let worst = largest_of(deviations.iter().copied());
     let farthest = worst.map_or("no ratio".to_owned(), |worst| {
@@ -355,38 +375,50 @@ fn contraction_as_predicted(compliances: &[Compliance<'_>]) -> Check {
 
 /// The compliances that each statement judges; the orders have ranges of their own.
 fn coverage(compliances: &[Compliance<'_>]) -> Vec<Coverage> {
-    let count = |items: &str, reason: fn(&Compliance<'_>) -> Option<&'static str>| {
-        Coverage::of(items, compliances.iter().map(reason))
-    };
-    vec![
-        count("compliances on a fixed grid for an order", |of| {
-            (!of.is_averaged()).then_some("a time step resolves the impact")
-        }),
-        count("compliances at rest and in an impact for an order", |of| {
-            (!of.is_stiff()).then_some("too soft")
-        }),
-        count("compliances for the end of convergence", |of| {
-            if of.fixed_point.is_none() {
-                return Some(NO_RESULT);
-            }
+    let mut unresolved = vec![];
+    let mut stiff = vec![];
+    let mut iterated = vec![];
+    let mut factors = vec![];
+    for compliance in compliances {
+        unresolved.push((!compliance.is_averaged()).then_some("a time step resolves the impact"));
+        stiff.push((!compliance.is_stiff()).then_some("too soft"));
+        iterated.push(if compliance.fixed_point.is_none() {
+            Some(NO_RESULT)
+        } else {
             (SLOW..=1.0)
-                .contains(&of.alpha())
+                .contains(&compliance.alpha())
                 .then_some("α just below 1")
-        }),
-        count("compliances for the factor α", |of| of.factor_left_out()),
+        });
+        factors.push(compliance.factor_left_out());
+    }
+    vec![
+        Coverage::of("compliances on a fixed grid for an order", unresolved),
+        Coverage::of("compliances at rest and in an impact for an order", stiff),
+        Coverage::of("compliances for the end of convergence", iterated),
+        Coverage::of("compliances for the factor α", factors),
     ]
 }
 
 fn contractions(compliances: &[Compliance<'_>]) -> Figure {
-    let runs = |label: &str, fails: bool| {
-        let runs = compliances
-            .iter()
-            .filter(|of| of.fixed_point.is_some() && of.fails() == fails);
-        plots::Series::new(label, runs.map(|of| (of.alpha(), of.contraction())))
-    };
+    let mut converging = vec![];
+    let mut failing = vec![];
+    for compliance in compliances {
+        if compliance.fixed_point.is_none() {
+            continue;
+        }
+        let point = (compliance.alpha(), compliance.contraction());
+        if compliance.fails() {
+            failing.push(point);
+        } else {
+            converging.push(point);
+        }
+    }
     let svg = contraction(&ContractionFactors {
         title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
-        measured: vec![runs("converges", false), runs("fails", true)],
+        measured: vec![
+            plots::Series::new("converges", converging),
+            plots::Series::new("fails", failing),
+        ],
         predicted: "predicted factor α".to_owned(),
         estimates: plots::Series::default(),
     });
@@ -394,24 +426,41 @@ fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     Figure::new("contraction", caption, svg)
 }
 
+/// A penetration over ε; NaN if a run is missing.
+fn penetration_series(
+    label: &str,
+    compliances: &[Compliance<'_>],
+    value: fn(&Compliance<'_>) -> Option<f64>,
+) -> plots::ErrorSeries {
+    let mut points = vec![];
+    for compliance in compliances {
+        points.push((compliance.epsilon, value(compliance).unwrap_or(f64::NAN)));
+    }
+    plots::ErrorSeries {
+        label: label.into(),
+        points,
+        ..plots::ErrorSeries::default()
+    }
+}
+
 /// Without the distance to the rigid limit: on the scale of the figure it coincides with the
 /// largest penetration.
 fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
-    let over_epsilon = |label: &str, run: fn(&Compliance<'_>) -> Option<f64>| plots::ErrorSeries {
-        label: label.into(),
-        points: compliances
-            .iter()
-            .map(|of| (of.epsilon, run(of).unwrap_or(f64::NAN)))
-            .collect(),
-        ..plots::ErrorSeries::default()
-    };
     let series = [
-        over_epsilon(LARGEST, |of| penetration(of.bouncing)),
-        over_epsilon("peak of a resolved impact", |of| penetration(of.impact)),
-        over_epsilon("at rest", |of| penetration(of.rest)),
+        penetration_series(LARGEST, compliances, |compliance| {
+            penetration(compliance.bouncing)
+        }),
+        penetration_series("peak of a resolved impact", compliances, |compliance| {
+            penetration(compliance.impact)
+        }),
+        penetration_series("at rest", compliances, |compliance| {
+            penetration(compliance.rest)
+        }),
     ];
     let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
-    let resolved = compliances.first().map(|of| of.alpha() * of.epsilon);
+    let resolved = compliances
+        .first()
+        .map(|compliance| compliance.alpha() * compliance.epsilon);
     let xy = Xy {
         title: Some(title.to_owned()),
         x: plots::Axis::log("compliance of the obstacles ε"),
@@ -434,13 +483,13 @@ fn tip(
     limit: Option<&ShownImpact>,
 ) -> Figure {
     let mut series = vec![];
-    for of in compliances {
+    for compliance in compliances {
         let decade = DECADES
             .iter()
-            .find(|(decade, _)| (of.epsilon / decade - 1.0).abs() < 1e-6);
+            .find(|(decade, _)| (compliance.epsilon / decade - 1.0).abs() < 1e-6);
         series.extend(
             decade
-                .zip(of.bouncing)
+                .zip(compliance.bouncing)
                 .map(|((_, label), run)| (*label, run)),
         );
     }

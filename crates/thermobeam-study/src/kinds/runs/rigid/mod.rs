@@ -146,13 +146,13 @@ fn moving_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
 fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
     let field = section.require("scene", "a scene file")?;
     let scene = listed_scene(&field, folder)?;
-    let at_tip = |function: &Option<crate::expression::Expression>| {
-        function.as_ref().map_or(0.0, |f| f.eval(1.0))
-    };
-    let on_the_obstacle = scene
-        .obstacles
-        .is_some_and(|o| at_tip(&scene.initial.u) == o.g2);
-    if on_the_obstacle && at_tip(&scene.initial.u_t) > 0.0 {
+    let initial = &scene.initial;
+    let [tip, velocity] = [&initial.u, &initial.u_t].map(|function| match function {
+        Some(function) => function.eval(1.0),
+        None => 0.0,
+    });
+    let on_the_obstacle = scene.obstacles.is_some_and(|obstacles| tip == obstacles.g2);
+    if on_the_obstacle && velocity > 0.0 {
         return Ok(scene);
     }
     Err(field.refuse_as_written("a scene with u(1) = g2 and u_t(1) > 0"))
@@ -318,7 +318,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
     let mut driver = Driver::new(problem, stepping)?;
     let mut contraction = None;
     let mut iterations = 0;
-    let ended = run_to(&mut driver, scene.t_end, |driver, report| {
+    let outcome = run_to(&mut driver, scene.t_end, |driver, report| {
         iterations += report.iterations;
         // While the tip enters or leaves contact the law is not linear, and two increments show
         // nothing.
@@ -327,7 +327,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
             contraction = Some(contraction.map_or(measured, |most| max_or_nan(most, measured)));
         }
     });
-    let failed_at = match ended {
+    let failed_at = match outcome {
         Ok(()) => None,
         Err(RunError::Step(error)) => {
             contraction = match error.failure {

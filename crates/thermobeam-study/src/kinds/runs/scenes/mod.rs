@@ -101,6 +101,13 @@ struct Answer {
     within: f64,
 }
 
+impl Answer {
+    /// Whether a number is asked for.
+    fn has(&self, name: &str) -> bool {
+        self.numbers.iter().any(|(known, _)| known == name)
+    }
+}
+
 /// Upper bounds on the cost of steps and on what their iterations leave unsolved.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Most {
@@ -323,32 +330,31 @@ impl Whole {
         let scene = &self.case.scene;
         let mut no_progress = |_: f64| ();
         let [error, chosen] = PREDICTED;
-        let is_known = |name: &str| self.answer.numbers.iter().any(|(of, _)| of == name);
         let mut others = vec![];
-        if is_known(error) {
+        if self.answer.has(error) {
             let budget = estimate(scene, &mut Work::new(MOST_WORK, &mut no_progress))?;
-            let of_tip = budget
+            let tip = budget
                 .quantities
                 .iter()
                 .find(|estimate| estimate.name == "u(1) at the end");
-            let total = of_tip.map_or(f64::NAN, |estimate| estimate.total);
+            let total = tip.map_or(f64::NAN, |estimate| estimate.total);
             others.push((error.to_owned(), total));
         }
-        if is_known(chosen) {
+        if self.answer.has(chosen) {
             let work = &mut Work::new(MOST_WORK, &mut no_progress);
             let choice = choose(scene, Accuracy::Tip, self.answer.within, work)?;
             let run = Simulator::new(&choice.scene)?.run(Recording::Summary, &mut |_, _| ());
             others.push((chosen.to_owned(), run.last.u_tip));
         }
-        if is_known(STEADY) {
-            // Infinitely many unstable directions are no number of an answer.
-            let unstable = |state: &Equilibrium| {
-                state
+        if self.answer.has(STEADY) {
+            let mut pairs = vec![];
+            for state in exact_states(scene)? {
+                // Infinitely many unstable directions are no number of an answer.
+                let unstable = state
                     .unstable_directions
-                    .map_or(f64::INFINITY, |count| count as f64)
-            };
-            let states = exact_states(scene)?.into_iter();
-            let pairs = states.map(|state| [state.u_tip, unstable(&state)]);
+                    .map_or(f64::INFINITY, |count| count as f64);
+                pairs.push([state.u_tip, unstable]);
+            }
             others.extend(listed("steady", pairs));
         }
         Ok(others)
@@ -356,15 +362,16 @@ impl Whole {
 }
 
 fn alike_in_lanes(shown: &[(&Whole, &Shown)]) -> Check {
-    let alike = |expected: Option<bool>| {
-        move |(_, shown): &&(&Whole, &Shown)| shown.alike_in_lanes == expected
-    };
-    let apart: Vec<&str> = shown
-        .iter()
-        .filter(alike(Some(false)))
-        .map(|(whole, _)| whole.case.name.as_str())
-        .collect();
-    let compared = apart.len() + shown.iter().filter(alike(Some(true))).count();
+    let mut apart = vec![];
+    let mut compared = 0;
+    for (whole, shown) in shown {
+        if let Some(is_alike) = shown.alike_in_lanes {
+            compared += 1;
+            if !is_alike {
+                apart.push(whole.case.name.as_str());
+            }
+        }
+    }
     let evidence = format!(
         "{compared} compared, {} with other bits: {}",
         apart.len(),

@@ -105,8 +105,9 @@ impl Shown {
 
     /// Whether end, numbers and counts are the same, to the bit.
     pub(super) fn has_the_bits_of(&self, other: &Self) -> bool {
-        let bits = |shown: &Self| shown.numbers.map(f64::to_bits);
-        (self.end, bits(self), self.counts) == (other.end, bits(other), other.counts)
+        self.end == other.end
+            && self.numbers.map(f64::to_bits) == other.numbers.map(f64::to_bits)
+            && self.counts == other.counts
     }
 
     pub(super) fn of(run: &Run) -> Result<Self, RunError> {
@@ -182,7 +183,7 @@ pub(super) fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
             .map(|(theta, lifting)| theta + lifting)
             .collect();
         let [u, u_t, phi, phi_t] = [&old.u, &old.v, &old.phi, &old.w].map(Clone::clone);
-        problem.initial = Initial {
+        problem.initial = InitialValues {
             u,
             u_t,
             phi,

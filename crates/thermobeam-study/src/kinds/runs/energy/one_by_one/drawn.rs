@@ -59,10 +59,13 @@ fn drifts(drawn: &[(&EnergyRun, &Found)]) -> Figure {
     let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| run.drift).collect();
     bounds.sort_by(f64::total_cmp);
     bounds.dedup();
-    let allowed = |value: f64| plots::Guide {
-        label: "allowed".to_owned(),
-        value,
-    };
+    let mut guides = vec![];
+    for value in bounds {
+        guides.push(plots::Guide {
+            label: "allowed".to_owned(),
+            value,
+        });
+    }
     let mut drifts = curves(drawn, |_, sample| (sample.step as f64, sample.drift.abs()));
     // Exactly zero, such as at the start, has no place on a logarithmic axis.
     for series in &mut drifts {
@@ -70,7 +73,7 @@ fn drifts(drawn: &[(&EnergyRun, &Found)]) -> Figure {
     }
     let drift = Xy {
         x: plots::Axis::linear("steps"),
-        guides: bounds.into_iter().map(allowed).collect(),
+        guides,
         ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
     };
     let caption = "Sum of the signed residuals of the energy balance up to each step.";

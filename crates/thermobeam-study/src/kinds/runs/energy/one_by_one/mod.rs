@@ -117,6 +117,13 @@ pub struct EnergyAt {
     pub drift: f64,
 }
 
+impl Found {
+    /// A reading of the completed steps, of which there may be none.
+    fn of_steps(&self, name: &str, value: f64) -> Reading {
+        Reading::new(name, (self.steps > 0).then_some(value))
+    }
+}
+
 impl Runs for EnergyRuns {
     /// Number of the run.
     type Run = usize;
@@ -174,8 +181,6 @@ impl Runs for EnergyRuns {
     /// A run without a step has no residuals.
     fn numbers(&self, place: &usize, found: &Found) -> Vec<Reading> {
         let run = &self.runs[*place];
-        let of_steps =
-            |name: &str, value: f64| Reading::new(name, (found.steps > 0).then_some(value));
         let mut numbers = vec![
             Reading::text("elements", run.problem.mesh.elements().to_string()),
             Reading::text("dt", plain_text(run.stepping.dt)),
@@ -184,11 +189,15 @@ impl Runs for EnergyRuns {
             Reading::text("end", found.end.name()),
             Reading::text("most iterations", found.most_iterations.to_string()),
             Reading::new("initial energy", found.initial_energy).scientific(4),
-            of_steps("rise", found.worst.rise).scientific(1),
-            of_steps("residual", found.worst.residual).scientific(1),
-            of_steps("sum of residuals", found.drift.abs()).scientific(1),
-            of_steps("rise over its bound", found.worst.risen),
-            of_steps("residual over its bound", found.worst.open),
+            found.of_steps("rise", found.worst.rise).scientific(1),
+            found
+                .of_steps("residual", found.worst.residual)
+                .scientific(1),
+            found
+                .of_steps("sum of residuals", found.drift.abs())
+                .scientific(1),
+            found.of_steps("rise over its bound", found.worst.risen),
+            found.of_steps("residual over its bound", found.worst.open),
         ];
         if let Some(share) = found.of_bound {
             numbers.push(Reading::new("of the bound (3.12)", share).fixed(3));
@@ -218,8 +227,10 @@ impl Runs for EnergyRuns {
             steps += found.steps;
             share = max_or_nan(share, run.share_of(found));
         }
-        let passes = |check: &&Check| check.verdict == Verdict::Pass;
-        let holding = checks.iter().filter(passes).count();
+        let holding = checks
+            .iter()
+            .filter(|check| check.verdict == Verdict::Pass)
+            .count();
         let headline = if steps > 0 {
             format!(
                 "largest residual {:.1e} of the energy, largest change in a step {:.1e}",
@@ -313,7 +324,7 @@ impl<'r> Recorder<'r> {
         let simulation = driver.simulation();
         let old = driver.old_level();
         let new = driver.level();
-        let step = simulation.step();
+        let step = simulation.steps();
         let found = &mut self.found;
         found.steps = step;
         found.contact_steps += usize::from(new.contact_force != 0.0);
@@ -351,7 +362,7 @@ impl<'r> Recorder<'r> {
     fn sample(&mut self, driver: &Driver<'_>) {
         let simulation = driver.simulation();
         self.found.samples.push(EnergyAt {
-            step: simulation.step(),
+            step: simulation.steps(),
             t: simulation.t(),
             energy: simulation.energy(driver.level()).total(),
             residual: self.residual,

@@ -1,0 +1,88 @@
+//! What the rates that a table prints say about its steps: the dimension of a count, the ratio of
+//! levels.
+
+use super::columns::Derived;
+use super::reader::{NEIGHBOURS, TableReader};
+
+/// Dimensions that a count may have.
+const DIMENSIONS: [f64; 3] = [1.0, 2.0, 3.0];
+
+/// Ratios of steps from level to level.
+const RATIOS: [f64; 5] = [1.5, 2.0, 3.0, 4.0, 10.0];
+
+/// A number that the rates of a table decide.
+pub(super) struct Stated<'t> {
+    pub(super) number: f64,
+    /// The error whose rates these are.
+    pub(super) error: &'t str,
+}
+
+impl TableReader<'_> {
+    /// The only dimension D with which a column has the rates of another over `count^(-1/D)`.
+    pub(super) fn stated_dimension(&self, count: usize) -> Option<Stated<'_>> {
+        self.only(count, &DIMENSIONS, |count, dim| count.powf(-1.0 / dim))
+    }
+
+    /// The only ratio R with which a column has the rates of another over `R^(-level)`.
+    pub(super) fn stated_ratio(&self, level: usize) -> Option<Stated<'_>> {
+        self.only(level, &RATIOS, |level, ratio| ratio.powf(-level))
+    }
+
+    /// The only one of some numbers with which all columns that are rates are rates of another;
+    /// `None` if several fit, or none does.
+    ///
+    /// * `step`: of a number in column `of` with a candidate.
+    fn only(
+        &self,
+        of: usize,
+        candidates: &[f64],
+        step: impl Fn(f64, f64) -> f64,
+    ) -> Option<Stated<'_>> {
+        let mut fits = vec![];
+        for candidate in candidates {
+            let values = self.columns[of].values.iter();
+            let steps: Vec<f64> = values.map(|value| step(*value, *candidate)).collect();
+            fits.push((*candidate, self.columns_of_rates(of, &steps)));
+        }
+        // A rate of one error may be that of another in a wrong dimension.
+        let most = fits.iter().map(|(_, rates)| rates.len()).max()?;
+        let has_all = |rates: &[RatesOf]| {
+            let columns = fits.iter().flat_map(|(_, others)| others);
+            let mut columns = columns.map(|other| other.column);
+            columns.all(|column| rates.iter().any(|own| own.column == column))
+        };
+        let mut best = fits.iter().filter(|(_, rates)| most > 0 && has_all(rates));
+        let (number, rates) = best.next()?;
+        if best.next().is_some() {
+            return None;
+        }
+        Some(Stated {
+            number: *number,
+            error: self.columns[rates[0].error].name.as_str(),
+        })
+    }
+
+    /// The columns that are rates over these steps, which fall from row to row.
+    fn columns_of_rates(&self, of: usize, steps: &[f64]) -> Vec<RatesOf> {
+        let near = || (0..self.columns.len().min(NEIGHBOURS)).filter(|k| *k != of);
+        let mut rates = vec![];
+        if !steps.windows(2).all(|two| two[1] < two[0]) {
+            return rates;
+        }
+        for column in near() {
+            let is_of = |error: &usize| {
+                let derived = self.columns[column].derived_from(&self.columns[*error], steps);
+                derived == Some(Derived::Rates)
+            };
+            let error = near().find(is_of);
+            rates.extend(error.map(|error| RatesOf { column, error }));
+        }
+        rates
+    }
+}
+
+/// A column with the rates of another.
+struct RatesOf {
+    column: usize,
+    error: usize,
+}

@@ -1,0 +1,147 @@
+//! The files that `new program` writes: a study, and a program in a language; or a study of a command
+//! of the user.
+
+use super::command::filled;
+use super::refine::Parameter;
+
+/// A language of `new program`.
+#[derive(Debug, Clone, Copy)]
+pub struct Language {
+    /// As on the command line.
+    pub name: &'static str,
+    /// What follows the user's name in the name of the program's file.
+    ending: &'static str,
+    program: &'static str,
+    /// The command that runs it, as the study file lists it.
+    command: &'static str,
+}
+
+/// All languages, that of [`super::TEMPLATE`] first.
+pub const LANGUAGES: [Language; 8] = [
+    Language {
+        name: "python",
+        ending: ".py",
+        program: include_str!("begin/program.py"),
+        command: PYTHON,
+    },
+    Language {
+        name: "octave",
+        ending: ".m",
+        program: include_str!("begin/program.m"),
+        command: r#"["octave-cli", "--no-history", "BELOWNAME.m", "{n}"]"#,
+    },
+    Language {
+        name: "fortran",
+        ending: ".f90",
+        program: include_str!("begin/program.f90"),
+        command: r#"["sh", "-c", "d=$(mktemp -d); gfortran -O2 -o $d/solver BELOWNAME.f90 && $d/solver {n}; s=$?; rm -r $d; exit $s"]"#,
+    },
+    Language {
+        name: "c++",
+        ending: ".cpp",
+        program: include_str!("begin/program.cpp"),
+        command: r#"["sh", "-c", "d=$(mktemp -d); c++ -O2 -o $d/solver BELOWNAME.cpp && $d/solver {n}; s=$?; rm -r $d; exit $s"]"#,
+    },
+    Language {
+        name: "freefem",
+        ending: ".edp",
+        program: include_str!("begin/program.edp"),
+        command: r#"["FreeFem++", "-nw", "-v", "0", "BELOWNAME.edp", "{n}"]"#,
+    },
+    Language {
+        name: "openfoam",
+        ending: ".py",
+        program: include_str!("begin/openfoam.py"),
+        command: PYTHON,
+    },
+    Language {
+        name: "julia",
+        ending: ".jl",
+        program: include_str!("begin/program.jl"),
+        command: r#"["julia", "BELOWNAME.jl", "{n}"]"#,
+    },
+    Language {
+        name: "shell",
+        ending: ".sh",
+        program: include_str!("begin/program.sh"),
+        command: r#"["sh", "BELOWNAME.sh", "{n}"]"#,
+    },
+];
+
+/// The command of the study in `begin/study.toml`.
+const PYTHON: &str = r#"["python3", "BELOWNAME.py", "{n}"]"#;
+
+const STUDY: &str = include_str!("begin/study.toml");
+
+/// A file to write: what follows the user's name in its name, and its text, in which the words of
+/// [`Template::files`](crate::project::Template::files) stand for others.
+#[derive(Debug, Clone)]
+pub struct Begun {
+    /// Such as `.toml`.
+    pub ending: &'static str,
+    /// The text.
+    pub text: String,
+}
+
+/// The study of a program in this language, and the program.
+pub fn in_language(language: &Language) -> Vec<Begun> {
+    let study = STUDY
+        .replace(PYTHON, language.command)
+        .replace("NAME.py", &format!("NAME{}", language.ending));
+    vec![
+        Begun {
+            ending: ".toml",
+            text: study,
+        },
+        Begun {
+            ending: language.ending,
+            text: language.program.to_owned(),
+        },
+    ]
+}
+
+/// The study of a command, such as `FreeFem++ -nw poisson.edp {n}`.
+///
+/// # Errors
+/// No word, a quote without its end, and a placeholder that the study gives no value, in words.
+pub fn of_command(command: &str) -> Result<Vec<Begun>, String> {
+    const VALUES: [Parameter; 3] = [("n", 8.0), ("h", 0.125), ("level", 0.0)];
+    let words = words(command)?;
+    for word in &words {
+        filled(word, &VALUES).map_err(|misread| misread.reason)?;
+    }
+    let listed: Vec<String> = words
+        .iter()
+        .map(|word| serde_json::Value::from(word.as_str()).to_string())
+        .collect();
+    let list = format!("[{}]", listed.join(", "));
+    Ok(vec![Begun {
+        ending: ".toml",
+        text: include_str!("begin/command.toml").replace("COMMAND", &list),
+    }])
+}
+
+/// The words of a command, as a shell separates them: by blanks outside quotes.
+fn words(command: &str) -> Result<Vec<String>, String> {
+    let mut words = vec![];
+    let mut word: Option<String> = None;
+    let mut quote = None;
+    for c in command.chars() {
+        if quote == Some(c) {
+            quote = None;
+        } else if quote.is_none() && matches!(c, '\'' | '"') {
+            quote = Some(c);
+            word.get_or_insert_default();
+        } else if quote.is_none() && c.is_whitespace() {
+            words.extend(word.take());
+        } else {
+            word.get_or_insert_default().push(c);
+        }
+    }
+    words.extend(word);
+    match (quote, words.is_empty()) {
+        (Some(quote), _) => Err(format!("found {quote} without its end; expected another")),
+        (None, true) => Err("found no word; expected a program and its arguments".to_owned()),
+        (None, false) => Ok(words),
+    }
+}

@@ -1,0 +1,290 @@
+"""The functions of the package: they convert arguments, and the Rust crate judges."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Union
+
+from . import _native
+from ._native import Judgement, Limit, Study
+from ._tables import in_python, in_rows, with_index
+
+Order = Union[float, str, Mapping[str, Union[float, str]], None]
+Numbers = Union[Iterable[Any], None]
+Names = Union[Iterable[Union[str, int]], str, None]
+
+
+def judge(
+    h: Any = None,
+    errors: Numbers = None,
+    order: Order = None,
+    tolerance: float = 0.25,
+    *,
+    n: Numbers = None,
+    dim: float | None = None,
+    floor: float = 0.0,
+    step: str | int | None = None,
+    columns: Names = None,
+    names: Names = None,
+    ratio: float | None = None,
+) -> Any:
+    """Judges errors against the order that theory claims.
+
+    h: the steps, in any order, positive; errors: the same number of errors, in any unit. Lists, arrays and series are accepted. n: counts in
+    place of the steps, then h = n^(-1/dim): dim=1 for cells along an edge, dim=2 for cells in the plane. Or h is a table: a data frame or an
+    xarray.Dataset, whose index is the step, a dict of lists, or a series over its steps; errors is then None. Its columns are recognised as
+    `convergence-study rates` does; step (a name, or a number from 1), columns (of errors), names (for all columns), dim and ratio (of the
+    steps of numbered levels) say what the table does not.
+
+    order: a number > 0, or ">= 2" for a minimum order; for a table also a dict of names and orders; None for no claim, which is never a pass.
+    tolerance: allowed deviation of the rate from the order, 0 < tolerance < 0.5. floor: round-off, in the unit of the errors: the finest
+    levels are dropped as long as their errors are not above it.
+
+    Returns a Judgement; for a table of several columns a dict of them by name. Raises ValueError or TypeError, which names the argument, if
+    the input is not a table of numbers. NaN among the errors is a finding, not bad input.
+    """
+    found, is_table = judged(h, errors, order, tolerance, n=n, dim=dim, floor=floor, step=step, columns=columns, names=names, ratio=ratio)
+    return {judgement.name: judgement for judgement in found} if is_table else found[0]
+
+
+def assert_order(
+    h: Any = None,
+    errors: Numbers = None,
+    order: Order = None,
+    tolerance: float = 0.25,
+    *,
+    n: Numbers = None,
+    dim: float | None = None,
+    floor: float = 0.0,
+    step: str | int | None = None,
+    columns: Names = None,
+    names: Names = None,
+    ratio: float | None = None,
+    allow_inconclusive: bool = False,
+) -> None:
+    """Does nothing if the order is confirmed; arguments as for judge.
+
+    Raises AssertionError unless every verdict is a pass: the verdict in a line, then the table, the rate, its interval, the reason and what to
+    do. With allow_inconclusive only the verdict fail is a failure. Raises ValueError and TypeError as judge does.
+    """
+    __tracebackhide__ = True
+    found, _ = judged(h, errors, order, tolerance, n=n, dim=dim, floor=floor, step=step, columns=columns, names=names, ratio=ratio)
+    message = _native.failure(found, allow_inconclusive)
+    if message is not None:
+        raise AssertionError(message)
+
+
+def limit(
+    h: Any = None,
+    values: Numbers = None,
+    order: float | None = None,
+    tolerance: float = 0.25,
+    *,
+    n: Numbers = None,
+    dim: float | None = None,
+) -> Limit:
+    """The limit at h = 0 of values without a known exact value, with its interval, the observed order and the grid convergence index.
+
+    h, n, dim: the steps or the counts, as for judge; values: the same number of values, at least three, in any unit; or h is a series of
+    values over its steps. order: the theoretical order, or None: then the observed order replaces it. tolerance as for judge.
+
+    Returns a Limit. Raises ValueError or TypeError, which names the argument.
+    """
+    if values is None and hasattr(getattr(h, "index", None), "nlevels"):
+        h, values = h.index, h
+    if values is None:
+        raise ValueError("values: expected the values at the steps h, found None")
+    return _native.limit(_steps(h, n, dim)[0], values, order, number("tolerance", tolerance))
+
+
+def study(
+    solve: Callable[[Any], float | Mapping[str, float]],
+    n: str | Iterable[int] | None = None,
+    order: Order = None,
+    budget: float = 60.0,
+    tolerance: float = 0.25,
+    name: str = "study",
+    *,
+    h: Numbers = None,
+    floor: float = 0.0,
+    allow_inconclusive: bool = False,
+) -> Study:
+    """Computes levels and judges the rates of their errors.
+
+    solve: called level by level, in the thread of the caller; returns a dict of errors by name, or one error. n: whole numbers, each an
+    argument of solve, or None or "auto": 8, 16, 32, 64, then finer ones until every rate has a verdict, at most 8 levels, while the next one
+    fits the budget (seconds). The step is 1/n, or the value that solve returns with the errors as "h" or "dt". h: in place of n, the steps
+    themselves, each an argument of solve. order: as for judge; a dict has orders by name, and other errors are not judged; one number applies
+    to every error. floor: as for judge. name: its name in reports. allow_inconclusive: whether assert_passes() accepts that verdict.
+
+    Returns a Study. Raises ValueError or TypeError, which names the argument, and exceptions of solve.
+    """
+    tolerance = number("tolerance", tolerance)
+    return _native.study(solve, n, h, order, tolerance, options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive))
+
+
+def rates(
+    path_or_text: str | os.PathLike[str],
+    order: Order = None,
+    tolerance: float = 0.25,
+    *,
+    floor: float = 0.0,
+    step: str | int | None = None,
+    columns: Names = None,
+    values: Names = None,
+    names: Names = None,
+    dim: float | None = None,
+    ratio: float | None = None,
+) -> dict[str, Any]:
+    """What the program prints: the object of `convergence-study rates --format json`, as a dict.
+
+    path_or_text: a file, or a text of several lines with a table, a log, a list or JSON. values: the columns of values that tend to an unknown
+    limit. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
+    """
+    text, source, shown = _source(path_or_text)
+    orders = order if isinstance(order, Mapping) else {} if order is None else {"": order}
+    tolerance, floor = number("tolerance", tolerance), number("floor", floor)
+    for claim in orders.values():
+        # Refuses what the program would refuse in other words.
+        Judgement("error", "h", [1], [1], claim, tolerance, floor)
+    arguments = ["--order=" + (f"{name}={claim}" if name else str(claim)) for name, claim in orders.items()]
+    arguments += [f"--tolerance={tolerance}", f"--floor={floor}"]
+    arguments += [] if step is None else [f"--step={step}"]
+    lists = {"columns": columns, "values": values, "names": names}
+    arguments += [f"--{name}={','.join(_names(name, given))}" for name, given in lists.items() if given is not None]
+    arguments += [f"--{name}={value}" for name, value in _numbers(dim, ratio).items() if value is not None]
+    program = [sys.executable, "-m", "convergence_study", "rates", source, "--format", "json", *arguments]
+    done = subprocess.run(program, input=text, capture_output=True, encoding="utf-8", check=False)
+    if done.returncode not in (0, 1):
+        call = f"rates({shown}" + ("" if order is None else f", order={order!r}")
+        raise ValueError(in_python(done.stderr.partition("error: ")[2].strip() or done.stderr, call))
+    return json.loads(done.stdout)
+
+
+def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
+    """What a study is called, and what it may do."""
+    if not isinstance(name, str):
+        raise TypeError(f"name: expected a text, found {name!r}")
+    return {
+        "name": name,
+        "test": test,
+        "budget": number("budget", budget),
+        "floor": number("floor", floor),
+        "allow_inconclusive": bool(allow_inconclusive),
+    }
+
+
+def judged(h, errors, order, tolerance, *, n=None, dim=None, floor=0.0, step=None, columns=None, names=None, ratio=None):
+    """The judgements of one or several errors, and whether there may be several."""
+    chosen = {"step": step, "columns": columns, "names": names, "ratio": ratio}
+    tolerance, floor = number("tolerance", tolerance), number("floor", floor)
+    if h is None and n is None and errors is not None:
+        h, errors = errors, None
+    if errors is not None:
+        for name, value in chosen.items():
+            if value is not None:
+                raise ValueError(f"{name}: expected only with a table in place of h and errors, found {value!r}")
+        steps, label = _steps(h, n, dim)
+        found = Judgement("error", label, steps, errors, order, tolerance, floor)
+        if n is None:
+            _refuse_counts(found)
+        return [found], False
+    if n is not None:
+        raise ValueError("errors: expected the errors at the counts n, found None")
+    if h is None:
+        raise ValueError("h: expected steps, or a table with a column of steps, found None")
+    table, is_series = with_index(h)
+    chosen["step"] = None if step is None else str(step)
+    chosen.update(
+        columns=None if columns is None else _names("columns", columns),
+        names=None if names is None else _names("names", names),
+        **_numbers(dim, ratio),
+    )
+    given = {"order": order, "step": step, "columns": columns, "names": names, "dim": dim, "ratio": ratio}
+    call = "judge(table" + "".join(f", {name}={value!r}" for name, value in given.items() if value is not None)
+    try:
+        found = _native.judge_table(table, order, tolerance, floor, chosen)
+    except ValueError as error:
+        raise ValueError(in_python(in_rows(str(error)), call, drop=["values"])) from None
+    if found is None:
+        raise ValueError("errors: expected the errors at the steps h, or a table in place of h; found None")
+    return found, not is_series
+
+
+def _steps(h, n, dim):
+    """The steps, and their name."""
+    if n is None:
+        if dim is not None:
+            raise ValueError(f"dim: expected only with counts n=[...] or a table, found {dim!r} with steps h")
+        if h is None:
+            raise ValueError("h: expected steps, or counts as n=[...], found None")
+        return h, "h"
+    if h is not None:
+        raise ValueError("n: expected either steps h or counts n, found both")
+    dim = 1.0 if dim is None else number("dim", dim, above=0)
+    n = n.tolist() if hasattr(n, "tolist") else n.to_list() if hasattr(n, "to_list") else n
+    if isinstance(n, (str, bytes, dict)) or not hasattr(n, "__iter__"):
+        raise ValueError(f"n: expected a sequence of numbers, found {n!r}")
+    counts = [number(f"n[{k}]", count, above=0) for k, count in enumerate(n)]
+    return [count ** (-1 / dim) for count in counts], "1/n" if dim == 1 else f"n^(-1/{dim:g})"
+
+
+def _refuse_counts(judgement):
+    """Raises ValueError if the steps must be counts."""
+    if not judgement._are_counts():
+        return
+    steps = judgement.to_dict()["steps"]
+    counts = ", ".join(f"{step:g}" for step in reversed(steps[-4:]))
+    more = ", ..." if len(steps) > 4 else ""
+    raise ValueError(
+        f"h: expected steps, which fall with the errors; found {counts}{more}, which grow where the errors fall\n"
+        f"  n=[{counts}{more}]  # if they count cells along an edge\n"
+        f"  n=[{counts}{more}], dim=2  # all, in the plane\n"
+        f"  n=[{counts}{more}], dim=3  # all, in space\n"
+        "If they are steps, the errors grow as the steps fall: nothing converges."
+    )
+
+
+def number(name, value, above=None):
+    """A finite number, greater than `above`."""
+    expected = "a number" if above is None else f"a finite number > {above}"
+    if isinstance(value, (bool, str, bytes)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{name}: expected {expected}, found {value!r}")
+    found = float(value)
+    if above is not None and not above < found < float("inf"):
+        raise ValueError(f"{name}: expected {expected}, found {value!r}")
+    return found
+
+
+def _numbers(dim, ratio):
+    """The arguments dim and ratio, if they are given."""
+    return {
+        "dim": None if dim is None else number("dim", dim, above=0),
+        "ratio": None if ratio is None else number("ratio", ratio, above=1),
+    }
+
+
+def _names(name, given):
+    """A list of names of columns, or of their numbers from 1."""
+    if isinstance(given, (str, int)):
+        given = [given]
+    if not all(isinstance(one, (str, int)) for one in given):
+        raise TypeError(f"{name}: expected names of columns, found {given!r}")
+    return [str(one) for one in given]
+
+
+def _source(path_or_text):
+    """Text for the standard input of the program, the file that it reads, and how messages show it."""
+    if isinstance(path_or_text, os.PathLike) or isinstance(path_or_text, str) and "\n" not in path_or_text:
+        path = pathlib.Path(path_or_text)
+        if not path.is_file():
+            raise ValueError(f"path_or_text: expected an existing file, or a text of several lines; found {str(path)!r}")
+        return None, str(path), repr(str(path))
+    if isinstance(path_or_text, str):
+        return path_or_text, "-", "text"
+    raise TypeError(f"path_or_text: expected a path or a text, found {path_or_text!r}")

@@ -1,0 +1,120 @@
+//! Limits of values without an exact solution.
+
+use convergence_harness::judge::richardson::{Estimate, Estimator, Value};
+use convergence_harness::text::number::RATE_PLACES;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::judged::attributes;
+use crate::values::{self, refuse};
+
+/// The limit of values at h = 0.
+///
+/// value: the limit; interval: its two ends; error: that of the finest value, with its sign; gci:
+/// half the width of the grid convergence index about the finest value; all in the unit of the
+/// values, and None if there is no such number. order: the observed order; verdict: on the claimed
+/// order; reason: why there is no limit, or how the order was found.
+#[pyclass(frozen, get_all, module = "convergence_study")]
+pub(crate) struct Limit {
+    value: Option<f64>,
+    interval: Option<(f64, f64)>,
+    error: Option<f64>,
+    order: Option<f64>,
+    gci: Option<f64>,
+    verdict: String,
+    reason: String,
+}
+
+/// The fields of a [`Limit`], in the order of its constructor.
+const LIMIT: [&str; 7] = [
+    "value", "interval", "error", "order", "gci", "verdict", "reason",
+];
+
+impl Limit {
+    /// * `is_claimed`: whether theory claims an order; if not, the observed one replaces it.
+    fn new(Estimate { bar, gci, judged }: Estimate, is_claimed: bool) -> Self {
+        let reason = match &bar {
+            Err(refusal) => refusal.to_string(),
+            Ok(_) if is_claimed => judged.reason.clone(),
+            Ok(_) => format!("observed order {}", judged.rate_in_words(RATE_PLACES)),
+        };
+        let bar = bar.ok();
+        Self {
+            value: bar.as_ref().map(|bar| bar.extrapolated),
+            interval: bar.as_ref().map(|bar| bar.limit.into()),
+            error: bar.as_ref().map(|bar| bar.error),
+            order: judged.fitted,
+            gci: gci.ok().map(|gci| gci.half_width),
+            verdict: judged.verdict.name().to_owned(),
+            reason,
+        }
+    }
+}
+
+#[pymethods]
+impl Limit {
+    /// `copy` and `pickle` make it again from its fields.
+    #[new]
+    fn again(
+        value: Option<f64>,
+        interval: Option<(f64, f64)>,
+        error: Option<f64>,
+        order: Option<f64>,
+        gci: Option<f64>,
+        verdict: String,
+        reason: String,
+    ) -> Self {
+        Self {
+            value,
+            interval,
+            error,
+            order,
+            gci,
+            verdict,
+            reason,
+        }
+    }
+
+    fn __getnewargs__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(slf.py(), attributes(slf, &LIMIT)?.values())
+    }
+
+    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
+        attributes(slf, &LIMIT)
+    }
+
+    fn __repr__(&self) -> String {
+        match (self.value, self.interval) {
+            (Some(value), Some((low, high))) => {
+                format!("limit {value:?} ({low:?} to {high:?}): {}", self.reason)
+            }
+            _ => format!("no limit: {}", self.reason),
+        }
+    }
+}
+
+/// The limit of levels at h = 0; see the function of this name in Python.
+#[pyfunction]
+pub(crate) fn limit(
+    h: &Bound<'_, PyAny>,
+    values: &Bound<'_, PyAny>,
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+) -> PyResult<Limit> {
+    let claim = values::claim(order, tolerance)?;
+    let levels = values::levels(h, "values", values)?;
+    let values: Vec<Value> = levels
+        .iter()
+        .map(|level| Value {
+            step: level.step,
+            value: level.error,
+        })
+        .collect();
+    let estimator = Estimator::new(tolerance).map_err(refuse)?;
+    let estimate = if order.is_none() {
+        estimator.estimate_unclaimed(&values)
+    } else {
+        estimator.estimate(&values, claim.order)
+    };
+    Ok(Limit::new(estimate, order.is_some()))
+}

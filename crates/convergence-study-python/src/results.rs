@@ -1,0 +1,187 @@
+//! What a study is made of, and how it is judged.
+
+use convergence_harness::study::over_levels::Levels;
+use convergence_harness::study::until_decided::{self, Next};
+use convergence_harness::study::{
+    Axis, Claim, ErrorsOverLevels, Header, NamedErrors, STEPS, header::is_name, levels,
+    run_cases_here,
+};
+use pyo3::prelude::*;
+
+use crate::studied::Study;
+
+/// What is said about a study in addition to its levels.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
+    /// Its name in reports.
+    name: String,
+    /// The test that it belongs to, for the baseline; empty without one.
+    test: String,
+    /// Seconds for studies that add levels.
+    pub(crate) budget: f64,
+    /// Round-off, in the unit of the errors.
+    pub(crate) floor: f64,
+    pub(crate) allow_inconclusive: bool,
+}
+
+/// A claim as Python keeps it.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct NamedClaim {
+    pub(crate) name: String,
+    order: f64,
+    tolerance: f64,
+    at_least: bool,
+}
+
+impl NamedClaim {
+    pub(crate) fn new(name: &str, claim: &Claim) -> Self {
+        Self {
+            name: name.to_owned(),
+            order: claim.order,
+            tolerance: claim.tolerance,
+            at_least: claim.at_least,
+        }
+    }
+
+    pub(crate) fn claim(&self) -> Claim {
+        Claim {
+            at_least: self.at_least,
+            ..Claim::new(self.order, self.tolerance)
+        }
+    }
+}
+
+/// What a study is made of; `copy` and `pickle` judge it again.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Results {
+    pub(crate) claims: Vec<NamedClaim>,
+    /// The word for what distinguishes the levels: `n` or `level`.
+    pub(crate) counted: String,
+    pub(crate) counts: Vec<usize>,
+    /// The levels as requested, which the baseline keeps as a claim.
+    pub(crate) levels: String,
+    pub(crate) errors: Vec<NamedErrors>,
+    /// The time of each level, if levels were added until the verdict.
+    pub(crate) seconds: Option<Vec<f64>>,
+    pub(crate) options: Options,
+}
+
+impl Results {
+    /// The name of the step.
+    pub(crate) fn step(&self) -> &str {
+        let names = self.errors.iter().flatten().map(|(name, _)| name.as_str());
+        names
+            .into_iter()
+            .find(|name| STEPS.contains(name))
+            .unwrap_or("h")
+    }
+
+    /// The header; the baseline keeps its settings as claims.
+    fn header(&self) -> Header {
+        let orders: Vec<String> = self
+            .claims
+            .iter()
+            .map(|claimed| format!("{} {}", claimed.name, claimed.claim()))
+            .collect();
+        let claim = format!("orders: {}", orders.join(", "));
+        let mut header = Header::new(id_of(&self.options.name), claim);
+        let mut set = |key: String, value: String| header.settings.push((key, value));
+        for NamedClaim {
+            name,
+            order,
+            tolerance,
+            at_least,
+        } in &self.claims
+        {
+            set(format!("expect.{name}.order"), order.to_string());
+            set(format!("expect.{name}.tolerance"), tolerance.to_string());
+            set(format!("expect.{name}.at_least"), at_least.to_string());
+        }
+        set("levels".to_owned(), self.levels.clone());
+        if self.options.floor > 0.0 {
+            set("floor".to_owned(), format!("{:e}", self.options.floor));
+        }
+        if !self.options.test.is_empty() {
+            set(TEST.to_owned(), self.options.test.clone());
+        }
+        header
+    }
+
+    /// The study of the computed errors.
+    fn study(&self) -> ErrorsOverLevels<impl Fn(usize) -> NamedErrors + use<'_>> {
+        let solve = |n: usize| {
+            let level = self.counts.iter().position(|count| *count == n);
+            level.map_or(vec![], |level| self.errors[level].clone())
+        };
+        let axis = if self.step() == "dt" {
+            Axis::Time
+        } else {
+            Axis::Space
+        };
+        let study = levels(self.counts.iter().copied(), solve)
+            .described(self.header())
+            .counting(&*self.counted, axis);
+        self.claims.iter().fold(study, |study, claimed| {
+            study.claiming(&*claimed.name, claimed.claim())
+        })
+    }
+
+    fn levels(&self) -> Levels {
+        let study = self.study();
+        study
+            .levels(&run_cases_here(&study))
+            .with_floor(self.options.floor)
+    }
+
+    /// Whether levels are added, and why not.
+    pub(crate) fn next(&self, seconds: &[f64]) -> Next {
+        until_decided::next_by_time(&self.levels().judge(), seconds, self.options.budget)
+    }
+
+    /// The judged study.
+    pub(crate) fn judged(self) -> Study {
+        let mut finished = self.study().run();
+        if self.options.floor > 0.0 {
+            let checks = std::mem::take(&mut finished.outcome.checks);
+            let caption = "Errors over levels of refinement.";
+            finished.outcome = self.levels().outcome("errors", None, caption, checks);
+        }
+        if let Some(seconds) = &self.seconds {
+            finished.outcome = until_decided::conclude(
+                finished.outcome,
+                self.next(seconds),
+                &self.levels(),
+                self.options.budget,
+                "s",
+            );
+        }
+        Study {
+            results: self,
+            finished,
+        }
+    }
+}
+
+/// The setting that names the test of a study.
+pub(crate) const TEST: &str = "test";
+
+/// A text as the id of a study: small letters, digits, `.` and `-`.
+fn id_of(name: &str) -> String {
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() || c == '.' {
+            c.to_ascii_lowercase()
+        } else {
+            '-'
+        }
+    };
+    let id: String = name
+        .chars()
+        .map(plain)
+        .skip_while(|c| !c.is_ascii_alphanumeric())
+        .take(100)
+        .collect();
+    if is_name(&id) { id } else { "study".to_owned() }
+}

@@ -1,0 +1,282 @@
+"""The arguments of the package: counts, tables and their indices, claims; copies; what `rates` returns."""
+
+import copy
+import inspect
+import itertools
+import json
+import math
+import pickle
+import subprocess
+import sys
+
+import pytest
+
+import convergence_study as cs
+
+N = [10, 20, 40, 80]
+H = [1 / n for n in N]
+E = [3.1 * h**2 * (1 + 0.2 * h) for h in H]
+# Exact numbers: all of them have a short decimal form.
+STEPS = [0.4, 0.2, 0.1, 0.05]
+SQUARES = [0.16, 0.04, 0.01, 0.0025]
+
+
+def refusal(*arguments, function=cs.judge, **options):
+    with pytest.raises((ValueError, TypeError)) as refused:
+        function(*arguments, **options)
+    assert "--" not in str(refused.value) and "the data frame" not in str(refused.value)
+    return str(refused.value)
+
+
+def test_levels_that_are_counts_are_refused_with_the_way_out():
+    text = refusal(N, E, order=2)
+    assert text.startswith("h: expected steps, which fall with the errors; found 10, 20, 40, 80, which grow where the errors fall\n")
+    assert "n=[10, 20, 40, 80]  #" in text and "n=[10, 20, 40, 80], dim=2  # all, in the plane" in text and "nothing converges" in text
+    along = cs.judge(n=N, errors=E, order=2)
+    assert along.verdict == "pass" and along.rate == cs.judge(H, E, order=2).rate
+    # Cells in the plane: half the rate in their number.
+    cells = cs.judge(n=[n * n for n in N], errors=E, order=2, dim=2)
+    assert cells.verdict == "pass" and cells.rate == pytest.approx(along.rate, abs=1e-12)
+    assert [row.split()[0] for row in (str(along), str(cells))] == ["1/n", "n^(-1/2)"]
+    # As a table, with the same bits.
+    table = cs.judge({"n": [n * n for n in N], "L2": E}, order=2, dim=2)["L2"]
+    assert table.interval == cells.interval and table.to_dict()["steps"] == cells.to_dict()["steps"]
+    # Steps of whole numbers are steps, and errors that grow with steps that are no counts are a finding.
+    assert cs.judge([800, 400, 200, 100], [64, 16, 4, 1], order=2).verdict == "pass"
+    assert cs.judge([1.5, 3, 6], [4, 2, 1], order=2).code == "grows"
+    assert cs.judge([8, 4, 2], [1, math.nan, 1], order=2).verdict == "fail"
+
+
+def test_tables_are_refused_in_words_of_python_with_calls_that_work():
+    table = {"n": N, "L2": E}
+    text = refusal(table, order={"L2": 2})
+    assert text.startswith("h: expected dim=D for h = n^(-1/D)") and "step=COLUMN" in text
+    calls = [line.strip() for line in text.splitlines()[1:]]
+    assert calls[0] == "judge(table, order={'L2': 2}, dim=1)  # along an edge" and len(calls) == 3
+    assert eval(calls[0], {"judge": cs.judge, "table": table})["L2"].verdict == "pass"
+    # Levels that halve the step, two columns of steps, one name twice.
+    levels = {"level": [0, 1, 2, 3], "L2": SQUARES}
+    text = refusal(levels, order=2)
+    assert "judge(table, order=2, ratio=2)  # if each level halves the step" in text
+    assert cs.judge(levels, order=2, ratio=2)["L2"].verdict == "pass"
+    assert "step='dx'" in refusal({"dx": STEPS, "dt": [0.3, 0.1, 0.02, 0.01], "L2": SQUARES}, order=2)
+    assert refusal({"h": [0.2, 0.1, 0.1], "L2": [4, 1, 1]}, order=2).endswith("found `h` = 0.1 in rows 1 and 2")
+    assert refusal({"h": STEPS, "L2": [1, "x", 2, 3]}, order=2) == "L2[1]: expected a number, found 'x'"
+    assert refusal({"h": [0.2, 0, 0.1], "L2": [4, 1, 1]}, order=2).startswith("h[1]: expected a step, a finite number > 0, found")
+
+
+def test_every_refusal_of_a_table_is_in_words_of_python():
+    columns = {"n": N, "level": [0, 1, 2, 3], "dx": STEPS, "log h": [-1.0, -2.0, -3.0, -4.0]}
+    columns |= {"u": [3.1, 3.04, 3.01, 3.0025], "w": [1.0, 3.0, 2.0, 4.0]}
+    chosen = [{}, {"dim": 2}, {"ratio": 2}, {"dim": 2, "ratio": 2}, {"step": "L9"}, {"columns": ["L9"]}, {"columns": ["u", "u"]}, {"names": ["a"]}]
+    texts = set()
+    for names in itertools.chain(itertools.combinations(columns, 2), itertools.combinations(columns, 3)):
+        for options in chosen:
+            try:
+                cs.judge({name: columns[name] for name in names}, order=2, **options)
+            except ValueError as error:
+                texts.add(str(error))
+    assert len(texts) > 20
+    assert not [text for text in texts if "--" in text or "data frame" in text or " = ..." in text or "standard input" in text]
+
+
+def test_step_columns_names_floor_and_tolerance_mean_what_they_mean_for_rates():
+    table = {"a": STEPS, "b": [0.3, 0.15, 0.075, 0.0375], "c": SQUARES, "d": STEPS}
+    found = cs.judge(table, order=2, step="b", columns=["c"])
+    assert list(found) == ["c"] and found["c"].to_dict()["steps"] == table["b"] and str(found["c"]).split()[0] == "b"
+    assert list(cs.judge(table, order=2, step=2, columns="c")) == ["c"]
+    assert list(cs.judge(table, order={"L2": 2}, step="dt", names=["x", "dt", "L2", "H1"])) == ["L2"]
+    # The last level is round-off.
+    steps, errors = [0.8, *STEPS], [0.64, *SQUARES[:-1], 0.009]
+    assert cs.judge(steps, errors, order=2).verdict != "pass"
+    floored = cs.judge(steps, errors, order=2, floor=0.009)
+    text = "\n".join(["h,e", *(f"{h},{e}" for h, e in zip(steps, errors))])
+    [told] = cs.rates(text, order=2, floor=0.009)["rates"]
+    assert floored.verdict == told["verdict"] == "pass" and floored.rate == told["fitted"] == pytest.approx(2)
+    assert "_ set aside: not above the floor 9e-3" in str(floored)
+    assert cs.judge(STEPS, [h**1.9 for h in STEPS], order=2, tolerance=0.05).verdict == "fail"
+    assert cs.judge(STEPS, [h**1.9 for h in STEPS], order=2, tolerance=0.2).verdict == "pass"
+
+
+@pytest.mark.parametrize(
+    ("options", "start"),
+    [
+        (dict(h=H, n=N, errors=E), "n: expected either steps h or counts n, found both"),
+        (dict(h=H, errors=E, dim=2), "dim: expected only with counts n=[...] or a table, found 2"),
+        (dict(n=N, errors=E, dim=0), "dim: expected a finite number > 0, found 0"),
+        (dict(n=N, errors=E, dim="2"), "dim: expected a finite number > 0, found '2'"),
+        (dict(n=[10, -1], errors=[1, 2]), "n[1]: expected a finite number > 0, found -1"),
+        (dict(n=5, errors=[1]), "n: expected a sequence of numbers, found 5"),
+        (dict(n=N), "errors: expected the errors at the counts n, found None"),
+        (dict(), "h: expected steps, or a table with a column of steps, found None"),
+        (dict(h=H, errors=E, step="h"), "step: expected only with a table in place of h and errors, found 'h'"),
+        (dict(h={"h": H, "L2": E}, ratio=1), "ratio: expected a finite number > 1, found 1"),
+        (dict(h={"h": H, "L2": E}, columns=[1.5]), "columns: expected names of columns, found [1.5]"),
+        (dict(h={"h": H, "L2": E}, step="k"), "h: expected a column for step=...: h, L2, found `k`"),
+        (dict(h=H, errors=E, floor=-1), "floor"),
+        (dict(h=H, errors=E, tolerance="x"), "tolerance: expected a number, found 'x'"),
+        (dict(function=cs.rates, path_or_text="h e\n1 1", dim=0), "dim: expected a finite number > 0, found 0"),
+    ],
+)
+def test_what_is_no_argument_is_refused_by_name(options, start):
+    assert refusal(order=2, **options).startswith(start)
+
+
+def test_no_order_is_claimed_and_nothing_is_said_about_one():
+    v = cs.judge(STEPS, SQUARES)
+    assert (v.verdict, v.order, v.reason) == ("inconclusive", None, "no order is claimed")
+    assert v.rate == pytest.approx(2) and v.advice == "Claim what theory says: order=2, for example."
+    assert "error: inconclusive: 2.000000 ± 0.0000005: no order is claimed\n" in str(v) and "positive numbers" not in str(v)
+    found = cs.limit(STEPS, [3 + e for e in SQUARES])
+    assert found.reason == "observed order 2.0000 ± 0.00005" and "claim" not in repr(found)
+    assert cs.limit(n=N, values=[3 + h * h for h in H]).value == pytest.approx(3, abs=1e-9)
+    for arguments, start in [((H,), "values: expected the values"), ((None, E), "h: expected steps, or counts as n=[...]")]:
+        assert refusal(*arguments, function=cs.limit).startswith(start)
+    with pytest.raises(AssertionError, match="error: inconclusive: 2.000: no order is claimed"):
+        cs.assert_order(STEPS, SQUARES)
+
+
+def test_a_study_takes_steps():
+    steps = []
+
+    def solve(h):
+        steps.append(h)
+        return {"L2": h**2}
+
+    r = cs.study(solve, h=[0.05, 0.1, 0.2], order={"L2": 2})
+    assert r.verdict == "pass" and steps == [0.2, 0.1, 0.05] and list(r.table()["h"]) == steps
+    own = cs.study(lambda h: {"dt": 3 * h, "L2": h**2}, h=[0.2, 0.1, 0.05], order=2)
+    assert own.to_dict()["levels"][0] == {"dt": pytest.approx(0.6), "L2": pytest.approx(0.04)} and str(own).splitlines()[1].split()[0] == "dt"
+    assert refusal(solve, [0.1, 0.05], function=cs.study, order=2) == "n[0]: expected a whole number > 0, found 0.1; give steps as h=[...]"
+    wrong = [([], "h: expected"), ([0.1, 0.1], "h[1]: expected each"), ([0.1, math.nan], "h[1]: expected a finite number > 0")]
+    for h, start in [*wrong, (5, "h: expected a sequence")]:
+        assert refusal(solve, h=h, function=cs.study, order=2).startswith(start)
+    assert refusal(solve, [8], h=[0.1], function=cs.study, order=2) == "h: expected either n or h, found both"
+    assert refusal(solve, name=3, function=cs.study, order=2) == "name: expected a text, found 3"
+    # Round-off on the finest level.
+    late = lambda n: max(n**-4.0, 1e-6)
+    assert cs.study(late, [4, 8, 16, 32, 64], order=4).verdict != "pass"
+    assert cs.study(late, [4, 8, 16, 32, 64], order=4, floor=1e-6).verdict == "pass"
+
+
+def test_the_first_line_of_a_failure_is_the_verdict():
+    for call in [lambda: cs.assert_order(STEPS, STEPS, order=2), lambda: cs.study(lambda h: h, h=STEPS, order=2).assert_passes()]:
+        with pytest.raises(AssertionError) as failed:
+            call()
+        assert str(failed.value).splitlines()[0] == "error: fail: 1.000, claimed 2 ± 0.25: too low"
+    # Of several errors the first that fails.
+    table = {"h": STEPS, "L2": SQUARES, "max": STEPS, "H1": [1, 1.5, 0.3, 0.1]}
+    with pytest.raises(AssertionError) as failed:
+        cs.assert_order(table, order={"L2": 2, "H1": 1, "max": 2})
+    assert str(failed.value).splitlines()[0].startswith("max: fail: 1.000, claimed 2 ± 0.25: too low")
+    with pytest.raises(AssertionError, match="^no order is claimed"):
+        cs.assert_order(table, order={})
+    at_least = cs.judge(STEPS, [h**3 for h in STEPS], order=">=2")
+    assert "claimed at least 2 ± 0.25: at least 1.75\n" in str(at_least)
+
+
+def test_inconclusive_is_allowed_where_that_is_said():
+    cs.assert_order(STEPS[:2], SQUARES[:2], order=2, allow_inconclusive=True)
+    cs.study(lambda n: n**-2.0, [8, 16], order=2, allow_inconclusive=True).assert_passes()
+    with pytest.raises(AssertionError, match="error: inconclusive"):
+        cs.study(lambda n: n**-2.0, [8, 16], order=2).assert_passes()
+    with pytest.raises(AssertionError, match="fail"):
+        cs.assert_order(STEPS, STEPS, order=2, allow_inconclusive=True)
+
+
+def test_module_and_fixture_have_the_same_signatures(convergence):
+    for name in ["judge", "assert_order", "limit", "study"]:
+        assert inspect.signature(getattr(convergence, name)) == inspect.signature(getattr(cs, name)), name
+    assert convergence.judge(n=N, errors=E, order=2).verdict == "pass"
+    assert convergence.limit(STEPS, [3 + e for e in SQUARES]).value == pytest.approx(3, abs=1e-9)
+    table = {"n": [n * n for n in N], "L2": E, "H1": H, "max": E}
+    found = convergence.assert_order(table, order={"L2": 2, "H1": 1}, dim=2)
+    assert found.verdict == "pass" and list(found.rates) == ["L2", "H1"]
+    assert convergence.study(lambda h: h**2, h=STEPS, order=2, name="square").id.endswith("signatures-square")
+    with pytest.raises(TypeError, match="unexpected keyword argument 'dimension'"):
+        convergence.assert_order(table, order=2, dimension=2)
+
+
+def test_an_index_is_the_step():
+    pandas = pytest.importorskip("pandas")
+    expected = cs.judge(STEPS, SQUARES, order=2)
+    series = pandas.Series(SQUARES, index=STEPS)
+    found = cs.judge(series, order=2)
+    assert (found.name, found.interval) == ("error", expected.interval)
+    assert cs.judge(errors=series.rename("L2"), order=2).name == "L2"
+    frame = pandas.DataFrame({"L2": SQUARES, "H1": STEPS}, index=STEPS)
+    assert cs.judge(frame, order={"L2": 2, "H1": 1})["L2"].interval == expected.interval
+    assert str(cs.judge(frame.rename_axis("dx"), order={"L2": 2})["L2"]).split()[0] == "dx"
+    cs.assert_order(pandas.DataFrame({"L2": E}, index=pandas.Index(N, name="n")), order=2, dim=1)
+    assert cs.limit(pandas.Series([3 + e for e in SQUARES], index=STEPS)).value == pytest.approx(3, abs=1e-9)
+    # Numbers of rows are no steps, also after a selection.
+    table = pandas.DataFrame({"h": [*STEPS, 0.9], "L2": [*SQUARES, 7.0]})
+    assert cs.judge(table[table.h < 0.5], order=2)["L2"].interval == expected.interval
+    assert cs.judge(table[table.h < 0.3].sort_values("h"), order=2)["L2"].to_dict()["steps"] == STEPS[1:]
+    counts = pandas.DataFrame({"dofs": [25, 100, 400, 1600], "L2": SQUARES})
+    assert cs.judge(counts[counts.dofs > 25], order=2, dim=2)["L2"].to_dict()["steps"] == [0.1, 0.05, 0.025]
+    assert refusal(pandas.Series(SQUARES), order=2).startswith("h: expected a series whose index is the step")
+    assert "dim=2" in refusal(pandas.Series(E, index=N), order=2)
+    two = pandas.DataFrame({"L2": SQUARES}, index=pandas.MultiIndex.from_arrays([STEPS, STEPS], names=["h", "dt"]))
+    assert refusal(two, order=2) == "h: expected one index, the step; found 2: h, dt"
+    assert refusal(frame.rename_axis("L2"), order=2).startswith("h: expected one step; found an index and a column of the name `L2`")
+
+
+def test_the_coordinate_of_a_dataset_is_the_step():
+    xarray = pytest.importorskip("xarray")
+    data = xarray.Dataset({"L2": ("h", SQUARES), "H1": ("h", STEPS)}, coords={"h": STEPS})
+    found = cs.judge(data, order={"L2": 2, "H1": 1})
+    assert found["L2"].interval == cs.judge(STEPS, SQUARES, order=2).interval
+    assert cs.judge(data["L2"], order=2).name == "L2"
+    two = xarray.Dataset({"L2": (("h", "dt"), [[1.0, 2.0]])}, coords={"h": [0.1], "dt": [0.1, 0.2]})
+    assert refusal(two, order=2).startswith("h: expected one index, the step; found 2")
+
+
+def objects():
+    yield cs.judge(STEPS, SQUARES, order=2)
+    yield cs.judge(STEPS, [1, math.nan, 0.3, 0.1], order=">=1.5", floor=1e-3)
+    yield cs.judge({"dx": STEPS, "L2": SQUARES})["L2"]
+    yield cs.limit(STEPS, [3 + e for e in SQUARES], order=2)
+    yield cs.limit(STEPS[:3], [1, 2, 1])
+    yield cs.study(lambda n: {"L2": n**-2.0 + 1.5 * n**-3.0, "H1": n**-1.0}, order={"L2": 2, "H1": ">=1"})
+    yield cs.study(lambda h: {"L2": h}, h=STEPS, order=2, floor=1e-3, name="wrong", allow_inconclusive=True)
+    yield cs.study(lambda n: {"L2": n**-2.0}, [8, 16], order={"L3": 2})
+
+
+@pytest.mark.parametrize("found", list(objects()), ids=lambda found: type(found).__name__)
+def test_results_are_copied_pickled_and_put_into_dicts(found):
+    for again in [pickle.loads(pickle.dumps(found)), copy.copy(found), copy.deepcopy(found)]:
+        assert type(again) is type(found) and repr(again) == repr(found) and again.to_dict() == found.to_dict()
+        if not isinstance(found, cs.Limit):
+            assert again._repr_html_() == found._repr_html_()
+    dictionary = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    for name in set(dictionary) - {"rates", "levels", "steps", "errors", "pairwise"}:
+        value = getattr(found, name)
+        assert dictionary[name] == (list(value) if isinstance(value, tuple) else value), name
+    if isinstance(found, cs.Study):
+        assert dictionary["rates"] == {name: json.loads(json.dumps(rate.to_dict())) for name, rate in found.rates.items()}
+
+
+def test_rates_returns_what_the_program_prints(tmp_path):
+    path = tmp_path / "errors.csv"
+    path.write_text("h,L2,H1,u\n" + "".join(f"{h},{e},{h},{3 + e}\n" for h, e in zip(STEPS, SQUARES)))
+    arguments = ["--order", "L2=2", "--order", "H1=>=1", "--values", "u", "--format", "json"]
+    printed = subprocess.run([sys.executable, "-m", "convergence_study", "rates", path, *arguments], capture_output=True, check=False).stdout
+    options = dict(order={"L2": 2, "H1": ">=1"}, values=["u"])
+    assert cs.rates(path, **options) == cs.rates(str(path), **options) == cs.rates(path.read_text(), **options) == json.loads(printed)
+    assert [rate["norm"] for rate in json.loads(printed)["rates"]] == ["L2", "H1", "u"]
+    assert cs.rates(path)["verdict"] == "inconclusive" and cs.rates(path, order=3, columns="L2")["verdict"] == "fail"
+    counts = "n L2\n10 0.16\n20 0.04\n40 0.01\n"
+    text = refusal(counts, function=cs.rates, order=2)
+    assert text.startswith("standard input:1:1: expected dim=D") and "\n  rates(text, order=2, dim=2)  # all, in the plane" in text
+    assert cs.rates(counts, order=2, dim=1)["verdict"] == "inconclusive"
+    assert cs.rates("level L2\n0 0.16\n1 0.04\n2 0.01\n", ratio=2)["step"] == "2^(-level)"
+    assert refusal(tmp_path / "no.csv", function=cs.rates).startswith("path_or_text: expected an existing file")
+    assert refusal(counts, function=cs.rates, order="two").startswith("order: expected a number > 0")
+    assert refusal(counts, function=cs.rates, order=-1).startswith("order: expected a number > 0")
+    assert refusal(3, function=cs.rates) == "path_or_text: expected a path or a text, found 3"
+
+
+def test_the_package_has_its_version():
+    metadata = pytest.importorskip("importlib.metadata")
+    assert cs.__version__ == metadata.version("convergence-study")

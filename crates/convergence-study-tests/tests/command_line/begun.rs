@@ -1,0 +1,151 @@
+//! What `new` writes, where, and that it runs.
+
+use std::fs;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+use super::{command, run, texts, workspace};
+
+fn read(root: &TempDir, name: &str) -> String {
+    fs::read_to_string(root.path().join(name)).unwrap()
+}
+
+#[test]
+fn a_study_goes_into_the_studies_of_the_project() {
+    let root = workspace(false);
+    let (status, out, err) = run(&root, &["new", "program", "mine", "--language", "shell"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert_eq!(
+        out,
+        "wrote studies/mine.toml, studies/mine.sh\nread  powers explain studies/mine.toml\n\
+         run   powers study studies/mine.toml\n"
+    );
+    assert_eq!(run(&root, &["study", "studies/mine.toml"]).0, Some(0));
+    // From a folder below it, too: the study runs in the same place.
+    fs::create_dir_all(root.path().join("src/deep")).unwrap();
+    let arguments = ["new", "program", "other", "--language", "shell"];
+    let (status, out, _) = texts(&mut command(&root.path().join("src/deep"), &arguments));
+    assert!(
+        status == Some(0) && out.ends_with("run   powers study ../../studies/other.toml\n"),
+        "{out}"
+    );
+    let study = ["study", "../../studies/other.toml"];
+    let (status, out, err) = texts(&mut command(&root.path().join("src/deep"), &study));
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert_eq!(
+        read(&root, "studies/mine.toml").replace("mine", "other"),
+        read(&root, "studies/other.toml")
+    );
+    assert!(read(&root, ".gitignore").contains("/reports/local/"));
+    // What is no study does not go there, where `verify` would read it.
+    assert_eq!(run(&root, &["new", "manufacture", "heat"]).0, Some(0));
+    assert!(root.path().join("heat.toml").exists());
+    // Nothing is overwritten.
+    let (status, _, err) = run(&root, &["new", "program", "mine"]);
+    assert!(
+        status == Some(2) && err.contains("studies/mine.toml: expected a new file"),
+        "{err}"
+    );
+    assert!(!root.path().join("studies/mine.py").exists());
+}
+
+/// The languages, each with the program that must be there to run it.
+const LANGUAGES: [(&str, &str); 8] = [
+    ("python", "python3"),
+    ("octave", "octave-cli"),
+    ("fortran", "gfortran"),
+    ("c++", "c++"),
+    ("freefem", "FreeFem++"),
+    ("openfoam", "laplacianFoam"),
+    ("julia", "julia"),
+    ("shell", "awk"),
+];
+
+#[test]
+fn a_program_in_each_language_passes_where_it_can_run() {
+    let mut passed = vec![];
+    for (language, program) in LANGUAGES {
+        let root = tempfile::tempdir().unwrap();
+        let (status, out, err) = run(&root, &["new", "program", "mine", "--language", language]);
+        assert_eq!(status, Some(0), "{out}{err}");
+        for entry in fs::read_dir(root.path()).unwrap() {
+            let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+            let has_word = ["NAME", "PROGRAM", "BELOW", "DIRECTORY"]
+                .iter()
+                .any(|word| text.contains(word));
+            assert!(!has_word, "{language}: {text}");
+        }
+        let mut found = Command::new("sh");
+        let found = found
+            .args(["-c", &format!("command -v {program}")])
+            .output();
+        if found.unwrap().status.success() {
+            let (status, out, err) = run(&root, &["study", "mine.toml", "-j", "2"]);
+            assert_eq!(status, Some(0), "{language}: {out}{err}");
+            assert!(out.contains("(order 2); value middle "), "{out}");
+            passed.push(language);
+        } else {
+            assert_eq!(run(&root, &["explain", "mine.toml"]).0, Some(0));
+        }
+    }
+    assert!(passed.contains(&"shell"), "{passed:?}");
+}
+
+#[test]
+fn a_study_of_a_command_needs_no_program_file() {
+    let root = tempfile::tempdir().unwrap();
+    let program = "awk 'BEGIN { printf \"L2 = %e\\n\", 3 / ({n} * {n}) }'";
+    let (status, out, err) = run(&root, &["new", "program", "mine", "--command", program]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert!(out.starts_with("wrote mine.toml\n"), "{out}");
+    let (status, out, err) = run(&root, &["study", "mine.toml"]);
+    assert!(
+        status == Some(0) && out.contains("L2 2.0000 (order 2)"),
+        "{out}{err}"
+    );
+    for (command, words) in [
+        (
+            "solver {N}",
+            "--command: found the placeholder {N}, did you mean `n`?",
+        ),
+        ("solver 'mesh {n}", "--command: found ' without its end"),
+        ("  ", "--command: found no word; expected a program"),
+    ] {
+        let (status, out, err) = run(&root, &["new", "program", "bad", "--command", command]);
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(words),
+            "{err}"
+        );
+    }
+    for (arguments, words) in [
+        (
+            &["new", "manufacture", "bad", "--command", "x"][..],
+            "--command: found `new manufacture`; expected `new program`",
+        ),
+        (
+            &["new", "program", "bad", "--language", "cobol"],
+            "[possible values: python, octave, fortran, c++, freefem, openfoam, julia, shell]",
+        ),
+        (
+            &[
+                "new",
+                "program",
+                "bad",
+                "--language",
+                "shell",
+                "--command",
+                "x",
+            ],
+            "cannot be used with",
+        ),
+    ] {
+        let (status, _, err) = run(&root, arguments);
+        assert!(status == Some(2) && err.contains(words), "{err}");
+    }
+    assert_eq!(
+        fs::read_dir(root.path()).unwrap().count(),
+        2,
+        "mine.toml and .gitignore"
+    );
+}

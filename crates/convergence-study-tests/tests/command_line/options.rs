@@ -1,0 +1,180 @@
+//! Options of several commands: colours, short forms, `--dry-run`, what helps say, man pages.
+
+use std::fs;
+use std::process::Command;
+
+use convergence_harness::cli;
+
+use super::{command, run, study, texts, workspace};
+
+const TABLE: &str = "h e\n0.4 1.600e-1\n0.2 4.000e-2\n0.1 1.000e-2\n0.05 2.500e-3\n";
+
+const ESCAPE: char = '\u{1b}';
+
+#[test]
+fn colours_follow_the_option_then_the_environment() {
+    let root = workspace(false);
+    fs::write(root.path().join("t"), TABLE).unwrap();
+    let is_coloured = |option: &[&str], variables: &[(&str, &str)]| {
+        let mut command = command(root.path(), &["rates", "t", "--order", "2"]);
+        for name in ["NO_COLOR", "FORCE_COLOR", "CLICOLOR_FORCE"] {
+            command.env_remove(name);
+        }
+        command.args(option).envs(variables.iter().copied());
+        let (status, out, err) = texts(&mut command);
+        assert_eq!(status, Some(0), "{err}");
+        out.contains("\u{1b}[32mpass\u{1b}[0m")
+    };
+    let no_color = [("NO_COLOR", "1")];
+    assert!(!is_coloured(&[], &[]));
+    assert!(is_coloured(&["--color", "always"], &no_color));
+    assert!(is_coloured(&["--color=always"], &[]));
+    for forced in ["FORCE_COLOR", "CLICOLOR_FORCE"] {
+        assert!(is_coloured(&[], &[(forced, "1"), ("NO_COLOR", "1")]));
+        assert!(is_coloured(&["--color", "auto"], &[(forced, "1")]));
+        assert!(!is_coloured(&[], &[(forced, "0")]));
+        assert!(!is_coloured(&["--color", "never"], &[(forced, "1")]));
+    }
+    let (status, _, err) = run(&root, &["rates", "t", "--color", "blue"]);
+    assert!(
+        status == Some(2) && err.contains("'blue'") && err.contains("never"),
+        "{err}"
+    );
+}
+
+#[test]
+fn files_have_no_colours() {
+    let root = workspace(false);
+    fs::write(root.path().join("t"), TABLE).unwrap();
+    let arguments = [
+        "rates", "t", "--order", "2", "-o", "out", "--color", "always",
+    ];
+    assert_eq!(run(&root, &arguments).0, Some(0));
+    let page = fs::read_to_string(root.path().join("out/rates.md")).unwrap();
+    assert!(
+        page.contains("    e: pass: 2.000") && !page.contains([ESCAPE, '\u{fffd}']),
+        "{page}"
+    );
+}
+
+#[test]
+fn short_forms_are_those_of_the_long_ones() {
+    let root = workspace(false);
+    let long = run(&root, &["verify", "--jobs", "1", "--verbose", "--out", "a"]);
+    let short = run(&root, &["verify", "-j", "1", "-v", "-o", "b"]);
+    assert_eq!(long.0, short.0);
+    let page = |name: &str| fs::read_to_string(root.path().join(name).join("README.md")).unwrap();
+    assert_eq!(page("a"), page("b"));
+    for arguments in [["rates", "--version"], ["verify", "-V"]] {
+        let (status, out, _) = run(&root, &arguments);
+        assert!(
+            status == Some(0) && out.contains(env!("CARGO_PKG_VERSION")),
+            "{out}"
+        );
+    }
+    assert_eq!(run(&root, &["verify", "-j", "0"]).0, Some(2));
+}
+
+#[test]
+fn a_dry_run_lists_and_writes_nothing() {
+    let root = workspace(true);
+    let (status, out, _) = run(&root, &["verify", "-n"]);
+    assert_eq!(status, Some(0), "{out}");
+    assert!(
+        out.contains("one        5        -\n")
+            && out.ends_with("2 studies with 10 cases would run; 0.0 s in their last runs\n"),
+        "{out}"
+    );
+    assert!(!root.path().join("reports").exists());
+    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    let before = fs::read(root.path().join("reports/local/provenance.json")).unwrap();
+    let (_, out, _) = run(&root, &["verify", "--dry-run", "one", "--format", "json"]);
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(object["studies"][0]["id"], "one");
+    assert_eq!(object["studies"][0]["cases"], 5);
+    assert!(object["studies"][0]["seconds"].is_number(), "{out}");
+    assert_eq!(object["studies"].as_array().unwrap().len(), 1);
+    let after = fs::read(root.path().join("reports/local/provenance.json")).unwrap();
+    assert_eq!(before, after);
+    let (status, _, err) = run(&root, &["verify", "-n", "--bless"]);
+    assert!(
+        status == Some(2) && err.contains("cannot be used with"),
+        "{err}"
+    );
+    assert_eq!(run(&root, &["verify", "-n", "three"]).0, Some(2));
+}
+
+#[test]
+fn helps_leave_out_what_means_nothing() {
+    let root = workspace(false);
+    for (name, with, without) in [
+        ("list", "--tier", &["--jobs", "--out"][..]),
+        ("explain", "--dir", &["--jobs", "--out"]),
+        ("new", "--out", &["--jobs"]),
+        ("rates", "csv", &["--jobs"]),
+        ("verify", "--jobs", &["csv"]),
+        ("report", "--out", &["--jobs"]),
+    ] {
+        let (_, out, _) = run(&root, &[name, "--help"]);
+        assert!(out.contains(with) && out.contains("Examples:"), "{out}");
+        for option in without {
+            assert!(!out.contains(option), "{option}: {out}");
+        }
+    }
+    let (status, _, err) = run(&root, &["verify", "--format", "csv"]);
+    assert!(status == Some(2) && err.contains("text, json"), "{err}");
+}
+
+#[test]
+fn a_misspelt_id_among_many_has_its_nearest() {
+    let root = workspace(false);
+    for k in 0..13 {
+        let id = format!(
+            "{}-space",
+            ["heat", "wave", "beam"][k % 3].repeat(1 + k / 3)
+        );
+        let path = root.path().join(format!("studies/{id}.toml"));
+        fs::write(path, study(&id, "c", 1.0)).unwrap();
+    }
+    let (status, _, err) = run(&root, &["verify", "haet-space"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        err.contains(
+            "`haet-space` matches no study; expected what `powers list` shows, of which heat-space, "
+        ) && err.contains(" are nearest, or a pattern such as '*-space'"),
+        "{err}"
+    );
+}
+
+#[test]
+fn each_command_has_a_man_page() {
+    let root = workspace(false);
+    let (status, out, _) = run(&root, &["man"]);
+    assert!(
+        status == Some(0) && out.contains(".TH powers 1") && out.contains("verify"),
+        "{out}"
+    );
+    for name in cli::COMMANDS {
+        let (status, out, _) = run(&root, &["man", name]);
+        assert!(
+            status == Some(0) && out.contains(&format!("{name} 1")) && out.contains("\\-\\-color"),
+            "{out}"
+        );
+    }
+    let (status, out, err) = run(&root, &["man", "verfy"]);
+    assert!(
+        status == Some(2)
+            && out.is_empty()
+            && err.contains("man: found `verfy`; expected one of verify, study,"),
+        "{err}"
+    );
+    // Where `man` is installed, it finds no fault.
+    if Command::new("groff").arg("--version").output().is_ok() {
+        let (_, page, _) = run(&root, &["man", "rates"]);
+        fs::write(root.path().join("rates.1"), page).unwrap();
+        let mut groff = Command::new("groff");
+        let arguments = ["-man", "-Tutf8", "-ww", "-z", "rates.1"];
+        let (status, _, err) = texts(groff.args(arguments).current_dir(root.path()));
+        assert_eq!((status, err.as_str()), (Some(0), ""));
+    }
+}

@@ -1,0 +1,177 @@
+//! `rates` with several tables, in several formats, and from a pipe.
+
+use std::fs;
+use std::io::Write;
+use std::process::Stdio;
+
+use convergence_study_tests::{Ended, finished};
+use tempfile::TempDir;
+
+use super::{command, run};
+
+/// Tables of second and of first order, and a file with both.
+fn place() -> TempDir {
+    let root = tempfile::tempdir().unwrap();
+    let second = "h,\"L2 [Pa, mean]\"\n0.4,1.600e-1\n0.2,4.000e-2\n0.1,1.000e-2\n0.05,2.500e-3\n";
+    let first = "h,H1\n0.4,4.000e-1\n0.2,2.000e-1\n0.1,1.000e-1\n0.05,5.000e-2\n";
+    fs::write(root.path().join("a.csv"), second).unwrap();
+    fs::write(root.path().join("b.csv"), first).unwrap();
+    let second = second.replace("\"L2 [Pa, mean]\"", "L2");
+    let both = format!("Degree 1\n{second}\nDegree 2\n{first}");
+    fs::write(root.path().join("both.txt"), both).unwrap();
+    root
+}
+
+#[test]
+fn each_table_is_judged_under_its_name() {
+    let root = place();
+    let claims = ["--order", "L2=2", "--order", "H1=1"];
+    let with = |files: &[&str], claims: &[&str]| run(&root, &[&["rates"], files, claims].concat());
+    let (status, out, err) = with(&["a.csv", "b.csv"], &claims);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert!(
+        out.starts_with("a.csv\nstep: `h`") && out.contains("\n\nb.csv\nstep: `h`"),
+        "{out}"
+    );
+    assert!(out.ends_with("\n\npass: 2 of 2 tables agree\n"), "{out}");
+    // One that fails decides.
+    let (status, out, _) = with(&["a.csv", "b.csv"], &["--order", "2"]);
+    assert_eq!(status, Some(1));
+    assert!(
+        out.contains("H1: fail: 1.000") && out.ends_with("fail: 1 of 2 tables agree\n"),
+        "{out}"
+    );
+    let (_, out, _) = with(&["a.csv", "b.csv"], &["--order", "2", "--quiet"]);
+    assert!(
+        out.starts_with("b.csv\nH1: fail") && !out.contains("a.csv"),
+        "{out}"
+    );
+    // So does one without a claim.
+    assert_eq!(with(&["a.csv", "b.csv"], &claims[..2]).0, Some(1));
+    let (_, out, _) = with(&["a.csv", "b.csv"], &["--order", "2", "--format", "json"]);
+    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let tables = object["tables"].as_array().unwrap();
+    assert_eq!(object["verdict"], "fail");
+    assert_eq!(
+        (&tables[1]["table"], &tables[1]["verdict"]),
+        (&"b.csv".into(), &"fail".into())
+    );
+    assert_eq!(tables[0]["verdict"], "pass");
+    for (files, claims, words) in [
+        (
+            &["a.csv", "b.csv"][..],
+            &["--order", "L3=2"][..],
+            "--order L3=2: expected a column of errors: L2 [Pa, mean], H1; found `L3`",
+        ),
+        (
+            &["a.csv", "missing.csv"],
+            &["--order", "2"],
+            "missing.csv: ",
+        ),
+    ] {
+        let (status, out, err) = with(files, claims);
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(words),
+            "{err}"
+        );
+    }
+}
+
+#[test]
+fn tables_of_one_file_are_judged_under_their_headings() {
+    let root = place();
+    let claims = ["--order", "L2=2", "--order", "H1=1"];
+    let (status, out, err) = run(
+        &root,
+        &[&["rates", "both.txt", "-o", "out"], &claims[..]].concat(),
+    );
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert!(
+        out.starts_with("both.txt: Degree 1\n") && out.contains("\nboth.txt: Degree 2\n"),
+        "{out}"
+    );
+    let read = |name: &str| fs::read_to_string(root.path().join("out").join(name)).unwrap();
+    let page = read("rates.md");
+    assert!(
+        page.contains("](rates-1.svg)") && page.contains("](rates-2.svg)"),
+        "{page}"
+    );
+    assert!(page.ends_with("**pass**: 2 of 2 tables agree\n"), "{page}");
+    assert!(
+        read("rates-1.svg").contains("L2, order 2") && read("rates-2.svg").contains("H1, order 1")
+    );
+    let junit = read("junit.xml");
+    assert_eq!(junit.matches("<testsuite ").count(), 2, "{junit}");
+    assert!(junit.contains("both.txt: Degree 2"), "{junit}");
+}
+
+#[test]
+fn rows_come_as_csv_and_as_markdown() {
+    let root = place();
+    let with = |format: &str, files: &[&str]| {
+        let claims = ["--order", "2", "--format", format];
+        run(&root, &[&["rates"], files, &claims[..]].concat()).1
+    };
+    assert_eq!(
+        with("csv", &["a.csv"]),
+        "h,\"L2 [Pa, mean]\",rate\n0.4,1.6000e-1,-\n0.2,4.0000e-2,2.0000\n0.1,1.0000e-2,2.0000\n0.05,2.5000e-3,2.0000\n"
+    );
+    assert_eq!(
+        with("md", &["a.csv"]),
+        "| h | L2 \\[Pa, mean\\] | rate |\n| --: | --: | --: |\n| 0.4 | 1.6000e-1 | - |\n\
+         | 0.2 | 4.0000e-2 | 2.0000 |\n| 0.1 | 1.0000e-2 | 2.0000 |\n| 0.05 | 2.5000e-3 | 2.0000 |\n"
+    );
+    let both = with("csv", &["a.csv", "b.csv"]);
+    assert!(
+        both.starts_with("# a.csv\nh,") && both.contains("\n\n# b.csv\nh,H1,rate\n"),
+        "{both}"
+    );
+    let both = with("md", &["both.txt"]);
+    assert!(
+        both.starts_with("## both.txt: Degree 1\n\n| h | L2 | rate |\n"),
+        "{both}"
+    );
+    // The exit status is that of the verdict.
+    let arguments = ["rates", "b.csv", "--order", "2", "--format", "csv"];
+    assert_eq!(run(&root, &arguments).0, Some(1));
+}
+
+#[test]
+fn a_table_that_is_piped_needs_no_name() {
+    let root = place();
+    let mut child = command(root.path(), &["rates", "--order", "2"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let table = fs::read(root.path().join("a.csv")).unwrap();
+    child.stdin.take().unwrap().write_all(&table).unwrap();
+    let Ended { status, stdout, .. } = finished(child).into();
+    assert!(
+        status == Some(0) && stdout.contains("L2 [Pa, mean]: pass"),
+        "{stdout}"
+    );
+    // Without input there is no table.
+    let (status, _, err) = run(&root, &["rates", "--order", "2"]);
+    assert!(
+        status == Some(2) && err.contains("standard input") && err.contains("an empty table"),
+        "{err}"
+    );
+}
+
+#[test]
+fn an_order_that_is_none_is_refused_with_all_forms() {
+    let root = place();
+    for order in ["two", "L2=two", ">=", "-1"] {
+        let (status, out, err) = run(&root, &["rates", "a.csv", "--order", order]);
+        assert!(
+            status == Some(2)
+                && out.is_empty()
+                && err.contains(
+                    "expected a number > 0, '>=P' with such a number P, or NAME= before one of them"
+                ),
+            "{err}"
+        );
+    }
+}

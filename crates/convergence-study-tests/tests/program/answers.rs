@@ -1,0 +1,166 @@
+//! Answers in lines of `name = value`, the environment of a program, and defaults of its study.
+
+use std::fs;
+
+use super::{Place, texts};
+
+/// A study of a program of awk, whose text can use `n`.
+fn study(program: &str, more: &str, expect: &str) -> Place {
+    let place = Place::new("ok", "");
+    fs::write(place.folder.path().join("solver.awk"), program).unwrap();
+    place.write_text(&format!(
+        "[study]\nid = \"s\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"program\"\n\
+         [program]\ncommand = [\"awk\", \"-v\", \"n={{n}}\", \"-f\", \"solver.awk\"]\n{more}\n\
+         [refine]\nn = [4, 8, 16, 32, 64]\n{expect}"
+    ));
+    place
+}
+
+const MAX: &str = "[[expect]]\nerror = \"max error\"\norder = 2.0\n";
+
+#[test]
+fn lines_with_the_names_of_the_study_are_an_answer() {
+    let lines = "BEGIN { for (k = 1; k < 9; k++) printf \"step %d: max error = %e\\n\", k, 1 / k;\n\
+                 printf \" n = %d  max error =   %.8E\\n middle: %.12f\\n\", n, 1 / n^2, 2 + 1 / n^2;\n\
+                 print \"done in 3 s\" }\n";
+    let value = "[[expect]]\nvalue = \"middle\"\norder = 2.0\n";
+    let (status, out, err) = study(lines, "", &format!("{MAX}{value}")).study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(
+        out.contains(
+            "max error 2.0000 (order 2); value middle 2.0000 (order 2); middle tends to 2.0000"
+        ),
+        "{out}"
+    );
+    // The step that it prints is its step.
+    let own = lines.replace(
+        "print \"done",
+        "printf \"h = %.15f\\n\", 1 / n^2; print \"done",
+    );
+    let (status, out, _) = study(&own, "", &format!("{MAX}{value}")).study(&[]);
+    assert!(
+        status == Some(1) && out.contains("2 of 2 rates too low: 1.0000"),
+        "{out}"
+    );
+}
+
+#[test]
+fn an_object_wins_and_what_is_no_number_is_refused() {
+    for (line, words) in [
+        (
+            "printf \"{\\\"errors\\\": {\\\"max error\\\": %e}}\\nmax error = 7\\n\", 1 / n^2",
+            "max error 2.0000 (order 2)",
+        ),
+        (
+            "print \"max error = NaN\"",
+            "`max error` of its errors is NaN, infinite or null",
+        ),
+        (
+            "print \"max error = ****\"",
+            "no line of its standard output is a JSON object; the last line is `max error = ****`",
+        ),
+        (
+            "print \"maximal error = 1e-3\"",
+            "awk answered nothing: no line of its standard output is a JSON object",
+        ),
+        (
+            "print \"max error 1e-3\"",
+            "expected a last line such as {\\\"errors\\\": {\\\"max error\\\": 0.001}}",
+        ),
+        (
+            "printf \"max error = 1e-3\\n{\\\"errors\\\": 1e5 2}\\n\"",
+            "is no JSON object",
+        ),
+        (
+            "printf \"max error = 1e-3\\nh = 0\\n\"",
+            "h is 0.0; expected a finite number > 0",
+        ),
+    ] {
+        let (_, out, _) = study(&format!("BEGIN {{ {line} }}\n"), "", MAX).study(&[]);
+        assert!(out.contains(&words.replace("\\\"", "\"")), "{line}: {out}");
+    }
+    let two = format!("{MAX}[[expect]]\nerror = \"L2\"\norder = 2.0\n");
+    let (status, out, _) = study("BEGIN { print \"L2 = \" 1 / n^2 }\n", "", &two).study(&[]);
+    assert!(
+        status == Some(1) && out.contains("its answer has no error `max error`; it has L2"),
+        "{out}"
+    );
+}
+
+#[test]
+fn a_program_has_the_variables_of_its_study() {
+    let program = "BEGIN { print \"max error = \" ENVIRON[\"SCALE\"] / n^ENVIRON[\"ORDER\"] }\n";
+    let env = "env = { SCALE = \"3\", ORDER = \"2\" }";
+    let (status, out, err) = study(program, env, MAX).study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("4.688e-2"), "3/64: {out}");
+    let (status, out, _) = study(program, &env.replace("\"2\"", "\"1\""), MAX).study(&[]);
+    assert_eq!(status, Some(1), "{out}");
+    for (env, words) in [
+        (
+            "env = { SCALE = 3 }",
+            "s.toml:8:17: program.env.SCALE: found 3; expected a text",
+        ),
+        (
+            "env = { \"A=B\" = \"3\" }",
+            "expected a name of a variable, without `=`",
+        ),
+        (
+            "env = \"SCALE=3\"",
+            "s.toml:8:7: program.env: found the text \"SCALE=3\"; expected a table",
+        ),
+        (
+            "environment = {}",
+            "unknown key `environment`; expected command, directory, env, timeout",
+        ),
+    ] {
+        let (status, _, err) = study(program, env, MAX).study(&[]);
+        assert!(status == Some(2) && err.contains(words), "{err}");
+    }
+}
+
+#[test]
+fn without_a_tolerance_it_is_that_of_rates() {
+    let program = "BEGIN { print \"max error = \" 1 / n^1.8 }\n";
+    let (status, out, err) = study(program, "", MAX).study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("2 ± 0.25"), "{out}");
+    let narrow = format!("{MAX}tolerance = 0.1\n");
+    assert_eq!(study(program, "", &narrow).study(&[]).0, Some(1));
+    let (status, _, err) = study(program, "", &format!("{MAX}tolerance = 0.5\n")).study(&[]);
+    assert!(
+        status == Some(2)
+            && err.contains(
+                "s.toml:14:13: expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5"
+            ),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_reason_that_all_cases_share_is_there_once() {
+    let place = study("BEGIN { exit 3 }\n", "", MAX);
+    let (status, out, _) = place.study(&[]);
+    assert_eq!(status, Some(1));
+    assert!(
+        out.contains(
+            "case                    reason\nall 5 without a result  awk ended with exit status 3\n"
+        ),
+        "{out}"
+    );
+    // The study was run by its file: `verify` may not find it.
+    assert!(
+        out.contains("what fails") && !out.contains("repeats the clearest"),
+        "{out}"
+    );
+    let studies = place.folder.path().join("studies");
+    fs::create_dir(&studies).unwrap();
+    for name in ["s.toml", "solver.awk"] {
+        fs::rename(place.folder.path().join(name), studies.join(name)).unwrap();
+    }
+    let (_, out, _) = texts(&mut place.command(&["verify"]));
+    assert!(
+        out.contains("`powers verify s` repeats the clearest failure"),
+        "{out}"
+    );
+}

@@ -1,0 +1,270 @@
+//! The functions of emitted files that no answering program calls: exact values, gradients,
+//! normals, initial data, averages and errors, by a program in each language.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use manufacture::Language;
+
+use crate::files::read;
+
+const FILE: &str = r#"
+[manufacture]
+name = "every"
+coordinates = ["x", "y"]
+time = "t"
+[domain]
+x = [0, 1]
+y = [0, 2]
+t = [0.5, 1]
+[exact]
+T = "x^2*y + t"
+v = ["x*y", "y^2 + t"]
+[equations]
+T = "dt(T)"
+[boundary.x_max]
+T = "T"
+[initial]
+T = "2*T"
+[norms]
+T = ["L1", "L2", "Linf", "H1"]
+v = ["L2"]
+"#;
+
+/// At (0.5, 0.25) and t = 0.75; averages over [0, 1] x [0, 2]; errors at that point and at (1, 2),
+/// with the weights 0.25 and 0.5 and the differences 1 and -2 of T, 1 in each component of its
+/// gradient, and 1 in the first component of v.
+const EXPECTED: [f64; 21] = [
+    0.8125, // T
+    0.25,
+    0.25, // its gradient
+    0.125,
+    0.8125, // v
+    0.25,
+    0.5,
+    0.0,
+    0.5,   // its gradient, row by row
+    1.125, // 2 T at t = 0.5
+    1.0,
+    0.0,                // the normal
+    1.0833333333333333, // the average of T
+    0.5,
+    2.0833333333333335, // that of v
+    1.25,
+    1.5,
+    2.0,
+    1.224744871391589,  // errors of T: L1, L2, Linf, H1
+    0.8660254037844386, // of v: L2
+    0.0,                // of v without a difference
+];
+
+const C: &str = r#"
+#include <stdio.h>
+#include "every.h"
+static void print(int count, const double values[]) { for (int i = 0; i < count; ++i) printf("%.17g\n", values[i]); }
+int main(void)
+{
+    const double x[] = {0.5, 0.25, 1, 2}, w[] = {0.25, 0.5}, t = 0.75, lo[] = {0, 0}, hi[] = {1, 2};
+    double a[4], b[4], c[4];
+    a[0] = every_exact_T(x, t); print(1, a);
+    every_gradient_T(x, t, a); print(2, a);
+    every_exact_v(x, t, a); print(2, a);
+    every_gradient_v(x, t, a); print(4, a);
+    a[0] = every_initial_T(x); print(1, a);
+    every_normal_x_max(x, t, a); print(2, a);
+    a[0] = every_average_T(lo, hi, t); print(1, a);
+    every_average_v(lo, hi, t, a); print(2, a);
+    a[0] = every_exact_T(x, t) + 1; a[1] = every_exact_T(x + 2, t) - 2;
+    every_gradient_T(x, t, b); every_gradient_T(x + 2, t, b + 2);
+    for (int i = 0; i < 4; ++i) b[i] += 1;
+    c[0] = every_error_T_L1(2, x, w, t, a); c[1] = every_error_T_L2(2, x, w, t, a);
+    c[2] = every_error_T_Linf(2, x, w, t, a); c[3] = every_error_T_H1(2, x, w, t, b); print(4, c);
+    every_exact_v(x, t, b); every_exact_v(x + 2, t, b + 2);
+    c[1] = every_error_v_L2(2, x, w, t, b);
+    b[0] += 1; b[2] += 1;
+    c[0] = every_error_v_L2(2, x, w, t, b); print(2, c);
+    return 0;
+}
+"#;
+
+const RUST: &str = r#"
+#[path = "every.rs"]
+mod every;
+use every::*;
+fn main() {
+    let (x, w, t) = ([[0.5, 0.25], [1.0, 2.0]], [0.25, 0.5], 0.75);
+    let mut all = vec![exact_T(&x[0], t)];
+    all.extend(gradient_T(&x[0], t));
+    all.extend(exact_v(&x[0], t));
+    all.extend(gradient_v(&x[0], t));
+    all.push(initial_T(&x[0]));
+    all.extend(normal_x_max(&x[0], t));
+    all.push(average_T(&[0.0, 0.0], &[1.0, 2.0], t));
+    all.extend(average_v(&[0.0, 0.0], &[1.0, 2.0], t));
+    let a = [exact_T(&x[0], t) + 1.0, exact_T(&x[1], t) - 2.0];
+    let b: Vec<f64> = x.iter().flat_map(|x| gradient_T(x, t)).map(|g| g + 1.0).collect();
+    all.extend([error_T_L1(&x, &w, t, &a), error_T_L2(&x, &w, t, &a)]);
+    all.extend([error_T_Linf(&x, &w, t, &a), error_T_H1(&x, &w, t, &b)]);
+    let c: Vec<f64> = x.iter().flat_map(|x| exact_v(x, t)).collect();
+    let d: Vec<f64> = x.iter().flat_map(|x| { let v = exact_v(x, t); [v[0] + 1.0, v[1]] }).collect();
+    all.extend([error_v_L2(&x, &w, t, &d), error_v_L2(&x, &w, t, &c)]);
+    for value in all {
+        println!("{value:?}");
+    }
+}
+"#;
+
+const FORTRAN: &str = r#"
+program driver
+    use every
+    implicit none
+    integer, parameter :: double = kind(1.0d0)
+    real(double) :: x(2, 2), w(2), t, lo(2), hi(2), a(2), b(2, 2)
+    x = reshape([0.5d0, 0.25d0, 1.0d0, 2.0d0], [2, 2])
+    w = [0.25d0, 0.5d0]
+    t = 0.75d0
+    lo = 0
+    hi = [1.0d0, 2.0d0]
+    print '(es25.16)', exact_T(x(:, 1), t), gradient_T(x(:, 1), t), exact_v(x(:, 1), t), transpose(gradient_v(x(:, 1), t))
+    print '(es25.16)', initial_T(x(:, 1)), normal_x_max(x(:, 1), t), average_T(lo, hi, t), average_v(lo, hi, t)
+    a = [exact_T(x(:, 1), t) + 1, exact_T(x(:, 2), t) - 2]
+    b(:, 1) = gradient_T(x(:, 1), t) + 1
+    b(:, 2) = gradient_T(x(:, 2), t) + 1
+    print '(es25.16)', error_T_L1(x, w, t, a), error_T_L2(x, w, t, a), error_T_Linf(x, w, t, a), error_T_H1(x, w, t, b)
+    b(:, 1) = exact_v(x(:, 1), t)
+    b(:, 2) = exact_v(x(:, 2), t)
+    a(1) = error_v_L2(x, w, t, b)
+    b(1, :) = b(1, :) + 1
+    print '(es25.16)', error_v_L2(x, w, t, b), a(1)
+end program driver
+"#;
+
+const PYTHON: &str = r#"
+import numpy as np
+from every import *
+x, w, t = np.array([[0.5, 1.0], [0.25, 2.0]]), np.array([0.25, 0.5]), 0.75
+p, lo, hi = x[:, 0], [0.0, 0.0], [1.0, 2.0]
+b = exact_v(x, t)
+parts = [exact_T(p, t), gradient_T(p, t), exact_v(p, t), gradient_v(p, t), initial_T(p), normal_x_max(p, t),
+    average_T(lo, hi, t), average_v(lo, hi, t)]
+a = exact_T(x, t) + np.array([1, -2])
+parts += [error_T_L1(x, w, t, a), error_T_L2(x, w, t, a), error_T_Linf(x, w, t, a), error_T_H1(x, w, t, gradient_T(x, t) + 1)]
+parts += [error_v_L2(x, w, t, b + np.array([[1], [0]])), error_v_L2(x, w, t, b)]
+for part in parts:
+    for value in np.ravel(part):
+        print(repr(float(value)))
+"#;
+
+const OCTAVE: &str = r#"
+1;
+p = every();
+x = [0.5 1; 0.25 2]; w = [0.25 0.5]; t = 0.75; y = x(:, 1); lo = [0 0]; hi = [1 2];
+b = p.exact_v(x, t);
+a = p.exact_T(x, t) + [1 -2];
+all = [p.exact_T(y, t); p.gradient_T(y, t); p.exact_v(y, t); p.gradient_v(y, t); p.initial_T(y); p.normal_x_max(y, t)];
+all = [all; p.average_T(lo, hi, t); p.average_v(lo, hi, t)];
+all = [all; p.error_T_L1(x, w, t, a); p.error_T_L2(x, w, t, a); p.error_T_Linf(x, w, t, a)];
+all = [all; p.error_T_H1(x, w, t, p.gradient_T(x, t) + 1); p.error_v_L2(x, w, t, b + [1; 0]); p.error_v_L2(x, w, t, b)];
+printf('%.17g\n', all);
+"#;
+
+/// Builds and runs a program beside the emitted files, and compares what it prints. With `probe`
+/// the test is skipped where that program is missing.
+#[track_caller]
+fn agrees(language: Language, driver: [&str; 2], commands: &[&[&str]], probe: Option<&[&str]>) {
+    if let Some([program, arguments @ ..]) = probe {
+        let output = Command::new(program).args(arguments).output();
+        if !output.is_ok_and(|output| output.status.success()) {
+            eprintln!("skipped: no {program}");
+            return;
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for file in read(FILE).emit(language) {
+        fs::write(folder.path().join(&file.name), file.text).unwrap();
+    }
+    fs::write(folder.path().join(driver[0]), driver[1]).unwrap();
+    let mut printed = String::new();
+    for command in commands {
+        printed = run(folder.path(), command);
+    }
+    let values: Vec<f64> = printed
+        .split_whitespace()
+        .map(|word| word.parse().unwrap())
+        .collect();
+    assert_eq!(values.len(), EXPECTED.len(), "{printed}");
+    for (place, (value, expected)) in values.iter().zip(EXPECTED).enumerate() {
+        assert!(
+            (value - expected).abs() <= 1e-14,
+            "value {place}: {value}, not {expected}"
+        );
+    }
+}
+
+fn run(folder: &Path, command: &[&str]) -> String {
+    let output = Command::new(command[0])
+        .args(&command[1..])
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{complaint}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn functions_in_c_have_their_values() {
+    let build = [
+        "cc", "-std=c99", "-o", "driver", "every.c", "driver.c", "-lm",
+    ];
+    agrees(Language::C, ["driver.c", C], &[&build, &["./driver"]], None);
+}
+
+#[test]
+fn functions_in_rust_have_their_values() {
+    let build = ["rustc", "--edition", "2021", "-o", "driver", "driver.rs"];
+    agrees(
+        Language::Rust,
+        ["driver.rs", RUST],
+        &[&build, &["./driver"]],
+        None,
+    );
+}
+
+#[test]
+fn functions_in_fortran_have_their_values() {
+    let build = ["gfortran", "-o", "driver", "every.f90", "driver.f90"];
+    let commands: [&[&str]; 2] = [&build, &["./driver"]];
+    let probe = ["gfortran", "--version"];
+    agrees(
+        Language::Fortran,
+        ["driver.f90", FORTRAN],
+        &commands,
+        Some(&probe),
+    );
+}
+
+#[test]
+fn functions_in_python_have_their_values() {
+    let probe = ["python3", "-c", "import numpy"];
+    let command = ["python3", "-B", "driver.py"];
+    agrees(
+        Language::Python,
+        ["driver.py", PYTHON],
+        &[&command],
+        Some(&probe),
+    );
+}
+
+#[test]
+fn functions_in_octave_have_their_values() {
+    let command = ["octave", "--quiet", "--no-history", "driver.m"];
+    let probe = ["octave", "--version"];
+    agrees(
+        Language::Octave,
+        ["driver.m", OCTAVE],
+        &[&command],
+        Some(&probe),
+    );
+}

@@ -1,0 +1,208 @@
+//! What judges calls nothing of what is judged: the sources of `thermobeam-exact`, and of the studies that
+//! evaluate exact solutions by a scheme, are read and refused if they use the solver's formulas.
+//! THEORY.md, "What both sides of a comparison share".
+
+use std::fs;
+use std::path::Path;
+
+use super::{code, crate_folder, files};
+
+/// What `thermobeam-exact` may use of the solver: data types, what a discrete function is, and bisection.
+const ALLOWED: [&str; 11] = [
+    "bracket::bisect",
+    "contact::Phase",
+    "dg::DgLevel",
+    "dg::Field",
+    "dg::InitialFunctions",
+    "dg::Load",
+    "dg::Space",
+    "mesh::Mesh",
+    "one_step::InitialValues",
+    "parameters::",
+    "solve::Level",
+];
+
+/// The frequencies of a mesh judge the matrices of its elements, which they use.
+const OF_A_MESH: (&str, [&str; 2]) = ("vibration/discrete.rs", ["dg::MAX_DEGREE", "dg::element"]);
+
+/// The files of the studies that evaluate exact solutions by a scheme, or errors against a
+/// reference.
+const STUDIES: [&str; 5] = [
+    "kinds/orders/manufactured/design.rs",
+    "kinds/orders/one_step.rs",
+    "run/family.rs",
+    "kinds/orders/vibration/modes.rs",
+    "error/reference.rs",
+];
+
+/// Files of the solver whose methods of `Beam` and `Obstacles` are the formulas that are judged.
+const FORMULAS: [&str; 2] = ["kirchhoff.rs", "contact.rs"];
+
+/// The code of a source without comments and tests.
+fn code_of(path: &Path) -> String {
+    code(&fs::read_to_string(path).unwrap())
+}
+
+fn is_of_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// What follows the word `thermobeam` wherever it occurs: a path, each with the braces after it
+/// resolved.
+fn paths(code: &str) -> Vec<String> {
+    let mut found = vec![];
+    for (at, word) in code.match_indices("thermobeam") {
+        let rest = &code[at + word.len()..];
+        if code[..at].ends_with(is_of_name) || rest.starts_with(is_of_name) {
+            continue;
+        }
+        let Some(path) = rest.strip_prefix("::") else {
+            found.push("itself".to_owned());
+            continue;
+        };
+        let end = path
+            .find(|c| !(is_of_name(c) || c == ':' || c == '*'))
+            .unwrap_or(path.len());
+        let (module, list) = path.split_at(end);
+        match list.strip_prefix('{').and_then(|list| list.split_once('}')) {
+            Some((list, _)) => found.extend(
+                list.split(',')
+                    .map(|item| format!("{module}{}", item.trim())),
+            ),
+            None => found.push(module.to_owned()),
+        }
+    }
+    found.retain(|path| !path.ends_with("::"));
+    found
+}
+
+/// The names of the methods in which the solver has its formulas.
+fn methods() -> Vec<String> {
+    let mut names = vec![];
+    for file in FORMULAS {
+        let code = code_of(&crate_folder("thermobeam").join("src").join(file));
+        for method in code
+            .split("pub fn ")
+            .skip(1)
+            .filter(|after| after.contains("(&self"))
+        {
+            names.extend(method.split('(').next().map(str::to_owned));
+        }
+    }
+    names
+}
+
+/// The formulas of the solver that a code uses: its methods, rows of schemes, norms of P1
+/// functions.
+fn uses_of_formulas(code: &str) -> Vec<String> {
+    let mut found: Vec<String> = methods()
+        .into_iter()
+        .filter(|name| code.contains(&format!(".{name}(")))
+        .collect();
+    let fields = [".inertia", ".contact"].into_iter().filter(|field| {
+        let ends = code
+            .match_indices(field)
+            .map(|(at, _)| &code[at + field.len()..]);
+        ends.into_iter()
+            .any(|rest| !rest.starts_with(is_of_name) && !rest.starts_with('('))
+    });
+    found.extend(fields.map(str::to_owned));
+    found.extend(
+        ["ContactRule", "thermobeam::norms"]
+            .into_iter()
+            .filter(|text| code.contains(text))
+            .map(str::to_owned),
+    );
+    found
+}
+
+/// Whether a path is the allowed one, or an item of the allowed module.
+fn allows(allowed: &str, path: &str) -> bool {
+    path == allowed || allowed.ends_with("::") && path.starts_with(allowed) && !path.ends_with('*')
+}
+
+#[test]
+fn exact_solutions_use_only_data_types_the_basis_and_bisection_of_the_solver() {
+    let (mut used, mut refused) = (vec![], vec![]);
+    for path in files(&crate_folder("thermobeam-exact").join("src"), &["rs"]) {
+        let code = code_of(&path);
+        for of_solver in paths(&code) {
+            let (file, of_a_mesh) = OF_A_MESH;
+            if path.ends_with(file) && of_a_mesh.contains(&of_solver.as_str()) {
+                continue;
+            }
+            match ALLOWED.iter().find(|allowed| allows(allowed, &of_solver)) {
+                Some(allowed) => used.push(*allowed),
+                None => refused.push(format!("{}: thermobeam::{of_solver}", path.display())),
+            }
+        }
+        let calls = methods()
+            .into_iter()
+            .filter(|name| code.contains(&format!(".{name}(")));
+        refused.extend(calls.map(|name| format!("{}: .{name}()", path.display())));
+    }
+    assert!(refused.is_empty(), "{}", refused.join("\n"));
+    used.sort_unstable();
+    used.dedup();
+    assert_eq!(
+        used, ALLOWED,
+        "each is used; otherwise it need not be allowed"
+    );
+}
+
+#[test]
+fn studies_use_no_formula_of_the_solver_where_they_evaluate_exact_solutions() {
+    for file in STUDIES {
+        let code = code_of(&crate_folder("thermobeam-study").join("src").join(file));
+        assert_eq!(uses_of_formulas(&code), Vec::<String>::new(), "{file}");
+    }
+}
+
+#[test]
+fn a_use_of_the_solver_is_seen() {
+    for (code, expected) in [
+        (
+            "use thermobeam::norms::{TheoremSquares, l2_squared};",
+            "norms::TheoremSquares norms::l2_squared",
+        ),
+        (
+            "use thermobeam::dg::{Field,\n    Space};\nuse thermobeam_exact::norm::Norm;",
+            "dg::Field dg::Space",
+        ),
+        (
+            "fn f() { thermobeam::kirchhoff::BUCKLING }",
+            "kirchhoff::BUCKLING",
+        ),
+        ("use thermobeam::scheme::*;", "scheme::*"),
+        ("use thermobeam as solver;", "itself"),
+    ] {
+        assert_eq!(paths(code).join(" "), expected, "{code}");
+    }
+    let all = methods();
+    for name in [
+        "axial_force",
+        "kirchhoff_energy",
+        "force",
+        "potential",
+        "discrete_gradient",
+        "solve_tip",
+    ] {
+        assert!(all.iter().any(|known| known == name), "{name} in {all:?}");
+    }
+    for (code, expected) in [
+        ("obstacles.force(tip)", "force"),
+        (
+            "self.obstacles\n    .discrete_gradient(u, u0)",
+            "discrete_gradient",
+        ),
+        ("scheme.inertia / dt", ".inertia"),
+        ("match refine.scheme.contact {", ".contact"),
+        ("ContactRule::Implicit => 0.0", "ContactRule"),
+        (
+            "scheme.inertia() / dt + contact(study, key) + sources.forces(u)",
+            "",
+        ),
+    ] {
+        assert_eq!(uses_of_formulas(code).join(" "), expected, "{code}");
+    }
+}

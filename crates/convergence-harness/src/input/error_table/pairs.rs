@@ -199,8 +199,9 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
 /// Whether a name with several numbers occurs again: then each list is the errors of one level.
 fn repeats_a_list(pairs: &[Pair<'_>]) -> bool {
     let mut lists = HashSet::new();
-    let several = pairs.iter().filter(|pair| pair.values.len() > 1);
-    several.fold(false, |repeats, pair| !lists.insert(pair.name) || repeats)
+    pairs
+        .iter()
+        .any(|pair| pair.values.len() > 1 && !lists.insert(pair.name))
 }
 
 /// A row for each repetition of the names. Names that a solver prints more often than the step are

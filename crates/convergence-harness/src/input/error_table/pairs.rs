@@ -199,19 +199,21 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
 /// Whether a name with several numbers occurs again: then each list is the errors of one level.
 fn repeats_a_list(pairs: &[Pair<'_>]) -> bool {
     let mut lists = HashSet::new();
-    let several = pairs.iter().filter(|pair| pair.values.len() > 1);
-    several.fold(false, |repeats, pair| !lists.insert(pair.name) || repeats)
+    pairs
+        .iter()
+        .any(|pair| pair.values.len() > 1 && !lists.insert(pair.name))
 }
 
-/// A row for each repetition of the names. Names that a solver prints more often than the step are
-/// left out.
-fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
+/// The keys of a pair, one for each of its numbers.
+fn keys<'t>(pair: &Pair<'t>) -> impl Iterator<Item = Key<'t>> + use<'t> {
+    let name = pair.name;
+    (0..pair.values.len()).map(move |place| Key { name, place })
+}
+
+/// How often each key occurs, in the order of the text.
+fn counts<'t>(pairs: &[Pair<'t>]) -> Vec<(Key<'t>, usize)> {
     let mut places: HashMap<Key<'_>, usize> = HashMap::new();
     let mut counts: Vec<(Key<'t>, usize)> = vec![];
-    let keys = |pair: &Pair<'t>| {
-        let name = pair.name;
-        (0..pair.values.len()).map(move |place| Key { name, place })
-    };
     for key in pairs.iter().flat_map(keys) {
         let place = *places.entry(key).or_insert(counts.len());
         if place == counts.len() {
@@ -219,6 +221,13 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
         }
         counts[place].1 += 1;
     }
+    counts
+}
+
+/// A row for each repetition of the names. Names that a solver prints more often than the step are
+/// left out.
+fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
+    let counts = counts(pairs);
     let mut alike: HashMap<usize, usize> = HashMap::new();
     counts
         .iter()

@@ -64,6 +64,11 @@ fn names_and_keys_are_checked_before_what_follows_from_them() {
         "[boundary.x_mx]",
         &["`x_mx` is no face", "`x_max`?", "y_min"],
     );
+    refused(
+        "time = \"t\"",
+        "time = \"t\"\nsystem = \"spherical\"",
+        &["manufacture.system", "spherical coordinates are left out"],
+    );
     refused("[\"L2\", \"H1\"]", "[\"L3\"]", &["found `L3`", "Linf"]);
 }
 
@@ -128,6 +133,9 @@ fn shapes_are_refused_in_words() {
 #[test]
 fn the_grammar_is_refused_with_remedies() {
     for (equation, words) in [
+        ("jump(T)", "`jump`: interfaces are left out"),
+        ("erf(T)", "`erf`: special functions are left out"),
+        ("conj(T)", "`conj`: complex fields are left out"),
         ("T**2", "a power is written ^"),
         ("2T", "a product needs its *"),
         ("2 T", "found `T`; a product needs its *"),

@@ -203,3 +203,17 @@ fn long_chains_of_definitions_are_read_or_refused() {
         "{message}"
     );
 }
+
+/// A sixth derivative of a law for large strains has more nodes than are evaluated in good time.
+#[test]
+fn a_graph_that_grows_too_large_is_refused_with_its_term() {
+    let file = "[manufacture]\nname = \"large\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[domain]\nx = [1, 2]\ny = [1, 2]\nz = [1, 2]\n\
+                [exact]\nu = [\"sin(x*y*z + x)*exp(y*z)\", \"x*sqrt(1 + y*z)*cos(x*y)\", \"x^y*atan(z*x)/(1 + exp(x*y))\"]\n\
+                [define]\nF = \"identity + grad(u)\"\nP = \"dot(F, inv(dot(transpose(F), F)))*exp(inner(F, F))*tanh(det(F))\"\n\
+                [equations]\na = \"laplacian(laplacian(div(div(P))))\"\n";
+    let message = refusal(file);
+    assert!(
+        message.contains("expected at most 200000 nodes of the graph"),
+        "{message}"
+    );
+}

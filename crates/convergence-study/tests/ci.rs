@@ -82,6 +82,7 @@ fn pages() -> Vec<String> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
+        .filter(|path| path.is_file())
         .collect();
     paths.sort();
     assert!(paths.len() > 10);
@@ -182,6 +183,23 @@ fn the_action_and_its_example_agree_on_inputs_and_outputs() {
             .all(|name| readme.contains(&format!("`{name}`"))),
         "{outputs:?}"
     );
+    // Without `source`, nothing is compiled.
+    assert_eq!(
+        parsed["inputs"]["source"]["default"].as_str(),
+        Some("false")
+    );
+    let compiles = |step: &&Yaml| {
+        step["run"]
+            .as_str()
+            .is_some_and(|run| run.contains("cargo "))
+    };
+    let steps = parsed["runs"]["steps"].as_vec().unwrap();
+    let compiling: Vec<&Yaml> = steps.iter().filter(compiles).collect();
+    assert!(!compiling.is_empty());
+    for step in compiling {
+        let condition = step["if"].as_str().unwrap();
+        assert!(condition.contains("inputs.source == 'true'"), "{condition}");
+    }
     // A composite action names the shell of each script; an output of a step must be written by its
     // script.
     let scripts = parsed["runs"]["steps"]

@@ -219,17 +219,21 @@ fn refusal(program: &str, limit: Duration) -> String {
     comparisons.unwrap_err().to_string()
 }
 
+/// A program that is not stopped leaves a file behind.
 // The programs are scripts of a shell.
 #[cfg(unix)]
 #[test]
 fn a_program_that_hangs_is_stopped_at_its_limit() {
-    let limit = Duration::from_millis(300);
-    for program in ["sleep 100", "sh -c 'exec 0<&- 1>&-; exec sleep 100'"] {
-        let message = refusal(program, limit);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("not-stopped");
+    for closing in ["", "exec 0<&- 1>&-; "] {
+        let program = format!("sh -c '{closing}sleep 30; touch {}'", file.display());
+        let message = refusal(&program, Duration::from_millis(300));
         assert!(
             message.contains("was stopped at the limit of 0.3 s"),
             "{message}"
         );
+        assert!(!file.exists());
     }
 }
 

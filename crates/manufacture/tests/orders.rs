@@ -80,15 +80,16 @@ proptest! {
         prop_assert_eq!(emitted(&reordered(text, seed)), emitted(text));
     }
 
-    /// Names of one length, so that lines are cut at the same places.
+    /// Names of one length, so that lines are cut at the same places; either may come first in the
+    /// alphabet.
     #[test]
     fn other_names_of_coordinates_rename_what_is_emitted_and_nothing_else(
-        x in "[a-z]{2}[0-9]", y in "[A-Z]{2}[0-9]"
+        x in "[a-z]{2}0", y in "[a-z]{2}1"
     ) {
-        let original = flow(["xx0", "YY0"]);
+        let original = flow(["xx0", "yy1"]);
         let texts: Vec<String> = emitted(&original)
             .iter()
-            .map(|text| without_hash(text).replace("xx0", &x).replace("YY0", &y))
+            .map(|text| without_hash(text).replace("xx0", &x).replace("yy1", &y))
             .collect();
         let renamed: Vec<String> = emitted(&flow([&x, &y])).iter().map(|text| without_hash(text)).collect();
         prop_assert_eq!(renamed, texts);

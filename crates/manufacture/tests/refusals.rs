@@ -64,6 +64,11 @@ fn names_and_keys_are_checked_before_what_follows_from_them() {
         "[boundary.x_mx]",
         &["`x_mx` is no face", "`x_max`?", "y_min"],
     );
+    refused(
+        "time = \"t\"",
+        "time = \"t\"\nsystem = \"spherical\"",
+        &["manufacture.system", "spherical coordinates are left out"],
+    );
     refused("[\"L2\", \"H1\"]", "[\"L3\"]", &["found `L3`", "Linf"]);
 }
 
@@ -128,6 +133,9 @@ fn shapes_are_refused_in_words() {
 #[test]
 fn the_grammar_is_refused_with_remedies() {
     for (equation, words) in [
+        ("jump(T)", "`jump`: interfaces are left out"),
+        ("erf(T)", "`erf`: special functions are left out"),
+        ("conj(T)", "`conj`: complex fields are left out"),
         ("T**2", "a power is written ^"),
         ("2T", "a product needs its *"),
         ("2 T", "found `T`; a product needs its *"),
@@ -192,6 +200,20 @@ fn long_chains_of_definitions_are_read_or_refused() {
     let message = refusal(&file(400, "F + 1"));
     assert!(
         message.contains("at most 256 definitions one inside the other"),
+        "{message}"
+    );
+}
+
+/// A sixth derivative of a law for large strains has more nodes than are evaluated in good time.
+#[test]
+fn a_graph_that_grows_too_large_is_refused_with_its_term() {
+    let file = "[manufacture]\nname = \"large\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[domain]\nx = [1, 2]\ny = [1, 2]\nz = [1, 2]\n\
+                [exact]\nu = [\"sin(x*y*z + x)*exp(y*z)\", \"x*sqrt(1 + y*z)*cos(x*y)\", \"x^y*atan(z*x)/(1 + exp(x*y))\"]\n\
+                [define]\nF = \"identity + grad(u)\"\nP = \"dot(F, inv(dot(transpose(F), F)))*exp(inner(F, F))*tanh(det(F))\"\n\
+                [equations]\na = \"laplacian(laplacian(div(div(P))))\"\n";
+    let message = refusal(file);
+    assert!(
+        message.contains("expected at most 200000 nodes of the graph"),
         "{message}"
     );
 }

@@ -36,22 +36,24 @@ pub fn load(
 
 /// The exact solution at t = 0, as initial data.
 pub fn initial(exact: &Manufactured) -> InitialFunctions {
-    let sum = |products: &[Product], derivative: usize| -> Box<dyn Fn(f64) -> f64> {
-        let products = products.to_vec();
-        Box::new(move |x| {
-            products
-                .iter()
-                .map(|p| p.x.eval(x) * p.t.derivatives(0.0)[derivative])
-                .sum()
-        })
-    };
     InitialFunctions {
-        u: sum(&exact.u, 0),
-        u_t: sum(&exact.u, 1),
-        phi: sum(&exact.phi, 0),
-        phi_t: sum(&exact.phi, 1),
-        theta: sum(&exact.theta, 0),
+        u: start(&exact.u, 0),
+        u_t: start(&exact.u, 1),
+        phi: start(&exact.phi, 0),
+        phi_t: start(&exact.phi, 1),
+        theta: start(&exact.theta, 0),
     }
+}
+
+/// A derivative of a field with respect to t, at t = 0.
+fn start(products: &[Product], derivative: usize) -> Box<dyn Fn(f64) -> f64> {
+    let products = products.to_vec();
+    Box::new(move |x| {
+        products
+            .iter()
+            .map(|p| p.x.eval(x) * p.t.derivatives(0.0)[derivative])
+            .sum()
+    })
 }
 
 /// Measures the errors of levels against a manufactured solution, whose functions of x are
@@ -67,33 +69,33 @@ pub struct ErrorMeter<'a> {
     factors: Factors,
 }
 
+/// X and X' of a product at quadrature points.
+fn shape(product: &Product, points: &[(f64, f64)]) -> Vec<[f64; 2]> {
+    let mut shape = Vec::with_capacity(points.len());
+    for (x, _) in points {
+        let [value, slope, _] = product.x.derivatives(*x);
+        shape.push([value, slope]);
+    }
+    shape
+}
+
 impl<'a> ErrorMeter<'a> {
     /// Creates a meter for levels on this space.
     ///
     /// * `theta_a`: temperature of the clamped end; a level holds the lifted temperature.
     pub fn new(exact: &'a Manufactured, theta_a: f64, space: &Space) -> Self {
         let gauss = Space::gauss(space.degree() + EXTRA_POINTS);
-        let on_element = |ends: &[f64]| {
+        let mut points = vec![];
+        for ends in space.mesh().nodes().windows(2) {
             let half = 0.5 * (ends[1] - ends[0]);
-            gauss
-                .iter()
-                .map(|(xi, weight)| (ends[0] + half * (1.0 + xi), half * weight))
-                .collect::<Vec<_>>()
-        };
-        let points: Vec<(f64, f64)> = space
-            .mesh()
-            .nodes()
-            .windows(2)
-            .flat_map(on_element)
-            .collect();
+            for (xi, weight) in &gauss {
+                points.push((ends[0] + half * (1.0 + xi), half * weight));
+            }
+        }
         let shapes = [&exact.u, &exact.phi, &exact.theta].map(|products| {
-            let shape = |product: &Product, x: f64| {
-                let [value, slope, _] = product.x.derivatives(x);
-                [value, slope]
-            };
             products
                 .iter()
-                .map(|product| points.iter().map(|(x, _)| shape(product, *x)).collect())
+                .map(|product| shape(product, &points))
                 .collect()
         });
         Self {
@@ -202,11 +204,11 @@ impl<'a> ErrorMeter<'a> {
             (shapes_theta, &theta.value),
         ];
         let x = self.points[k].0;
-        let mut found = level.values_and_slopes(&self.space, x);
-        let (temperature, its_slope) = &mut found[4];
+        let mut fields = level.values_and_slopes(&self.space, x);
+        let (temperature, its_slope) = &mut fields[4];
         *temperature += theta_a * (1.0 - x);
         *its_slope -= theta_a;
-        let mut errors = found.map(|(value, slope)| [value, slope]);
+        let mut errors = fields.map(|(value, slope)| [value, slope]);
         for ([value, slope], (shapes, factors)) in errors.iter_mut().zip(exact) {
             for (shape, factor) in shapes.iter().zip(factors) {
                 *value -= factor * shape[k][0];

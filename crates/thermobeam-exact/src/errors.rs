@@ -58,12 +58,13 @@ impl ErrorMeter {
                 .collect::<Vec<_>>()
         });
         let [u, phi, _] = fields.each_ref().map(Vec::len);
-        let square = |n: usize| vec![0.0; n * n];
         let mut meter = Self {
             lengths: mesh.lengths().collect(),
-            grams: fields.each_ref().map(|products| square(products.len())),
-            gram_curvature: square(phi),
-            gram_shear: square(u + phi),
+            grams: fields
+                .each_ref()
+                .map(|products| zero_square(products.len())),
+            gram_curvature: zero_square(phi),
+            gram_shear: zero_square(u + phi),
             lifting: vec![0.0; mesh.nodes().len()],
             difference: std::array::from_fn(|_| vec![0.0; mesh.nodes().len()]),
             fields,
@@ -90,19 +91,15 @@ impl ErrorMeter {
             let h = ends[1] - ends[0];
             for (s, weight) in RULE {
                 let x = ends[0] + s * h;
-                let sample = |products: &[Product], field: &[Interpolation]| {
-                    let errors = products
-                        .iter()
-                        .zip(field)
-                        .map(|(p, f)| interpolation_error(p, f, i, h, s, x));
-                    errors.collect::<Vec<[f64; 2]>>()
-                };
-                let [u, phi, theta] = &self.fields;
-                let samples = [
-                    sample(&exact.u, u),
-                    sample(&exact.phi, phi),
-                    sample(&exact.theta, theta),
-                ];
+                let mut samples = [vec![], vec![], vec![]];
+                let products = [&exact.u, &exact.phi, &exact.theta];
+                for ((sample, products), field) in
+                    samples.iter_mut().zip(products).zip(&self.fields)
+                {
+                    for (product, interpolation) in products.iter().zip(field) {
+                        sample.push(interpolation_error(product, interpolation, i, h, s, x));
+                    }
+                }
                 self.add_samples(i, s, weight * h, &samples);
             }
         }
@@ -111,9 +108,6 @@ impl ErrorMeter {
     /// Adds the contribution of one quadrature point, given η and η_x of the products of u, φ and θ
     /// there.
     fn add_samples(&mut self, element: usize, s: f64, weight: f64, samples: &[Vec<[f64; 2]>; 3]) {
-        let values = |sample: &[[f64; 2]]| sample.iter().map(|[eta, _]| *eta).collect::<Vec<_>>();
-        let slopes =
-            |sample: &[[f64; 2]]| sample.iter().map(|[_, eta_x]| *eta_x).collect::<Vec<_>>();
         for ((field, gram), sample) in self.fields.iter_mut().zip(&mut self.grams).zip(samples) {
             for (interpolation, [eta, _]) in field.iter_mut().zip(sample) {
                 interpolation.moments[element][0] += weight * (1.0 - s) * eta;
@@ -133,8 +127,8 @@ impl ErrorMeter {
     /// The errors of `level` against the exact solution with the given factors.
     pub fn measure(&mut self, level: &Level, factors: &Factors) -> Norms {
         let Factors { u, phi, theta } = factors;
-        let ([of_u, of_phi, of_theta], [gram_u, gram_phi, gram_theta]) =
-            (&self.fields, &self.grams);
+        let [of_u, of_phi, of_theta] = &self.fields;
+        let [gram_u, gram_phi, gram_theta] = &self.grams;
         let [v_d, u_d, w_d, phi_d, theta_d] = &mut self.difference;
         difference_into(&level.v, of_u, &u.rate, v_d);
         difference_into(&level.u, of_u, &u.value, u_d);
@@ -158,7 +152,6 @@ impl ErrorMeter {
                 + correction(theta_d, of_theta, &theta.value, gram_theta),
         };
         let displacement = l2_squared(&self.lengths, u_d) + correction(u_d, of_u, &u.value, gram_u);
-        let root = |square: f64| if square < 0.0 { 0.0 } else { square.sqrt() };
         Norms::of(|norm| match norm {
             Norm::Velocity => root(squares.velocity),
             Norm::Shear => root(squares.shear),
@@ -173,7 +166,8 @@ impl ErrorMeter {
 
     /// `p_x ∫η - d_x ∫ψ + (p, ψ)` over all elements.
     fn shear_product(&self, factors: &Factors) -> f64 {
-        let ([of_u, of_phi, _], [_, u, _, phi, _]) = (&self.fields, &self.difference);
+        let [of_u, of_phi, _] = &self.fields;
+        let [_, u, _, phi, _] = &self.difference;
         let mut sum = 0.0;
         for (i, h) in self.lengths.iter().enumerate() {
             let eta = moment(of_u, &factors.u.value, i);
@@ -251,9 +245,31 @@ fn correction(difference: &[f64], field: &[Interpolation], factors: &[f64], gram
 
 /// The quadratic form of a Gram matrix.
 fn quadratic(gram: &[f64], factors: &[f64]) -> f64 {
-    let row = |row: &[f64]| row.iter().zip(factors).map(|(a, b)| a * b).sum::<f64>();
     gram.chunks(factors.len().max(1))
         .zip(factors)
-        .map(|(entries, factor)| factor * row(entries))
+        .map(|(row, factor)| factor * product(row, factors))
         .sum()
+}
+
+fn product(row: &[f64], factors: &[f64]) -> f64 {
+    row.iter().zip(factors).map(|(a, b)| a * b).sum()
+}
+
+fn zero_square(n: usize) -> Vec<f64> {
+    vec![0.0; n * n]
+}
+
+/// η of each product.
+fn values(sample: &[[f64; 2]]) -> Vec<f64> {
+    sample.iter().map(|[eta, _]| *eta).collect()
+}
+
+/// η_x of each product.
+fn slopes(sample: &[[f64; 2]]) -> Vec<f64> {
+    sample.iter().map(|[_, eta_x]| *eta_x).collect()
+}
+
+/// The root of a square that rounding errors may have made negative. NaN stays.
+fn root(square: f64) -> f64 {
+    if square < 0.0 { 0.0 } else { square.sqrt() }
 }

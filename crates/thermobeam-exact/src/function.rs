@@ -19,12 +19,13 @@ pub trait Function: Send + Sync {
     /// `max(|f| + |x f'|)` over samples of [0, end]; a derivative that is not finite there is
     /// omitted.
     fn size(&self, end: f64) -> f64 {
-        let size_at = |at: f64| {
-            let [value, first, _] = self.derivatives(at);
-            let slope = (at * first).abs();
-            value.abs() + if slope.is_finite() { slope } else { 0.0 }
-        };
-        samples(end).map(size_at).fold(0.0, f64::max)
+        samples(end)
+            .map(|at| {
+                let [value, first, _] = self.derivatives(at);
+                let slope = (at * first).abs();
+                value.abs() + if slope.is_finite() { slope } else { 0.0 }
+            })
+            .fold(0.0, f64::max)
     }
 
     /// The expected rounding error of a value on [0, end].

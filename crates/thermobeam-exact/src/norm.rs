@@ -145,15 +145,12 @@ fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
 
 /// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
 fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
-    let on_each = |(&h, (u, phi)): (&f64, (&[f64], &[f64]))| {
+    let mut sum = 0.0;
+    for (&h, (u, phi)) in lengths.iter().zip(u.windows(2).zip(phi.windows(2))) {
         let slope = (u[1] - u[0]) / h;
-        on_element(h, [slope - phi[0], slope - phi[1]])
-    };
-    lengths
-        .iter()
-        .zip(u.windows(2).zip(phi.windows(2)))
-        .map(on_each)
-        .sum()
+        sum += on_element(h, [slope - phi[0], slope - phi[1]]);
+    }
+    sum
 }
 
 /// The five squares on the left-hand side of (3.14), Theorem 3.4, in its order.

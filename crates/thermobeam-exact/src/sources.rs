@@ -83,17 +83,13 @@ pub struct Nodal {
 impl Nodal {
     /// Evaluates each product once at each node.
     pub fn of(exact: &Manufactured, mesh: &Mesh) -> Self {
-        let of = |products: &[Product]| {
+        let [u, phi, theta] = [&exact.u, &exact.phi, &exact.theta].map(|products| {
             products
                 .iter()
                 .map(|product| nodal(product, mesh))
                 .collect()
-        };
-        Self {
-            u: of(&exact.u),
-            phi: of(&exact.phi),
-            theta: of(&exact.theta),
-        }
+        });
+        Self { u, phi, theta }
     }
 
     /// The initial data (3.6); the temperature is adjusted to the solver's own θ_A.
@@ -107,16 +103,8 @@ impl Nodal {
         exact_theta_a: f64,
         theta_a: f64,
     ) -> InitialValues {
-        let sum = |products: &[Vec<f64>], factors: &[f64]| {
-            let mut values = vec![0.0; mesh.nodes().len()];
-            for (product, factor) in products.iter().zip(factors) {
-                for (value, x) in values.iter_mut().zip(product) {
-                    *value += factor * x;
-                }
-            }
-            values
-        };
-        let mut theta = sum(&self.theta, &factors.theta.value);
+        let nodes = mesh.nodes().len();
+        let mut theta = sum(nodes, &self.theta, &factors.theta.value);
         for (theta, x) in theta.iter_mut().zip(mesh.nodes()) {
             *theta += (theta_a - exact_theta_a) * (1.0 - x);
         }
@@ -124,23 +112,33 @@ impl Nodal {
         // Checked up to round-off when the study was read.
         (theta[0], theta[last]) = (theta_a, 0.0);
         InitialValues {
-            u: sum(&self.u, &factors.u.value),
-            u_t: sum(&self.u, &factors.u.rate),
-            phi: sum(&self.phi, &factors.phi.value),
-            phi_t: sum(&self.phi, &factors.phi.rate),
+            u: sum(nodes, &self.u, &factors.u.value),
+            u_t: sum(nodes, &self.u, &factors.u.rate),
+            phi: sum(nodes, &self.phi, &factors.phi.value),
+            phi_t: sum(nodes, &self.phi, &factors.phi.rate),
             theta,
         }
     }
 }
 
+/// The sum of products at the nodes, with their factors.
+fn sum(nodes: usize, products: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
+    let mut values = vec![0.0; nodes];
+    for (product, factor) in products.iter().zip(factors) {
+        for (value, x) in values.iter_mut().zip(product) {
+            *value += factor * x;
+        }
+    }
+    values
+}
+
 impl Sources {
     /// The loads from the strong form (1.1) and the boundary conditions (1.3).
     pub fn strong(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
-        let vectors = |product: &Product| alike(Vectors::strong(product, mesh));
         Self::assemble(
             exact,
             beam,
-            vectors,
+            |product| alike(Vectors::strong(product, mesh)),
             continuous_gram(&exact.u),
             mesh.elements(),
         )
@@ -149,14 +147,13 @@ impl Sources {
     /// The loads from the strong form (1.1) and the boundary conditions (1.3), for elements of any
     /// degree.
     pub fn any_order(exact: &Manufactured, beam: &Beam, space: &Space) -> Self {
-        let vectors = |product: &Product| {
-            [Field::U, Field::Phi, Field::Theta]
-                .map(|field| Vectors::any_order(product, space, field))
-        };
         Self::assemble(
             exact,
             beam,
-            vectors,
+            |product| {
+                [Field::U, Field::Phi, Field::Theta]
+                    .map(|field| Vectors::any_order(product, space, field))
+            },
             continuous_gram(&exact.u),
             space.mesh().elements(),
         )
@@ -166,7 +163,6 @@ impl Sources {
     /// then exactly zero.
     pub fn discrete(exact: &Manufactured, beam: &Beam, mesh: &Mesh) -> Self {
         let matrices = [mass(mesh), stiffness(mesh), coupling(mesh).transpose()];
-        let vectors = |product: &Product| alike(Vectors::discrete(product, &matrices, mesh));
         let nodal: Vec<_> = exact.u.iter().map(|product| nodal(product, mesh)).collect();
         let mut gram = vec![];
         for left in &nodal {
@@ -177,7 +173,13 @@ impl Sources {
                     .map(|right| right.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>()),
             );
         }
-        Self::assemble(exact, beam, vectors, gram, mesh.elements())
+        Self::assemble(
+            exact,
+            beam,
+            |product| alike(Vectors::discrete(product, &matrices, mesh)),
+            gram,
+            mesh.elements(),
+        )
     }
 
     fn assemble(
@@ -187,20 +189,15 @@ impl Sources {
         gram: Vec<f64>,
         tip_index: usize,
     ) -> Self {
-        let all =
-            |products: &[Product]| products.iter().map(&vectors).collect::<Vec<[Vectors; 3]>>();
-        let (u, phi) = (all(&exact.u), all(&exact.phi));
-        let tip = u.iter().map(|[vectors, ..]| vectors.tip).collect();
-        let slopes = |of: &[[Vectors; 3]]| {
-            of.iter()
-                .map(|[vectors, ..]| vectors.boundary_slope)
-                .collect()
-        };
-        let boundary = [
-            slopes(&u),
-            phi.iter().map(|[vectors, ..]| vectors.tip).collect(),
-            slopes(&phi),
-        ];
+        let [u, phi, theta]: [Vec<[Vectors; 3]>; 3] = [&exact.u, &exact.phi, &exact.theta]
+            .map(|products| products.iter().map(&vectors).collect());
+        let [tip, tip_phi] =
+            [&u, &phi].map(|field| field.iter().map(|[vectors, ..]| vectors.tip).collect());
+        let [slope, slope_phi] = [&u, &phi].map(|field| {
+            let slopes = field.iter().map(|[vectors, ..]| vectors.boundary_slope);
+            slopes.collect()
+        });
+        let boundary = [slope, tip_phi, slope_phi];
         let mut terms = Terms::new(beam);
         for (j, vectors) in u.iter().enumerate() {
             terms.add_displacement(j, vectors);
@@ -208,7 +205,7 @@ impl Sources {
         for (k, vectors) in phi.iter().enumerate() {
             terms.add_rotation(k, vectors);
         }
-        for (l, vectors) in all(&exact.theta).iter().enumerate() {
+        for (l, vectors) in theta.iter().enumerate() {
             terms.add_temperature(l, vectors);
         }
         Self {
@@ -326,31 +323,27 @@ impl Sources {
     fn tip_stress(&self, factors: &Factors, n_value: f64) -> f64 {
         let Factors { u, phi, .. } = factors;
         let zeta = self.beam.zeta;
-        let tension = |j: usize| (1.0 + n_value) * u.value[j] + zeta * u.rate[j];
-        let rotation = |k: usize| phi.value[k] + zeta * phi.rate[k];
         let [u_slopes, phi_values, _] = &self.boundary;
-        let stretch: f64 = u_slopes
-            .iter()
-            .enumerate()
-            .map(|(j, slope)| slope * tension(j))
-            .sum();
-        stretch
-            - phi_values
-                .iter()
-                .enumerate()
-                .map(|(k, value)| value * rotation(k))
-                .sum::<f64>()
+        let mut stretch = 0.0;
+        for (j, slope) in u_slopes.iter().enumerate() {
+            stretch += slope * ((1.0 + n_value) * u.value[j] + zeta * u.rate[j]);
+        }
+        stretch - with_rates(phi_values, phi, zeta)
     }
 
     /// φ_x(1, t) + ζ φ_xt(1, t).
     fn tip_moment(&self, Factors { phi, .. }: &Factors) -> f64 {
-        let rotation = |k: usize| phi.value[k] + self.beam.zeta * phi.rate[k];
-        self.boundary[2]
-            .iter()
-            .enumerate()
-            .map(|(k, slope)| slope * rotation(k))
-            .sum()
+        with_rates(&self.boundary[2], phi, self.beam.zeta)
     }
+}
+
+/// `Σ_k c_k (T_k + ζ T_k')`.
+fn with_rates(coefficients: &[f64], factors: &FieldFactors, zeta: f64) -> f64 {
+    let mut sum = 0.0;
+    for (k, coefficient) in coefficients.iter().enumerate() {
+        sum += coefficient * (factors.value[k] + zeta * factors.rate[k]);
+    }
+    sum
 }
 
 /// Test functions that are the same in every equation.

@@ -7,7 +7,7 @@
 //! not: the beam is beyond its buckling force.
 
 use crate::error::StepFailure;
-use crate::lanes::Lane;
+use crate::lanes::{Lane, MultiplyAdd};
 
 /// A block, row by row.
 pub(crate) type Block<T, const B: usize> = [[T; B]; B];
@@ -26,12 +26,15 @@ pub(crate) struct Node<T, const B: usize> {
 
 /// `matrix * vector`.
 #[inline(always)]
-pub(crate) fn times<T: Lane, const B: usize>(matrix: &Block<T, B>, vector: [T; B]) -> [T; B] {
+pub(crate) fn times<A: MultiplyAdd, T: Lane, const B: usize>(
+    matrix: &Block<T, B>,
+    vector: [T; B],
+) -> [T; B] {
     let mut product = vector;
     for row in 0..B {
         let mut sum = matrix[row][0] * vector[0];
         for column in 1..B {
-            sum = matrix[row][column].mul_add(vector[column], sum);
+            sum = matrix[row][column].mul_add::<A>(vector[column], sum);
         }
         product[row] = sum;
     }
@@ -40,7 +43,7 @@ pub(crate) fn times<T: Lane, const B: usize>(matrix: &Block<T, B>, vector: [T; B
 
 /// `start - matrix * vector`.
 #[inline(always)]
-pub(crate) fn minus_times<T: Lane, const B: usize>(
+pub(crate) fn minus_times<A: MultiplyAdd, T: Lane, const B: usize>(
     start: [T; B],
     matrix: &Block<T, B>,
     vector: [T; B],
@@ -48,7 +51,7 @@ pub(crate) fn minus_times<T: Lane, const B: usize>(
     let mut result = start;
     for row in 0..B {
         for column in 0..B {
-            result[row] = (-matrix[row][column]).mul_add(vector[column], result[row]);
+            result[row] = (-matrix[row][column]).mul_add::<A>(vector[column], result[row]);
         }
     }
     result
@@ -56,7 +59,7 @@ pub(crate) fn minus_times<T: Lane, const B: usize>(
 
 /// `start - matrixᵀ * vector`.
 #[inline(always)]
-pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
+pub(crate) fn minus_transpose_times<A: MultiplyAdd, T: Lane, const B: usize>(
     start: [T; B],
     matrix: &Block<T, B>,
     vector: [T; B],
@@ -64,7 +67,7 @@ pub(crate) fn minus_transpose_times<T: Lane, const B: usize>(
     let mut result = start;
     for row in 0..B {
         for column in 0..B {
-            result[row] = (-matrix[column][row]).mul_add(vector[column], result[row]);
+            result[row] = (-matrix[column][row]).mul_add::<A>(vector[column], result[row]);
         }
     }
     result
@@ -161,6 +164,7 @@ pub(crate) fn factorize<T: Lane, const B: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::Separate;
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
@@ -221,11 +225,11 @@ mod tests {
             let mut y = [0.0; 3];
             for node in 1..=N {
                 let r = std::array::from_fn(|k| right[3 * node - 3 + k]);
-                y = minus_times(r, &nodes[node].multiplier, y);
-                x[node] = times(&nodes[node].inverse, y);
+                y = minus_times::<Separate, _, _>(r, &nodes[node].multiplier, y);
+                x[node] = times::<Separate, _, _>(&nodes[node].inverse, y);
             }
             for node in (1..N).rev() {
-                x[node] = minus_transpose_times(x[node], &nodes[node + 1].multiplier, x[node + 1]);
+                x[node] = minus_transpose_times::<Separate, _, _>(x[node], &nodes[node + 1].multiplier, x[node + 1]);
             }
             for i in 0..3 * N {
                 prop_assert!((x[i / 3 + 1][i % 3] - expected[i]).abs() < 1e-13);

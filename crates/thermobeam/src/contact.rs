@@ -58,6 +58,17 @@ pub struct Tip {
     pub stiffness: f64,
 }
 
+impl Tip {
+    /// The same at obstacles that are reflected at u = 0.
+    fn mirrored(self) -> Self {
+        Self {
+            u: -self.u,
+            force: -self.force,
+            stiffness: self.stiffness,
+        }
+    }
+}
+
 impl Obstacles {
     /// Contact force g(u(1)); the boundary condition of (1.3) is σ(1, t) = -g.
     pub fn force(&self, u: f64) -> f64 {
@@ -162,19 +173,14 @@ impl Obstacles {
             g1: -self.g2,
             g2: -self.g1,
         };
-        let flip = |tip: Tip| Tip {
-            u: -tip.u,
-            force: -tip.force,
-            stiffness: tip.stiffness,
-        };
         if r >= self.g2 + c * self.discrete_gradient(self.g2, u0) {
             self.solve_above(r, c, u0)
         } else if r <= self.g1 + c * self.discrete_gradient(self.g1, u0) {
-            flip(mirrored.solve_above(-r, c, -u0))
+            mirrored.solve_above(-r, c, -u0).mirrored()
         } else if u0 > self.g2 {
             self.solve_leaving(r, c, u0)
         } else if u0 < self.g1 {
-            flip(mirrored.solve_leaving(-r, c, -u0))
+            mirrored.solve_leaving(-r, c, -u0).mirrored()
         } else {
             Tip {
                 u: r,

@@ -110,8 +110,10 @@ impl Case {
         }
         let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
         let of_theta = Operator::new(n - 1, lengths, 2.0 / self.dt, 1.0);
-        let factor = |(of_phi, of_theta)| round_trip(lengths, self.beam.a, &of_phi, &of_theta);
-        of_phi.zip(of_theta).map_or(f64::INFINITY, factor)
+        match of_phi.zip(of_theta) {
+            Some((of_phi, of_theta)) => round_trip(lengths, self.beam.a, &of_phi, &of_theta),
+            None => f64::INFINITY,
+        }
     }
 
     /// Contraction factor of the fixed point due to the axial force of the previous iterate,

@@ -153,12 +153,13 @@ impl Ensemble {
 
     /// Counts of the work done so far for all cases; a pass of a group counts once.
     pub fn work(&self) -> Work {
-        let sum =
-            |count: fn(Work) -> usize| self.groups.iter().map(|group| count(group.work())).sum();
-        Work {
-            passes: sum(|work| work.passes),
-            factorizations: sum(|work| work.factorizations),
+        let mut sum = Work::default();
+        for group in &self.groups {
+            let work = group.work();
+            sum.passes += work.passes;
+            sum.factorizations += work.factorizations;
         }
+        sum
     }
 
     /// Counts of the work for case k so far, the same as in a single run.
@@ -179,17 +180,6 @@ fn starts(
     scheme: Scheme,
     settings: Settings,
 ) -> Result<Vec<(Case, Level)>, SetupError> {
-    let check_length = |field, found, expected| {
-        if found == expected {
-            Ok(())
-        } else {
-            Err(SetupError::Length {
-                field,
-                found,
-                expected,
-            })
-        }
-    };
     check_length("dt", dt.len(), problems.len())?;
     let Some(first) = problems.first() else {
         return Err(SetupError::Length {
@@ -214,14 +204,30 @@ fn starts(
     Ok(starts)
 }
 
+fn check_length(field: &'static str, found: usize, expected: usize) -> Result<(), SetupError> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(SetupError::Length {
+            field,
+            found,
+            expected,
+        })
+    }
+}
+
 /// The solver of up to [`WIDTH`] cases; unused lanes repeat the last one.
 fn group(
     starts: &[(Case, Level)],
     is_heated: bool,
     settings: Settings,
 ) -> Box<dyn Batch<Lanes<WIDTH>>> {
-    let lanes = || (0..WIDTH).map(|k| &starts[k.min(starts.len() - 1)]);
-    let cases = lanes().map(|(case, _)| case.clone()).collect();
-    let levels: Vec<&Level> = lanes().map(|(_, level)| level).collect();
+    let mut cases = vec![];
+    let mut levels = vec![];
+    for k in 0..WIDTH {
+        let (case, level) = &starts[k.min(starts.len() - 1)];
+        cases.push(case.clone());
+        levels.push(level);
+    }
     newton(cases, settings, &levels, is_heated)
 }

@@ -143,33 +143,25 @@ fn is_python3(command: &str) -> bool {
 /// # Errors
 /// A language or a command for another template, and a command that cannot be used.
 fn begun(arguments: &Arguments, template: &Template) -> Result<Vec<begin::Begun>, Unusable> {
-    let option = match (&arguments.language, &arguments.command) {
-        (None, None) => {
-            let begun = |(ending, text): &(&'static str, &str)| begin::Begun {
-                ending,
-                text: (*text).to_owned(),
-            };
-            return Ok(template.files.iter().map(begun).collect());
-        }
-        (Some(_), _) => "--language",
-        (None, Some(_)) => "--command",
-    };
-    if template.name != program::TEMPLATE.name {
-        let expected = program::TEMPLATE.name;
-        let message = format!(
-            "{option}: found `new {}`; expected `new {expected}`",
-            template.name
-        );
-        return Err(Unusable::because(&message));
+    let Arguments {
+        language, command, ..
+    } = arguments;
+    let is_program = template.name == program::TEMPLATE.name;
+    if (language.is_some() || command.is_some()) && !is_program {
+        return Err(Unusable::because(&format!(
+            "--language, --command: found `new {}`; expected `new {}`",
+            template.name,
+            program::TEMPLATE.name
+        )));
     }
-    let language = begin::LANGUAGES
+    if let Some(command) = command {
+        return begin::of_command(command)
+            .map_err(|reason| Unusable::because(&format!("--command: {reason}")));
+    }
+    let chosen = begin::LANGUAGES
         .iter()
-        .find(|language| arguments.language.as_deref() == Some(language.name));
-    match (language, &arguments.command) {
-        (Some(language), _) => Ok(begin::in_language(language)),
-        (None, command) => begin::of_command(command.as_deref().unwrap_or_default())
-            .map_err(|reason| Unusable::because(&format!("--command: {reason}"))),
-    }
+        .find(|known| language.as_deref() == Some(known.name));
+    Ok(chosen.map_or_else(|| begin::of_template(template), begin::in_language))
 }
 
 /// Where files are written.

@@ -118,56 +118,36 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(record.verdict)
 }
 
-/// A study that would run.
-#[derive(serde::Serialize)]
-struct Planned {
-    id: String,
-    cases: usize,
-    /// Over all threads, in the last run on this machine; `None` if it never ran.
-    seconds: Option<f64>,
-}
-
 /// Lists what would run. Nothing is run or written.
 fn dry_run(arguments: &Arguments, root: &Path, all: &[StudyFile], mask: &[bool]) -> Outcome {
-    let seconds = workspace::last_seconds(root)?;
-    let planned = |file: &StudyFile| {
-        let id = file.study.header().id.clone();
-        Planned {
-            cases: file.study.plan().cases().len(),
-            seconds: seconds.get(&id).copied(),
-            id,
-        }
-    };
+    let last = workspace::last_seconds(root)?;
+    let mut rows = vec![];
+    let mut studies = vec![];
+    let mut cases = 0;
+    let mut total = 0.0;
     let selected = all.iter().zip(mask).filter(|(_, selected)| **selected);
-    let studies: Vec<Planned> = selected.map(|(file, _)| planned(file)).collect();
-    let cases: usize = studies.iter().map(|study| study.cases).sum();
-    // A sum of none would be -0.
-    let total = studies
-        .iter()
-        .filter_map(|study| study.seconds)
-        .fold(0.0, |sum, seconds| sum + seconds);
+    for (file, _) in selected {
+        let id = &file.study.header().id;
+        let own = file.study.plan().cases().len();
+        let seconds = last.get(id).copied();
+        let shown = seconds.map_or_else(|| "-".to_owned(), |seconds| format!("{seconds:.2}"));
+        rows.push(vec![id.clone(), own.to_string(), shown]);
+        studies.push(serde_json::json!({"id": id, "cases": own, "seconds": seconds}));
+        cases += own;
+        total += seconds.unwrap_or(0.0);
+    }
     let sentence = format!(
-        "{} studies with {cases} cases would run; {total:.1} s in their last runs",
-        studies.len()
+        "{} studies with {cases} cases would run; {total:.1} s in their last runs\n",
+        rows.len()
     );
     let words = if arguments.flags.quiet {
-        String::new()
+        sentence
     } else {
-        let rows: Vec<Vec<String>> = studies.iter().map(planned_row).collect();
-        screen::table(&["study", "cases", "seconds"], &rows) + "\n"
+        let table = screen::table(&["study", "cases", "seconds"], &rows);
+        format!("{table}\n{sentence}")
     };
-    let words = format!("{words}{sentence}\n");
     let object = serde_json::json!({"studies": studies});
     Ok(arguments.flags.print(Verdict::Pass, &object, &words)?)
-}
-
-fn planned_row(study: &Planned) -> Vec<String> {
-    let seconds = study.seconds;
-    vec![
-        study.id.clone(),
-        study.cases.to_string(),
-        seconds.map_or_else(|| "-".to_owned(), |seconds| format!("{seconds:.2}")),
-    ]
 }
 
 /// * `scope`: what is run; `root`: the folder of the project.

@@ -3,6 +3,7 @@
 
 use super::command::filled;
 use super::refine::Parameter;
+use crate::project::Template;
 
 /// A language of `new program`.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +84,17 @@ pub struct Begun {
     pub text: String,
 }
 
+/// The files of a template.
+pub fn of_template(template: &Template) -> Vec<Begun> {
+    let files = template.files.iter();
+    files
+        .map(|(ending, text)| Begun {
+            ending,
+            text: (*text).to_owned(),
+        })
+        .collect()
+}
+
 /// The study of a program in this language, and the program.
 pub fn in_language(language: &Language) -> Vec<Begun> {
     let study = STUDY
@@ -110,11 +122,8 @@ pub fn of_command(command: &str) -> Result<Vec<Begun>, String> {
     for word in &words {
         filled(word, &VALUES).map_err(|misread| misread.reason)?;
     }
-    let listed: Vec<String> = words
-        .iter()
-        .map(|word| serde_json::Value::from(word.as_str()).to_string())
-        .collect();
-    let list = format!("[{}]", listed.join(", "));
+    // A list of texts has the same form in JSON and in TOML.
+    let list = serde_json::Value::from(words).to_string();
     Ok(vec![Begun {
         ending: ".toml",
         text: include_str!("begin/command.toml").replace("COMMAND", &list),

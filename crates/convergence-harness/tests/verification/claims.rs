@@ -162,7 +162,7 @@ fn claims_of_studies_that_are_not_run_are_compared_too() {
     );
     assert!(
         sentence(&ran, Some(&changes))
-            .ends_with("; 1 study deleted, 1 claim changed, 1 not yet in the baseline")
+            .ends_with("; 1 study deleted, 1 claim changed, 1 study not yet in the baseline")
     );
     // The tier that runs a study blesses it.
     assert_eq!(

@@ -2,7 +2,7 @@
 
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::report::{Findings, LONGEST, sentence};
-use convergence_harness::run::Finished;
+use convergence_harness::run::{Finished, not_passed};
 use convergence_harness::store::{Baseline, Change, Movement, Record, junit};
 
 use super::fake::{Does, PROJECT, finished, study};
@@ -24,11 +24,14 @@ pub(super) fn several() -> Vec<Finished> {
 }
 
 pub(super) fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
-    compared(
-        finished,
-        Some(&Baseline::default().compare(finished, None)),
-        read,
-    )
+    let mut changes = Baseline::default().compare(finished, None);
+    // A baseline that has a number of a study that fails: without any, a report lists none.
+    changes.extend(not_passed(finished).first().map(|failing| Change {
+        study: failing.id().to_owned(),
+        name: "gone".to_owned(),
+        movement: Movement::Vanished { value: 1.0 },
+    }));
+    compared(finished, Some(&changes), read)
 }
 
 pub(super) fn compared<T>(
@@ -85,7 +88,7 @@ fn the_verdict_comes_first_and_every_study_has_its_section() {
     assert_eq!(
         lines[2],
         "**fail**: 2 of 5 fail (study-1.0, study-4.0), 2 of 5 inconclusive (study-2.0, study-3.0); \
-         3 not yet in the baseline"
+         1 baseline value changed, 3 numbers not yet in the baseline"
     );
     for part in [
         "- **pass** [study-0.0](#study-00): errors | fall < with \\*h\\* (",

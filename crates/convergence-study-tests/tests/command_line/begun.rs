@@ -121,7 +121,7 @@ fn a_study_of_a_command_needs_no_program_file() {
     for (arguments, words) in [
         (
             &["new", "manufacture", "bad", "--command", "x"][..],
-            "--command: found `new manufacture`; expected `new program`",
+            "--language, --command: found `new manufacture`; expected `new program`",
         ),
         (
             &["new", "program", "bad", "--language", "cobol"],

@@ -96,6 +96,25 @@ pub const CALLEES: [(&str, Callee, usize, usize); 35] = [
     ("integral", Callee::Operator(Operator::Integral), 2, 2),
 ];
 
+/// Functions that the language leaves out, with the reason.
+pub(crate) const LEFT_OUT: [(&str, &str); 9] = [
+    ("jump", INTERFACES),
+    ("mean", INTERFACES),
+    ("erf", SPECIAL),
+    ("erfc", SPECIAL),
+    ("gamma", SPECIAL),
+    ("besselj", SPECIAL),
+    ("real", COMPLEX),
+    ("imag", COMPLEX),
+    ("conj", COMPLEX),
+];
+
+const INTERFACES: &str = "interfaces are left out; write two files, or use `where`";
+
+const SPECIAL: &str = "special functions are left out; not every language has them";
+
+const COMPLEX: &str = "complex fields are left out; write real and imaginary part as two fields";
+
 /// The constants by name.
 pub const CONSTANTS: [(&str, f64); 2] = [("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
 

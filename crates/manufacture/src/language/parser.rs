@@ -1,7 +1,7 @@
 //! Parser from text to syntax tree, by precedence climbing.
 
 use super::error::SyntaxError;
-use super::names::{CALLEES, Callee, Function, nearest};
+use super::names::{CALLEES, Callee, Function, LEFT_OUT, nearest};
 use super::token::{Token, TokenKind, next_token};
 use super::tree::{Binary, Comparison, Kind, Tree};
 
@@ -147,6 +147,10 @@ impl Parser<'_> {
         let callee = CALLEES.iter().find(|entry| entry.0 == name);
         let is_called = self.token.kind == TokenKind::Symbol('(');
         let Some(&(name, callee, least, most)) = callee else {
+            let left_out = LEFT_OUT.iter().find(|entry| entry.0 == name);
+            if let (true, Some((name, reason))) = (is_called, left_out) {
+                return Err(self.error(token.start, format!("`{name}`: {reason}")));
+            }
             let near = nearest(&name, CALLEES.iter().map(|entry| entry.0));
             if let (true, Some(near)) = (is_called, near) {
                 let known: Vec<&str> = CALLEES.iter().map(|entry| entry.0).collect();

@@ -71,6 +71,10 @@ impl Problem {
             return Err(field.place.error(problem));
         }
         if let Some(field) = head.field("system") {
+            if field.string()? == "spherical" {
+                let problem = "spherical coordinates are left out; write the problem in others";
+                return Err(field.place.error(problem));
+            }
             let known = System::ALL.map(|system| system.0);
             self.system = one_of(&field, &System::ALL, &known)?;
         }

@@ -129,12 +129,11 @@ impl Law {
     /// The flexibility decreases from 0 (N → -∞) to -∞ (N → -1) and equals -ε exactly once.
     pub(super) fn buckling_below_minus_one(&self) -> Option<f64> {
         let Support { epsilon, .. } = self.support?;
-        let excess = |s: f64| epsilon + flexibility(1.0 / s);
         // The flexibility is about 1/s for large -s and -1/√-s near s = 0: the two ends bracket the
         // root.
         let far = -4.0 - 4.0 / epsilon;
         let near = -1e-3 * (1.0 + epsilon).powi(-2);
-        Some(bisect(excess, far, near))
+        Some(bisect(|s| epsilon + flexibility(1.0 / s), far, near))
     }
 
     /// Number of buckling values of this law strictly above s > 0.
@@ -151,11 +150,13 @@ impl Law {
     pub(super) fn mode(&self, s: f64) -> Shape {
         use crate::stumpff::{c0, c2};
         let q = 1.0 / s;
-        let [alpha, stress] = match self.support {
-            _ if s < 0.0 => [0.0, 1.0],
-            None => [1.0, 0.0],
+        let [alpha, stress] = if s < 0.0 {
+            [0.0, 1.0]
+        } else if self.support.is_none() {
+            [1.0, 0.0]
+        } else {
             // Null vector of the row φ(0) = 0; for the free beam c0 is zero here up to round-off.
-            Some(_) => [q * c2(q - 1.0), c0(q - 1.0)],
+            [q * c2(q - 1.0), c0(q - 1.0)]
         };
         Shape {
             q,
@@ -175,8 +176,8 @@ impl Law {
             let slope = self.determinant(1.0 / (s + step)) - self.determinant(1.0 / (s - step));
             (rotation * mode.alpha + stress * mode.stress, slope)
         } else {
-            let stress = |s: f64| self.solve(s).stress;
-            (stress(s + step) - stress(s - step), 1.0)
+            let change = self.solve(s + step).stress - self.solve(s - step).stress;
+            (change, 1.0)
         };
         if numerator * slope < 0.0 { -1.0 } else { 1.0 }
     }

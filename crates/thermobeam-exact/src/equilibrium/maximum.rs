@@ -11,20 +11,26 @@ const SECTIONS: usize = 90;
 ///   one of ε.
 pub(super) fn maximize(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let at = |x: f64| (x, f(x));
-    let (mut left, mut right) = (at(hi - ratio * (hi - lo)), at(lo + ratio * (hi - lo)));
+    let mut left = hi - ratio * (hi - lo);
+    let mut right = lo + ratio * (hi - lo);
+    let mut f_left = f(left);
+    let mut f_right = f(right);
     for _ in 0..SECTIONS {
-        if left.1 > right.1 {
-            hi = right.0;
+        if f_left > f_right {
+            hi = right;
             right = left;
-            left = at(hi - ratio * (hi - lo));
+            f_right = f_left;
+            left = hi - ratio * (hi - lo);
+            f_left = f(left);
         } else {
-            lo = left.0;
+            lo = left;
             left = right;
-            right = at(lo + ratio * (hi - lo));
+            f_left = f_right;
+            right = lo + ratio * (hi - lo);
+            f_right = f(right);
         }
     }
-    left
+    (left, f_left)
 }
 
 #[cfg(test)]

@@ -203,7 +203,7 @@ pub fn equilibria(
 ) -> Result<Vec<Equilibrium>, EquilibriumError> {
     beam.validate()?;
     obstacles.map_or(Ok(()), Obstacles::validate)?;
-    let mut found = Vec::new();
+    let mut consistent = Vec::new();
     for (contact, law) in laws(beam, obstacles) {
         let branch = Branch {
             contact,
@@ -211,18 +211,18 @@ pub fn equilibria(
             held_tip: held_tip(obstacles),
         };
         let states = branch.states()?;
-        found.extend(
+        consistent.extend(
             states
                 .into_iter()
                 .filter(|state| is_consistent(state, obstacles)),
         );
     }
-    found.sort_by(|a, b| {
+    consistent.sort_by(|a, b| {
         a.u_tip
             .total_cmp(&b.u_tip)
             .then(a.n_value.total_cmp(&b.n_value))
     });
-    Ok(found)
+    Ok(consistent)
 }
 
 fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
@@ -234,11 +234,10 @@ fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
     };
     let mut laws = vec![(Phase::Free, free)];
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
-        let on = |position| Law {
-            support: Some(Support { epsilon, position }),
-            ..free
-        };
-        laws.extend([(Phase::Upper, on(g2)), (Phase::Lower, on(g1))]);
+        for (contact, position) in [(Phase::Upper, g2), (Phase::Lower, g1)] {
+            let support = Some(Support { epsilon, position });
+            laws.push((contact, Law { support, ..free }));
+        }
     }
     laws
 }

@@ -26,11 +26,10 @@ pub(super) fn polish(law: &Law, start: Shape) -> Shape {
     if start.is_line() {
         return start;
     }
-    let residual = |v: [f64; 3]| residual(law, v);
     let mut state = [1.0 / start.q, start.alpha, start.stress];
     let mut bound = LARGEST_FIRST_STEP;
     for _ in 0..STEPS {
-        let Some(step) = newton_step(&residual, state) else {
+        let Some(step) = newton_step(law, state) else {
             break;
         };
         let size = relative_size(step, state);
@@ -76,7 +75,7 @@ fn residual(law: &Law, v: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Option<[f64; 3]> {
+fn newton_step(law: &Law, state: [f64; 3]) -> Option<[f64; 3]> {
     let bending = state[1].abs().max(state[2].abs());
     let mut jacobian = [[0.0; 3]; 3];
     for (column, scale) in [state[0].abs(), bending, bending].into_iter().enumerate() {
@@ -84,13 +83,14 @@ fn newton_step(residual: &impl Fn([f64; 3]) -> [f64; 3], state: [f64; 3]) -> Opt
         let (mut up, mut down) = (state, state);
         up[column] += h;
         down[column] -= h;
-        let (up_residual, down_residual) = (residual(up), residual(down));
+        let up_residual = residual(law, up);
+        let down_residual = residual(law, down);
         for row in 0..3 {
             jacobian[row][column] =
                 (up_residual[row] - down_residual[row]) / (up[column] - down[column]);
         }
     }
-    solve(jacobian, residual(state))
+    solve(jacobian, residual(law, state))
 }
 
 /// Solves a 3 x 3 system by Cramer's rule; `None` if it is singular.

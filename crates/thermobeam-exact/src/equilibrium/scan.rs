@@ -66,6 +66,16 @@ enum Endpoint {
     Regular(f64),
 }
 
+impl Endpoint {
+    /// The point itself, or one next to the pole on the given side.
+    fn inside(self, side: f64) -> f64 {
+        match self {
+            Self::Regular(s) => s,
+            Self::Buckling(s) => s + side * POLE_GAP * s.abs(),
+        }
+    }
+}
+
 /// f is a function of `s = 1 + N`; all of this is for ρ > 0.
 impl Law {
     /// All roots N > -1 above the `count`-th buckling value, in decreasing order.
@@ -116,53 +126,54 @@ impl Law {
 
     /// The roots of f in an interval in which it is concave, with `above` poles above the interval.
     fn interval(&self, lo: Endpoint, hi: Endpoint, above: Option<usize>) -> Vec<Root> {
-        let inside = |end: Endpoint, side: f64| match end {
-            Endpoint::Regular(s) => s,
-            Endpoint::Buckling(s) => s + side * POLE_GAP * s.abs(),
-        };
-        let (a, b) = (inside(lo, 1.0), inside(hi, -1.0));
-        let (left, right) = (self.f(a) > 0.0, self.f(b) > 0.0);
-        let rising = |position| Root {
+        let a = lo.inside(1.0);
+        let b = hi.inside(-1.0);
+        let is_positive = [a, b].map(|s| self.f(s) > 0.0);
+        // Where f rises through 0, and where it falls.
+        let mut rise = None;
+        let mut fall = None;
+        let mut fold = false;
+        match is_positive {
+            [true, true] => {
+                rise = self.at_pole(lo, 1.0);
+                fall = self.at_pole(hi, -1.0);
+            }
+            [false, true] => {
+                rise = Some(self.between(a, b));
+                fall = self.at_pole(hi, -1.0);
+            }
+            [true, false] => {
+                rise = self.at_pole(lo, 1.0);
+                fall = Some(self.between(a, b));
+            }
+            [false, false] => match self.maximum(a, b) {
+                (Ordering::Greater, s) => {
+                    rise = Some(self.between(a, s));
+                    fall = Some(self.between(s, b));
+                }
+                (Ordering::Equal, s) => {
+                    fall = Some(Position::Between(s));
+                    fold = true;
+                }
+                (Ordering::Less, _) => {}
+            },
+        }
+        let rise = rise.map(|position| Root {
             position,
             unstable_directions: above,
             fold: false,
-        };
-        let falling = |position| Root {
+        });
+        let fall = fall.map(|position| Root {
             position,
             unstable_directions: above.map(|n| n.saturating_sub(1)),
-            fold: false,
-        };
-        let between = |a, b| Position::Between(bisect(|s| self.f(s), a, b));
-        match (left, right) {
-            (true, true) => [
-                self.at_pole(lo, 1.0).map(rising),
-                self.at_pole(hi, -1.0).map(falling),
-            ],
-            (false, true) => [
-                Some(rising(between(a, b))),
-                self.at_pole(hi, -1.0).map(falling),
-            ],
-            (true, false) => [
-                self.at_pole(lo, 1.0).map(rising),
-                Some(falling(between(a, b))),
-            ],
-            (false, false) => match self.maximum(a, b) {
-                (Ordering::Greater, s) => {
-                    [Some(rising(between(a, s))), Some(falling(between(s, b)))]
-                }
-                (Ordering::Equal, s) => [
-                    Some(Root {
-                        fold: true,
-                        ..falling(Position::Between(s))
-                    }),
-                    None,
-                ],
-                (Ordering::Less, _) => [None, None],
-            },
-        }
-        .into_iter()
-        .flatten()
-        .collect()
+            fold,
+        });
+        rise.into_iter().chain(fall).collect()
+    }
+
+    /// The root of f between two points at which it has opposite signs.
+    fn between(&self, a: f64, b: f64) -> Position {
+        Position::Between(bisect(|s| self.f(s), a, b))
     }
 
     /// The root between a pole and the point next to it: f > 0 there, and f → -∞ at the pole.
@@ -175,14 +186,12 @@ impl Law {
 
     /// How the maximum of f on [a, b] compares with 0, to round-off, and its position.
     fn maximum(&self, a: f64, b: f64) -> (Ordering, f64) {
-        let round_off = |s: f64| {
-            let tension = self.rho * self.solve(s).slope_squared();
-            FOLD * (s.abs() + (1.0 + self.beta).abs() + tension)
-        };
         let (s, value) = maximize(|s| self.f(s), a, b);
-        let sign = if value > round_off(s) {
+        let tension = self.rho * self.solve(s).slope_squared();
+        let round_off = FOLD * (s.abs() + (1.0 + self.beta).abs() + tension);
+        let sign = if value > round_off {
             Ordering::Greater
-        } else if value >= -round_off(s) {
+        } else if value >= -round_off {
             Ordering::Equal
         } else {
             Ordering::Less

@@ -122,17 +122,22 @@ impl Node {
         Node::Call2(function, Box::new(arguments)).folded()
     }
 
+    fn is_constant(&self) -> bool {
+        matches!(self, Node::Constant(_))
+    }
+
     /// A constant if all operands are constants.
     ///
     /// Otherwise sqrt(0) would have the derivative 0 · ∞ instead of 0.
     fn folded(self) -> Self {
-        let constant = |node: &Node| matches!(node, Node::Constant(_));
         let fold = match &self {
             Node::Constant(_) | Node::Variable => false,
             Node::Negate(operand) | Node::ConstantPower(operand, _) | Node::Call1(_, operand) => {
-                constant(operand)
+                operand.is_constant()
             }
-            Node::Binary(_, operands) | Node::Call2(_, operands) => operands.iter().all(constant),
+            Node::Binary(_, operands) | Node::Call2(_, operands) => {
+                operands.iter().all(Node::is_constant)
+            }
         };
         if fold {
             Node::Constant(self.eval(0.0))

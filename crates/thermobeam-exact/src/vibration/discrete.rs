@@ -75,7 +75,7 @@ pub fn discrete_frequencies_until<E>(
     }
     let highest = spectral_bound(&lengths, degree);
     let mut stopped = None;
-    let mut below = |index: usize| {
+    let mut find = |index: usize| {
         // Positive if more than `index` frequencies lie below omega.
         let excess = |omega: f64| {
             if stopped.is_none() {
@@ -88,10 +88,10 @@ pub fn discrete_frequencies_until<E>(
                 -1.0
             }
         };
-        let found = bisect(excess, 0.0, highest);
-        stopped.take().map_or(Ok(found), Err)
+        let omega = bisect(excess, 0.0, highest);
+        stopped.take().map_or(Ok(omega), Err)
     };
-    Ok((0..count).map(&mut below).collect())
+    Ok((0..count).map(&mut find).collect())
 }
 
 /// An upper bound of all ω: `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`, and on each element
@@ -137,23 +137,20 @@ struct Element {
 impl Element {
     fn new(h: f64, degree: usize, lambda: f64) -> Self {
         let blocks = degree + 1;
-        let entry = |place: usize| {
-            let (i, j) = (place / blocks, place % blocks);
-            let (mass, stiffness) = (
-                0.5 * h * element::mass(i, j),
-                2.0 / h * element::stiffness(i, j),
-            );
-            // ‖u_x - φ‖²: u of the row with φ of the column, -(N_j, N_i').
-            let shear = [element::coupling(i, j), element::coupling(j, i)];
-            [
-                [stiffness - lambda * mass, -shear[0]],
-                [-shear[1], stiffness + mass - lambda * mass],
-            ]
-        };
-        Self {
-            blocks,
-            entries: (0..blocks * blocks).map(entry).collect(),
+        let mut entries = Vec::with_capacity(blocks * blocks);
+        for i in 0..blocks {
+            for j in 0..blocks {
+                let mass = 0.5 * h * element::mass(i, j);
+                let stiffness = 2.0 / h * element::stiffness(i, j);
+                // ‖u_x - φ‖²: u of the row with φ of the column, -(N_j, N_i').
+                let shear = [element::coupling(i, j), element::coupling(j, i)];
+                entries.push([
+                    [stiffness - lambda * mass, -shear[0]],
+                    [-shear[1], stiffness + mass - lambda * mass],
+                ]);
+            }
         }
+        Self { blocks, entries }
     }
 
     /// Eliminates degrees p to 2. Returns how many of the pivots' eigenvalues are negative.

@@ -83,11 +83,15 @@ pub fn frequencies(count: usize) -> Vec<f64> {
 
 /// The frequency with index 0, 1, ..., with an error of a few units of round-off.
 fn frequency(index: usize) -> f64 {
-    let excess = |s: f64| s.cos().abs() - (s / e(s)).cos() / e(s);
     // There is no root below s = 1, where the quotient has a zero at ω = 1 (s = 1/√2) that the
     // determinant does not have.
     let (from, to) = (FRAC_PI_2 * index as f64, FRAC_PI_2 * (index + 1) as f64);
-    let e = e(bisect(excess, from.max(1.0), to));
+    let root = bisect(
+        |s| s.cos().abs() - (s / e(s)).cos() / e(s),
+        from.max(1.0),
+        to,
+    );
+    let e = e(root);
     0.5 * (e + 1.0 / e)
 }
 
@@ -146,8 +150,8 @@ impl Mode {
 
     /// U' at x.
     pub fn u_x(&self, x: f64) -> f64 {
-        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) =
-            (self.waves(x), squares(self.omega));
+        let [[c_plus, s_plus], [c_minus, s_minus]] = self.waves(x);
+        let [plus, minus] = squares(self.omega);
         self.a * ((1.0 - self.omega) * c_plus - (1.0 + self.omega) * c_minus)
             + self.b * (minus * s_minus - plus * s_plus)
     }
@@ -160,8 +164,8 @@ impl Mode {
 
     /// Φ' at x.
     pub fn phi_x(&self, x: f64) -> f64 {
-        let ([[c_plus, s_plus], [c_minus, s_minus]], [plus, minus]) =
-            (self.waves(x), squares(self.omega));
+        let [[c_plus, s_plus], [c_minus, s_minus]] = self.waves(x);
+        let [plus, minus] = squares(self.omega);
         self.a * (minus * s_minus - plus * s_plus) + self.b * self.omega * (c_plus + c_minus)
     }
 

@@ -113,31 +113,41 @@ pub(super) fn bounds(
     obstacles: &Obstacles,
 ) -> [Option<(Polynomial, Phase)>; 2] {
     let Obstacles { g1, g2, .. } = *obstacles;
-    let above = |g: f64| {
-        let mut distance = *tip;
-        distance.coefficients[0] -= g;
-        distance
-    };
-    let below = |g: f64| {
-        let mut distance = above(g);
-        distance.coefficients.iter_mut().for_each(|c| *c = -*c);
-        distance
-    };
     let narrow = g1 == g2;
     match phase {
         Phase::Free => [
-            Some((below(g2), Phase::Upper)),
-            Some((above(g1), Phase::Lower)),
+            Some((depth_below(tip, g2), Phase::Upper)),
+            Some((height_above(tip, g1), Phase::Lower)),
         ],
         Phase::Upper => [
-            Some((above(g2), if narrow { Phase::Lower } else { Phase::Free })),
+            Some((
+                height_above(tip, g2),
+                if narrow { Phase::Lower } else { Phase::Free },
+            )),
             None,
         ],
         Phase::Lower => [
-            Some((below(g1), if narrow { Phase::Upper } else { Phase::Free })),
+            Some((
+                depth_below(tip, g1),
+                if narrow { Phase::Upper } else { Phase::Free },
+            )),
             None,
         ],
     }
+}
+
+/// `u(1) - g`.
+fn height_above(tip: &Polynomial, g: f64) -> Polynomial {
+    let mut height = *tip;
+    height.coefficients[0] -= g;
+    height
+}
+
+/// `g - u(1)`.
+fn depth_below(tip: &Polynomial, g: f64) -> Polynomial {
+    let mut depth = height_above(tip, g);
+    depth.coefficients.iter_mut().for_each(|c| *c = -*c);
+    depth
 }
 
 #[cfg(test)]

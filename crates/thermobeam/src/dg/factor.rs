@@ -9,7 +9,7 @@ use super::block::{
     subtract_matrix_product, subtract_product, zero,
 };
 use super::operator::Operator;
-use super::space::{Coupling, Space, degrees};
+use super::space::{Space, degrees};
 use crate::error::StepFailure;
 
 /// Lengths equal up to rounding errors share an elimination; the residual, which decides, uses each
@@ -70,10 +70,11 @@ pub(super) struct Factor<const S: usize> {
 impl<const S: usize> Factor<S> {
     /// Allocates the factorisations of a space.
     pub(super) fn new(space: &Space) -> Self {
-        let (mut insides, mut kinds): (Vec<Inside<S>>, _) = (vec![], vec![]);
+        let mut insides: Vec<Inside<S>> = vec![];
+        let mut kinds = vec![];
         for &length in &space.lengths {
-            let same = |inside: &Inside<S>| (inside.length - length).abs() <= SAME_LENGTH * length;
-            let kind = insides.iter().position(same).unwrap_or_else(|| {
+            let known = insides.iter().position(|inside| inside.has_length(length));
+            let kind = known.unwrap_or_else(|| {
                 insides.push(Inside::new(space.degree(), length));
                 insides.len() - 1
             });
@@ -127,12 +128,9 @@ impl<const S: usize> Factor<S> {
                 .iter()
                 .position(|kind| *kind == index)
                 .unwrap_or(0);
-            let lost = |pivot| StepFailure::Indefinite {
-                node,
-                pivot,
-                n_value,
-            };
-            inside.factorize(space, operator).map_err(lost)?;
+            inside
+                .factorize(space, operator)
+                .map_err(indefinite(node, n_value))?;
         }
         let tip = space.tip();
         for node in 1..=tip {
@@ -155,18 +153,13 @@ impl<const S: usize> Factor<S> {
             if node > 1 {
                 subtract_matrix_product(&mut pivot, &left, &self.nodes[node - 1].right);
             }
-            let lost = |pivot| StepFailure::Indefinite {
-                node,
-                pivot,
-                n_value,
-            };
             if node == tip {
                 self.tip = [pivot, pivot];
                 operator.add_contact(&mut self.tip[1]);
-                invert(&mut self.tip[0]).map_err(lost)?;
-                invert(&mut self.tip[1]).map_err(lost)?;
+                invert(&mut self.tip[0]).map_err(indefinite(node, n_value))?;
+                invert(&mut self.tip[1]).map_err(indefinite(node, n_value))?;
             } else {
-                invert(&mut pivot).map_err(lost)?;
+                invert(&mut pivot).map_err(indefinite(node, n_value))?;
             }
             self.nodes[node] = Node {
                 inverse: pivot,
@@ -212,24 +205,33 @@ impl<const S: usize> Factor<S> {
     }
 }
 
+/// The failure of a step at a node, from the pivot there.
+fn indefinite(node: usize, n_value: f64) -> impl Fn(f64) -> StepFailure {
+    move |pivot| StepFailure::Indefinite {
+        node,
+        pivot,
+        n_value,
+    }
+}
+
 impl<const S: usize> Inside<S> {
+    fn has_length(&self, length: f64) -> bool {
+        (self.length - length).abs() <= SAME_LENGTH * length
+    }
+
     fn new(degree: usize, length: f64) -> Self {
         let link = Link {
             inverse: zero(),
             towards: zero(),
             back: zero(),
         };
-        let chain = || Chain {
-            links: vec![link.clone(); (degree / 2).saturating_sub(1)],
+        let chain = Chain {
+            links: vec![link; (degree / 2).saturating_sub(1)],
             inverse: zero(),
             towards: [zero(); 2],
             back: [zero(); 2],
         };
-        let chains = if degree >= 2 {
-            vec![chain(), chain()]
-        } else {
-            vec![]
-        };
+        let chains = if degree >= 2 { vec![chain; 2] } else { vec![] };
         Self {
             length,
             chains,
@@ -317,11 +319,10 @@ fn matrix_between<const S: usize>(
     row: usize,
     column: usize,
 ) -> Matrix<S> {
-    let here = |coupling: &&Coupling| coupling.row == row && coupling.column == column;
     space
         .couplings
         .iter()
-        .find(here)
+        .find(|coupling| coupling.row == row && coupling.column == column)
         .map_or(zero(), |coupling| operator.between(coupling, length))
 }
 

@@ -26,19 +26,12 @@ pub(super) fn derivatives_into(values: &[f64], derivatives: &mut [f64]) {
 
 /// Points and weights on [-1, 1] that integrate polynomials of degree 2 `count` - 1 exactly.
 pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
-    // P_count and its derivative.
-    let last = |x: f64| {
-        let (mut values, mut derivatives) = (vec![0.0; count + 1], vec![0.0; count + 1]);
-        values_into(x, &mut values);
-        derivatives_into(&values, &mut derivatives);
-        (values[count], derivatives[count])
-    };
     let half = (1..=count / 2).map(|i| {
         // Newton's method from Tricomi's estimate reaches round-off within four steps for every
         // count.
         let mut x = (std::f64::consts::PI * (i as f64 - 0.25) / (count as f64 + 0.5)).cos();
         for _ in 0..6 {
-            let (value, slope) = last(x);
+            let (value, slope) = value_and_slope(count, x);
             x -= value / slope;
         }
         x
@@ -48,11 +41,25 @@ pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
         points.push(0.0);
     }
     points.sort_by(f64::total_cmp);
-    let weight = |x: f64| {
-        let (_, slope) = last(x);
-        2.0 / ((1.0 - x * x) * slope * slope)
-    };
-    points.into_iter().map(|x| (x, weight(x))).collect()
+    points
+        .into_iter()
+        .map(|x| (x, gauss_weight(count, x)))
+        .collect()
+}
+
+/// The weight of a Gauss point x.
+fn gauss_weight(count: usize, x: f64) -> f64 {
+    let (_, slope) = value_and_slope(count, x);
+    2.0 / ((1.0 - x * x) * slope * slope)
+}
+
+/// P_n(x) and P_n'(x).
+fn value_and_slope(n: usize, x: f64) -> (f64, f64) {
+    let mut values = vec![0.0; n + 1];
+    let mut derivatives = vec![0.0; n + 1];
+    values_into(x, &mut values);
+    derivatives_into(&values, &mut derivatives);
+    (values[n], derivatives[n])
 }
 
 /// `Σ_j c_j L_j(s)`, with `L_j(s) = P_j(2s - 1)` the Legendre polynomials of [0, 1].

@@ -39,8 +39,11 @@ impl Dg {
         if t == self.level.t {
             return Some(self.level.value_and_slope(&self.space, field, x).0);
         }
-        let at = |block, place| self.stages.coefficient(field, block, place).at(s);
-        Some(self.space.evaluate(field, &self.space.locate(x), at).0)
+        let point = self.space.locate(x);
+        let (value, _) = self.space.evaluate(field, &point, |block, place| {
+            self.stages.coefficient(field, block, place).at(s)
+        });
+        Some(value)
     }
 
     /// The physical temperature, including the lifting, at x and at a time in the last step; `None`
@@ -70,15 +73,15 @@ impl Dg {
     pub fn energy(&self, level: &DgLevel) -> Energy {
         let (space, beam) = (&self.space, &self.beam);
         let (places, rates) = (&level.places, &level.rates);
-        let moving = |b: usize| [rates[b][0], rates[b][1], 0.0];
-        let warm = |b: usize| [0.0, 0.0, rates[b][2]];
+        let velocities = |b: usize| [rates[b][0], rates[b][1], 0.0];
+        let temperatures = |b: usize| [0.0, 0.0, rates[b][2]];
         let stretch = space.stiffness(|b| places[b][0], |b| places[b][0]);
         let tip = places[space.tip()][0];
         Energy {
-            kinetic: 0.5 * space.mass(moving, moving),
+            kinetic: 0.5 * space.mass(velocities, velocities),
             shear: 0.5 * space.shear(|b| places[b], |b| places[b]),
             bending: 0.5 * space.bending(|b| places[b][1], |b| places[b][1]),
-            thermal: 0.5 * space.mass(warm, warm),
+            thermal: 0.5 * space.mass(temperatures, temperatures),
             kirchhoff: beam.kirchhoff_energy(stretch),
             contact: self
                 .obstacles

@@ -37,8 +37,7 @@ impl<const S: usize> Operator<S> {
         compliance: f64,
     ) -> Self {
         let (integral, product) = (&forms.integral, &forms.product);
-        let times = |factor: f64| integral.map(|row| row.map(|entry| factor * entry));
-        let mut elastic = times(h * h);
+        let mut elastic = scaled(integral, h * h);
         for (i, row) in elastic.iter_mut().enumerate() {
             row[i] += h * beam.zeta * product[i];
         }
@@ -50,10 +49,8 @@ impl<const S: usize> Operator<S> {
         {
             *axial += h * h * n_value * integral;
         }
-        let (contact, heat) = (
-            times(h * h / compliance),
-            product.map(|product| h * product),
-        );
+        let contact = scaled(integral, h * h / compliance);
+        let heat = product.map(|product| h * product);
         Self {
             inertia: forms.derivative,
             elastic,
@@ -94,4 +91,8 @@ impl<const S: usize> Operator<S> {
             }
         }
     }
+}
+
+fn scaled<const S: usize>(matrix: &[[f64; S]; S], factor: f64) -> [[f64; S]; S] {
+    matrix.map(|row| row.map(|entry| factor * entry))
 }

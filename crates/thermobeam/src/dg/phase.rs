@@ -147,12 +147,13 @@ impl Dg {
         if self.last_phase != self.phase || self.last_dt == 0.0 {
             return [None; 2];
         }
-        let of_force = |(_, next)| PhaseBound {
-            distance: self.pressure(),
-            slack: self.rounding_of_force(h),
-            next,
-        };
-        of_position.map(|bound| bound.map(of_force))
+        of_position.map(|bound| {
+            bound.map(|(_, next)| PhaseBound {
+                distance: self.pressure(),
+                slack: self.rounding_of_force(h),
+                next,
+            })
+        })
     }
 
     /// Where the step just found, of length h, first leaves its phase, and the phase that it

@@ -29,12 +29,11 @@ pub struct InitialFunctions {
 impl InitialFunctions {
     /// A straight beam at rest, with the steady temperature θ_A (1 - x).
     pub fn at_rest(theta_a: f64) -> Self {
-        let zero = || Box::new(|_: f64| 0.0);
         Self {
-            u: zero(),
-            u_t: zero(),
-            phi: zero(),
-            phi_t: zero(),
+            u: Box::new(|_| 0.0),
+            u_t: Box::new(|_| 0.0),
+            phi: Box::new(|_| 0.0),
+            phi_t: Box::new(|_| 0.0),
             theta: Box::new(move |x| theta_a * (1.0 - x)),
         }
     }
@@ -160,7 +159,8 @@ pub(super) fn initial_level(
         ("theta", Field::Theta, &lifted),
     ];
     for (name, field, f) in fields {
-        let (mut bad, mut scale) = (None, 0.0_f64);
+        let mut bad = None;
+        let mut scale = 0.0_f64;
         space.project(field, f, |element, block, place, value| {
             if !value.is_finite() {
                 bad.get_or_insert((element, value));

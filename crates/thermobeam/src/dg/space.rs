@@ -296,24 +296,19 @@ impl Space {
 
 /// The coupling of two blocks of the reference element, if any.
 fn coupling(row: usize, column: usize, degree: usize) -> Option<Coupling> {
-    let ([u_row, phi_row], [u_column, phi_column]) =
-        (degrees(row, degree), degrees(column, degree));
-    let of = |matrix: fn(usize, usize) -> f64, i: Option<usize>, j: Option<usize>| match (i, j) {
-        (Some(i), Some(j)) => matrix(i, j),
-        _ => 0.0,
-    };
-    let transposed = |i, j| element::coupling(j, i);
+    let [u_row, phi_row] = degrees(row, degree);
+    let [u_column, phi_column] = degrees(column, degree);
     let coupling = Coupling {
         row,
         column,
-        mass_u: of(element::mass, u_row, u_column),
-        mass_phi: of(element::mass, phi_row, phi_column),
-        stiff_u: of(element::stiffness, u_row, u_column),
-        stiff_phi: of(element::stiffness, phi_row, phi_column),
-        u_phi: of(element::coupling, u_row, phi_column),
-        phi_u: of(transposed, phi_row, u_column),
-        phi_theta: of(element::coupling, phi_row, u_column),
-        theta_phi: of(transposed, u_row, phi_column),
+        mass_u: entry(element::mass, u_row, u_column),
+        mass_phi: entry(element::mass, phi_row, phi_column),
+        stiff_u: entry(element::stiffness, u_row, u_column),
+        stiff_phi: entry(element::stiffness, phi_row, phi_column),
+        u_phi: entry(element::coupling, u_row, phi_column),
+        phi_u: entry(transposed_coupling, phi_row, u_column),
+        phi_theta: entry(element::coupling, phi_row, u_column),
+        theta_phi: entry(transposed_coupling, u_row, phi_column),
     };
     let Coupling {
         mass_u,
@@ -333,6 +328,15 @@ fn coupling(row: usize, column: usize, degree: usize) -> Option<Coupling> {
         .iter()
         .any(|entry| *entry != 0.0)
         .then_some(coupling)
+}
+
+/// The entry of a matrix of the reference element; zero where a function does not exist.
+fn entry(matrix: fn(usize, usize) -> f64, i: Option<usize>, j: Option<usize>) -> f64 {
+    i.zip(j).map_or(0.0, |(i, j)| matrix(i, j))
+}
+
+fn transposed_coupling(i: usize, j: usize) -> f64 {
+    element::coupling(j, i)
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ pub(super) trait Stages: Send {
     fn solve(
         &mut self,
         task: &Equations<'_>,
-        by: &DgStepping,
+        stepping: &DgStepping,
         load: Option<&mut Load>,
     ) -> Result<usize, StepFailure>;
     /// u(1, t).
@@ -70,12 +70,37 @@ struct Slot<const S: usize> {
     factor: Factor<S>,
 }
 
+impl<const S: usize> Slot<S> {
+    fn unused(factor: Factor<S>) -> Self {
+        Self {
+            h: 0.0,
+            n_value: 0.0,
+            used: 0,
+            factor,
+        }
+    }
+
+    /// The relative difference of its length from h.
+    fn distance(&self, h: f64) -> f64 {
+        (self.h / h - 1.0).abs()
+    }
+}
+
 /// The polynomials of one step.
 struct Polynomials<const S: usize> {
     /// v, w, θ~.
     x: Vec<Block<S>>,
     /// u and φ, among others.
     terms: Vec<Terms<S>>,
+}
+
+impl<const S: usize> Polynomials<S> {
+    fn zero(blocks: usize) -> Self {
+        Self {
+            x: vec![[[0.0; S]; 3]; blocks],
+            terms: vec![Terms::ZERO; blocks],
+        }
+    }
 }
 
 /// [`Stages`] for q = S - 1.
@@ -104,27 +129,17 @@ impl<const S: usize> DgStepper<S> {
     /// loads.
     pub(super) fn new(space: &Space, lengths: usize, loaded: bool) -> Self {
         let blocks = space.blocks();
-        let motion = || Polynomials {
-            x: vec![[[0.0; S]; 3]; blocks],
-            terms: vec![Terms::ZERO; blocks],
-        };
         let factor = Factor::new(space);
         let affordable = (FACTOR_BYTES / factor.bytes()).max(2);
-        let slot = || Slot {
-            h: 0.0,
-            n_value: 0.0,
-            used: 0,
-            factor: factor.clone(),
-        };
         Self {
             forms: TimeForms::new(),
-            trial: motion(),
-            accepted: motion(),
+            trial: Polynomials::zero(blocks),
+            accepted: Polynomials::zero(blocks),
             jumps: vec![[0.0; 3]; blocks],
             residual: vec![[[0.0; S]; 3]; blocks],
             weights: space.diagonal_mass(),
             slots: (0..affordable.min(lengths + SPARE))
-                .map(|_| slot())
+                .map(|_| Slot::unused(factor.clone()))
                 .collect(),
             forcing: loaded.then(|| Forcing::new(blocks)),
             contact_force: [0.0; S],
@@ -139,10 +154,9 @@ impl<const S: usize> DgStepper<S> {
     /// least recently used.
     fn slot(&mut self, task: &Equations<'_>, n_value: f64) -> Result<usize, StepFailure> {
         self.clock += 1;
-        let near = |slot: &Slot<S>| (slot.h / task.h - 1.0).abs();
-        let best = (0..self.slots.len())
-            .min_by(|&i, &j| near(&self.slots[i]).total_cmp(&near(&self.slots[j])));
-        let index = match best.filter(|&index| near(&self.slots[index]) <= SAME_LENGTH) {
+        let distance = |index: usize| self.slots[index].distance(task.h);
+        let best = (0..self.slots.len()).min_by(|&i, &j| distance(i).total_cmp(&distance(j)));
+        let index = match best.filter(|&index| distance(index) <= SAME_LENGTH) {
             Some(index) => index,
             None => {
                 let index = (0..self.slots.len())
@@ -334,7 +348,7 @@ impl<const S: usize> Stages for DgStepper<S> {
     fn solve(
         &mut self,
         task: &Equations<'_>,
-        by: &DgStepping,
+        stepping: &DgStepping,
         load: Option<&mut Load>,
     ) -> Result<usize, StepFailure> {
         if let Some((forcing, load)) = self.forcing.as_mut().zip(load) {
@@ -342,9 +356,9 @@ impl<const S: usize> Stages for DgStepper<S> {
         }
         let mut last = Iteration::START;
         let mut replaced = false;
-        while last.number < by.max_iterations {
+        while last.number < stepping.max_iterations {
             last = self.iterate(task, &last)?;
-            if last.has_converged(by.tolerance) {
+            if last.has_converged(stepping.tolerance) {
                 task.displace(&self.trial.x, &mut self.trial.terms);
                 self.increment = last.increment;
                 return Ok(last.number);
@@ -357,7 +371,7 @@ impl<const S: usize> Stages for DgStepper<S> {
             }
         }
         Err(StepFailure::IterationLimit {
-            iterations: by.max_iterations,
+            iterations: stepping.max_iterations,
             increment: last.increment,
             contraction: last.contraction,
         })
@@ -377,19 +391,13 @@ impl<const S: usize> Stages for DgStepper<S> {
 
     fn accept(&mut self, start: &DgLevel) {
         std::mem::swap(&mut self.trial, &mut self.accepted);
-        let at_start = |y: &[f64; S]| {
-            y.iter()
-                .zip(&self.forms.start)
-                .map(|(y, sign)| y * sign)
-                .sum::<f64>()
-        };
         for ((jump, x), start) in self
             .jumps
             .iter_mut()
             .zip(&self.accepted.x)
             .zip(&start.rates)
         {
-            *jump = std::array::from_fn(|field| at_start(&x[field]) - start[field]);
+            *jump = std::array::from_fn(|field| self.forms.at_start(&x[field]) - start[field]);
         }
     }
 
@@ -424,8 +432,7 @@ impl<const S: usize> Stages for DgStepper<S> {
             losses.viscous += duration * beam.zeta * viscous[i];
             losses.thermal += duration * thermal[i];
         }
-        let jump = |block: usize| self.jumps[block];
-        losses.inertial = 0.5 * space.mass(jump, jump);
+        losses.inertial = 0.5 * space.mass(|block| self.jumps[block], |block| self.jumps[block]);
         if let Some(forcing) = &self.forcing {
             for (stage, moments) in forcing.moments.iter().enumerate() {
                 for (moment, x) in moments.iter().zip(x) {

@@ -41,21 +41,35 @@ pub(super) const MAX_STAGES: usize = 6;
 
 /// `count` Gauss points on [0, 1].
 pub(super) fn gauss_points(count: usize) -> Vec<GaussPoint> {
-    let point = |(xi, weight): (f64, f64)| {
-        let mut values = [0.0; MAX_STAGES + 1];
-        legendre::values_into(xi, &mut values);
-        GaussPoint {
-            s: 0.5 * (1.0 + xi),
-            weight: 0.5 * weight,
-            legendre: values,
-        }
-    };
-    legendre::gauss(count).into_iter().map(point).collect()
+    legendre::gauss(count)
+        .into_iter()
+        .map(|(xi, weight)| gauss_point(xi, weight))
+        .collect()
+}
+
+/// The point of [0, 1] for a Gauss point ξ of [-1, 1].
+fn gauss_point(xi: f64, weight: f64) -> GaussPoint {
+    let mut values = [0.0; MAX_STAGES + 1];
+    legendre::values_into(xi, &mut values);
+    GaussPoint {
+        s: 0.5 * (1.0 + xi),
+        weight: 0.5 * weight,
+        legendre: values,
+    }
+}
+
+/// `L_i(0) = (-1)^i`.
+fn sign(i: usize) -> f64 {
+    if i.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 impl<const S: usize> TimeForms<S> {
+    /// A polynomial at the start of the step.
+    pub(super) fn at_start(&self, y: &[f64; S]) -> f64 {
+        y.iter().zip(&self.start).map(|(y, sign)| y * sign).sum()
+    }
+
     pub(super) fn new() -> Self {
-        let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let product: [f64; S] = std::array::from_fn(|i| 1.0 / (2 * i + 1) as f64);
         let derivative: [[f64; S]; S] = std::array::from_fn(|i| {
             // ∫ L_j' L_i = [L_j L_i] for j > i, 0 otherwise.
@@ -68,7 +82,8 @@ impl<const S: usize> TimeForms<S> {
             }
         }
         let derivative_columns = std::array::from_fn(|j| derivative.map(|row| row[j]));
-        let (start, gauss) = (std::array::from_fn(sign), gauss_points(2 * S));
+        let start = std::array::from_fn(sign);
+        let gauss = gauss_points(2 * S);
         Self {
             derivative,
             derivative_columns,

@@ -73,15 +73,13 @@ impl Case {
         let stiffness = 1.0 + beam.beta.abs() + beam.rho * stretch;
         let mut sum = 0.0;
         for (i, h) in lengths.iter().enumerate() {
-            let largest = |y: &[f64]| y[i].abs().max(y[i + 1].abs());
-            let either = |y: &[f64], y0: &[f64]| largest(y).max(largest(y0));
-            let jump =
-                |y: &[f64], y0: &[f64]| (y[i] - y0[i]).abs().max((y[i + 1] - y0[i + 1]).abs());
-            let size = stiffness * (either(&new.u, &old.u) + either(&new.phi, &old.phi))
-                + beam.zeta * (either(&new.v, &old.v) + either(&new.w, &old.w));
-            let (moved, turned) = (jump(&new.u, &old.u), jump(&new.phi, &old.phi));
-            let theta = either(&new.theta, &old.theta);
-            let speed = either(&new.v, &old.v) + either(&new.w, &old.w);
+            let u = largest(i, &new.u, &old.u);
+            let phi = largest(i, &new.phi, &old.phi);
+            let theta = largest(i, &new.theta, &old.theta);
+            let speed = largest(i, &new.v, &old.v) + largest(i, &new.w, &old.w);
+            let size = stiffness * (u + phi) + beam.zeta * speed;
+            let moved = largest_change(i, &new.u, &old.u);
+            let turned = largest_change(i, &new.phi, &old.phi);
             sum +=
                 (size * (moved + turned) + dt * theta * theta) / h + beam.a.abs() * theta * turned;
             sum += h * (speed * speed + theta * theta);
@@ -128,6 +126,20 @@ fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) 
     let way = dt * new.v[tip].abs().max(old.v[tip].abs());
     let delta = TIP_TERMS * unit * (u.abs().max(u0.abs()) + way);
     2.0 * (force * delta + delta * delta / obstacles.epsilon)
+}
+
+/// The largest absolute value of two functions at the ends of element i.
+#[inline]
+fn largest(i: usize, y: &[f64], y0: &[f64]) -> f64 {
+    let new = y[i].abs().max(y[i + 1].abs());
+    let old = y0[i].abs().max(y0[i + 1].abs());
+    new.max(old)
+}
+
+/// The largest absolute difference of two functions at the ends of element i.
+#[inline]
+fn largest_change(i: usize, y: &[f64], y0: &[f64]) -> f64 {
+    (y[i] - y0[i]).abs().max((y[i + 1] - y0[i + 1]).abs())
 }
 
 #[cfg(test)]

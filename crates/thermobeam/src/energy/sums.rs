@@ -128,47 +128,68 @@ impl<T: Lane> Sums<T> {
             new,
         } = *element;
         let (half, sixth) = (T::splat(0.5), h * T::splat(1.0 / 6.0));
-        let square = |p: T| p * p;
         // ∫ p q, p_x and (u_x - φ at both ends) of P1 functions given by their values at the ends.
         let product = |p: [T; 2], q: [T; 2]| element_product(sixth, p, q);
         let slope = |y: [T; 2]| (y[1] - y[0]) * inverse;
         let shear = |u: [T; 2], phi: [T; 2]| [slope(u) - phi[0], slope(u) - phi[1]];
-        // Mean and difference of a field's two levels: `½ (‖y‖² - ‖y0‖²)` is their product, without
-        // cancellation.
-        let mean_and_jump = |of: fn(&Fields<T>) -> T| {
-            let (y, y0) = ([of(&new[0]), of(&new[1])], [of(&old[0]), of(&old[1])]);
-            (
-                [half * (y[0] + y0[0]), half * (y[1] + y0[1])],
-                [y[0] - y0[0], y[1] - y0[1]],
-            )
-        };
-        let (u, du) = mean_and_jump(|fields| fields.u);
-        let (phi, dphi) = mean_and_jump(|fields| fields.phi);
-        let (v, dv) = mean_and_jump(|fields| fields.v);
-        let (w, dw) = mean_and_jump(|fields| fields.w);
-        let (theta, dtheta) = mean_and_jump(|fields| fields.theta);
+        let u = Change::new(old.map(|end| end.u), new.map(|end| end.u));
+        let phi = Change::new(old.map(|end| end.phi), new.map(|end| end.phi));
+        let v = Change::new(old.map(|end| end.v), new.map(|end| end.v));
+        let w = Change::new(old.map(|end| end.w), new.map(|end| end.w));
+        let theta = Change::new(old.map(|end| end.theta), new.map(|end| end.theta));
 
-        let kinetic_and_thermal = product(v, dv) + product(w, dw) + product(theta, dtheta);
-        let elastic = product(shear(u, phi), shear(du, dphi)) + h * slope(phi) * slope(dphi);
+        let kinetic_and_thermal =
+            product(v.mean, v.jump) + product(w.mean, w.jump) + product(theta.mean, theta.jump);
+        let elastic = product(shear(u.mean, phi.mean), shear(u.jump, phi.jump))
+            + h * slope(phi.mean) * slope(phi.jump);
         self.quadratic = self.quadratic + kinetic_and_thermal + elastic;
-        let half_step = half * slope(du);
-        self.slope_squared[0] = self.slope_squared[0] + h * square(slope(u) - half_step);
-        self.slope_squared[1] = self.slope_squared[1] + h * square(slope(u) + half_step);
-        self.rotation_change = self.rotation_change + half * h * (dphi[0] + dphi[1]);
+        let half_step = half * slope(u.jump);
+        self.slope_squared[0] = self.slope_squared[0] + h * square(slope(u.mean) - half_step);
+        self.slope_squared[1] = self.slope_squared[1] + h * square(slope(u.mean) + half_step);
+        self.rotation_change = self.rotation_change + half * h * (phi.jump[0] + phi.jump[1]);
         if !LOSSES {
             return;
         }
-        // weight y + (1 - weight) y0, from mean and difference.
-        let beyond = T::splat(weight - 0.5);
-        let carrying =
-            |mean: [T; 2], jump: [T; 2]| [mean[0] + beyond * jump[0], mean[1] + beyond * jump[1]];
-        let carrying_w = carrying(w, dw);
-        let shear_rate = shear(carrying(v, dv), carrying_w);
+        let carrying_w = w.weighted(weight);
+        let shear_rate = shear(v.weighted(weight), carrying_w);
         self.viscous =
             self.viscous + product(shear_rate, shear_rate) + h * square(slope(carrying_w));
-        self.heat_flow = self.heat_flow + h * square(slope(theta));
-        self.jump = self.jump + product(dv, dv) + product(dw, dw);
+        self.heat_flow = self.heat_flow + h * square(slope(theta.mean));
+        self.jump = self.jump + product(v.jump, v.jump) + product(w.jump, w.jump);
     }
+}
+
+/// Mean and difference of a field's two levels at both ends of an element: `½ (‖y‖² - ‖y0‖²)` is
+/// their product, without cancellation.
+struct Change<T> {
+    mean: [T; 2],
+    jump: [T; 2],
+}
+
+impl<T: Lane> Change<T> {
+    #[inline(always)]
+    fn new(old: [T; 2], new: [T; 2]) -> Self {
+        let half = T::splat(0.5);
+        Self {
+            mean: [half * (new[0] + old[0]), half * (new[1] + old[1])],
+            jump: [new[0] - old[0], new[1] - old[1]],
+        }
+    }
+
+    /// `weight y + (1 - weight) y0`.
+    #[inline(always)]
+    fn weighted(&self, weight: f64) -> [T; 2] {
+        let beyond = T::splat(weight - 0.5);
+        [
+            self.mean[0] + beyond * self.jump[0],
+            self.mean[1] + beyond * self.jump[1],
+        ]
+    }
+}
+
+#[inline(always)]
+fn square<T: Lane>(p: T) -> T {
+    p * p
 }
 
 impl<T: Lane> Element<T> {
@@ -177,27 +198,31 @@ impl<T: Lane> Element<T> {
     fn load(lengths: &[f64], first: usize, old: &Level, new: &Level) -> Self {
         let length = T::load(&lengths[first..]);
         let inverse = T::from_fn(|k| 1.0 / length.lane(k));
-        let ends = |level| [Fields::load(level, first), Fields::load(level, first + 1)];
         Self {
             length,
             inverse,
-            old: ends(old),
-            new: ends(new),
+            old: Fields::load_ends(old, first),
+            new: Fields::load_ends(new, first),
         }
     }
 }
 
 impl<T: Lane> Fields<T> {
+    /// At both ends of the elements `first..first + T::WIDTH` of one case.
+    #[inline(always)]
+    fn load_ends(level: &Level, first: usize) -> [Self; 2] {
+        [Self::load(level, first), Self::load(level, first + 1)]
+    }
+
     /// At the nodes `first..first + T::WIDTH` of one case.
     #[inline(always)]
     fn load(level: &Level, first: usize) -> Self {
-        let at = |y: &[f64]| T::load(&y[first..]);
         Self {
-            u: at(&level.u),
-            phi: at(&level.phi),
-            v: at(&level.v),
-            w: at(&level.w),
-            theta: at(&level.theta),
+            u: T::load(&level.u[first..]),
+            phi: T::load(&level.phi[first..]),
+            v: T::load(&level.v[first..]),
+            w: T::load(&level.w[first..]),
+            theta: T::load(&level.theta[first..]),
         }
     }
 }

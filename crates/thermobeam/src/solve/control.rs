@@ -2,6 +2,7 @@
 //! current step, and those kept from step to step.
 
 use crate::contact::Tip;
+use crate::lanes::Lane;
 use crate::motion::Work;
 use crate::norms::slope_squared;
 use crate::scheme::Case;
@@ -31,6 +32,17 @@ pub(super) struct Element<T> {
     pub(super) inverse: T,
     /// h/6, the unit of the consistent mass matrix.
     pub(super) sixth: T,
+}
+
+impl<T: Lane> Element<T> {
+    /// That of case k.
+    #[inline(always)]
+    pub(super) fn of_lane(&self, k: usize) -> Element<f64> {
+        Element {
+            inverse: self.inverse.lane(k),
+            sixth: self.sixth.lane(k),
+        }
+    }
 }
 
 /// The state of one case.

@@ -17,7 +17,6 @@
 use crate::error::{Loop, StepFailure};
 use crate::motion::{StepReport, Work};
 use crate::norms::{TheoremSquares, slope_squared};
-use crate::parameters::Obstacles;
 use crate::scheme::{Case, ContactRule};
 use crate::solve::stepper::Stepper;
 use crate::solve::{Level, Settings, Stopping};
@@ -148,8 +147,10 @@ impl FixedPoint {
     /// iterate is.
     fn largest_loop(&self) -> Loop {
         let tip = self.u_before[self.case.lengths.len()];
-        let touches = |obstacles: &Obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0;
-        let obstacles = self.case.obstacles.filter(touches);
+        let obstacles = self
+            .case
+            .obstacles
+            .filter(|obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0);
         Case {
             obstacles,
             ..self.case.clone()
@@ -236,8 +237,9 @@ impl FixedPoint {
         let n = lengths.len();
         let kappa = scheme.inertia / dt;
         let s = beam.zeta + 0.5 * dt;
-        let force = |u: &[f64]| beam.axial_force(slope_squared(lengths, u));
-        let m = 0.5 * (force(&self.u_before) + force(&self.old.u));
+        let before = beam.axial_force(slope_squared(lengths, &self.u_before));
+        let old = beam.axial_force(slope_squared(lengths, &self.old.u));
+        let m = 0.5 * (before + old);
         self.work.factorizations += 1;
         self.factor_u
             .factorize(lengths, kappa, beam.zeta + 0.5 * (1.0 + m) * dt, m)?;

@@ -147,13 +147,12 @@ pub struct Level {
 impl Level {
     /// A level of zeros with the given number of nodes.
     pub fn new(nodes: usize) -> Self {
-        let zeros = || vec![0.0; nodes];
         Self {
-            u: zeros(),
-            v: zeros(),
-            phi: zeros(),
-            w: zeros(),
-            theta: zeros(),
+            u: vec![0.0; nodes],
+            v: vec![0.0; nodes],
+            phi: vec![0.0; nodes],
+            w: vec![0.0; nodes],
+            theta: vec![0.0; nodes],
             contact_force: 0.0,
         }
     }

@@ -19,7 +19,7 @@
 
 use crate::block_tridiagonal::{Node, factorize, uninitialised};
 use crate::error::StepFailure;
-use crate::lanes::Lane;
+use crate::lanes::{Kernel, Lane, MultiplyAdd, run_kernel};
 use crate::motion::{StepReport, Work};
 use crate::scheme::Case;
 use crate::solve::control::{Control, Element, Progress, Scalars};
@@ -88,16 +88,28 @@ pub(crate) struct Newton<T, const B: usize> {
 
 /// The coefficients of the cases in lanes.
 fn scalars<T: Lane>(cases: &[Case]) -> Scalars<T> {
-    let each = |value: &dyn Fn(&Case) -> f64| T::from_fn(|k| value(&cases[k]));
     Scalars {
-        dt: each(&|c| c.dt),
-        half_dt: each(&|c| 0.5 * c.dt),
-        zeta: each(&|c| c.beam.zeta),
-        stiff: each(&|c| c.beam.zeta + 0.5 * c.dt),
-        inertia: each(&|c| c.scheme.inertia / c.dt),
-        two_over_dt: each(&|c| 2.0 / c.dt),
-        half_a: each(&|c| 0.5 * c.beam.a),
-        lift: each(&|c| c.beam.a * c.beam.theta_a),
+        dt: in_lanes(cases, |case| case.dt),
+        half_dt: in_lanes(cases, |case| 0.5 * case.dt),
+        zeta: in_lanes(cases, |case| case.beam.zeta),
+        stiff: in_lanes(cases, |case| case.beam.zeta + 0.5 * case.dt),
+        inertia: in_lanes(cases, |case| case.scheme.inertia / case.dt),
+        two_over_dt: in_lanes(cases, |case| 2.0 / case.dt),
+        half_a: in_lanes(cases, |case| 0.5 * case.beam.a),
+        lift: in_lanes(cases, |case| case.beam.a * case.beam.theta_a),
+    }
+}
+
+/// A number of each case.
+fn in_lanes<T: Lane, C>(cases: &[C], value: impl Fn(&C) -> f64) -> T {
+    T::from_fn(|k| value(&cases[k]))
+}
+
+/// Element i of the cases.
+fn element<T: Lane>(cases: &[Case], i: usize) -> Element<T> {
+    Element {
+        inverse: in_lanes(cases, |case| 1.0 / case.lengths[i]),
+        sixth: in_lanes(cases, |case| case.lengths[i] / 6.0),
     }
 }
 
@@ -106,23 +118,25 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     ///
     /// Arguments as for [`newton`].
     pub(crate) fn new(cases: Vec<Case>, settings: Settings, levels: &[&Level]) -> Self {
-        let (n, scheme) = (cases[0].lengths.len(), cases[0].scheme);
-        let element = |i: usize| Element {
-            inverse: T::from_fn(|k| 1.0 / cases[k].lengths[i]),
-            sixth: T::from_fn(|k| cases[k].lengths[i] / 6.0),
-        };
+        let n = cases[0].lengths.len();
+        let scheme = cases[0].scheme;
         // Entry 0, of the clamped end, is not read.
-        let elements = (0..=n).map(|i| element(i.saturating_sub(1))).collect();
+        let elements = (0..=n)
+            .map(|i| element(&cases, i.saturating_sub(1)))
+            .collect();
         let zeros = vec![[T::splat(0.0); B]; n + 1];
         let mut old = zeros.clone();
         let mut start = zeros.clone();
         for (i, (old, start)) in old.iter_mut().zip(&mut start).enumerate() {
-            let of = |field: fn(&Level) -> &[f64]| T::from_fn(|k| field(levels[k])[i]);
-            let theta = of(|level| &level.theta);
-            let (state, velocity) = (
-                [of(|level| &level.u), of(|level| &level.phi)],
-                [of(|level| &level.v), of(|level| &level.w)],
-            );
+            let theta = in_lanes(levels, |level| level.theta[i]);
+            let state = [
+                in_lanes(levels, |level| level.u[i]),
+                in_lanes(levels, |level| level.phi[i]),
+            ];
+            let velocity = [
+                in_lanes(levels, |level| level.v[i]),
+                in_lanes(levels, |level| level.w[i]),
+            ];
             *old = std::array::from_fn(|c| if c == 2 { theta } else { state[c] });
             // The initial temperature is the first guess of the mean temperature.
             *start = std::array::from_fn(|c| if c == 2 { theta } else { velocity[c] });
@@ -196,16 +210,12 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let scalars = scalars::<f64>(&self.cases[k..=k]);
         let count = self.elements.len();
         let elements = &self.elements;
-        let of_lane = |e: Element<T>| Element {
-            inverse: e.inverse.lane(k),
-            sixth: e.sixth.lane(k),
-        };
         self.controls[k].work.factorizations += 1;
         // Invalid until the elimination has succeeded.
         self.controls[k].factorized = f64::NAN;
         factorize(&mut self.nodes, k, m, |i| {
-            let right = (i + 1 < count).then(|| of_lane(elements[i + 1]));
-            scalars.blocks(m, of_lane(elements[i]), right)
+            let right = (i + 1 < count).then(|| elements[i + 1].of_lane(k));
+            scalars.blocks(m, elements[i].of_lane(k), right)
         })?;
         self.controls[k].factorized = m;
         Ok(())
@@ -217,14 +227,17 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         let active = T::from_fn(|k| f64::from(self.controls[k].state == state));
         let m = T::from_fn(|k| self.controls[k].m);
         self.passes += 1;
-        match (first, !self.load.is_empty()) {
-            (true, false) => self.forward::<true, false>(m),
-            (true, true) => self.forward::<true, true>(m),
-            (false, false) => self.forward::<false, false>(m),
-            (false, true) => self.forward::<false, true>(m),
-        }
+        run_kernel(Forward {
+            newton: self,
+            m,
+            first,
+        });
         let tip = self.solve_tip(active);
-        let [slope_squared, increment_squared] = self.backward(active, tip);
+        let [slope_squared, increment_squared] = run_kernel(Backward {
+            newton: self,
+            active,
+            tip,
+        });
         for (k, control) in self
             .controls
             .iter_mut()
@@ -339,6 +352,44 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         }
         std::mem::swap(&mut self.old, &mut self.new);
         self.iterates.rotate_right(1);
+    }
+}
+
+/// The forward sweep of a pass.
+struct Forward<'n, T, const B: usize> {
+    newton: &'n mut Newton<T, B>,
+    m: T,
+    first: bool,
+}
+
+impl<T: Lane, const B: usize> Kernel for Forward<'_, T, B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<A: MultiplyAdd>(self) {
+        let Self { newton, m, first } = self;
+        match (first, !newton.load.is_empty()) {
+            (true, false) => newton.forward::<A, true, false>(m),
+            (true, true) => newton.forward::<A, true, true>(m),
+            (false, false) => newton.forward::<A, false, false>(m),
+            (false, true) => newton.forward::<A, false, true>(m),
+        }
+    }
+}
+
+/// The backward sweep of a pass.
+struct Backward<'n, T, const B: usize> {
+    newton: &'n mut Newton<T, B>,
+    active: T,
+    tip: [T; B],
+}
+
+impl<T: Lane, const B: usize> Kernel for Backward<'_, T, B> {
+    type Output = [T; 2];
+
+    #[inline(always)]
+    fn run<A: MultiplyAdd>(self) -> [T; 2] {
+        self.newton.backward::<A>(self.active, self.tip)
     }
 }
 

@@ -1,9 +1,9 @@
 //! The safeguarded Newton iteration for the mean axial force m, used where passes with a kept
 //! factorisation do not contract.
 
-use crate::block_tridiagonal::{minus_times, minus_transpose_times, times};
+use crate::block_tridiagonal::{Block, minus_times, minus_transpose_times, times};
 use crate::error::StepFailure;
-use crate::lanes::Lane;
+use crate::lanes::{Kernel, Lane, MultiplyAdd, run_kernel};
 use crate::solve::control::Progress;
 use crate::solve::newton::Newton;
 
@@ -69,7 +69,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             if high - low <= rounding {
                 return Ok(());
             }
-            m = safeguarded(low, high, m - f / self.derivative(k));
+            let slope = run_kernel(Derivative { newton: self, k });
+            m = safeguarded(low, high, m - f / slope);
         }
         let control = &self.controls[k];
         Err(StepFailure::IterationLimit {
@@ -92,26 +93,26 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
     /// `F'(m) = 1 + ρ dt (u_x, z_x)` with `(A + dt F'(u(1)) e eᵀ) z = K u½`, from the rank-one
     /// Kirchhoff term.
-    fn derivative(&mut self, k: usize) -> f64 {
+    #[inline(always)]
+    fn derivative<A: MultiplyAdd>(&mut self, k: usize) -> f64 {
         let last = self.elements.len() - 1;
         let (dt, rho) = (self.cases[k].dt, self.cases[k].beam.rho);
-        let of_lane = |block: &[[T; B]; B]| block.map(|row| row.map(|entry| entry.lane(k)));
         // u½_x = (u0 + u)_x/2 on element i.
         let mean_slope = |i: usize| {
-            let at = |i: usize| self.old[i][0].lane(k) + self.new[i][0].lane(k);
-            0.5 * (at(i) - at(i - 1)) * self.elements[i].inverse.lane(k)
+            let [left, right] = [i - 1, i].map(|i| self.old[i][0].lane(k) + self.new[i][0].lane(k));
+            0.5 * (right - left) * self.elements[i].inverse.lane(k)
         };
         let mut y = [0.0; B];
         for i in 1..=last {
             let mut right = [0.0; B];
             right[0] = mean_slope(i) - if i < last { mean_slope(i + 1) } else { 0.0 };
-            y = minus_times(right, &of_lane(&self.nodes[i].multiplier), y);
-            let z = times(&of_lane(&self.nodes[i].inverse), y);
+            y = minus_times::<A, _, _>(right, &block_of_lane(&self.nodes[i].multiplier, k), y);
+            let z = times::<A, _, _>(&block_of_lane(&self.nodes[i].inverse, k), y);
             for (to, value) in self.middle[i].iter_mut().zip(z) {
                 to.set_lane(k, value);
             }
         }
-        let inverse = of_lane(&self.nodes[last].inverse);
+        let inverse = block_of_lane(&self.nodes[last].inverse, k);
         let mut z = self.middle[last].map(|component| component.lane(k));
         let stiffness = if self.cases[k].obstacles.is_some() {
             dt * self.controls[k].tip.stiffness
@@ -124,7 +125,11 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for i in (1..=last).rev() {
             let next = if i > 1 {
                 let middle = self.middle[i - 1].map(|component| component.lane(k));
-                minus_transpose_times(middle, &of_lane(&self.nodes[i].multiplier), z)
+                minus_transpose_times::<A, _, _>(
+                    middle,
+                    &block_of_lane(&self.nodes[i].multiplier, k),
+                    z,
+                )
             } else {
                 [0.0; B]
             };
@@ -134,6 +139,27 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             z = next;
         }
         1.0 + rho * dt * product
+    }
+}
+
+/// The block of case k.
+#[inline(always)]
+fn block_of_lane<T: Lane, const B: usize>(block: &Block<T, B>, k: usize) -> Block<f64, B> {
+    block.map(|row| row.map(|entry| entry.lane(k)))
+}
+
+/// F'(m) for case k.
+struct Derivative<'n, T, const B: usize> {
+    newton: &'n mut Newton<T, B>,
+    k: usize,
+}
+
+impl<T: Lane, const B: usize> Kernel for Derivative<'_, T, B> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<A: MultiplyAdd>(self) -> f64 {
+        self.newton.derivative::<A>(self.k)
     }
 }
 

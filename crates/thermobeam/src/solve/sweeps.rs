@@ -20,7 +20,7 @@
 //! A pass runs over the nodes twice and allocates nothing.
 
 use crate::block_tridiagonal::{Block, minus_times, minus_transpose_times, times};
-use crate::lanes::Lane;
+use crate::lanes::{Lane, MultiplyAdd};
 use crate::solve::control::{Element, Scalars};
 use crate::solve::newton::Newton;
 
@@ -92,7 +92,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// * `FIRST`: whether the iterate is extrapolated from the history.
     /// * `LOADED`: whether there are loads.
     #[inline(always)]
-    pub(super) fn forward<const FIRST: bool, const LOADED: bool>(&mut self, m: T) {
+    pub(super) fn forward<A: MultiplyAdd, const FIRST: bool, const LOADED: bool>(&mut self, m: T) {
         let zero = T::splat(0.0);
         let weights = self.weights().map(T::splat);
         let count = self.elements.len();
@@ -123,13 +123,14 @@ impl<T: Lane, const B: usize> Newton<T, B> {
             if FIRST {
                 let mut x = history[0][i];
                 for k in 0..B {
-                    let sum = history[1][i][k].mul_add(weights[1], history[2][i][k] * weights[2]);
-                    x[k] = x[k].mul_add(weights[0], sum);
+                    let sum =
+                        history[1][i][k].mul_add::<A>(weights[1], history[2][i][k] * weights[2]);
+                    x[k] = x[k].mul_add::<A>(weights[0], sum);
                 }
                 iterate[i] = x;
             }
-            let right = nodal(scalars, m, iterate[i], old[i], old_velocity[i]);
-            let (to_left, to_right) = element(scalars, elements[i], &left, &right);
+            let right = nodal::<A, _, _>(scalars, m, iterate[i], old[i], old_velocity[i]);
+            let (to_left, to_right) = element::<A, _, _>(scalars, elements[i], &left, &right);
             if i > 1 {
                 let mut residual = to_left;
                 for k in 0..B {
@@ -138,8 +139,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
                         residual[k] = residual[k] - load[i - 1][k];
                     }
                 }
-                y = minus_times(signed(residual), &nodes[i - 1].multiplier, y);
-                middle[i - 1] = times(&nodes[i - 1].inverse, y);
+                y = minus_times::<A, _, _>(signed(residual), &nodes[i - 1].multiplier, y);
+                middle[i - 1] = times::<A, _, _>(&nodes[i - 1].inverse, y);
             }
             (pending, left) = (to_right, right);
         }
@@ -152,8 +153,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         if B == 3 {
             pending[2] = zero;
         }
-        y = minus_times(signed(pending), &nodes[tip].multiplier, y);
-        middle[tip] = times(&nodes[tip].inverse, y);
+        y = minus_times::<A, _, _>(signed(pending), &nodes[tip].multiplier, y);
+        middle[tip] = times::<A, _, _>(&nodes[tip].inverse, y);
     }
 }
 
@@ -167,25 +168,25 @@ fn signed<T: Lane, const B: usize>(residual: [T; B]) -> [T; B] {
 
 /// The nodal quantities of the iterate x.
 #[inline(always)]
-fn nodal<T: Lane, const B: usize>(
+fn nodal<A: MultiplyAdd, T: Lane, const B: usize>(
     s: &Scalars<T>,
     m: T,
     x: [T; B],
     old: [T; B],
     velocity: [T; B],
 ) -> Nodal<T, B> {
-    let half_u = x[0].mul_add(s.half_dt, old[0]);
-    let displacement = x[0].mul_add(s.zeta, half_u);
-    let rotation = x[1].mul_add(s.stiff, old[1]);
+    let half_u = x[0].mul_add::<A>(s.half_dt, old[0]);
+    let displacement = x[0].mul_add::<A>(s.zeta, half_u);
+    let rotation = x[1].mul_add::<A>(s.stiff, old[1]);
     let mut mass = [T::splat(0.0); B];
     mass[0] = s.inertia * (x[0] - velocity[0]);
-    mass[1] = s.inertia.mul_add(x[1] - velocity[1], rotation) - s.lift;
+    mass[1] = s.inertia.mul_add::<A>(x[1] - velocity[1], rotation) - s.lift;
     if B == 3 {
         mass[2] = s.two_over_dt * (x[2] - old[2]);
     }
     Nodal {
         x,
-        axial: m.mul_add(half_u, displacement),
+        axial: m.mul_add::<A>(half_u, displacement),
         displacement,
         rotation,
         mass,
@@ -194,7 +195,7 @@ fn nodal<T: Lane, const B: usize>(
 
 /// Contributions of an element to the residual of (3.7) at its left and at its right node.
 #[inline(always)]
-fn element<T: Lane, const B: usize>(
+fn element<A: MultiplyAdd, T: Lane, const B: usize>(
     s: &Scalars<T>,
     e: Element<T>,
     left: &Nodal<T, B>,
@@ -202,8 +203,8 @@ fn element<T: Lane, const B: usize>(
 ) -> ([T; B], [T; B]) {
     let half = T::splat(0.5);
     // Stresses, multiplied by the derivative of the test function.
-    let stress =
-        (right.axial - left.axial).mul_add(e.inverse, -(half * (left.rotation + right.rotation)));
+    let stress = (right.axial - left.axial)
+        .mul_add::<A>(e.inverse, -(half * (left.rotation + right.rotation)));
     let mut moment = (right.rotation - left.rotation) * e.inverse;
     // Shear, multiplied by the test function itself, the same at both nodes.
     let shear = half * (right.displacement - left.displacement);
@@ -213,17 +214,17 @@ fn element<T: Lane, const B: usize>(
         to_left[k] = sum + left.mass[k];
         to_right[k] = sum + right.mass[k];
     }
-    to_left[0] = e.sixth.mul_add(to_left[0], -stress);
-    to_right[0] = e.sixth.mul_add(to_right[0], stress);
+    to_left[0] = e.sixth.mul_add::<A>(to_left[0], -stress);
+    to_right[0] = e.sixth.mul_add::<A>(to_right[0], stress);
     if B == 3 {
-        moment = (-s.half_a).mul_add(left.x[2] + right.x[2], moment);
+        moment = (-s.half_a).mul_add::<A>(left.x[2] + right.x[2], moment);
         let flux = (right.x[2] - left.x[2]) * e.inverse;
         let heating = s.half_a * (right.x[1] - left.x[1]);
-        to_left[2] = e.sixth.mul_add(to_left[2], heating - flux);
-        to_right[2] = e.sixth.mul_add(to_right[2], heating + flux);
+        to_left[2] = e.sixth.mul_add::<A>(to_left[2], heating - flux);
+        to_right[2] = e.sixth.mul_add::<A>(to_right[2], heating + flux);
     }
-    to_left[1] = e.sixth.mul_add(to_left[1], -(moment + shear));
-    to_right[1] = e.sixth.mul_add(to_right[1], moment - shear);
+    to_left[1] = e.sixth.mul_add::<A>(to_left[1], -(moment + shear));
+    to_right[1] = e.sixth.mul_add::<A>(to_right[1], moment - shear);
     (to_left, to_right)
 }
 
@@ -234,7 +235,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// * `tip`: δ at the tip, including contact.
     /// * Returns ‖u_x‖² of the new iterate, and ‖δV_x‖² of the correction.
     #[inline(always)]
-    pub(super) fn backward(&mut self, active: T, tip: [T; B]) -> [T; 2] {
+    pub(super) fn backward<A: MultiplyAdd>(&mut self, active: T, tip: [T; B]) -> [T; 2] {
         let count = self.elements.len();
         let (elements, nodes) = (&self.elements[..count], &self.nodes[..count]);
         let (middle, old) = (&self.middle[..count], &self.old[..count]);
@@ -245,27 +246,29 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         for i in (1..count).rev() {
             let mut x = iterate[i];
             for k in 0..B {
-                x[k] = active.mul_add(delta[k], x[k]);
+                x[k] = active.mul_add::<A>(delta[k], x[k]);
             }
             iterate[i] = x;
-            let updated = update(&self.scalars, x, old[i]);
+            let updated = update::<A, _, _>(&self.scalars, x, old[i]);
             new[i] = updated;
             if i + 1 < count {
                 let slope = new[i + 1][0] - updated[0];
-                slope_squared = (slope * elements[i + 1].inverse).mul_add(slope, slope_squared);
+                slope_squared =
+                    (slope * elements[i + 1].inverse).mul_add::<A>(slope, slope_squared);
             }
             let next = if i > 1 {
-                minus_transpose_times(middle[i - 1], &nodes[i].multiplier, delta)
+                minus_transpose_times::<A, _, _>(middle[i - 1], &nodes[i].multiplier, delta)
             } else {
                 [zero; B]
             };
             let change = delta[0] - next[0];
-            increment_squared = (change * elements[i].inverse).mul_add(change, increment_squared);
+            increment_squared =
+                (change * elements[i].inverse).mul_add::<A>(change, increment_squared);
             delta = next;
         }
         let first = new[1][0];
         [
-            (first * elements[1].inverse).mul_add(first, slope_squared),
+            (first * elements[1].inverse).mul_add::<A>(first, slope_squared),
             increment_squared,
         ]
     }
@@ -273,10 +276,14 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 
 /// (u, φ, θ~) at the new level from X: (3.8), and `θ~ = 2 Θ - θ~0`.
 #[inline(always)]
-fn update<T: Lane, const B: usize>(s: &Scalars<T>, x: [T; B], old: [T; B]) -> [T; B] {
+fn update<A: MultiplyAdd, T: Lane, const B: usize>(
+    s: &Scalars<T>,
+    x: [T; B],
+    old: [T; B],
+) -> [T; B] {
     let mut new = old;
     for k in 0..2 {
-        new[k] = x[k].mul_add(s.dt, old[k]);
+        new[k] = x[k].mul_add::<A>(s.dt, old[k]);
     }
     if B == 3 {
         new[2] = x[2] + x[2] - old[2];

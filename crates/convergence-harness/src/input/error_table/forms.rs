@@ -1,20 +1,13 @@
 //! Numbers that several words or lines write: `8.23 × 10⁻³`, `1.6 %`, MATLAB's `1.0e-03 *`.
 
-/// Digits above the line, and their signs.
-const RAISED: [(char, char); 12] = [
-    ('⁰', '0'),
-    ('¹', '1'),
-    ('²', '2'),
-    ('³', '3'),
-    ('⁴', '4'),
-    ('⁵', '5'),
-    ('⁶', '6'),
-    ('⁷', '7'),
-    ('⁸', '8'),
-    ('⁹', '9'),
-    ('⁻', '-'),
-    ('⁺', '+'),
-];
+/// Digits and signs above the line, and those that they are, in the same order.
+const RAISED: [&str; 2] = ["⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+"];
+
+/// The digit or sign that one above the line is.
+fn lowered(raised: char) -> Option<char> {
+    let place = RAISED[0].chars().position(|known| known == raised)?;
+    RAISED[1].chars().nth(place)
+}
 
 /// A text in which each of these numbers is one word.
 pub(super) fn joined(text: &str) -> String {
@@ -30,7 +23,7 @@ fn with_exponents(text: &str) -> String {
     let mut parts = text.split("10");
     let mut joined = parts.next().unwrap_or_default().to_owned();
     for part in parts {
-        let end = part.find(|c| RAISED.iter().all(|(raised, _)| *raised != c));
+        let end = part.find(|c| lowered(c).is_none());
         let (power, rest) = part.split_at(end.unwrap_or(part.len()));
         let before = joined.trim_end().strip_suffix(['×', '·', '⋅']);
         let factor = before
@@ -40,8 +33,7 @@ fn with_exponents(text: &str) -> String {
             Some(length) => {
                 joined.truncate(length);
                 joined.push('e');
-                let plain = |c: char| RAISED.iter().find(|(raised, _)| *raised == c);
-                joined.extend(power.chars().filter_map(plain).map(|(_, plain)| plain));
+                joined.extend(power.chars().filter_map(lowered));
                 joined += rest;
             }
             None => joined = joined + "10" + part,

@@ -59,6 +59,14 @@ impl Refusal {
     }
 }
 
+/// The name of a column, with its unit if its numbers are in per cent.
+fn named_in(name: String, percent: Option<bool>) -> String {
+    match percent {
+        Some(true) if !name.contains('%') => format!("{name} [%]"),
+        _ => name,
+    }
+}
+
 /// Names in a message, but not too many.
 pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.take(LISTED + 1).collect();
@@ -218,10 +226,7 @@ impl<'t> TableReader<'t> {
                 })
                 .collect();
             let word = Word::of(&name);
-            let name = match percent {
-                Some(true) if !name.contains('%') => format!("{name} [%]"),
-                _ => name,
-            };
+            let name = named_in(name, percent);
             let may_count =
                 matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
             columns.push(Cells {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
+use super::keys::{self, Keys};
 use super::{Complaint, InputError, Source, settings};
 use crate::text::names::nearest;
 use crate::text::visible;
@@ -317,13 +318,11 @@ impl<'a> Section<'a> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
     }
 
-    /// The table of that name, which may have only these keys.
-    pub fn table(&self, key: &str, keys: &[&str]) -> Result<Section<'a>, InputError> {
-        let table = self
-            .require(key, &format!("a table with {}", keys.join(", ")))?
-            .section()?;
-        table.allow(keys)?;
-        Ok(table)
+    /// The table of that name, which has these keys.
+    pub fn table(&self, key: &str, keys: Keys) -> Result<Section<'a>, InputError> {
+        let names = keys::names(keys).join(", ");
+        self.require(key, &format!("a table with {names}"))?
+            .section()
     }
 
     /// The whole number of a key without a default.

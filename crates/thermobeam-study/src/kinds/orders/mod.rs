@@ -146,6 +146,8 @@ impl<S> DerefMut for Orders<S> {
 }
 
 impl<S: Source> FromFile for Orders<S> {
+    const KEYS: &'static [Keys] = S::ROW.keys;
+
     fn from_document(
         header: &Header,
         root: &Section<'_>,

@@ -1,5 +1,5 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`,
-//! `explain`, `completions`, for any project.
+//! `explain`, `schema`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
 //! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
@@ -16,6 +16,7 @@ mod new;
 mod rates;
 mod report;
 pub mod running;
+pub mod schema;
 pub mod screen;
 mod study;
 mod verify;
@@ -44,6 +45,7 @@ pub enum Command {
     Rates(rates::Arguments),
     Compare(compare::Arguments),
     Report(report::Arguments),
+    Schema(schema::Arguments),
     New(new::Arguments),
     Manufacture(manufacture::Arguments),
     /// Print completions for a shell
@@ -64,7 +66,7 @@ pub enum Command {
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 10] = [
+pub const COMMANDS: [&str; 11] = [
     "new",
     "manufacture",
     "verify",
@@ -74,6 +76,7 @@ pub const COMMANDS: [&str; 10] = [
     "rates",
     "compare",
     "report",
+    "schema",
     "completions",
 ];
 
@@ -92,6 +95,7 @@ impl Command {
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Compare(arguments) => compare::run(arguments),
             Self::Report(arguments) => report::run(project, arguments),
+            Self::Schema(arguments) => schema::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
             Self::Manufacture(arguments) => manufacture::run(arguments),
             Self::Completions { shell } => complete(whole, project, *shell),

@@ -85,9 +85,23 @@ impl StudyFile {
         Ok(files)
     }
 
+    /// Reads a study from `text`; messages name `path`, and other files are searched for next to it.
+    pub fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::parse_after(&[], kinds, text, path)
+    }
+
     /// Reads a study file whose id none of the `earlier` ones has.
     fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
-        let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
+        Self::parse_after(earlier, kinds, &input::read_text(path)?, path)
+    }
+
+    fn parse_after(
+        earlier: &[Self],
+        kinds: &[KindRow],
+        text: &str,
+        path: &Path,
+    ) -> Result<Self, InputError> {
+        let study = input::parse_beside(text, path, |root, folder| {
             let header = Header::from_document(root)?;
             if let Some(earlier) = earlier
                 .iter()
@@ -190,12 +204,12 @@ fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
     if sets.is_empty() {
         Ok(())
     } else {
-        root.allow_only(&[STUDY], sets)
+        root.allow_only(&[STUDY_TABLE], sets)
     }
 }
 
 /// The table that every study file has.
-pub(crate) const STUDY: Key = Key::new(
+pub(crate) const STUDY_TABLE: Key = Key::new(
     "study",
     Form::Table(&[&[&HEADER]]),
     "what the study is about",
@@ -218,7 +232,7 @@ const HEADER: [Key; 5] = [
         Form::Text,
         "which kind of study it is: the other tables depend on it",
     )
-    .or("\"orders/manufactured\""),
+    .or("\"orders/manufactured\", if the project has that kind"),
     Key::new("group", Form::Text, "under which reports list it").or("the kind"),
 ];
 

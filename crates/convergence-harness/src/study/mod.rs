@@ -20,6 +20,8 @@ pub mod until_decided;
 
 pub use coverage::Coverage;
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
+#[cfg(feature = "command-line")]
+pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};
 pub use header::{Exercised, Header, Tier};

@@ -15,16 +15,18 @@ pub(crate) struct ClaimedScene {
     pub(crate) scene: Scene,
 }
 
-/// The keys of a case, beside those of a scene.
-pub(crate) const CLAIM_OF_SCENE: [Key; 3] = [
+/// The keys of a case, beside those of a scene and [`ENDS`].
+pub(crate) const NAMED: [Key; 2] = [
     Key::new("name", Form::Text, "a name that no other case has"),
     Key::new("claim", Form::Text, "the claim in words"),
-    Key::new(
-        "ends",
-        Form::Choice(|| End::ALL.map(|(name, _)| name).to_vec()),
-        "how its run must end",
-    ),
 ];
+
+/// The way the run of a case must end.
+pub(crate) const ENDS: Key = Key::new(
+    "ends",
+    Form::Choice(|| End::ALL.map(|(name, _)| name).to_vec()),
+    "how its run must end",
+);
 
 impl ClaimedScene {
     /// Reads `claim`, `ends` and the tables of a scene.

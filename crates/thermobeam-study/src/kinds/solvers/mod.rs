@@ -123,29 +123,28 @@ fn results<R>(ran: &[Ran<SolverTask, Found>], part: fn(&Found) -> Option<&R>) ->
     ran.iter().filter_map(|ran| part(ran.ok()?)).collect()
 }
 
-const KEYS: [Key; 3] = [
-    Key::new(
-        "contraction",
-        Form::Table(&[&[&contraction::KEYS]]),
-        "measured contraction against the spectral radius",
-    )
-    .or("none"),
-    Key::new(
-        "comparison",
-        Form::Table(&[&[&comparison::KEYS]]),
-        "the fixed point against Newton",
-    )
-    .or("none"),
-    Key::new(
-        "map",
-        Form::Table(&[&[&map::KEYS]]),
-        "where the fixed point converges",
-    )
-    .or("none"),
-];
+const CONTRACTION: Key = Key::new(
+    "contraction",
+    Form::Table(&[&[&contraction::KEYS]]),
+    "measured contraction against the spectral radius",
+);
+const COMPARISON: Key = Key::new(
+    "comparison",
+    Form::Table(&[&[&comparison::KEYS]]),
+    "the fixed point against Newton",
+);
+const MAP_TABLE: Key = Key::new(
+    "map",
+    Form::Table(&[&[&map::KEYS]]),
+    "where the fixed point converges",
+);
 
 impl FromFile for Solvers {
-    const KEYS: &'static [Keys] = &[&[&KEYS]];
+    const KEYS: &'static [Keys] = &[
+        &[&[CONTRACTION, COMPARISON.or("none"), MAP_TABLE.or("none")]],
+        &[&[COMPARISON, MAP_TABLE.or("none")]],
+        &[&[MAP_TABLE]],
+    ];
 
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let parts = ["contraction", "comparison", "map"];

@@ -183,11 +183,23 @@ const LEVELS: Form = Form::OneOf(&[
 /// The table `[refine]`.
 pub(crate) const REFINE: Key = Key::new(
     "refine",
-    Form::Table(&[&[&KEYS, &tables::STEPPING_KEYS]]),
+    Form::Table(&[
+        &[&KEYS, &tables::STEPPING_KEYS],
+        &[&KEYS, &PERTURBED, &tables::STEPPING_KEYS],
+    ]),
     "the meshes and steps of the runs",
 );
 
-const KEYS: [Key; 10] = [
+const PERTURBED: [Key; 2] = [
+    Key::new(
+        "perturb",
+        Form::Number,
+        "part of half an element by which nodes are displaced at random, below 1",
+    ),
+    Key::new("seed", Form::Count(0), "of the displacements").or("0"),
+];
+
+const KEYS: [Key; 8] = [
     Key::new(
         "axis",
         Form::Choice(|| Axis::ALL.map(Axis::name).to_vec()),
@@ -217,13 +229,6 @@ const KEYS: [Key; 10] = [
     .or("false"),
     Key::new("t_end", Form::Positive, "final time"),
     MAP,
-    Key::new(
-        "perturb",
-        Form::Number,
-        "part of half an element by which nodes are displaced at random, below 1",
-    )
-    .or(""),
-    Key::new("seed", Form::Count(0), "of the displacements").or("0"),
     Key::new(
         "budget",
         Form::Positive,

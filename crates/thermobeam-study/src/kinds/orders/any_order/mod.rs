@@ -117,15 +117,7 @@ const RUNS: [Key; 3] = [
     ),
     CONTROL,
 ];
-const RUN: [Key; 3] = [
-    Key::new(
-        "over",
-        Form::Choice(|| vec!["space", "time", "degree"]),
-        "what is refined",
-    ),
-    Key::new("t_end", Form::Positive, "final time"),
-    MAP,
-];
+const RUN: [Key; 2] = [Key::new("t_end", Form::Positive, "final time"), MAP];
 
 impl Source for AnyOrder {
     const ROW: KindRow = KindRow {

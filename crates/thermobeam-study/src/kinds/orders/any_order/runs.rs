@@ -39,6 +39,9 @@ pub(super) struct RunsOfDegree {
     pub(super) tolerance: f64,
 }
 
+const OVER_SPACE: Key = Key::new("over", Form::Choice(|| vec!["space"]), "what is refined");
+const OVER_TIME: Key = Key::new("over", Form::Choice(|| vec!["time"]), "what is refined");
+const OVER_DEGREE: Key = Key::new("over", Form::Choice(|| vec!["degree"]), "what is refined");
 const LEVELS: Form = Form::List(&Form::Count(1));
 const DEGREE: Key = Key::new("degree", Form::Count(1), "degree p of the elements");
 const TIME_DEGREE: Key = Key::new("time_degree", Form::Count(0), "degree q in time");
@@ -81,19 +84,19 @@ impl Over {
                 levels: "elements",
                 criterion: "tolerance",
                 of_series: &[MESHES, DEGREE, TOLERANCE],
-                of_run: &[TIME_DEGREE, STEPS],
+                of_run: &[OVER_SPACE, TIME_DEGREE, STEPS],
             },
             Over::Time => LevelKeys {
                 levels: "steps",
                 criterion: "tolerance",
                 of_series: &[STEP_COUNTS, TIME_DEGREE, TOLERANCE],
-                of_run: &[DEGREE, ELEMENTS],
+                of_run: &[OVER_TIME, DEGREE, ELEMENTS],
             },
             Over::Degree => LevelKeys {
                 levels: "degrees",
                 criterion: "factor",
                 of_series: &[DEGREES, FACTOR],
-                of_run: &[TIME_DEGREE, ELEMENTS, STEPS],
+                of_run: &[OVER_DEGREE, TIME_DEGREE, ELEMENTS, STEPS],
             },
         }
     }

@@ -47,10 +47,14 @@ pub struct Vibrated {
 }
 
 const KEYS: [Key; 6] = [
-    tables::BEAM,
+    Key::new(
+        "beam",
+        Form::Table(&[&[&LINEAR]]),
+        "the coefficients of a linear beam, whose damped modes are exact",
+    ),
     Key::new(
         "mode",
-        Form::List(&Form::Table(&[&[&MODE]])),
+        Form::List(&Form::Table(MODE)),
         "the modes of the beam that move",
     ),
     Key::new(
@@ -64,16 +68,23 @@ const KEYS: [Key; 6] = [
     EXPECT,
 ];
 const INDEX: Key = Key::new("index", Form::Count(1), "number of the mode, from 1");
-const MODE: [Key; 3] = [
-    INDEX,
-    Key::new(
-        "amplitude",
-        Form::Number,
-        "displacement of the tip at t = 0",
-    )
-    .or("0"),
-    Key::new("velocity", Form::Number, "velocity of the tip at t = 0").or("0"),
+const LINEAR: [Key; 5] = [
+    tables::BEAM_KEYS[0],
+    Key::new("a", Form::Number, "0, written out"),
+    Key::new("rho", Form::Number, "0, written out"),
+    tables::BEAM_KEYS[3],
+    tables::BEAM_KEYS[4],
 ];
+const MODE: &[Keys] = &[
+    &[&[INDEX, AMPLITUDE, VELOCITY.or("0")]],
+    &[&[INDEX, VELOCITY]],
+];
+const AMPLITUDE: Key = Key::new(
+    "amplitude",
+    Form::Number,
+    "displacement of the tip at t = 0",
+);
+const VELOCITY: Key = Key::new("velocity", Form::Number, "velocity of the tip at t = 0");
 const HEAT: [Key; 2] = [
     INDEX,
     Key::new(

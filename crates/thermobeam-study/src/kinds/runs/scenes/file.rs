@@ -3,36 +3,62 @@
 use super::shown::{NUMBERS, NamedNumbers, PAIRS, listed};
 use super::{Answer, Most, PREDICTED, Whole};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{ClaimedScene, End};
+use crate::kinds::runs::cases::{ClaimedScene, End, NAMED};
+use crate::scene;
 
-/// The keys of a case, beside its claim and its scene.
-pub(super) const KEYS: [Key; 2] = [
-    Key::new(
-        "answer",
-        Form::Table(&[&[
-            &[Key::new("within", Form::Positive, "distance allowed to each number")],
-            &all(NUMBERS, Form::Number, "what the run must give for it"),
-            &all(PREDICTED, Form::Number, "what the prediction must give for it"),
-            &all(PAIRS, Form::List(&Form::List(&Form::Number)), "pairs that the run must give"),
-        ]]),
-        "numbers of the answer",
-    )
-    .or("none"),
-    Key::new(
-        "most",
-        Form::Table(&[&[&[
-            Key::new("iterations_per_step", Form::Positive, "on the mean number of iterations").or("none"),
-            Key::new(
-                "unsolved",
-                Form::Positive,
-                "on the distance of a step to the same step solved to round-off, in units of the tolerance",
-            )
-            .or("none"),
-        ]]]),
-        "upper bounds on what a run takes",
-    )
-    .or("none"),
+/// The keys of a case.
+pub(super) const CASE: &[Keys] = &[
+    &[&NAMED, &[ANSWERS, ANSWER, MOST.or("none")], &scene::KEYS],
+    &[&NAMED, &[ANSWERS, MOST], &scene::KEYS],
+    &[&NAMED, &[FAILS], &scene::KEYS],
 ];
+const ANSWERS: Key = Key::new(
+    "ends",
+    Form::Choice(|| vec![End::Answer.name()]),
+    "how its run must end",
+);
+const FAILS: Key = Key::new(
+    "ends",
+    Form::Choice(|| End::ALL[1..].iter().map(|(name, _)| *name).collect()),
+    "how its run must end",
+);
+const ANSWER: Key = Key::new(
+    "answer",
+    Form::Table(&[&[
+        &[Key::new(
+            "within",
+            Form::Positive,
+            "distance allowed to each number",
+        )],
+        &all(NUMBERS, Form::Number, "what the run must give for it"),
+        &all(
+            PREDICTED,
+            Form::Number,
+            "what the prediction must give for it",
+        ),
+        &all(
+            PAIRS,
+            Form::List(&Form::List(&Form::Number)),
+            "pairs that the run must give",
+        ),
+    ]]),
+    "numbers of the answer",
+);
+const MOST: Key = Key::new(
+    "most",
+    Form::Table(&[&[&[ITERATIONS, UNSOLVED.or("none")]], &[&[UNSOLVED]]]),
+    "upper bounds on what a run takes",
+);
+const ITERATIONS: Key = Key::new(
+    "iterations_per_step",
+    Form::Positive,
+    "on the mean number of iterations",
+);
+const UNSOLVED: Key = Key::new(
+    "unsolved",
+    Form::Positive,
+    "on the distance of a step to the same step solved to round-off, in units of the tolerance",
+);
 
 /// Keys of these names, none of which must be there.
 const fn all<const N: usize>(

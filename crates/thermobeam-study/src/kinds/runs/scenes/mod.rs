@@ -35,7 +35,7 @@
 mod file;
 mod shown;
 
-use super::cases::{CLAIM_OF_SCENE, ClaimedScene, named_cases};
+use super::cases::{ClaimedScene, named_cases};
 use super::checks::{Condition, all, at_most, ended};
 use super::steady::exact_states;
 use super::{Findings, Results, RunStudy, Runs};
@@ -45,7 +45,6 @@ use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};
 use crate::predict::estimate::estimate;
 use crate::run::together::run_together;
-use crate::scene;
 use shown::{NamedNumbers, STEADY, listed, unsolved};
 
 pub use shown::{COUNTS, NUMBERS, Shown};
@@ -122,11 +121,7 @@ const MOST_WORK: f64 = 2e8;
 impl Runs for Scenes {
     const KEYS: &'static [Keys] = &[&[&[Key::new(
         "case",
-        Form::List(&Form::Table(&[&[
-            &CLAIM_OF_SCENE,
-            &scene::KEYS,
-            &file::KEYS,
-        ]])),
+        Form::List(&Form::Table(file::CASE)),
         "scenes, and what their runs must answer",
     )]]];
 

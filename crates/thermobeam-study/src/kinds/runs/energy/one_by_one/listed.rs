@@ -2,7 +2,7 @@
 
 use super::EnergyRun;
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{CLAIM_OF_SCENE, ClaimedScene, End};
+use crate::kinds::runs::cases::{ClaimedScene, ENDS, End, NAMED};
 use crate::kinds::runs::energy::beams::smooth;
 use crate::kinds::runs::energy::bound::stability;
 use crate::kinds::runs::watch::SOLVED;
@@ -36,7 +36,8 @@ pub(super) const ENERGY: [Key; 9] = [
 
 /// The keys of `[[case]]`.
 pub(super) const CASE: Keys = &[
-    &CLAIM_OF_SCENE,
+    &NAMED,
+    &[ENDS],
     &scene::KEYS,
     &[
         Key::new(

@@ -21,6 +21,7 @@ pub fn reader<K: FromFile + 'static>(
     root: &Section<'_>,
     folder: &Path,
 ) -> Result<Box<dyn Study>, InputError> {
+    allow_only(root, K::KEYS)?;
     let kind = K::from_document(&header, root, folder)?;
     Ok(erased(header, kind))
 }
@@ -119,6 +120,7 @@ impl StudyFile {
                 ));
             }
             let row = row(kinds, root, &header)?;
+            // For a reader that is not made by `reader`.
             allow_only(root, row.keys)?;
             (row.read)(header, root, folder)
         })?;

@@ -37,7 +37,7 @@ const COMMANDS: [(&[&str], i32, &str); 13] = [
 ];
 
 /// Commands missing from [`COMMANDS`]: a script for a shell; the help.
-const OTHERS: [&str; 2] = ["completions", "help"];
+const OTHERS: [&str; 3] = ["schema", "completions", "help"];
 
 fn place(folder: &Folder) -> PathBuf {
     let root = workspace(folder, "w", &[("short", quick("short"))]);

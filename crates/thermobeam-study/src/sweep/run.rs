@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::iter::Peekable;
-use std::panic::{self, AssertUnwindSafe};
 use std::time::Duration;
 use std::vec::IntoIter;
 
@@ -16,7 +15,7 @@ use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
-use convergence_harness::run::time_limit;
+use convergence_harness::run::{caught, time_limit};
 
 /// Cases that run together: one group of lanes.
 const LANES: usize = 4;
@@ -47,10 +46,6 @@ struct Content<'a> {
 }
 
 impl Line {
-    fn panicked(sweep: &Sweep, index: usize) -> Self {
-        Self::failed(&sweep.case(index), "the program panicked".to_owned())
-    }
-
     fn failed(case: &SweepCase<'_>, reason: String) -> Self {
         Self::of(&Content {
             case: case.index,
@@ -86,15 +81,11 @@ impl Line {
     }
 }
 
-/// The result of a computation; `None` if it panics, so that the other cases are not lost.
-fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
-    panic::catch_unwind(AssertUnwindSafe(compute)).ok()
-}
-
 /// The scene of a case, or the line of its failure.
 fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
-    let read = caught(|| sweep.scene(&case)).ok_or_else(|| Line::panicked(sweep, index))?;
+    // A panic is a failure of its case, so that the others are not lost.
+    let read = caught(|| sweep.scene(&case)).map_err(|reason| Line::failed(&case, reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
         let field = error
@@ -116,7 +107,7 @@ fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
         ),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
     };
-    caught(simulated).unwrap_or_else(|| Line::panicked(sweep, index))
+    caught(simulated).unwrap_or_else(|reason| Line::failed(&sweep.case(index), reason))
 }
 
 /// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
@@ -172,7 +163,7 @@ fn lines(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Vec<Line> {
             .map(|(index, scene)| simulate(sweep, index, scene))
             .collect()
     };
-    caught(together).flatten().unwrap_or_else(one_by_one)
+    caught(together).ok().flatten().unwrap_or_else(one_by_one)
 }
 
 /// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes

@@ -83,11 +83,20 @@ pub fn names(keys: &[&[Key]]) -> Vec<&'static str> {
 }
 
 impl Section<'_> {
-    /// Refuses every key, here and in the tables below, that none of these sets has.
+    /// Refuses every key, here and in the tables below, that none of these sets has. If the names
+    /// that the table chooses, such as that of a method, fit some of the sets, only those count.
     ///
     /// * `shared`: keys that each of the sets has in addition.
     pub fn allow_only(&self, shared: &'static [Key], sets: &[Keys]) -> Result<(), InputError> {
-        let groups = sets.iter().copied().flatten().copied();
+        let mut fitting: Vec<Keys> = sets
+            .iter()
+            .copied()
+            .filter(|set| self.chooses(set))
+            .collect();
+        if fitting.is_empty() {
+            fitting = sets.to_vec();
+        }
+        let groups = fitting.into_iter().flatten().copied();
         let mut known: Vec<&Key> = vec![];
         for key in std::iter::once(shared).chain(groups).flatten() {
             if !known.iter().any(|other| other.name == key.name) {
@@ -101,6 +110,18 @@ impl Section<'_> {
                 .map_or(Ok(()), |field| key.form.allow_only(&field))?;
         }
         Ok(())
+    }
+
+    /// Whether the names in the table are among the choices of these keys.
+    fn chooses(&self, set: Keys) -> bool {
+        let fits = |key: &Key| match (key.form, self.get(key.name)) {
+            (Form::Choice(names), Some(field)) => {
+                field.text().is_ok_and(|name| names().contains(&name))
+            }
+            (Form::Choice(_), None) => key.default.is_some(),
+            _ => true,
+        };
+        set.iter().copied().flatten().all(fits)
     }
 }
 

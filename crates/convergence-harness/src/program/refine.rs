@@ -334,7 +334,12 @@ mod tests {
     use crate::input::parse;
 
     fn read(text: &str) -> Result<Refine, String> {
-        parse(&format!("[refine]\n{text}\n"), "a.toml", refine).map_err(|error| error.to_string())
+        let read = |root: &Section<'_>| {
+            root.section("refine")?
+                .map_or(Ok(()), |section| section.allow_only(&[], KEYS))?;
+            refine(root)
+        };
+        parse(&format!("[refine]\n{text}\n"), "a.toml", read).map_err(|error| error.to_string())
     }
 
     fn parameters(text: &str) -> Vec<String> {

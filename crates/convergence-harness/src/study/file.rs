@@ -201,8 +201,8 @@ impl<K: FromFile> Described<K> {
     }
 }
 
-/// Refuses the keys that a file of a kind may not have.
-fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
+/// Refuses the keys that a file of a kind may not have; none if no set is declared.
+pub fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
     if sets.is_empty() {
         Ok(())
     } else {

@@ -17,7 +17,7 @@ pub(crate) use convergence_harness::study::over_levels::{ErrorColumn, Levels, su
 pub(crate) use convergence_harness::study::{
     Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
     KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
-    Untested, read_claim, reader, readings,
+    Untested, allow_only, read_claim, reader, readings,
 };
 pub(crate) use convergence_harness::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,

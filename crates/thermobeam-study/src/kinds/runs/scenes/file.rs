@@ -12,9 +12,11 @@ pub(super) const CASE: &[Keys] = &[
     &[&NAMED, &[ANSWERS, MOST], &scene::KEYS],
     &[&NAMED, &[FAILS], &scene::KEYS],
 ];
+// Not a plain choice, by which a table's keys are chosen: the reader says why a case that ends with
+// an error has no answer.
 const ANSWERS: Key = Key::new(
     "ends",
-    Form::Choice(|| vec![End::Answer.name()]),
+    Form::OneOf(&[Form::Choice(|| vec![End::Answer.name()])]),
     "how its run must end",
 );
 const FAILS: Key = Key::new(

@@ -21,7 +21,7 @@ pub struct Project {
     pub groups: &'static [&'static str],
     /// Its own words that `explain` knows in addition to kinds and reasons, such as norms.
     pub terms: &'static [Term],
-    /// The files that it reads beside studies: their name, such as `scene`, and their keys.
+    /// The files that it reads beside studies: their name, such as `mesh`, and their keys.
     pub tables: &'static [(&'static str, Keys)],
     /// Files that `new` writes.
     pub templates: &'static [Template],

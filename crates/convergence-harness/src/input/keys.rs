@@ -82,7 +82,14 @@ pub fn names(keys: &[&[Key]]) -> Vec<&'static str> {
     keys.iter().copied().flatten().map(|key| key.name).collect()
 }
 
-impl Section<'_> {
+impl<'a> Section<'a> {
+    /// The table of that name, which has these keys.
+    pub fn table(&self, key: &str, keys: Keys) -> Result<Section<'a>, InputError> {
+        let names = names(keys).join(", ");
+        self.require(key, &format!("a table with {names}"))?
+            .section()
+    }
+
     /// Refuses every key, here and in the tables below, that none of these sets has. If the names
     /// that the table chooses, such as that of a method, fit some of the sets, only those count.
     ///

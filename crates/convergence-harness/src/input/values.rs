@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
-use super::keys::{self, Keys};
 use super::{Complaint, InputError, Source, settings};
 use crate::text::names::nearest;
 use crate::text::visible;
@@ -316,13 +315,6 @@ impl<'a> Section<'a> {
     /// The value of a key that has no default; `allowed` says what must be there.
     pub fn require(&self, key: &str, allowed: &str) -> Result<Field<'a>, InputError> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
-    }
-
-    /// The table of that name, which has these keys.
-    pub fn table(&self, key: &str, keys: Keys) -> Result<Section<'a>, InputError> {
-        let names = keys::names(keys).join(", ");
-        self.require(key, &format!("a table with {names}"))?
-            .section()
     }
 
     /// The whole number of a key without a default.

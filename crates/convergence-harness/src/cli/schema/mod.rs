@@ -83,7 +83,7 @@ pub fn of_studies(project: &Project) -> Value {
     })
 }
 
-/// The schema of a file of a project that is no study, such as a scene.
+/// The schema of a file of a project that is no study, such as a mesh.
 ///
 /// * `set`: the keys of its topmost table.
 pub fn of_tables_file(name: &str, set: Keys) -> Value {

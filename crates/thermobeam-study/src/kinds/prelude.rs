@@ -34,9 +34,6 @@ pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase,
 pub(crate) use thermobeam_exact::vibration::Mode;
 
 pub(crate) use super::settings::{ItemMethod, Topic};
-pub(crate) use super::tables::{
-    CLAIM_KEYS, CONTROL, DISCRETISATION_KEYS, DISCRETISATIONS, EXACT, EXPECT, MAP, REFINE,
-};
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};

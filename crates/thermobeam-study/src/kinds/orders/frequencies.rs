@@ -18,7 +18,7 @@ use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, increasing};
+use crate::kinds::tables::{Layout, MAP, increasing};
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///

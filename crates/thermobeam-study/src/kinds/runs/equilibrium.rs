@@ -13,7 +13,7 @@ use super::steady::{
 use super::{Findings, Listing, Results, RunStudy, Runs, steady};
 use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Discretisation;
+use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

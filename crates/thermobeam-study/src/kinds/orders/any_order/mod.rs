@@ -34,7 +34,7 @@ use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, control, manufactured};
+use crate::kinds::tables::{CONTROL, EXACT, Layout, MAP, control, manufactured};
 use crate::run::dg::DgMotion;
 pub use runs::Resolution;
 use runs::{Over, RunsOfDegree, series};

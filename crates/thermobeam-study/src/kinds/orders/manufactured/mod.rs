@@ -40,7 +40,9 @@ pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::detects::untested::untested;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Refine, TERMS, control, expectations, manufactured, refine};
+use crate::kinds::tables::{
+    CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, refine,
+};
 pub use design::Prepared;
 
 /// Preparing the space vectors of a mesh costs as much as this many steps.

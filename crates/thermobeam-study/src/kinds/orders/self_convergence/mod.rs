@@ -53,7 +53,9 @@ use super::{Measured, Orders, Runs, Series, Source};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Discretisation, Refine, claims, discretisations, nested};
+use crate::kinds::tables::{
+    CLAIM_KEYS, DISCRETISATIONS, Discretisation, Refine, claims, discretisations, nested,
+};
 use observable::Observable;
 
 /// A study of rates without an exact solution.

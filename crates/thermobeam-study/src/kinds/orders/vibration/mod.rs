@@ -10,7 +10,7 @@ use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms};
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Refine, control, expectations, refine};
+use crate::kinds::tables::{CONTROL, EXPECT, REFINE, Refine, control, expectations, refine};
 use modes::Modes;
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of

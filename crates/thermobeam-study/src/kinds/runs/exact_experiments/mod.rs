@@ -27,7 +27,7 @@ use thermobeam::dg::ContactEvent;
 
 use super::{Findings, Listing, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Discretisation, discretisations};
+use crate::kinds::tables::{DISCRETISATIONS, Discretisation, discretisations};
 use judge::{OfScene, events};
 
 /// The row of the table of kinds.

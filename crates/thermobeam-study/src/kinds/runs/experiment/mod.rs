@@ -55,7 +55,7 @@ use super::side_by_side::SideBySide;
 use super::steady::{ToRest, compared, listed_scene};
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Discretisation, discretisations};
+use crate::kinds::tables::{DISCRETISATIONS, Discretisation, discretisations};
 use group::SectionFive;
 use trace::{Observed, Recorder};
 

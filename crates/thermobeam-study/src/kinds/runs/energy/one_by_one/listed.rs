@@ -6,7 +6,7 @@ use crate::kinds::runs::cases::{ClaimedScene, ENDS, End, NAMED};
 use crate::kinds::runs::energy::beams::smooth;
 use crate::kinds::runs::energy::bound::stability;
 use crate::kinds::runs::watch::SOLVED;
-use crate::kinds::tables::Layout;
+use crate::kinds::tables::{Layout, MAP};
 use crate::scene;
 
 /// The keys of `[energy]`.

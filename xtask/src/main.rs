@@ -1,6 +1,7 @@
 //! `cargo xtask <command>`: the commands of `thermobeam`, and tools for developing the project.
 
 mod bench;
+mod references;
 mod regressions;
 
 use std::process::ExitCode;
@@ -53,6 +54,7 @@ enum Command {
 
 #[derive(Debug, Subcommand)]
 enum Dev {
+    References(references::Arguments),
     Regressions(regressions::Arguments),
 }
 
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
     ended(line.clone(), |asked: Xtask| match asked.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
         Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
+        Command::Dev(Dev::References(arguments)) => references::run(&arguments),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
     })
 }

@@ -16,7 +16,7 @@
 
 use std::path::Path;
 
-use convergence_harness::input::{InputError, Section};
+use convergence_harness::input::{Form, InputError, Key, Keys, Section};
 use convergence_harness::plots;
 use convergence_harness::plots::xy::Xy;
 use convergence_harness::study::kind::completion;
@@ -36,6 +36,7 @@ use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "calibration",
+    keys: Calibration::KEYS,
     read: reader::<Calibration>,
     why: "The rules that turn errors into verdicts, and values into error bars, are applied to thousands of made-up sequences and grids whose order or limit \
           is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
@@ -84,7 +85,6 @@ pub struct Measure {
 
 impl Measure {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&["of", "tables", "seed"])?;
         let parts = PARTS.each_ref().map(|part| (part.name, part));
         Ok(Self {
             of: section
@@ -111,7 +111,6 @@ pub struct Expectation {
 
 impl Expectation {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&["sheet", "column", "row", "most", "least"])?;
         let text = |key: &str| Ok(section.require(key, "a text in quotes")?.text()?.to_owned());
         let bound =
             |key: &str, open: f64| section.get(key).map_or(Ok(open), |field| field.positive());
@@ -181,9 +180,38 @@ pub struct Calibration {
     expected: Vec<Expectation>,
 }
 
+const MEASURE: [Key; 3] = [
+    Key::new(
+        "of",
+        Form::Choice(|| PARTS.iter().map(|part| part.name).collect()),
+        "what is counted",
+    ),
+    Key::new("tables", Form::Count(1), "tables of each law"),
+    Key::new("seed", Form::Count(0), "of their random numbers"),
+];
+const SHARE: [Key; 3] = [
+    Key::new("sheet", Form::Text, "the sheet of the share"),
+    Key::new("column", Form::Text, "its column"),
+    Key::new("row", Form::Text, "its row").or("each declared row"),
+];
+const MOST: Key = Key::new("most", Form::Positive, "an upper bound");
+const LEAST: Key = Key::new("least", Form::Positive, "a lower bound");
+
 impl FromFile for Calibration {
+    const KEYS: &'static [Keys] = &[&[&[
+        Key::new(
+            "measure",
+            Form::List(&Form::Table(&[&[&MEASURE]])),
+            "what is counted, and on how many tables",
+        ),
+        Key::new(
+            "expect",
+            Form::List(&Form::Table(&[&[&SHARE, &[MOST]], &[&SHARE, &[LEAST]]])),
+            "shares with their bounds",
+        ),
+    ]]];
+
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "measure", "expect"])?;
         let measures = root.tables("measure", "", Measure::read)?;
         Ok(Self {
             measures,

@@ -1,5 +1,6 @@
 //! A project's description of itself for the harness.
 
+use crate::input::Keys;
 use crate::study::Exercised;
 use crate::study::header::{self, Setting};
 use crate::study::{Header, KindRow, Subject};
@@ -20,6 +21,8 @@ pub struct Project {
     pub groups: &'static [&'static str],
     /// Its own words that `explain` knows in addition to kinds and reasons, such as norms.
     pub terms: &'static [Term],
+    /// The files that it reads beside studies: their name, such as `mesh`, and their keys.
+    pub tables: &'static [(&'static str, Keys)],
     /// Files that `new` writes.
     pub templates: &'static [Template],
     /// Figures that are also written under a fixed name next to the report: file name of the
@@ -48,6 +51,7 @@ impl Project {
             kinds: &[],
             groups: &[],
             terms: &[],
+            tables: &[],
             templates: &[],
             front_pictures: &[],
             front: Front {

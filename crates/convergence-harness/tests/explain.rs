@@ -10,6 +10,7 @@ use convergence_harness::study::{Axis, Claim, Header, KindRow, Study, erased, he
 
 const KIND: KindRow = KindRow {
     name: "quadrature",
+    keys: &[],
     read,
     why: "The error of a quadrature rule of order p falls like h^p where the integrand is smooth, as Taylor's formula \
           shows for each cell, and adding the errors of all cells loses one power that the smallness of a cell gains.",

@@ -45,7 +45,7 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Records of runs", &["compare", "report"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
-    ("Everything else", &["completions", "man"]),
+    ("Everything else", &["schema", "completions", "man"]),
 ];
 
 impl Command {

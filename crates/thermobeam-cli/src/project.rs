@@ -3,6 +3,7 @@
 use convergence_harness::program;
 use convergence_harness::project::{Front, Project, Template};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
+use thermobeam_study::scene;
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or
 /// `cargo xtask` in a checkout.
@@ -25,6 +26,7 @@ pub const fn project(command: &'static str) -> Project {
             "the harness",
         ],
         terms: &TERMS,
+        tables: &[("scene", &[&scene::KEYS])],
         templates: &TEMPLATES,
         // Other pages show this picture, so its name must not depend on studies.
         front_pictures: &[("section-5-beam.svg", "beam.svg")],

@@ -1,5 +1,5 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`,
-//! `explain`, `completions`, `man`, for any project.
+//! `explain`, `schema`, `completions`, `man`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
 //! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
@@ -17,6 +17,7 @@ mod new;
 mod rates;
 mod report;
 pub mod running;
+pub mod schema;
 pub mod screen;
 mod study;
 mod verify;
@@ -45,6 +46,7 @@ pub enum Command {
     Rates(rates::Arguments),
     Compare(compare::Arguments),
     Report(report::Arguments),
+    Schema(schema::Arguments),
     New(new::Arguments),
     Manufacture(manufacture::Arguments),
     /// Print completions for a shell
@@ -70,7 +72,7 @@ pub enum Command {
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 11] = [
+pub const COMMANDS: [&str; 12] = [
     "new",
     "manufacture",
     "verify",
@@ -80,6 +82,7 @@ pub const COMMANDS: [&str; 11] = [
     "rates",
     "compare",
     "report",
+    "schema",
     "completions",
     "man",
 ];
@@ -99,6 +102,7 @@ impl Command {
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Compare(arguments) => compare::run(arguments),
             Self::Report(arguments) => report::run(project, arguments),
+            Self::Schema(arguments) => schema::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
             Self::Manufacture(arguments) => manufacture::run(arguments),
             Self::Completions { shell } => complete(whole, project, *shell),

@@ -4,6 +4,7 @@
 //! place in the file, a [`Field`] a value with its place. Readers take values from them and never
 //! compute the position of a message.
 
+pub mod keys;
 mod lists;
 mod settings;
 mod values;
@@ -23,6 +24,7 @@ use crate::text::visible;
 pub mod error_table;
 
 pub use crate::text::visible::visible;
+pub use keys::{Form, Key, Keys};
 pub use values::{Field, Misread, POSITIVE, Section, shorten};
 
 /// A place in a text file.

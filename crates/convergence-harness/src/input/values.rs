@@ -322,15 +322,6 @@ impl<'a> Section<'a> {
         self.get(key).ok_or_else(|| self.missing(key, allowed))
     }
 
-    /// The table of that name, which may have only these keys.
-    pub fn table(&self, key: &str, keys: &[&str]) -> Result<Section<'a>, InputError> {
-        let table = self
-            .require(key, &format!("a table with {}", keys.join(", ")))?
-            .section()?;
-        table.allow(keys)?;
-        Ok(table)
-    }
-
     /// The whole number of a key without a default.
     pub fn count(&self, key: &str, range: RangeInclusive<usize>) -> Result<usize, InputError> {
         self.require(key, &format!("a whole number >= {}", range.start()))?

@@ -1,13 +1,4 @@
-//! Study files of programs. `begin/study.toml` is one, `program.md` of the book has all keys.
-//!
-//! | key | of a table `[[expect]]` |
-//! | --- | --- |
-//! | `error`, `value` | one of them: the name of an error, or of a value without exact solution, judged by its differences |
-//! | `order` | a number, or `">= 1"`; of a grid: in h, and `order_dt` in dt, which is otherwise the same |
-//! | `constant` | with `order`: the ends of the C of error = C h^order |
-//! | `factor` | in place of `order`: by which the error falls per degree, n being the degree; a number, or `">= 5"` |
-//! | `exact` | alone: no error is larger |
-//! | `tolerance` | of the order; 0.25 without it |
+//! Study files of programs. `begin/study.toml` is one, `program.md` of the book describes them.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -15,11 +6,99 @@ use std::time::Duration;
 use super::Program;
 use super::answer::Expectation;
 use super::command::filled;
-use super::refine::{Parameter, refine};
-use crate::input::{Field, InputError, Section, visible};
+use super::refine::{self, Parameter, refine};
+use crate::input::{Field, Form, InputError, Key, Section, visible};
 use crate::judge::claims::order_of_factor;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
 use crate::study::{Claim, Header, read_claim};
+
+/// The keys of the file.
+pub(super) const KEYS: [Key; 3] = [
+    Key::new("program", Form::Table(&[&[&PROGRAM]]), "what is run"),
+    Key::new(
+        "refine",
+        Form::Table(refine::KEYS),
+        "the resolutions at which it is run",
+    ),
+    Key::new(
+        "expect",
+        Form::List(&Form::Table(&[
+            &[&[ERROR], &ORDER],
+            &[&[ERROR], &FACTOR],
+            &[&[ERROR, EXACT]],
+            &[&[VALUE], &[RATE, TOLERANCE]],
+        ])),
+        "an error or a value, and what is claimed of it",
+    ),
+];
+
+const PROGRAM: [Key; 4] = [
+    Key::new(
+        "command",
+        Form::List(&Form::Text),
+        "the program and its arguments, without a shell; `{n}`, `{h}`, `{steps}`, `{dt}`, `{level}` stand for the resolution, \
+         without them the program reads it as JSON from standard input",
+    ),
+    Key::new(
+        "directory",
+        Form::Text,
+        "the folder in which it runs, relative to that of this file",
+    )
+    .or("\".\""),
+    Key::new(
+        "env",
+        Form::Texts,
+        "variables of the program's environment, beside those of the harness",
+    )
+    .or("none"),
+    Key::new(
+        "timeout",
+        Form::Positive,
+        "seconds that a resolution may take",
+    )
+    .or("600"),
+];
+const ERROR: Key = Key::new(
+    "error",
+    Form::Text,
+    "the name of an error that the program answers",
+);
+const VALUE: Key = Key::new(
+    "value",
+    Form::Text,
+    "the name of a value without exact solution that it answers: judged by the differences of its levels",
+);
+const EXACT: Key = Key::new("exact", Form::Positive, "no error is larger");
+const RATE: Key = Key::new(
+    "order",
+    Form::OneOf(&[Form::Positive, Form::Text]),
+    "the order, or the least order as \">= 1\"; of a grid: in h",
+);
+const TOLERANCE: Key = Key::new(
+    "tolerance",
+    Form::Positive,
+    "how far the rate may be from the order",
+)
+.or("0.25");
+const ORDER: [Key; 4] = [
+    RATE,
+    Key::new("order_dt", Form::Positive, "of a grid: the order in dt").or("order"),
+    Key::new(
+        "constant",
+        Form::List(&Form::Positive),
+        "the ends of the C of error = C h^order",
+    )
+    .or(""),
+    TOLERANCE,
+];
+const FACTOR: [Key; 2] = [
+    Key::new(
+        "factor",
+        Form::OneOf(&[Form::Positive, Form::Text]),
+        "by which the error falls with each degree, n being the degree, or at least, as \">= 5\"",
+    ),
+    TOLERANCE,
+];
 
 /// The default time limit of a case.
 const TIMEOUT: Duration = Duration::from_secs(600);
@@ -29,14 +108,9 @@ pub(super) fn read(
     root: &Section<'_>,
     folder: &Path,
 ) -> Result<Program, InputError> {
-    root.allow(&["study", "program", "refine", "expect"])?;
     let section = root
         .require("program", "a table with the command")?
         .section()?;
-    if let Some(field) = ["cache", "files"].iter().find_map(|key| section.get(key)) {
-        return Err(field.refuse_as_written("no such key: every case is run each time"));
-    }
-    section.allow(&["command", "directory", "env", "timeout"])?;
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
     let words = words(&section, &refine.resolutions()[0].parameters)?;
@@ -156,16 +230,6 @@ fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, Inpu
 
 /// * `grid`: whether h and dt are refined independently; each error then has two orders.
 fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
-    section.allow(&[
-        "error",
-        "value",
-        "order",
-        "order_dt",
-        "factor",
-        "constant",
-        "exact",
-        "tolerance",
-    ])?;
     let (name, is_value) = match section.get("value") {
         Some(value) if section.get("error").is_some() => {
             return Err(value.refuse(

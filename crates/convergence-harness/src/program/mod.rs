@@ -27,7 +27,7 @@ mod values;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::input::{InputError, Section};
+use crate::input::{InputError, Keys, Section};
 use crate::project::{Project, Template};
 use crate::run::time_limit;
 use crate::study::header;
@@ -45,6 +45,7 @@ pub use refine::{Parameter, Resolution};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "program",
+    keys: Program::KEYS,
     read: reader::<Program>,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
@@ -103,6 +104,8 @@ pub struct Program {
 }
 
 impl FromFile for Program {
+    const KEYS: &'static [Keys] = &[&[&file::KEYS]];
+
     fn from_document(
         header: &Header,
         root: &Section<'_>,

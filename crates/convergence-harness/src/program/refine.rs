@@ -1,7 +1,47 @@
 //! The table `[refine]`: the resolutions at which a program is run.
 
-use crate::input::{Field, InputError, Section};
+use crate::input::{Field, Form, InputError, Key, Keys, Section};
 use crate::study::{Axis, Refinement, until_decided};
+
+/// The keys of the table: a list in space, or in time, or one of each.
+pub(super) const KEYS: &[Keys] = &[
+    &[&[N], &TIME, &LEVELS],
+    &[&[H], &TIME, &LEVELS],
+    &[&[STEPS], &LEVELS],
+    &[&[DT], &LEVELS],
+];
+const COUNTED: Form = Form::OneOf(&[Form::List(&Form::Count(1)), Form::Choice(|| vec!["auto"])]);
+const N: Key = Key::new(
+    "n",
+    COUNTED,
+    "cells, increasing: h = 1/n; `\"auto\"`: doubled until it is decided",
+);
+const H: Key = Key::new("h", Form::List(&Form::Positive), "mesh widths, decreasing");
+const STEPS: Key = Key::new(
+    "steps",
+    COUNTED,
+    "time steps, increasing: dt = 1/steps; `\"auto\"` as for n",
+);
+const DT: Key = Key::new(
+    "dt",
+    Form::List(&Form::Positive),
+    "lengths of time steps, decreasing",
+);
+const TIME: [Key; 2] = [STEPS.or(""), DT.or("")];
+const LEVELS: [Key; 2] = [
+    Key::new(
+        "grid",
+        Form::Boolean,
+        "all pairs of a list in space and one in time, instead of both together",
+    )
+    .or("false"),
+    Key::new(
+        "budget",
+        Form::Positive,
+        "with `\"auto\"`: seconds for all levels",
+    )
+    .or("60"),
+];
 
 /// A number passed to a case, by its name.
 pub type Parameter = (&'static str, f64);
@@ -197,7 +237,6 @@ pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let section = root
         .require("refine", &format!("a table with {lists}"))?
         .section()?;
-    section.allow(&["n", "h", "dt", "steps", "grid", "budget"])?;
     let space = one_of(&section, "n", "h")?;
     let time = one_of(&section, "steps", "dt")?;
     let grid = section
@@ -295,7 +334,12 @@ mod tests {
     use crate::input::parse;
 
     fn read(text: &str) -> Result<Refine, String> {
-        parse(&format!("[refine]\n{text}\n"), "a.toml", refine).map_err(|error| error.to_string())
+        let read = |root: &Section<'_>| {
+            root.section("refine")?
+                .map_or(Ok(()), |section| section.allow_only(&[], KEYS))?;
+            refine(root)
+        };
+        parse(&format!("[refine]\n{text}\n"), "a.toml", read).map_err(|error| error.to_string())
     }
 
     fn parameters(text: &str) -> Vec<String> {

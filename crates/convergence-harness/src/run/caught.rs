@@ -12,7 +12,7 @@ thread_local! {
 /// The result of `compute`, or the message of its panic, with file and line.
 ///
 /// Panics in here print nothing; panics elsewhere are reported as usual.
-pub(super) fn catch<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
+pub fn catch<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let before = WATCHED.replace(true);
     // State that a panic leaves half done lives inside `compute` and goes with it: studies are

@@ -25,9 +25,9 @@ use crate::study::outcome::{self, NotFinite};
 use crate::study::{
     Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,
 };
-use caught::catch;
 use queue::{Counter, Done, Job};
 
+pub use caught::catch;
 pub use convergence_judge::time_limit;
 pub use failures::{Item, NotPassed, items, not_passed};
 pub use levels::assert_order;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::{Described, Kind, Study, erased};
 use super::over_levels::Claim;
-use crate::input::{self, Field, InputError, Section};
+use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
 use crate::judge::claims::order_from_text;
 use crate::judge::verdict::DEFAULT_TOLERANCE;
 use crate::text::visible;
@@ -21,6 +21,7 @@ pub fn reader<K: FromFile + 'static>(
     root: &Section<'_>,
     folder: &Path,
 ) -> Result<Box<dyn Study>, InputError> {
+    allow_only(root, K::KEYS)?;
     let kind = K::from_document(&header, root, folder)?;
     Ok(erased(header, kind))
 }
@@ -31,6 +32,9 @@ pub struct KindRow {
     /// The value of `[study] kind`. Kinds that differ in the source of their numbers alone have the
     /// same word before a `/`: `orders/vibration`.
     pub name: &'static str,
+    /// The keys of its files beside `[study]`: one of these sets. Without any, its reader refuses
+    /// unknown keys itself, and the schema allows all.
+    pub keys: &'static [Keys],
     /// Its reader.
     pub read: Reader,
     /// Why the claim should hold.
@@ -81,9 +85,23 @@ impl StudyFile {
         Ok(files)
     }
 
+    /// Reads a study from `text`; messages name `path`, and other files are searched for next to it.
+    pub fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::parse_after(&[], kinds, text, path)
+    }
+
     /// Reads a study file whose id none of the `earlier` ones has.
     fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
-        let study = input::parse_beside(&input::read_text(path)?, path, |root, folder| {
+        Self::parse_after(earlier, kinds, &input::read_text(path)?, path)
+    }
+
+    fn parse_after(
+        earlier: &[Self],
+        kinds: &[KindRow],
+        text: &str,
+        path: &Path,
+    ) -> Result<Self, InputError> {
+        let study = input::parse_beside(text, path, |root, folder| {
             let header = Header::from_document(root)?;
             if let Some(earlier) = earlier
                 .iter()
@@ -101,6 +119,8 @@ impl StudyFile {
                 ));
             }
             let row = row(kinds, root, &header)?;
+            // For a reader that is not made by `reader`.
+            allow_only(root, row.keys)?;
             (row.read)(header, root, folder)
         })?;
         Ok(Self {
@@ -197,6 +217,9 @@ fn row<'k>(
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait FromFile: Kind + Sized {
+    /// The keys of the file beside `[study]`, as in [`KindRow`].
+    const KEYS: &'static [Keys];
+
     /// Reads the study from the document of its file.
     ///
     /// * `header`: the table `[study]`, already read.
@@ -228,6 +251,7 @@ impl<K: FromFile> Described<K> {
     pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         input::parse_beside(text, file, |root, folder| {
             let header = Header::from_document(root)?;
+            allow_only(root, K::KEYS)?;
             Ok(Self {
                 kind: K::from_document(&header, root, folder)?,
                 header,
@@ -241,13 +265,50 @@ impl<K: FromFile> Described<K> {
     }
 }
 
+/// Refuses the keys that a file of a kind may not have; none if no set is declared.
+pub fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
+    if sets.is_empty() {
+        Ok(())
+    } else {
+        root.allow_only(&[STUDY_TABLE], sets)
+    }
+}
+
+/// The table that every study file has.
+pub(crate) const STUDY_TABLE: Key = Key::new(
+    "study",
+    Form::Table(&[&[&HEADER]]),
+    "what the study is about",
+);
+
+const HEADER: [Key; 5] = [
+    Key::new(
+        "id",
+        Form::Text,
+        "its name, which no other study has: lowercase letters, digits, `.` and `-`",
+    ),
+    Key::new("claim", Form::Text, "the claim in one line of text"),
+    Key::new(
+        "tier",
+        Form::Choice(|| Tier::ALL.map(Tier::name).to_vec()),
+        "`full`: only when everything is verified",
+    ),
+    Key::new(
+        "kind",
+        Form::Text,
+        "which kind of study it is: the other tables depend on it",
+    )
+    .or("\"orders/manufactured\", if the project has that kind"),
+    Key::new("group", Form::Text, "under which reports list it").or("the kind"),
+];
+
 impl Header {
     /// Reads `[study]` of a document, and records every value of the document.
     pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
         let study = root
             .require("study", "a table with id, claim and tier")?
             .section()?;
-        study.allow(&["id", "claim", "tier", "kind", "group"])?;
+        study.allow_only(&HEADER, &[])?;
         let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
         let kind = if study.get("kind").is_some() {
             name(&study, "kind", is_kind, KIND)?

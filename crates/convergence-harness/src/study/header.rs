@@ -8,7 +8,7 @@ const ORDERS: &str = "orders";
 
 /// The kind of a study whose file has no `kind`.
 #[cfg(feature = "files")]
-pub(super) const DEFAULT_KIND: &str = "orders/manufactured";
+pub(crate) const DEFAULT_KIND: &str = "orders/manufactured";
 
 /// Longest id: it becomes part of file names, which some systems limit to 255 bytes.
 const LONGEST_NAME: usize = 100;

@@ -20,8 +20,10 @@ pub mod until_decided;
 
 pub use coverage::Coverage;
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
+#[cfg(feature = "command-line")]
+pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, Reader, StudyFile, read_claim, reader};
+pub use file::{FromFile, KindRow, Reader, StudyFile, allow_only, read_claim, reader};
 pub use header::{Exercised, Header, Tier};
 pub use kind::{
     Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here,

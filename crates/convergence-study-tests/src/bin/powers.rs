@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use convergence_harness::cli;
-use convergence_harness::input::{InputError, Section};
+use convergence_harness::input::{Form, InputError, Key, Section};
 use convergence_harness::program;
 use convergence_harness::project::Project;
 use convergence_harness::study::{Claim, Header, KindRow, Study, erased, header, levels};
@@ -16,6 +16,11 @@ const PROJECT: Project = Project {
     kinds: &[
         KindRow {
             name: "power",
+            keys: &[&[&[Key::new(
+                "exponent",
+                Form::Positive,
+                "errors are h^exponent",
+            )]]],
             read,
             why: "",
             judged: "",
@@ -31,7 +36,6 @@ const PROJECT: Project = Project {
 /// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no
 /// baseline.
 fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
-    root.allow(&["study", "exponent"])?;
     let exponent = root
         .require("exponent", "a number > 0")?
         .number_where("a number > 0", |value| value > 0.0)?;

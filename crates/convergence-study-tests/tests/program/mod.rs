@@ -256,12 +256,12 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "timeout = 9",
             "files = [\"x\"]",
-            "program.files: found the list [\"x\"]; expected no such key: every case is run each time",
+            "program.files: unknown key `files`; expected command, directory, timeout",
         ),
         (
             "timeout = 9",
             "cache = true",
-            "program.cache: found true; expected no such key: every case is run each time",
+            "program.cache: unknown key `cache`; expected command, directory, timeout",
         ),
         (
             "timeout = 9",

@@ -1,3 +1,4 @@
+use std::fs;
 use std::path::Path;
 
 use convergence_study_tests::output;
@@ -169,6 +170,22 @@ fn every_shell_gets_completions_that_know_the_commands() {
             "{shell}"
         );
     }
+}
+
+#[test]
+fn the_schemas_are_printed_as_committed() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../thermobeam-study");
+    for (files, name) in [("study", "schema.json"), ("scene", "scene.schema.json")] {
+        let ended = ended(thermobeam().args(["schema", files]));
+        let committed = fs::read_to_string(folder.join(name)).expect(name);
+        assert_eq!((ended.status, ended.stdout), (Some(0), committed));
+    }
+    let other = ended(thermobeam().args(["schema", "mesh"]));
+    assert_eq!(other.status, Some(2));
+    assert_eq!(
+        other.stderr,
+        "error: found `mesh`; expected study or scene\n"
+    );
 }
 
 #[test]

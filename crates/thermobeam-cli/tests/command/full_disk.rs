@@ -95,6 +95,8 @@ fn output_to_a_full_disk_is_said_and_output_to_nobody_is_no_error() {
         (&["list"], 0),
         (&["explain", "superclose"], 0),
         (&["completions", "bash"], 0),
+        (&["schema"], 0),
+        (&["schema", "scene"], 0),
     ] {
         let mut command = thermobeam();
         command

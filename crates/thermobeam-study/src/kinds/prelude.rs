@@ -2,7 +2,9 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_harness::input::{Field, InputError, POSITIVE, Section};
+pub(crate) use convergence_harness::input::{
+    Field, Form, InputError, Key, Keys, POSITIVE, Section, keys,
+};
 pub(crate) use convergence_harness::judge::random::SplitMix;
 pub(crate) use convergence_harness::judge::richardson;
 pub(crate) use convergence_harness::judge::verdict::{Judge, RateVerdict, Verdict};
@@ -15,7 +17,7 @@ pub(crate) use convergence_harness::study::over_levels::{ErrorColumn, Levels, su
 pub(crate) use convergence_harness::study::{
     Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
     KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
-    Untested, read_claim, reader, readings,
+    Untested, allow_only, read_claim, reader, readings,
 };
 pub(crate) use convergence_harness::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
@@ -62,7 +64,6 @@ pub(crate) fn only_table<'t>(
     tables: [&'t str; 3],
     allowed: &str,
 ) -> Result<&'t str, InputError> {
-    root.allow(&[&["study"], &tables[..]].concat())?;
     match tables
         .into_iter()
         .filter(|table| root.get(table).is_some())

@@ -1,6 +1,6 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
-use convergence_harness::input::{InputError, POSITIVE, Section};
+use convergence_harness::input::{Form, InputError, Key, POSITIVE, Section, keys};
 use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::Stepping;
@@ -25,15 +25,48 @@ const GROWTH: f64 = 1.5;
 /// Default first step, in units of the time scale of an impact's peak.
 const RESTART: f64 = 0.2;
 
-const DG_KEYS: [&str; 8] = [
-    "scheme",
-    "degree",
-    "dt",
-    "restart_dt",
-    "growth",
-    "t_end",
-    "tolerance",
-    "max_iterations",
+const T_END: Key = Key::new("t_end", Form::Positive, "final time");
+
+/// The keys of `[time]` for a one-step scheme, beside [`tables::STEPPING_KEYS`].
+pub(super) const ONE_STEP_KEYS: [Key; 2] = [
+    Key::new("dt", Form::Positive, "time step; it divides t_end"),
+    T_END,
+];
+
+/// The keys of `[time]` for dG.
+pub(super) const DG_KEYS: [Key; 8] = [
+    Key::new(
+        "scheme",
+        Form::Choice(|| vec![DG]),
+        "elements of any degree, dG(q) in time",
+    ),
+    Key::new("degree", Form::Count(0), "degree q in time").or("2"),
+    Key::new("dt", Form::Positive, "the largest step").or("0.02, at most t_end"),
+    Key::new(
+        "restart_dt",
+        Form::Positive,
+        "the first step, at the start and after each contact event",
+    )
+    .or("a fifth of the time scale of an impact"),
+    Key::new(
+        "growth",
+        Form::Number,
+        "factor of the steps in between, at least 1",
+    )
+    .or("1.5"),
+    T_END,
+    Key::new(
+        "tolerance",
+        Form::Positive,
+        "the increment at which an iteration ends",
+    )
+    .or("1e-14"),
+    Key::new(
+        "max_iterations",
+        Form::Count(1),
+        "iterations after which a step fails",
+    )
+    .or("100"),
 ];
 
 /// How a scene is stepped.
@@ -197,7 +230,7 @@ pub(super) fn read(
 
 /// A one-step scheme, and t_end.
 fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
-    time.allow(&[&["dt", "t_end"], &tables::STEPPING_KEYS[..]].concat())?;
+    time.allow(&keys::names(&[&ONE_STEP_KEYS, &tables::STEPPING_KEYS]))?;
     let (dt, t_end) = time_steps(time)?;
     let (scheme, settings) = (tables::scheme(time)?, tables::settings(time)?);
     Ok((
@@ -248,7 +281,7 @@ fn dg(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
 ) -> Result<(Method, f64), InputError> {
-    time.allow(&DG_KEYS)?;
+    time.allow(&keys::names(&[&DG_KEYS]))?;
     let t_end = time.positive("t_end")?;
     let defaults = default_stepping(beam, obstacles, t_end);
     let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| field.positive());

@@ -54,11 +54,62 @@ pub use tables::Coefficients;
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
 
-use convergence_harness::input::{self, Field, InputError, Section};
+use convergence_harness::input::{self, Field, Form, InputError, Key, Section};
 use convergence_harness::text::number::counted;
 
 /// The tables of a scene.
-pub(crate) const TABLES: [&str; 5] = ["beam", "obstacles", "initial", "mesh", "time"];
+pub const KEYS: [Key; 5] = [
+    tables::BEAM,
+    tables::OBSTACLES,
+    Key::new(
+        "initial",
+        Form::Table(&[&[&INITIAL]]),
+        "the initial data, functions of x",
+    )
+    .or("all 0"),
+    Key::new("mesh", Form::Table(&[&[&UNIFORM], &[&LISTED]]), "the mesh")
+        .or("its keys have defaults"),
+    Key::new(
+        "time",
+        Form::Table(&[
+            &[&method::ONE_STEP_KEYS, &tables::STEPPING_KEYS],
+            &[&method::DG_KEYS],
+        ]),
+        "the method, its steps, and where the run ends",
+    ),
+];
+const INITIAL: [Key; 5] = [
+    Key::new("u", Form::Text, "displacement; 0 at x = 0").or("\"0\""),
+    Key::new("u_t", Form::Text, "velocity; 0 at x = 0").or("\"0\""),
+    Key::new("phi", Form::Text, "rotation; 0 at x = 0").or("\"0\""),
+    Key::new("phi_t", Form::Text, "rate of rotation; 0 at x = 0").or("\"0\""),
+    Key::new(
+        "theta",
+        Form::Text,
+        "temperature; theta_a at x = 0, 0 at x = 1",
+    )
+    .or("\"0\""),
+];
+const DEGREE_KEY: Key = Key::new("degree", Form::Count(1), "degree p of the elements")
+    .or("1, or 13 with scheme = \"dg\"");
+const UNIFORM: [Key; 3] = [
+    Key::new("elements", Form::Count(1), "number of elements").or("100, or 1 with scheme = \"dg\""),
+    Key::new(
+        "map",
+        Form::Text,
+        "a function of s that places the nodes: 0 at 0, 1 at 1",
+    )
+    .or("\"s\""),
+    DEGREE_KEY,
+];
+const LISTED: [Key; 2] = [
+    Key::new(
+        "nodes",
+        Form::List(&Form::Number),
+        "the nodes, increasing from 0 to 1",
+    ),
+    DEGREE_KEY,
+];
 
 /// Initial data (1.2), functions of x; `None` is 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -131,7 +182,7 @@ impl Scene {
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
-        root.allow(&TABLES)?;
+        root.allow_only(&KEYS, &[])?;
         Self::from_tables(root, name)
     }
 
@@ -331,9 +382,6 @@ fn boxed(function: &Option<Expression>) -> Box<dyn Fn(f64) -> f64> {
 fn mesh(root: &Section<'_>, default_elements: usize) -> Result<Mesh, InputError> {
     let section = root.section("mesh")?;
     let get = |key: &str| section.as_ref().and_then(|section| section.get(key));
-    if let Some(section) = &section {
-        section.allow(&["elements", "map", "nodes", "degree"])?;
-    }
     if let Some(nodes) = get("nodes") {
         if let Some(other) = get("elements").or_else(|| get("map")) {
             return Err(other.refuse(
@@ -379,9 +427,6 @@ fn listed_nodes(field: &Field<'_>) -> Result<Mesh, InputError> {
 /// The table `[initial]`.
 fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, InputError> {
     let section = root.section("initial")?;
-    if let Some(section) = &section {
-        section.allow(&["u", "u_t", "phi", "phi_t", "theta"])?;
-    }
     let function =
         |key: &str, conditions: &[(f64, f64)]| -> Result<Option<Expression>, InputError> {
             let Some(field) = section.as_ref().and_then(|section| section.get(key)) else {

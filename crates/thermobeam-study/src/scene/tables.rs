@@ -8,13 +8,49 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 
 use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
-use convergence_harness::input::{Field, InputError, Misread, Section};
+use convergence_harness::input::{Field, Form, InputError, Key, Misread, Section};
 
 /// The keys of `[beam]`.
-pub(crate) const BEAM_KEYS: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];
+pub(crate) const BEAM_KEYS: [Key; 5] = [
+    Key::new("zeta", Form::Number, "the viscosity ζ").or("0.1"),
+    Key::new("a", Form::Number, "the thermal coupling a").or("0.017"),
+    Key::new(
+        "rho",
+        Form::Number,
+        "the factor ρ of ‖u_x‖² in the axial force",
+    )
+    .or("1.0"),
+    Key::new(
+        "beta",
+        Form::Number,
+        "the axial force β of the straight beam",
+    )
+    .or("0.0"),
+    Key::new("theta_a", Form::Number, "the temperature θ_A at x = 0").or("0.0"),
+];
 
 /// The keys of `[obstacles]`.
-pub(crate) const OBSTACLE_KEYS: [&str; 3] = ["epsilon", "g1", "g2"];
+pub(crate) const OBSTACLE_KEYS: [Key; 3] = [
+    Key::new("epsilon", Form::Number, "the normal compliance ε").or("1e-3"),
+    Key::new("g1", Form::Number, "the lower obstacle").or("-0.01"),
+    Key::new("g2", Form::Number, "the upper obstacle").or("0.1"),
+];
+
+/// The table `[beam]`.
+pub(crate) const BEAM: Key = Key::new(
+    "beam",
+    Form::Table(&[&[&BEAM_KEYS]]),
+    "the coefficients of the equations (1.1)",
+)
+.or("each of its keys has a default");
+
+/// The table `[obstacles]`.
+pub(crate) const OBSTACLES: Key = Key::new(
+    "obstacles",
+    Form::Table(&[&[&OBSTACLE_KEYS]]),
+    "the obstacles at the free end, (1.3)",
+)
+.or("no obstacles");
 
 /// The coefficients of (1.1) and (1.3), which files and negative controls address by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +64,10 @@ pub struct Coefficients {
 impl Coefficients {
     /// All names, those of the obstacles last.
     pub(crate) fn names() -> impl Iterator<Item = &'static str> + Clone {
-        BEAM_KEYS.into_iter().chain(OBSTACLE_KEYS)
+        BEAM_KEYS
+            .into_iter()
+            .chain(OBSTACLE_KEYS)
+            .map(|key| key.name)
     }
 
     /// The coefficient with that name; `None` if it belongs to obstacles and there are none.
@@ -73,9 +112,8 @@ impl Coefficients {
             let Some(section) = root.section(table)? else {
                 continue;
             };
-            section.allow(keys)?;
-            for key in keys {
-                if let (Some(field), Some(value)) = (section.get(key), read.get_mut(key)) {
+            for Key { name, .. } in keys {
+                if let (Some(field), Some(value)) = (section.get(name), read.get_mut(name)) {
                     *value = field.number()?;
                 }
             }
@@ -100,12 +138,37 @@ impl Coefficients {
 }
 
 /// The keys of [`scheme()`] and [`settings`].
-pub(crate) const STEPPING_KEYS: [&str; 5] = [
-    "scheme",
-    "solver",
-    "tolerance",
-    "max_iterations",
-    "iterations",
+pub(crate) const STEPPING_KEYS: [Key; 5] = [
+    Key::new(
+        "scheme",
+        Form::Choice(|| scheme::SCHEMES.map(|scheme| scheme.name).to_vec()),
+        "the one-step scheme",
+    )
+    .or("\"euler-crank-nicolson\""),
+    Key::new(
+        "solver",
+        Form::Choice(|| Solver::ALL.map(Solver::name).to_vec()),
+        "how a step is solved",
+    )
+    .or("\"newton\""),
+    Key::new(
+        "tolerance",
+        Form::Positive,
+        "the increment at which an iteration ends",
+    )
+    .or("1e-10"),
+    Key::new(
+        "max_iterations",
+        Form::Count(1),
+        "iterations after which a step fails",
+    )
+    .or("100"),
+    Key::new(
+        "iterations",
+        Form::Count(1),
+        "of the fixed point in each step, in place of tolerance and max_iterations",
+    )
+    .or(""),
 ];
 
 /// The key `scheme`.

@@ -170,6 +170,7 @@ impl fmt::Display for Share {
 mod tests {
     use super::*;
     use crate::scene::tables;
+    use convergence_harness::input::keys;
 
     #[test]
     fn every_coefficient_can_be_varied() {
@@ -179,8 +180,8 @@ mod tests {
                 .map(|key| key.name)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(names("beam"), tables::BEAM_KEYS);
-        assert_eq!(names("obstacles"), tables::OBSTACLE_KEYS);
+        assert_eq!(names("beam"), keys::names(&[&tables::BEAM_KEYS]));
+        assert_eq!(names("obstacles"), keys::names(&[&tables::OBSTACLE_KEYS]));
         assert!(KEYS.iter().all(|key| TABLES.contains(&key.table)));
     }
 

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::iter::Peekable;
-use std::panic::{self, AssertUnwindSafe};
 use std::time::Duration;
 use std::vec::IntoIter;
 
@@ -16,7 +15,7 @@ use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
-use convergence_harness::run::time_limit;
+use convergence_harness::run::{catch, time_limit};
 
 /// Cases that run together: one group of lanes.
 const LANES: usize = 4;
@@ -47,10 +46,6 @@ struct Content<'a> {
 }
 
 impl Line {
-    fn panicked(sweep: &Sweep, index: usize) -> Self {
-        Self::failed(&sweep.case(index), "the program panicked".to_owned())
-    }
-
     fn failed(case: &SweepCase<'_>, reason: String) -> Self {
         Self::of(&Content {
             case: case.index,
@@ -86,15 +81,11 @@ impl Line {
     }
 }
 
-/// The result of a computation; `None` if it panics, so that the other cases are not lost.
-fn caught<T>(compute: impl FnOnce() -> T) -> Option<T> {
-    panic::catch_unwind(AssertUnwindSafe(compute)).ok()
-}
-
 /// The scene of a case, or the line of its failure.
 fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
     let case = sweep.case(index);
-    let read = caught(|| sweep.scene(&case)).ok_or_else(|| Line::panicked(sweep, index))?;
+    // A panic is a failure of its case, so that the others are not lost.
+    let read = catch(|| sweep.scene(&case)).map_err(|reason| Line::failed(&case, reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
         let field = error
@@ -107,7 +98,7 @@ fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
 
 /// A case on its own.
 fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
-    let line = caught(|| match Simulator::new(scene) {
+    let simulated = || match Simulator::new(scene) {
         Ok(simulator) => Line::of_run(
             sweep,
             index,
@@ -115,8 +106,8 @@ fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
             &simulator.run(Recording::Summary, &mut |_, _| ()),
         ),
         Err(error) => Line::failed(&sweep.case(index), error.to_string()),
-    });
-    line.unwrap_or_else(|| Line::panicked(sweep, index))
+    };
+    catch(simulated).unwrap_or_else(|reason| Line::failed(&sweep.case(index), reason))
 }
 
 /// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
@@ -161,7 +152,7 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
 
 /// The lines of a group: its cases together, or one after the other if that fails.
 fn lines(sweep: &Sweep, group: &Group) -> Vec<Line> {
-    if let Some(lines) = caught(|| lines_together(sweep, group)).flatten() {
+    if let Some(lines) = catch(|| lines_together(sweep, group)).ok().flatten() {
         return lines;
     }
     let cases = group.cases.iter().zip(&group.scenes);

@@ -1,24 +1,19 @@
 //! Ways to damage a file.
 
-/// Random numbers that are the same on every machine: splitmix64.
-pub(crate) struct Dice(u64);
+use convergence_harness::judge::random::SplitMix;
+
+/// Random numbers that are the same on every machine.
+pub(crate) struct Dice(SplitMix);
 
 impl Dice {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(1))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        let seed = seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(1);
+        Self(SplitMix::new(seed))
     }
 
     /// One of 0, 1, ..., count - 1.
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        (self.next() % count.max(1) as u64) as usize
+        (self.0.next_u64() % count.max(1) as u64) as usize
     }
 
     fn one<'a, T>(&mut self, of: &'a [T]) -> &'a T {

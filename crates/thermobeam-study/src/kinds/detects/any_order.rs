@@ -12,6 +12,7 @@
 use super::fault::{Fault, Planted, RELATIVE, relative};
 use super::matrix::{Detects, Needed};
 use super::plantable::Plantable;
+use super::{RELATIVE_KEY, STUDIES};
 use crate::exact::defect::Defect;
 use crate::kinds::orders::any_order::{AnyOrder, Errors, Resolution};
 use crate::kinds::orders::{Orders, Source};
@@ -44,12 +45,38 @@ impl Plantable for AnyOrder {
     }
 }
 
+const PLANTED: Keys = &[&[
+    RELATIVE_KEY,
+    STUDIES,
+    Key::new(
+        "coefficients",
+        Form::List(&Form::Choice(|| Coefficients::names().collect())),
+        "coefficients of the solver that are put off in turn",
+    ),
+    Key::new(
+        "defects",
+        Form::List(&Form::Choice(defect_names)),
+        "defects of the loads",
+    )
+    .or("none"),
+]];
+
+fn defect_names() -> Vec<&'static str> {
+    let of_the_problem = Defect::ALL
+        .iter()
+        .filter(|(defect, _)| defect.is_of_the_problem());
+    of_the_problem.map(|(_, name)| *name).collect()
+}
+
 impl FromFile for Detects<AnyOrder> {
+    const KEYS: &'static [Keys] = &[&[&[Key::new(
+        "any-order",
+        Form::Table(&[PLANTED]),
+        "what is planted in studies of kind orders/any-order",
+    )]]];
+
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.table(
-            "any-order",
-            &["relative", "studies", "coefficients", "defects"],
-        )?;
+        let section = root.table("any-order", PLANTED)?;
         let relative = relative(&section.require("relative", RELATIVE)?)?;
         let allowed = "a list of at least one study file of kind orders/any-order beside this one";
         let read = |file: &Field<'_>| Described::<Orders<AnyOrder>>::read(file.file(folder)?);

@@ -3,6 +3,7 @@
 use super::fault::{Fault, Planted, RELATIVE, relative};
 use super::matrix::{Detects, Needed};
 use super::plantable::Plantable;
+use super::{ELEMENTS, RELATIVE_KEY, STUDIES};
 use crate::kinds::orders::Orders;
 use crate::kinds::orders::manufactured::{Convergence, Prepared};
 use crate::kinds::prelude::*;
@@ -35,9 +36,17 @@ impl Plantable for Convergence {
     }
 }
 
+const CONTROLS: Keys = &[&[RELATIVE_KEY, STUDIES, ELEMENTS]];
+
 impl FromFile for Detects<Convergence> {
+    const KEYS: &'static [Keys] = &[&[&[Key::new(
+        "controls",
+        Form::Table(&[CONTROLS]),
+        "each coefficient and each defect, planted in turn",
+    )]]];
+
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.table("controls", &["relative", "studies", "elements"])?;
+        let section = root.table("controls", CONTROLS)?;
         Ok(Self {
             relative: relative(&section.require("relative", RELATIVE)?)?,
             studies: named_studies(&section, folder)?,

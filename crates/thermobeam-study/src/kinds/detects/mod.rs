@@ -45,6 +45,11 @@ use crate::kinds::settings::has_table;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "detects",
+    keys: &[
+        Detects::<Convergence>::KEYS[0],
+        Detects::<AnyOrder>::KEYS[0],
+        Sensitivity::KEYS[0],
+    ],
     read,
     why: "A check that cannot fail proves nothing. Each coefficient of the solver in turn is put off a little from that of the \
           sources, and each defect in turn is planted in the sources. A study that guards a coefficient detects an error in it \
@@ -63,6 +68,23 @@ pub const ROW: KindRow = KindRow {
         Topic::of_solution(header, method).settings(header, item)
     },
 };
+
+const RELATIVE_KEY: Key = Key::new(
+    "relative",
+    Form::Positive,
+    "relative size of a planted error, below 1",
+);
+const STUDIES: Key = Key::new(
+    "studies",
+    Form::List(&Form::Text),
+    "study files, relative to this file",
+);
+const ELEMENTS: Key = Key::new(
+    "elements",
+    Form::List(&Form::Count(1)),
+    "numbers of elements in place of those of the studies",
+)
+.or("those of the studies");
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
 /// the file.

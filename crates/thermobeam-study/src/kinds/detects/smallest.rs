@@ -11,6 +11,7 @@
 use super::fault::{RELATIVE, relative};
 use super::manufactured::named_studies;
 use super::plantable::Detector;
+use super::{ELEMENTS, STUDIES};
 use crate::kinds::orders::Orders;
 use crate::kinds::orders::manufactured::Convergence;
 use crate::kinds::prelude::*;
@@ -25,9 +26,30 @@ pub struct Sensitivity {
     at_most: f64,
 }
 
+const SENSITIVITY: Keys = &[&[
+    STUDIES,
+    ELEMENTS,
+    Key::new(
+        "range",
+        Form::List(&Form::Positive),
+        "the relative errors between which it is searched, below 1",
+    ),
+    Key::new(
+        "at_most",
+        Form::Positive,
+        "a relative error that some study must detect, below 1",
+    ),
+]];
+
 impl FromFile for Sensitivity {
+    const KEYS: &'static [Keys] = &[&[&[Key::new(
+        "sensitivity",
+        Form::Table(&[SENSITIVITY]),
+        "the smallest error of each coefficient that a study detects",
+    )]]];
+
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let section = root.table("sensitivity", &["studies", "elements", "range", "at_most"])?;
+        let section = root.table("sensitivity", SENSITIVITY)?;
         let ascending = "a list of two ascending numbers between 0 and 1";
         let range = section.list("range", ascending, relative, |ends| {
             ends.len() == 2 && increases(ends)

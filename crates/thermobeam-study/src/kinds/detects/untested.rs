@@ -33,7 +33,9 @@ pub(in crate::kinds) fn untested<S: Plantable>(
             Some(true) => continue,
             Some(false) => contact(theory.obstacles, key, range_of_the_tip())
                 .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
-            None if tables::OBSTACLE_KEYS.contains(&key) && theory.obstacles.is_none() => {
+            None if tables::OBSTACLE_KEYS.iter().any(|known| known.name == key)
+                && theory.obstacles.is_none() =>
+            {
                 "there are no obstacles".to_owned()
             }
             None => "it is zero".to_owned(),

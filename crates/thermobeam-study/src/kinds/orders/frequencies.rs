@@ -18,7 +18,7 @@ use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, increasing};
+use crate::kinds::tables::{Layout, MAP, increasing, tolerance};
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
@@ -42,9 +42,46 @@ pub struct Frequencies {
     claim: Claim,
 }
 
+const KEYS: [Key; 7] = [
+    Key::new(
+        "count",
+        Form::Count(1),
+        "frequencies that are computed, from the lowest",
+    ),
+    Key::new(
+        "elements",
+        Form::List(&Form::Count(1)),
+        "numbers of elements, increasing",
+    ),
+    Key::new(
+        "order",
+        Form::OneOf(&[Form::Positive, Form::Text]),
+        "the order, or the least order as \">= 1\"",
+    ),
+    Key::new(
+        "tolerance",
+        Form::Positive,
+        "how far a rate may be from the order",
+    )
+    .or("0.25"),
+    Key::new(
+        "first",
+        Form::Count(1),
+        "the first frequency whose rate is judged",
+    )
+    .or("1"),
+    Key::new("degree", Form::Count(1), "degree p of the elements").or("1"),
+    MAP,
+];
+
 impl Source for Frequencies {
     const ROW: KindRow = KindRow {
         name: "orders/frequencies",
+        keys: &[&[&[Key::new(
+            "frequencies",
+            Form::Table(&[&[&KEYS]]),
+            "frequencies and meshes",
+        )]]],
         read: reader::<Orders<Self>>,
         why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
               a scalar equation.",
@@ -60,17 +97,7 @@ impl Source for Frequencies {
     type Found = Vec<f64>;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "frequencies"])?;
-        let keys = [
-            "count",
-            "elements",
-            "order",
-            "tolerance",
-            "first",
-            "degree",
-            "map",
-        ];
-        let section = root.table("frequencies", &keys)?;
+        let section = root.table("frequencies", &[&KEYS])?;
         let allowed = "a list of increasing whole numbers >= 1";
         let elements = increasing(&section, "elements", allowed, 1, tables::elements)?;
         let degree = section
@@ -88,7 +115,7 @@ impl Source for Frequencies {
             layout: Layout::read(&section, &elements, None)?,
             elements,
             claim: Claim {
-                tolerance: section.positive("tolerance")?,
+                tolerance: tolerance(&section)?,
                 ..claim
             },
         })

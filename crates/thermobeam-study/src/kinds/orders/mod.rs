@@ -146,6 +146,9 @@ impl<S> DerefMut for Orders<S> {
 }
 
 impl<S: Source> FromFile for Orders<S> {
+    // The reader checks the kind first: a file of another kind has other keys.
+    const KEYS: &'static [Keys] = &[];
+
     fn from_document(
         header: &Header,
         root: &Section<'_>,
@@ -161,6 +164,7 @@ impl<S: Source> FromFile for Orders<S> {
                 format!("\"{}\" for this reader", S::ROW.name),
             ));
         }
+        allow_only(root, S::ROW.keys)?;
         S::read(root, folder).map(Self)
     }
 }

@@ -33,6 +33,7 @@ use crate::scene;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "random-errors",
+    keys: RandomErrors::KEYS,
     read: reader::<RandomErrors>,
     why: "Users rely on an error that the program prints. Here it is measured against runs on twelve elements of degree 11 or 14, which no \
           search tries, at other times and by other quadrature; for some scenes linear elements and small steps must tend to the same \
@@ -71,20 +72,56 @@ pub enum Drawn {
     Given(usize),
 }
 
+const KEYS: [Key; 2] = [
+    Key::new(
+        "random-errors",
+        Form::Table(&[&[&DRAWN]]),
+        "random scenes, and the errors predicted and requested",
+    ),
+    Key::new(
+        "case",
+        Form::List(&Form::Table(&[&[
+            &[Key::new(
+                "name",
+                Form::Text,
+                "a name that no other case has",
+            )],
+            &scene::KEYS,
+        ]])),
+        "scenes in addition",
+    )
+    .or("none"),
+];
+const DRAWN: [Key; 6] = [
+    Key::new("scenes", Form::Count(0), "random smooth scenes"),
+    Key::new(
+        "rough",
+        Form::Count(0),
+        "random scenes with a narrow feature, a kink or a jump",
+    ),
+    Key::new(
+        "refined",
+        Form::Count(0),
+        "of the first scenes, those whose reference is compared with a finer one",
+    ),
+    Key::new(
+        "targets",
+        Form::List(&Form::Positive),
+        "errors of the tip that a search must reach",
+    ),
+    Key::new(
+        "norm_targets",
+        Form::List(&Form::Positive),
+        "errors in the norm of Theorem 3.4, likewise",
+    ),
+    Key::new("seed", Form::Count(0), "of the random scenes"),
+];
+
 impl FromFile for RandomErrors {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", ROW.name, "case"])?;
-        let section = root.table(
-            ROW.name,
-            &[
-                "scenes",
-                "rough",
-                "refined",
-                "targets",
-                "norm_targets",
-                "seed",
-            ],
-        )?;
+        let section = root.table(ROW.name, &[&DRAWN])?;
         let positive = |list: &[f64]| !list.is_empty() && list.iter().all(|target| *target > 0.0);
         let targets = |key| section.list(key, "a list of numbers > 0", Field::number, positive);
         let given = if root.get("case").is_some() {
@@ -105,7 +142,6 @@ impl FromFile for RandomErrors {
 }
 
 fn given(section: &Section<'_>, name: String) -> Result<Scene, InputError> {
-    section.allow(&[&["name"], &scene::TABLES[..]].concat())?;
     Scene::from_tables(section, name)
 }
 

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use crate::kinds::prelude::*;
-use crate::scene;
 
 /// A scene of a table `[[case]]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,16 +15,22 @@ pub(crate) struct ClaimedScene {
     pub(crate) scene: Scene,
 }
 
+/// The keys of a case, beside those of a scene and [`ENDS`].
+pub(crate) const NAMED: [Key; 2] = [
+    Key::new("name", Form::Text, "a name that no other case has"),
+    Key::new("claim", Form::Text, "the claim in words"),
+];
+
+/// The way the run of a case must end.
+pub(crate) const ENDS: Key = Key::new(
+    "ends",
+    Form::Choice(|| End::ALL.map(|(name, _)| name).to_vec()),
+    "how its run must end",
+);
+
 impl ClaimedScene {
     /// Reads `claim`, `ends` and the tables of a scene.
-    ///
-    /// * `more`: the keys of the case that its kind reads.
-    pub(crate) fn read(
-        section: &Section<'_>,
-        name: String,
-        more: &[&str],
-    ) -> Result<Self, InputError> {
-        section.allow(&[&["name", "claim", "ends"], more, &scene::TABLES].concat())?;
+    pub(crate) fn read(section: &Section<'_>, name: String) -> Result<Self, InputError> {
         let end = section.require("ends", "\"answer\" or an error")?;
         Ok(Self {
             end: end.choice(&End::ALL)?,

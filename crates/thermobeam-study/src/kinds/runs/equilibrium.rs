@@ -10,7 +10,7 @@ pub use super::steady::{AtRest, Nearest};
 use super::steady::{
     cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
 };
-use super::{Findings, Listing, Results, RunStudy, Runs};
+use super::{Findings, Listing, Results, RunStudy, Runs, steady};
 use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
@@ -18,6 +18,7 @@ use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/equilibrium",
+    keys: EndStates::KEYS,
     read: reader::<RunStudy<EndStates>>,
     why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
     judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
@@ -75,7 +76,6 @@ struct AnyOrder {
 
 impl AnyOrder {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&[&["t_end", "error"][..], &DISCRETISATION_KEYS].concat())?;
         let t_end = section.positive("t_end")?;
         Ok(Self {
             how: Discretisation::read(section, t_end)?,
@@ -94,15 +94,46 @@ pub struct LongRun {
     elements: Option<usize>,
 }
 
+const KEYS: [Key; 3] = [
+    Key::new("run", Form::Table(&[&[&RUN]]), "the runs"),
+    Key::new(
+        "any-order",
+        Form::Table(&[&[&ANY_ORDER, &DISCRETISATION_KEYS]]),
+        "the same scenes by dG",
+    )
+    .or("not run"),
+    Key::new(
+        "expect",
+        Form::Table(&[&[&EXPECTED]]),
+        "what is claimed of their ends",
+    ),
+];
+const RUN: [Key; 5] = [
+    steady::SCENES,
+    steady::MESHES,
+    Key::new("dt", Form::Positive, "time step"),
+    steady::SPEED,
+    steady::T_MAX,
+];
+const ANY_ORDER: [Key; 2] = [
+    Key::new("t_end", Form::Positive, "final time"),
+    Key::new("error", Form::Positive, "error allowed"),
+];
+const EXPECTED: [Key; 2] = [
+    steady::TOLERANCE,
+    Key::new("error", Form::Positive, "error allowed on the finest mesh"),
+];
+
 impl Runs for EndStates {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
     type Run = LongRun;
     /// Its end, and the nearest stable state.
     type Shown = AtRest;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "run", "any-order", "expect"])?;
-        let run = root.table("run", &["scenes", "elements", "dt", "speed", "t_max"])?;
-        let expect = root.table("expect", &["tolerance", "error"])?;
+        let run = root.table("run", &[&RUN])?;
+        let expect = root.table("expect", &[&EXPECTED])?;
         let (dt, t_max) = steps_to_rest(&run)?;
         let any_order = root.section("any-order")?;
         Ok(Self {

@@ -22,6 +22,8 @@ use convergence_harness::study::LevelErrors;
 
 /// A list of runs, and what is claimed of them.
 pub trait Runs: Sized + Send + Sync {
+    /// The keys of its files, as in [`KindRow`].
+    const KEYS: &'static [Keys];
     /// What distinguishes a run from the others.
     type Run: Clone + PartialEq + Send + Sync;
     /// What a run shows.
@@ -180,6 +182,8 @@ impl<'r, R: Runs> Results<'r, R> {
 pub struct RunStudy<R>(pub R);
 
 impl<R: Runs> FromFile for RunStudy<R> {
+    const KEYS: &'static [Keys] = R::KEYS;
+
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         R::from_document(root, folder).map(Self)
     }

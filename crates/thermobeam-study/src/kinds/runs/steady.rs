@@ -33,6 +33,34 @@ pub(crate) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
     Ok(scene)
 }
 
+/// The key `scenes` of [`listed_scenes`].
+pub(crate) const SCENES: Key = Key::new(
+    "scenes",
+    Form::List(&Form::Text),
+    "scene files, relative to this file",
+);
+/// The key of [`meshes`].
+pub(crate) const MESHES: Key = Key::new(
+    "elements",
+    Form::List(&Form::Count(1)),
+    "at least three numbers of elements, ascending",
+);
+/// The key of [`tolerance`].
+pub(crate) const TOLERANCE: Key = Key::new(
+    "tolerance",
+    Form::Positive,
+    "how far the rate may be from the order 2, below 0.5",
+);
+/// The largest velocity that counts as rest.
+pub(crate) const SPEED: Key = Key::new(
+    "speed",
+    Form::Positive,
+    "the largest velocity that counts as rest",
+);
+/// The limit of a run.
+pub(crate) const T_MAX: Key = Key::new("t_max", Form::Positive, "time by which the beam must rest");
+const BETAS: Key = Key::new("beta", Form::List(&Form::Number), "values of β, ascending");
+
 /// Settings of the runs to rest: with these β, until the beam is slow.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ToRest {
@@ -59,7 +87,13 @@ const COMPARED: usize = 32;
 
 impl ToRest {
     /// The keys of a table.
-    pub(crate) const KEYS: [&str; 5] = ["beta", "elements", "dt", "speed", "t_max"];
+    pub(crate) const KEYS: [Key; 5] = [
+        BETAS,
+        Key::new("elements", Form::Count(1), "number of elements"),
+        Key::new("dt", Form::Positive, "time step"),
+        SPEED,
+        T_MAX,
+    ];
 
     /// Reads a table that has [`ToRest::KEYS`], and possibly others.
     pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
@@ -69,7 +103,7 @@ impl ToRest {
     }
 
     /// The keys of a table for runs by dG.
-    pub(crate) const ANY_ORDER_KEYS: [&str; 3] = ["beta", "speed", "t_max"];
+    pub(crate) const ANY_ORDER_KEYS: [Key; 3] = [BETAS, SPEED, T_MAX];
 
     /// Reads a table with [`ToRest::ANY_ORDER_KEYS`].
     pub(crate) fn read_any_order(

@@ -32,9 +32,19 @@ pub struct Agreement {
     pub contact: Vec<(f64, f64)>,
 }
 
+pub(super) const KEYS: [Key; 4] = [
+    Key::new("scene", Form::Text, "a scene file, relative to this file"),
+    Key::new("elements", Form::Count(1), "number of elements"),
+    Key::new("steps", Form::Count(1), "number of steps"),
+    Key::new(
+        "tolerances",
+        Form::List(&Form::Positive),
+        "η*, at which the fixed point ends",
+    ),
+];
+
 impl Comparison {
     pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        section.allow(&["scene", "elements", "steps", "tolerances"])?;
         Ok(Self {
             scene: Scene::read_one_step(
                 &section.require("scene", "a scene file beside this one")?,

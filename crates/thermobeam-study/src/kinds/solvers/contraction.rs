@@ -39,9 +39,15 @@ pub(super) struct Grid {
     zeta: Vec<f64>,
 }
 
+pub(super) const KEYS: [Key; 4] = [
+    Key::new("elements", Form::Count(1), "number of elements"),
+    Key::new("dt", Form::List(&Form::Positive), "time steps"),
+    Key::new("epsilon", Form::List(&Form::Positive), "normal compliances"),
+    Key::new("zeta", Form::List(&Form::Positive), "viscosities"),
+];
+
 impl Grid {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&["elements", "dt", "epsilon", "zeta"])?;
         let dt = positive_numbers(section, "dt")?;
         let epsilon = positive_numbers(section, "epsilon")?;
         let zeta = positive_numbers(section, "zeta")?;

@@ -87,18 +87,39 @@ impl Parameter {
     }
 }
 
+pub(super) const KEYS: [Key; 8] = [
+    Key::new(
+        "over",
+        Form::Choice(|| Parameter::ALL.map(|(name, _)| name).to_vec()),
+        "the second parameter, beside dt",
+    ),
+    Key::new(
+        "dt",
+        Form::List(&Form::Positive),
+        "the shortest and the longest step",
+    ),
+    Key::new(
+        "range",
+        Form::List(&Form::Number),
+        "the ends of the second parameter",
+    ),
+    Key::new("points", Form::Count(2), "points in each direction"),
+    Key::new(
+        "lines",
+        Form::List(&Form::Number),
+        "values on which the boundary is searched",
+    ),
+    Key::new("elements", Form::Count(1), "number of elements"),
+    Key::new("steps", Form::Count(1), "steps of a run"),
+    Key::new(
+        "agreement",
+        Form::Positive,
+        "relative distance allowed between measured and predicted boundary",
+    ),
+];
+
 impl Map {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&[
-            "over",
-            "dt",
-            "range",
-            "points",
-            "lines",
-            "elements",
-            "steps",
-            "agreement",
-        ])?;
         let over = section
             .require("over", "a second parameter")?
             .choice(&Parameter::ALL)?;

@@ -53,6 +53,7 @@ pub use step::FixedPointStep;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "solvers",
+    keys: Solvers::KEYS,
     read: reader::<Solvers>,
     why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
           it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \
@@ -122,10 +123,31 @@ fn results<R>(ran: &[Ran<SolverTask, Found>], part: fn(&Found) -> Option<&R>) ->
     ran.iter().filter_map(|ran| part(ran.ok()?)).collect()
 }
 
+const CONTRACTION: Key = Key::new(
+    "contraction",
+    Form::Table(&[&[&contraction::KEYS]]),
+    "measured contraction against the spectral radius",
+);
+const COMPARISON: Key = Key::new(
+    "comparison",
+    Form::Table(&[&[&comparison::KEYS]]),
+    "the fixed point against Newton",
+);
+const MAP_TABLE: Key = Key::new(
+    "map",
+    Form::Table(&[&[&map::KEYS]]),
+    "where the fixed point converges",
+);
+
 impl FromFile for Solvers {
+    const KEYS: &'static [Keys] = &[
+        &[&[CONTRACTION, COMPARISON.or("none"), MAP_TABLE.or("none")]],
+        &[&[COMPARISON, MAP_TABLE.or("none")]],
+        &[&[MAP_TABLE]],
+    ];
+
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let parts = ["contraction", "comparison", "map"];
-        root.allow(&[&["study"], &parts[..]].concat())?;
         if parts.iter().all(|part| root.get(part).is_none()) {
             let allowed = format!(
                 "at least one table for kind \"{}\": {}",

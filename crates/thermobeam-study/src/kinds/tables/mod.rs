@@ -3,6 +3,7 @@
 
 mod refine;
 
+use convergence_harness::judge::verdict::DEFAULT_TOLERANCE;
 use convergence_harness::project::Term;
 use thermobeam::dg::DgStepping;
 
@@ -10,10 +11,30 @@ use super::prelude::*;
 use crate::exact::function::Factor;
 
 pub use refine::{Layout, Perturbation, Refine};
-pub(crate) use refine::{increasing, nested, refine};
+pub(crate) use refine::{MAP, REFINE, increasing, nested, refine};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;
+
+/// The table `[exact]`.
+pub(crate) const EXACT: Key = Key::new(
+    "exact",
+    Form::Table(&[&[&[
+        Key::new("u", PRODUCTS, "displacement; each x(0) = 0").or("0"),
+        Key::new("phi", PRODUCTS, "rotation; each x(0) = 0").or("0"),
+        Key::new(
+            "theta",
+            PRODUCTS,
+            "temperature; theta_a at x = 0, 0 at x = 1",
+        )
+        .or("0"),
+    ]]]),
+    "the exact solution: of each field a sum of products",
+);
+const PRODUCTS: Form = Form::List(&Form::Table(&[&[&[
+    Key::new("x", Form::Text, "a function of x"),
+    Key::new("t", Form::Text, "a function of t"),
+]]]));
 
 /// The table `[exact]`: for each field a sum of products of a function of x and a function of t.
 pub(crate) fn manufactured(
@@ -23,7 +44,6 @@ pub(crate) fn manufactured(
 ) -> Result<Manufactured, InputError> {
     let allowed = "a table with at least one of u, phi, theta";
     let section = root.require("exact", allowed)?.section()?;
-    section.allow(&["u", "phi", "theta"])?;
     let exact = Manufactured {
         u: products(&section, "u", t_end)?,
         phi: products(&section, "phi", t_end)?,
@@ -43,7 +63,6 @@ fn products(section: &Section<'_>, key: &str, t_end: f64) -> Result<Vec<Product>
     let allowed = "a list of at least one { x = \"...\", t = \"...\" }";
     let product = |item: &Field<'_>| {
         let section = item.section()?;
-        section.allow(&["x", "t"])?;
         let factor = |key: &str, variable: Variable, end: f64| {
             let field =
                 section.require(key, &format!("a function of {} in quotes", variable.name()))?;
@@ -152,6 +171,41 @@ const fn term(norm: Norm, text: &'static str) -> Term {
     }
 }
 
+/// The keys of a claim, beside that of its quantity.
+pub(crate) const CLAIM_KEYS: [Key; 3] = [
+    Key::new(
+        "order",
+        Form::OneOf(&[Form::Positive, Form::Text]),
+        "the order, or the least order as \">= 1\"",
+    ),
+    Key::new(
+        "constant",
+        Form::List(&Form::Positive),
+        "the ends of the C of error = C h^order",
+    )
+    .or(""),
+    Key::new(
+        "tolerance",
+        Form::Positive,
+        "how far the rate may be from the order",
+    )
+    .or("0.25"),
+];
+
+/// The tables `[[expect]]` with norms.
+pub(crate) const EXPECT: Key = Key::new(
+    "expect",
+    Form::List(&Form::Table(&[&[
+        &[Key::new(
+            "norm",
+            Form::Choice(|| Norm::ALL.map(Norm::name).to_vec()),
+            "the norm of the error",
+        )],
+        &CLAIM_KEYS,
+    ]])),
+    "the orders claimed, each norm once",
+);
+
 /// All tables `[[expect]]`: the norms and their orders.
 pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, InputError> {
     claims(root, "norm", &Norm::ALL.map(|norm| (norm.name(), norm)))
@@ -175,7 +229,6 @@ pub(crate) fn claims<T: Copy>(
         "expect",
         &format!(" with {key}, order and tolerance"),
         |section| {
-            section.allow(&[key, "order", "constant", "tolerance"])?;
             let field = section.require(key, &names)?;
             let (of, name) = (field.choice(choices)?, field.text()?);
             if known.contains(&name) {
@@ -190,13 +243,31 @@ pub(crate) fn claims<T: Copy>(
             Ok((
                 of,
                 Claim {
-                    tolerance: section.positive("tolerance")?,
+                    tolerance: tolerance(section)?,
                     ..claim
                 },
             ))
         },
     )
 }
+
+/// The tolerance of a claim.
+pub(crate) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
+    section
+        .get("tolerance")
+        .map_or(Ok(DEFAULT_TOLERANCE), |field| field.positive())
+}
+
+/// The table `[control]`.
+pub(crate) const CONTROL: Key = Key::new(
+    "control",
+    Form::Table(&[&[
+        &keys::all_or(tables::BEAM_KEYS, "the value of the sources"),
+        &keys::all_or(tables::OBSTACLE_KEYS, "the value of the sources"),
+    ]]),
+    "coefficients in which the solver differs from the sources: the study must fail",
+)
+.or("none");
 
 /// The table `[control]`: coefficients in which the solver differs from `theory`; without the table
 /// they are equal.
@@ -208,7 +279,6 @@ pub(crate) fn control(
         return Ok(theory);
     };
     let names: Vec<&str> = Coefficients::names().collect();
-    section.allow(&names)?;
     let mut solver = theory;
     for name in names {
         let Some(field) = section.get(name) else {
@@ -217,7 +287,7 @@ pub(crate) fn control(
         let value = field.number()?;
         let Some(coefficient) = solver.get_mut(name) else {
             let found = format!("{} without a table [obstacles]", field.as_written());
-            return Err(field.refuse(found, tables::BEAM_KEYS.join(", ")));
+            return Err(field.refuse(found, keys::names(&[&tables::BEAM_KEYS]).join(", ")));
         };
         // A control that changes nothing would pass where it has to fail.
         if *coefficient == value {
@@ -252,14 +322,29 @@ pub fn cost_of_run(scene: &Scene) -> f64 {
 }
 
 /// The keys of a discretisation.
-pub(crate) const DISCRETISATION_KEYS: [&str; 6] = [
-    "elements",
-    "degree",
-    "time_degree",
-    "dt",
-    "restart_dt",
-    "growth",
+pub(crate) const DISCRETISATION_KEYS: [Key; 6] = [
+    Key::new("elements", Form::Count(1), "number of elements"),
+    Key::new("degree", Form::Count(1), "degree p in space"),
+    Key::new("time_degree", Form::Count(0), "degree q in time"),
+    Key::new("dt", Form::Positive, "the largest step"),
+    Key::new(
+        "restart_dt",
+        Form::Positive,
+        "the first step, at the start and after each contact event",
+    ),
+    Key::new(
+        "growth",
+        Form::Number,
+        "factor of the steps in between, at least 1",
+    ),
 ];
+
+/// Two tables with these keys.
+pub(crate) const DISCRETISATIONS: Key = Key::new(
+    "discretisations",
+    Form::List(&Form::Table(&[&[&DISCRETISATION_KEYS]])),
+    "the two discretisations by dG that are compared",
+);
 
 /// The cost of a solve per unknown, in steps of a one-step scheme.
 const COST: f64 = 30.0;
@@ -355,7 +440,6 @@ pub(crate) fn discretisations(
     let allowed = format!("two tables [[{key}]] {differing}");
     let one = |item: &Field<'_>| {
         let section = item.section()?;
-        section.allow(&DISCRETISATION_KEYS)?;
         Discretisation::read(&section, t_end)
     };
     let list = root.list(key, &allowed, one, |list| list.len() == 2)?;

@@ -171,15 +171,82 @@ impl Refine {
 /// Default budget in node-steps of a study that adds levels: a quarter of a second.
 const BUDGET: f64 = 1e7;
 
+/// The keys that place the nodes of meshes.
+pub(crate) const MAP: Key = Key::new(
+    "map",
+    Form::Text,
+    "a function of s that places the nodes: 0 at 0, 1 at 1",
+)
+.or("\"s\"");
+
+const LEVELS: Form = Form::OneOf(&[
+    Form::Count(1),
+    Form::List(&Form::Count(1)),
+    Form::Choice(|| vec!["auto"]),
+]);
+
+/// The table `[refine]`.
+pub(crate) const REFINE: Key = Key::new(
+    "refine",
+    Form::Table(&[
+        &[&KEYS, &tables::STEPPING_KEYS],
+        &[&KEYS, &PERTURBED, &tables::STEPPING_KEYS],
+    ]),
+    "the meshes and steps of the runs",
+);
+
+const PERTURBED: [Key; 2] = [
+    Key::new(
+        "perturb",
+        Form::Number,
+        "part of half an element by which nodes are displaced at random, below 1",
+    ),
+    Key::new("seed", Form::Count(0), "of the displacements").or("0"),
+];
+
+const KEYS: [Key; 8] = [
+    Key::new(
+        "axis",
+        Form::Choice(|| Axis::ALL.map(Axis::name).to_vec()),
+        "what is refined",
+    ),
+    Key::new(
+        "isolate",
+        Form::Boolean,
+        "the error of the other axis is removed exactly",
+    )
+    .or("false"),
+    Key::new(
+        "elements",
+        LEVELS,
+        "numbers of elements, increasing, or `\"auto\"`: doubled until it is decided; one number where time is refined",
+    ),
+    Key::new(
+        "steps",
+        LEVELS,
+        "numbers of steps, as elements; one number where space is refined",
+    ),
+    Key::new(
+        "grid",
+        Form::Boolean,
+        "all pairs of elements and steps, where the axis is both",
+    )
+    .or("false"),
+    Key::new("t_end", Form::Positive, "final time"),
+    MAP,
+    Key::new(
+        "budget",
+        Form::Positive,
+        "with `\"auto\"`: elements times steps of all levels",
+    )
+    .or("1e7"),
+];
+
 /// The table `[refine]`.
 pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
     let section = root
         .require("refine", "a table with axis, elements, steps and t_end")?
         .section()?;
-    let own = [
-        "axis", "isolate", "elements", "steps", "grid", "t_end", "map", "perturb", "seed", "budget",
-    ];
-    section.allow(&[&own[..], &tables::STEPPING_KEYS[..]].concat())?;
     let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
     let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
     let elements = levels(

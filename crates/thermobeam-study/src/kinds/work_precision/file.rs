@@ -11,20 +11,122 @@ use crate::kinds::orders::manufactured::Convergence;
 use crate::kinds::prelude::*;
 
 /// The keys of the problem, which is a solution, a scene or a vibration.
-const PROBLEM: [&str; 5] = ["solution", "scene", "vibration", "zeta", "t_end"];
+const PROBLEM: &[Keys] = &[
+    &[&[OBSERVATIONS, SOLUTION]],
+    &[&[OBSERVATIONS, SCENE, T_END]],
+    &[&[OBSERVATIONS, T_END], &FREE],
+];
+const OBSERVATIONS: Key = Key::new(
+    "observations",
+    Form::Count(1),
+    "times at which errors are measured",
+);
+const SOLUTION: Key = Key::new(
+    "solution",
+    Form::Text,
+    "a study file of kind orders/manufactured: its exact solution",
+);
+const SCENE: Key = Key::new(
+    "scene",
+    Form::Text,
+    "a scene file; errors are distances to the reference",
+);
+const T_END: Key = Key::new("t_end", Form::Positive, "final time");
+const FREE: [Key; 2] = [
+    Key::new(
+        "vibration",
+        Form::List(&Form::Count(0)),
+        "modes from 0, each released from a tip displacement of 0.1",
+    ),
+    Key::new("zeta", Form::Positive, "the viscosity ζ"),
+];
+const KEYS: [Key; 4] = [
+    Key::new("work-precision", Form::Table(PROBLEM), "the problem"),
+    Key::new(
+        "reference",
+        Form::List(&Form::Table(&[&[&REFERENCE]])),
+        "two different runs by dG, for a scene",
+    )
+    .or("none"),
+    Key::new(
+        "runs",
+        Form::List(&Form::Table(&[&[&BY_DG], &[&ONE_STEP]])),
+        "the runs of each method",
+    ),
+    Key::new(
+        "target",
+        Form::List(&Form::Table(&[&[&TARGET]])),
+        "an error, and the ratios of work claimed there",
+    ),
+];
+const NODES: Key = Key::new(
+    "nodes",
+    Form::List(&Form::Number),
+    "the nodes, increasing from 0 to 1",
+);
+const REFERENCE: [Key; 2] = [NODES, Key::new("runs", Form::List(&Form::Number), DEGREES)];
+const PAIRS: Form = Form::List(&Form::List(&Form::Number));
+const BY_DG: [Key; 3] = [
+    Key::new("method", Form::Choice(|| named(false)), "dG"),
+    NODES,
+    Key::new(
+        "runs",
+        PAIRS,
+        "a list of [degree p, degree q, largest step]",
+    ),
+];
+const ONE_STEP: [Key; 3] = [
+    Key::new("method", Form::Choice(|| named(true)), "a one-step method"),
+    Key::new("grading", Form::Positive, "the nodes are s^grading").or("1"),
+    Key::new(
+        "runs",
+        PAIRS,
+        "a list of [elements, steps], steps multiples of observations",
+    ),
+];
+const TARGET: [Key; 4] = [
+    Key::new(
+        "norm",
+        Form::Choice(|| ErrorMeasure::ALL.map(ErrorMeasure::name).to_vec()),
+        "how the error is measured",
+    ),
+    Key::new("error", Form::Positive, "the error"),
+    Key::new(
+        "methods",
+        Form::List(&Form::Choice(|| METHODS.map(|method| method.name).to_vec())),
+        "at least two, the dearest first",
+    ),
+    Key::new(
+        "times",
+        Form::List(&Form::Positive),
+        "how many times dearer each is than the next",
+    ),
+];
+
+/// The names of the one-step methods, or of the others.
+fn named(one_step: bool) -> Vec<&'static str> {
+    let methods = METHODS
+        .iter()
+        .filter(|method| method.one_step.is_some() == one_step);
+    methods.map(|method| method.name).collect()
+}
+
 const DEGREES: &str = "[degree p, degree q, largest step]";
 /// Element-steps of a run in the quick tier, and in the full one.
 const QUICK: usize = 1_000_000;
 const FULL: usize = 10_000_000;
 
 impl FromFile for WorkPrecision {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
     fn from_document(
         header: &Header,
         root: &Section<'_>,
         folder: &Path,
     ) -> Result<Self, InputError> {
-        root.allow(&["study", ROW.name, "reference", "runs", "target"])?;
-        let section = root.table(ROW.name, &[&PROBLEM[..], &["observations"]].concat())?;
+        let section = root
+            .require(ROW.name, "a table with observations and the problem")?
+            .section()?;
         let observations = section
             .require("observations", "a number of times")?
             .count(1..=10_000)?;
@@ -62,7 +164,6 @@ fn trials(
     observations: usize,
     most: usize,
 ) -> Result<Vec<Trial>, InputError> {
-    section.allow(&["method", "grading", "nodes", "runs"])?;
     let methods = METHODS.map(|method| (method.name, method));
     let method = section
         .require("method", "the name of a method")?
@@ -158,7 +259,6 @@ fn reference(root: &Section<'_>, is_needed: bool) -> Result<Option<[Trial; 2]>, 
     let dg_row = METHODS[METHODS.len() - 1];
     let run = |item: &Field<'_>| {
         let section = item.section()?;
-        section.allow(&["nodes", "runs"])?;
         let resolution = dg(&section.require("runs", DEGREES)?, &nodes(&section)?)?;
         Ok(Trial {
             method: dg_row,
@@ -228,7 +328,6 @@ fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
 }
 
 fn target(section: &Section<'_>) -> Result<Target, InputError> {
-    section.allow(&["norm", "error", "methods", "times"])?;
     let measures = ErrorMeasure::ALL.map(|measure| (measure.name(), measure));
     let methods = METHODS.map(|method| (method.name, method));
     let once = |list: &[NamedMethod]| {

@@ -50,6 +50,7 @@ use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Tri
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "work-precision",
+    keys: WorkPrecision::KEYS,
     read: reader::<WorkPrecision>,
     why: "Every method pays for a smaller error with more work. At each error that two methods both reach, the ratio of their work \
           is measured. High orders pay little more for ten digits than for five.",

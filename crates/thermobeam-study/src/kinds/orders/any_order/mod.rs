@@ -34,7 +34,7 @@ use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, control, manufactured};
+use crate::kinds::tables::{CONTROL, EXACT, Layout, MAP, control, manufactured};
 use crate::run::dg::DgMotion;
 pub use runs::Resolution;
 use runs::{Over, RunsOfDegree, series};
@@ -83,9 +83,46 @@ pub struct AnyOrder {
     series: Vec<RunsOfDegree>,
 }
 
+const LOADED: [Key; 3] = [tables::BEAM, tables::OBSTACLES, EXACT];
+const FREE: [Key; 1] = [Key::new(
+    "vibration",
+    Form::Table(&[&[&[
+        Key::new("zeta", Form::Positive, "the viscosity ζ"),
+        Key::new(
+            "modes",
+            Form::List(&Form::Count(1)),
+            "the modes, each released from a tip displacement of 0.1",
+        ),
+    ]]]),
+    "a free vibration in place of an exact solution with loads",
+)];
+const RUNS: [Key; 3] = [
+    Key::new(
+        "run",
+        Form::Table(&[
+            &[&RUN, Over::Space.keys().of_run],
+            &[&RUN, Over::Time.keys().of_run],
+            &[&RUN, Over::Degree.keys().of_run],
+        ]),
+        "what is refined, and what all series share",
+    ),
+    Key::new(
+        "series",
+        Form::List(&Form::Table(&[
+            &[Over::Space.keys().of_series],
+            &[Over::Time.keys().of_series],
+            &[Over::Degree.keys().of_series],
+        ])),
+        "runs that are judged together",
+    ),
+    CONTROL,
+];
+const RUN: [Key; 2] = [Key::new("t_end", Form::Positive, "final time"), MAP];
+
 impl Source for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
+        keys: &[&[&LOADED, &RUNS], &[&FREE, &RUNS]],
         read: reader::<Orders<Self>>,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
@@ -104,12 +141,8 @@ impl Source for AnyOrder {
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
-        let problem: &[&str] = if vibration.is_some() {
-            &["vibration"]
-        } else {
-            &["beam", "obstacles", "exact"]
-        };
-        root.allow(&[&["study", "run", "control", "series"], problem].concat())?;
+        let problem: &[Key] = if vibration.is_some() { &FREE } else { &LOADED };
+        root.allow(&[&["study"], &keys::names(&[problem, &RUNS])[..]].concat())?;
         let run = root
             .require("run", "a table with over, t_end, degrees and steps")?
             .section()?;
@@ -121,7 +154,7 @@ impl Source for AnyOrder {
         let over = run
             .require("over", "\"space\", \"time\" or \"degree\"")?
             .choice(&overs)?;
-        run.allow(&[&["over", "t_end", "map"], over.keys().of_run].concat())?;
+        run.allow(&keys::names(&[&RUN, over.keys().of_run]))?;
         let t_end = run.positive("t_end")?;
         let (theory, exact) = match &vibration {
             Some(section) => free(section)?,
@@ -226,7 +259,6 @@ impl Source for AnyOrder {
 /// of 0.1.
 fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
     const AMPLITUDE: f64 = 0.1;
-    section.allow(&["zeta", "modes"])?;
     let zeta = section.positive("zeta")?;
     let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
     let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));

@@ -39,38 +39,64 @@ pub(super) struct RunsOfDegree {
     pub(super) tolerance: f64,
 }
 
+const OVER_SPACE: Key = Key::new("over", Form::Choice(|| vec!["space"]), "what is refined");
+const OVER_TIME: Key = Key::new("over", Form::Choice(|| vec!["time"]), "what is refined");
+const OVER_DEGREE: Key = Key::new("over", Form::Choice(|| vec!["degree"]), "what is refined");
+const LEVELS: Form = Form::List(&Form::Count(1));
+const DEGREE: Key = Key::new("degree", Form::Count(1), "degree p of the elements");
+const TIME_DEGREE: Key = Key::new("time_degree", Form::Count(0), "degree q in time");
+const ELEMENTS: Key = Key::new("elements", Form::Count(1), "number of elements");
+const STEPS: Key = Key::new("steps", Form::Count(1), "number of steps");
+const MESHES: Key = Key::new("elements", LEVELS, "numbers of elements, at least three");
+const STEP_COUNTS: Key = Key::new("steps", LEVELS, "numbers of steps, at least three");
+const DEGREES: Key = Key::new(
+    "degrees",
+    LEVELS,
+    "degrees p of the elements, at least three",
+);
+const TOLERANCE: Key = Key::new(
+    "tolerance",
+    Form::Positive,
+    "how far a rate may be from the order",
+);
+const FACTOR: Key = Key::new(
+    "factor",
+    Form::Number,
+    "by which the error falls with each degree, above 1",
+);
+
 /// Keys of the file that depend on what is refined.
-pub(super) struct Keys {
+pub(super) struct LevelKeys {
     /// The list of levels, in a table `[[series]]`.
     levels: &'static str,
-    /// The degree of a series, there too.
-    of_series: Option<&'static str>,
     /// The criterion, there too.
     criterion: &'static str,
+    /// The keys of that table.
+    pub(super) of_series: &'static [Key],
     /// What all series share, in `[run]`.
-    pub(super) of_run: &'static [&'static str],
+    pub(super) of_run: &'static [Key],
 }
 
 impl Over {
-    pub(super) fn keys(self) -> Keys {
+    pub(super) const fn keys(self) -> LevelKeys {
         match self {
-            Over::Space => Keys {
+            Over::Space => LevelKeys {
                 levels: "elements",
-                of_series: Some("degree"),
                 criterion: "tolerance",
-                of_run: &["time_degree", "steps"],
+                of_series: &[MESHES, DEGREE, TOLERANCE],
+                of_run: &[OVER_SPACE, TIME_DEGREE, STEPS],
             },
-            Over::Time => Keys {
+            Over::Time => LevelKeys {
                 levels: "steps",
-                of_series: Some("time_degree"),
                 criterion: "tolerance",
-                of_run: &["degree", "elements"],
+                of_series: &[STEP_COUNTS, TIME_DEGREE, TOLERANCE],
+                of_run: &[OVER_TIME, DEGREE, ELEMENTS],
             },
-            Over::Degree => Keys {
+            Over::Degree => LevelKeys {
                 levels: "degrees",
-                of_series: None,
                 criterion: "factor",
-                of_run: &["time_degree", "elements", "steps"],
+                of_series: &[DEGREES, FACTOR],
+                of_run: &[OVER_DEGREE, TIME_DEGREE, ELEMENTS, STEPS],
             },
         }
     }
@@ -83,9 +109,7 @@ pub(super) fn series(
     section: &Section<'_>,
 ) -> Result<RunsOfDegree, InputError> {
     let keys = over.keys();
-    let mut allowed = vec![keys.levels, keys.criterion];
-    allowed.extend(keys.of_series);
-    section.allow(&allowed)?;
+    section.allow(&keys::names(&[keys.of_series]))?;
     let allowed = "a list of at least three increasing whole numbers";
     let levels = increasing(section, keys.levels, allowed, 3, |item| {
         count(keys.levels, item)
@@ -93,10 +117,13 @@ pub(super) fn series(
     let mut runs = vec![];
     for level in levels {
         let number = |key: &str| {
-            let table = match keys.of_series {
-                Some(own) if own == key => section,
-                _ if keys.of_run.contains(&key) => run,
-                _ => return Ok(level),
+            let is_one_of = |keys: &[Key]| keys.iter().any(|known| known.name == key);
+            let table = if is_one_of(keys.of_run) {
+                run
+            } else if is_one_of(keys.of_series) && key != keys.levels {
+                section
+            } else {
+                return Ok(level);
             };
             count(key, &table.require(key, "a whole number")?)
         };

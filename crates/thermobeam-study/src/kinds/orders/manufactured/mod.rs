@@ -40,7 +40,9 @@ pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::detects::untested::untested;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Refine, TERMS, control, expectations, manufactured, refine};
+use crate::kinds::tables::{
+    CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, refine,
+};
 pub use design::Prepared;
 
 /// Preparing the space vectors of a mesh costs as much as this many steps.
@@ -66,6 +68,14 @@ pub struct Convergence {
 impl Source for Convergence {
     const ROW: KindRow = KindRow {
         name: "orders/manufactured",
+        keys: &[&[&[
+            tables::BEAM,
+            tables::OBSTACLES,
+            EXACT,
+            REFINE,
+            CONTROL,
+            EXPECT,
+        ]]],
         read: reader::<Orders<Self>>,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
@@ -86,15 +96,6 @@ impl Source for Convergence {
     type Found = Norms;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&[
-            "study",
-            "beam",
-            "obstacles",
-            "exact",
-            "refine",
-            "control",
-            "expect",
-        ])?;
         let theory = Coefficients::read(root)?;
         let refine = refine(root)?;
         let exact = manufactured(root, &theory.beam, refine.t_end)?;

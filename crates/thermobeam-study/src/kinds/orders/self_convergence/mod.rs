@@ -53,7 +53,9 @@ use super::{Measured, Orders, Runs, Series, Source};
 pub use crate::error::reference::Traced;
 use crate::error::reference::fine_mesh;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Discretisation, Refine, claims, discretisations, nested};
+use crate::kinds::tables::{
+    CLAIM_KEYS, DISCRETISATIONS, Discretisation, Refine, claims, discretisations, nested,
+};
 use observable::Observable;
 
 /// A study of rates without an exact solution.
@@ -77,9 +79,66 @@ pub struct SelfConvergence {
     claims: Vec<(&'static Observable, Claim)>,
 }
 
+const KEYS: [Key; 4] = [
+    Key::new("scene", Form::Table(&[&[&SCENE]]), "the beam"),
+    Key::new(
+        "refine",
+        Form::Table(&[&[&LEVELS, &STEPPING]]),
+        "the levels",
+    ),
+    Key {
+        name: "reference",
+        ..DISCRETISATIONS
+    },
+    Key::new(
+        "expect",
+        Form::List(&Form::Table(&[&[
+            &[Key::new(
+                "quantity",
+                Form::Choice(observable::names),
+                "what is compared",
+            )],
+            &CLAIM_KEYS,
+        ]])),
+        "the orders claimed, each quantity once",
+    ),
+];
+const SCENE: [Key; 1] = [Key::new(
+    "file",
+    Form::Text,
+    "a scene file, relative to this file",
+)];
+const STEPPING: [Key; 5] = keys::all_or(tables::STEPPING_KEYS, "that of the scene");
+const COUNTS: Form = Form::OneOf(&[Form::Count(1), Form::List(&Form::Count(1))]);
+const LEVELS: [Key; 6] = [
+    Key::new(
+        "axis",
+        Form::Choice(|| vec!["time", "both"]),
+        "what is refined",
+    ),
+    Key::new(
+        "elements",
+        COUNTS,
+        "numbers of elements, each a multiple of the one before; one number where time is refined",
+    ),
+    Key::new(
+        "steps",
+        Form::List(&Form::Count(1)),
+        "numbers of steps, each a multiple of the one before",
+    ),
+    Key::new("t_end", Form::Positive, "final time").or("that of the scene"),
+    Key::new(
+        "samples",
+        Form::Count(1),
+        "times at which runs are compared",
+    ),
+    Key::new("contact", Form::Boolean, "the tip must meet an obstacle").or("false"),
+];
+
 impl Source for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
+        keys: &[&[&KEYS]],
         read: reader::<Orders<Self>>,
         why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
               the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
@@ -96,15 +155,13 @@ impl Source for SelfConvergence {
     type Found = Traced;
 
     fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "scene", "refine", "reference", "expect"])?;
-        let named = root.table("scene", &["file"])?;
+        let named = root.table("scene", &[&SCENE])?;
         let file = named.require("file", "the path of a scene, from this file's folder")?;
         let scene = Scene::read(file.file(folder)?)?;
         let one_step = scene
             .one_step()
             .map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
-        let keys = ["axis", "elements", "steps", "t_end", "samples", "contact"];
-        let section = root.table("refine", &[&keys[..], &tables::STEPPING_KEYS].concat())?;
+        let section = root.table("refine", &[&LEVELS, &STEPPING])?;
         let axes = [("time", Axis::Time), ("both", Axis::Both)];
         let axis = section
             .require("axis", "\"time\", \"both\"")?

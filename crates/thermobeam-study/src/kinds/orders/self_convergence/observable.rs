@@ -63,6 +63,14 @@ static OBSERVABLES: [Observable; 7] = [
     },
 ];
 
+/// The names of all.
+pub(super) fn names() -> Vec<&'static str> {
+    OBSERVABLES
+        .iter()
+        .map(|observable| observable.name)
+        .collect()
+}
+
 pub(super) const TIP: Observable = Observable {
     name: "tip",
     symbol: "u(1, t)",

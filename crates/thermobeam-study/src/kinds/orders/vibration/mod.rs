@@ -10,7 +10,7 @@ use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms};
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Refine, control, expectations, refine};
+use crate::kinds::tables::{CONTROL, EXPECT, REFINE, Refine, control, expectations, refine};
 use modes::Modes;
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of
@@ -46,9 +46,58 @@ pub struct Vibrated {
     pub tip: Vec<(f64, f64)>,
 }
 
+const KEYS: [Key; 6] = [
+    Key::new(
+        "beam",
+        Form::Table(&[&[&LINEAR]]),
+        "the coefficients of a linear beam, whose damped modes are exact",
+    ),
+    Key::new(
+        "mode",
+        Form::List(&Form::Table(MODE)),
+        "the modes of the beam that move",
+    ),
+    Key::new(
+        "heat",
+        Form::List(&Form::Table(&[&[&HEAT]])),
+        "the modes of the temperature",
+    )
+    .or("none"),
+    REFINE,
+    CONTROL,
+    EXPECT,
+];
+const INDEX: Key = Key::new("index", Form::Count(1), "number of the mode, from 1");
+const LINEAR: [Key; 5] = [
+    tables::BEAM_KEYS[0],
+    Key::new("a", Form::Number, "0, written out"),
+    Key::new("rho", Form::Number, "0, written out"),
+    tables::BEAM_KEYS[3],
+    tables::BEAM_KEYS[4],
+];
+const MODE: &[Keys] = &[
+    &[&[INDEX, AMPLITUDE, VELOCITY.or("0")]],
+    &[&[INDEX, VELOCITY]],
+];
+const AMPLITUDE: Key = Key::new(
+    "amplitude",
+    Form::Number,
+    "displacement of the tip at t = 0",
+);
+const VELOCITY: Key = Key::new("velocity", Form::Number, "velocity of the tip at t = 0");
+const HEAT: [Key; 2] = [
+    INDEX,
+    Key::new(
+        "amplitude",
+        Form::Number,
+        "of the temperature at t = 0, not 0",
+    ),
+];
+
 impl Source for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
+        keys: &[&[&KEYS]],
         read: reader::<Orders<Self>>,
         why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
               in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
@@ -64,9 +113,6 @@ impl Source for Vibration {
     type Found = Vibrated;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&[
-            "study", "beam", "mode", "heat", "refine", "control", "expect",
-        ])?;
         let theory = linear_beam(root)?;
         let refine = refine(root)?;
         bounded(root, &refine)?;
@@ -255,7 +301,6 @@ fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
 
 fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, InputError> {
     root.tables("mode", " with index and amplitude or velocity", |section| {
-        section.allow(&["index", "amplitude", "velocity"])?;
         let index = section.count("index", indices(refine, 2 * refine.elements[0]))? - 1;
         let number = |key: &str| section.get(key).map_or(Ok(0.0), |field| field.number());
         let start = [number("amplitude")?, number("velocity")?];
@@ -270,7 +315,6 @@ fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, 
 fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputError> {
     let read = |item: &Field<'_>| {
         let section = item.section()?;
-        section.allow(&["index", "amplitude"])?;
         let allowed = "a finite number other than 0";
         let k = section.count(
             "index",

@@ -12,7 +12,7 @@ mod judge;
 
 pub use super::steady::AtRest;
 use super::steady::{ToRest, listed_scenes, meshes, tolerance};
-use super::{Findings, Results, RunStudy, Runs};
+use super::{Findings, Results, RunStudy, Runs, steady};
 use crate::kinds::interval::Interval;
 use crate::kinds::prelude::*;
 pub use branches::Diagram;
@@ -21,6 +21,7 @@ use buckling::discrete_buckling_force;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/bifurcation",
+    keys: Bifurcation::KEYS,
     read: reader::<RunStudy<Bifurcation>>,
     why: "Below the buckling force -(pi^2/4)/(1 + pi^2/4) the straight beam is unstable and bent states appear; the branches are \
           followed over beta, and stability is an exact count.",
@@ -67,17 +68,51 @@ pub enum Found {
     Rest(AtRest),
 }
 
+const KEYS: [Key; 3] = [
+    Key::new(
+        "diagram",
+        Form::Table(&[&[&DIAGRAM]]),
+        "steady states over β",
+    ),
+    Key::new(
+        "buckling",
+        Form::Table(&[&[&BUCKLING_KEYS]]),
+        "the buckling force of meshes",
+    ),
+    Key::new(
+        "rest",
+        Form::Table(&[&[&DISTANCE, &ToRest::KEYS]]),
+        "moving beams until they rest",
+    ),
+];
+const DIAGRAM: [Key; 3] = [
+    steady::SCENES,
+    Key::new(
+        "beta",
+        Form::List(&Form::Number),
+        "the least and the greatest β",
+    ),
+    Key::new("points", Form::Count(2), "values of β, equally spaced"),
+];
+const BUCKLING_KEYS: [Key; 2] = [steady::MESHES, steady::TOLERANCE];
+const DISTANCE: [Key; 1] = [Key::new(
+    "distance",
+    Form::Positive,
+    "of a beam at rest to a stable state",
+)];
+
 impl Runs for Bifurcation {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
     type Run = DiagramTask;
     type Shown = Found;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "diagram", "buckling", "rest"])?;
-        let diagram = root.table("diagram", &["scenes", "beta", "points"])?;
+        let diagram = root.table("diagram", &[&DIAGRAM])?;
         let beta = Interval::read(&diagram, "beta", false)?;
         let points = diagram.count("points", 2..=100_000)?;
-        let buckling = root.table("buckling", &["elements", "tolerance"])?;
-        let rest = root.table("rest", &[&["distance"], &ToRest::KEYS[..]].concat())?;
+        let buckling = root.table("buckling", &[&BUCKLING_KEYS])?;
+        let rest = root.table("rest", &[&DISTANCE, &ToRest::KEYS])?;
         Ok(Self {
             scenes: listed_scenes(&diagram, folder)?,
             grid: beta.values(points),

@@ -28,12 +28,17 @@ mod bound;
 pub mod one_by_one;
 pub mod random;
 
-use super::RunStudy;
+use super::{RunStudy, Runs};
 use crate::kinds::prelude::*;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/energy",
+    keys: &[
+        one_by_one::EnergyRuns::KEYS[0],
+        one_by_one::EnergyRuns::KEYS[1],
+        random::RandomScenes::KEYS[0],
+    ],
     read,
     why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
           Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \

@@ -67,13 +67,22 @@ pub struct Batch {
     pub scenes: Vec<[f64; 3]>,
 }
 
+const RANDOM: Keys = &[&[
+    Key::new("batches", Form::Count(1), "batches of random scenes"),
+    Key::new("steps", Form::Count(1), "steps of each scene"),
+    Key::new("seed", Form::Count(0), "of the random scenes"),
+]];
+
 impl Runs for RandomScenes {
+    const KEYS: &'static [Keys] =
+        &[&[&[Key::new("random", Form::Table(&[RANDOM]), "random scenes")]]];
+
     /// Number of the batch.
     type Run = usize;
     type Shown = Batch;
 
     fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let section = root.table("random", &["batches", "steps", "seed"])?;
+        let section = root.table("random", RANDOM)?;
         Ok(Self {
             batches: section.count("batches", 1..=100_000)?,
             steps: section.count("steps", 1..=limits::STEPS)?,

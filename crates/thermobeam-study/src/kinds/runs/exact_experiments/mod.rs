@@ -27,12 +27,13 @@ use thermobeam::dg::ContactEvent;
 
 use super::{Findings, Listing, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Discretisation, discretisations};
+use crate::kinds::tables::{DISCRETISATIONS, Discretisation, discretisations};
 use judge::{OfScene, events};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/exact-experiments",
+    keys: ExactExperiments::KEYS,
     read: reader::<RunStudy<ExactExperiments>>,
     why: "Elements of high degree and dG(q), with contact located to round-off, converge so fast that some hundred steps give ten \
           digits. Two discretisations that share neither mesh nor degrees nor steps make different errors.",
@@ -81,13 +82,41 @@ pub struct SceneRun {
     pub by: Option<usize>,
 }
 
+const EXPERIMENTS: Keys = &[&[
+    Key::new(
+        "scenes",
+        Form::List(&Form::Text),
+        "scene files, relative to this file",
+    ),
+    Key::new(
+        "times",
+        Form::List(&Form::Positive),
+        "times of comparison, increasing",
+    ),
+    Key::new(
+        "agreement",
+        Form::Positive,
+        "distance allowed between both discretisations",
+    ),
+    Key::new(
+        "compare",
+        Form::Boolean,
+        "the scenes' own schemes are compared with them",
+    )
+    .or("false"),
+]];
+
 impl Runs for ExactExperiments {
+    const KEYS: &'static [Keys] = &[&[&[
+        Key::new("experiments", Form::Table(&[EXPERIMENTS]), "the scenes"),
+        DISCRETISATIONS,
+    ]]];
+
     type Run = SceneRun;
     type Shown = ShownStates;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "experiments", "discretisations"])?;
-        let section = root.table("experiments", &["scenes", "times", "agreement", "compare"])?;
+        let section = root.table("experiments", EXPERIMENTS)?;
         let scene = |item: &Field<'_>| Scene::read_one_step(item, folder);
         let allowed = "a list of at least one scene file";
         let scenes = section.list("scenes", allowed, scene, |list| !list.is_empty())?;

@@ -55,7 +55,7 @@ use super::side_by_side::SideBySide;
 use super::steady::{ToRest, compared, listed_scene};
 use super::{Findings, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Discretisation, discretisations};
+use crate::kinds::tables::{DISCRETISATIONS, Discretisation, discretisations};
 use group::SectionFive;
 use trace::{Observed, Recorder};
 
@@ -66,6 +66,7 @@ pub use trace::Trace;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/experiment",
+    keys: Experiments::KEYS,
     read: reader::<RunStudy<Experiments>>,
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
@@ -163,14 +164,78 @@ pub struct PaperRun {
     pub solvers: SolverComparison,
 }
 
+const KEYS: [Key; 5] = [
+    Key::new(
+        "experiments",
+        Form::Table(&[&[&SCENES]]),
+        "the scenes of the three groups",
+    ),
+    Key::new(
+        "run",
+        Form::Table(&[&[&RUN]]),
+        "when a run counts as steady",
+    ),
+    DISCRETISATIONS,
+    Key::new(
+        "fixed_point",
+        Form::Table(&[&[&[Key::new(
+            "tolerance",
+            Form::Positive,
+            "at which the fixed point ends",
+        )]]]),
+        "the paper's algorithm beside Newton's",
+    )
+    .or("not run"),
+    Key::new(
+        "steady",
+        Form::Table(&[&[&ToRest::ANY_ORDER_KEYS]]),
+        "moving beams until they rest",
+    ),
+];
+const SCENES: [Key; 4] = [
+    Key::new(
+        "first",
+        Form::List(&Form::Text),
+        "scene files, beta ascending",
+    ),
+    Key::new(
+        "second",
+        Form::List(&Form::Text),
+        "scene files, beta ascending",
+    ),
+    Key::new(
+        "rests",
+        Form::List(&Form::Choice(|| vec!["upper", "lower", "free"])),
+        "the contact of each scene of second at rest",
+    ),
+    Key::new("third", Form::Text, "a scene file"),
+];
+const RUN: [Key; 3] = [
+    Key::new(
+        "t_max",
+        Form::Positive,
+        "time after which no state counts as steady",
+    ),
+    Key::new(
+        "window",
+        Form::Positive,
+        "time during which the energy must change little",
+    ),
+    Key::new(
+        "rate",
+        Form::Positive,
+        "relative change of the energy per time that counts as steady",
+    ),
+];
+
 impl Runs for Experiments {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
     type Run = Task;
     type Shown = Found;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let tables = ["run", "discretisations", "fixed_point", "steady"];
-        root.allow(&[&["study", "experiments"], &tables[..]].concat())?;
-        let run = root.table("run", &["t_max", "window", "rate"])?;
+        let run = root.table("run", &[&RUN])?;
         let t_max = run.positive("t_max")?;
         let experiments = experiments(root, folder)?;
         let ends = experiments.iter().map(|experiment| experiment.scene.t_end);
@@ -183,12 +248,11 @@ impl Runs for Experiments {
         let fixed_point = root
             .section("fixed_point")?
             .map(|section| {
-                section.allow(&["tolerance"])?;
                 comparable(root, &experiments)?;
                 section.positive("tolerance")
             })
             .transpose()?;
-        let steady = root.table("steady", &ToRest::ANY_ORDER_KEYS)?;
+        let steady = root.table("steady", &[&ToRest::ANY_ORDER_KEYS])?;
         Ok(Self {
             rest: ToRest::read_any_order(&steady, discretisations[0])?,
             experiments,
@@ -266,7 +330,7 @@ fn comparable(root: &Section<'_>, experiments: &[Experiment]) -> Result<(), Inpu
 
 /// The table `[experiments]`: the scenes of the three groups.
 fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, InputError> {
-    let section = root.table("experiments", &["first", "second", "rests", "third"])?;
+    let section = root.table("experiments", &[&SCENES])?;
     // At least two scenes in ascending order of β, since the claims compare neighbours.
     let ascending = |key: &str| {
         let fits = |scenes: &[Scene]| {

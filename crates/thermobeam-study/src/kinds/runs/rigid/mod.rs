@@ -27,12 +27,13 @@
 mod judge;
 
 use super::steady::{listed_scene, settle, steps_to_rest, tolerance};
-use super::{Findings, Results, RunStudy, Runs};
+use super::{Findings, Results, RunStudy, Runs, steady};
 use crate::kinds::prelude::*;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/rigid",
+    keys: RigidObstacles::KEYS,
     read: reader::<RunStudy<RigidObstacles>>,
     why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
           epsilon^(2/3) in an impact that the grid resolves.",
@@ -158,20 +159,69 @@ fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputErro
     Err(field.refuse_as_written("a scene with u(1) = g2 and u_t(1) > 0"))
 }
 
+const KEYS: [Key; 4] = [
+    Key::new(
+        "obstacles",
+        Form::Table(&[&[&OBSTACLE_KEYS]]),
+        "compliances of the obstacles",
+    ),
+    Key::new(
+        "moving",
+        Form::Table(&[&[&SCENE, &MOVING]]),
+        "a beam that bounces",
+    ),
+    Key::new(
+        "rest",
+        Form::Table(&[&[&SCENE, &REST]]),
+        "a beam that comes to rest in contact",
+    ),
+    Key::new(
+        "impact",
+        Form::Table(&[&[&IMPACT]]),
+        "a free end that moves into the upper obstacle",
+    ),
+];
+const OBSTACLE_KEYS: [Key; 3] = [
+    Key::new(
+        "epsilon",
+        Form::List(&Form::Positive),
+        "normal compliances, at least three, descending",
+    ),
+    Key::new("limit", Form::Positive, "a compliance that counts as rigid"),
+    steady::TOLERANCE,
+];
+const SCENE_FILE: Key = Key::new("scene", Form::Text, "a scene file, relative to this file");
+const SCENE: [Key; 3] = [
+    SCENE_FILE,
+    Key::new("elements", Form::Count(1), "number of elements"),
+    Key::new("dt", Form::Positive, "time step"),
+];
+const MOVING: [Key; 2] = [
+    Key::new("t_end", Form::Positive, "final time"),
+    Key::new(
+        "max_iterations",
+        Form::Count(1),
+        "of the fixed point, after which a step fails",
+    ),
+];
+const REST: [Key; 2] = [steady::SPEED, steady::T_MAX];
+const IMPACT: [Key; 2] = [
+    SCENE_FILE,
+    Key::new("steps", Form::Count(1), "steps of a run"),
+];
+
 impl Runs for RigidObstacles {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
     /// Compliance of the obstacles, and the computation.
     type Run = (f64, RunOf);
     type Shown = ShownImpact;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "obstacles", "moving", "rest", "impact"])?;
-        let obstacles = root.table("obstacles", &["epsilon", "limit", "tolerance"])?;
-        let moving = root.table(
-            "moving",
-            &["scene", "elements", "dt", "t_end", "max_iterations"],
-        )?;
-        let rest = root.table("rest", &["scene", "elements", "dt", "speed", "t_max"])?;
-        let impact = root.table("impact", &["scene", "steps"])?;
+        let obstacles = root.table("obstacles", &[&OBSTACLE_KEYS])?;
+        let moving = root.table("moving", &[&SCENE, &MOVING])?;
+        let rest = root.table("rest", &[&SCENE, &REST])?;
+        let impact = root.table("impact", &[&IMPACT])?;
         let bouncing = moving_scene(&moving, folder)?;
         let (dt, t_max) = steps_to_rest(&rest)?;
         let allowed = "a list of at least three positive numbers, descending";

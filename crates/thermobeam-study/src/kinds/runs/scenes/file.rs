@@ -3,11 +3,83 @@
 use super::shown::{NUMBERS, NamedNumbers, PAIRS, listed};
 use super::{Answer, Most, PREDICTED, Whole};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{ClaimedScene, End};
+use crate::kinds::runs::cases::{ClaimedScene, End, NAMED};
+use crate::scene;
+
+/// The keys of a case.
+pub(super) const CASE: &[Keys] = &[
+    &[&NAMED, &[ANSWERS, ANSWER, MOST.or("none")], &scene::KEYS],
+    &[&NAMED, &[ANSWERS, MOST], &scene::KEYS],
+    &[&NAMED, &[FAILS], &scene::KEYS],
+];
+// Not a plain choice, by which a table's keys are chosen: the reader says why a case that ends with
+// an error has no answer.
+const ANSWERS: Key = Key::new(
+    "ends",
+    Form::OneOf(&[Form::Choice(|| vec![End::Answer.name()])]),
+    "how its run must end",
+);
+const FAILS: Key = Key::new(
+    "ends",
+    Form::Choice(|| End::ALL[1..].iter().map(|(name, _)| *name).collect()),
+    "how its run must end",
+);
+const ANSWER: Key = Key::new(
+    "answer",
+    Form::Table(&[&[
+        &[Key::new(
+            "within",
+            Form::Positive,
+            "distance allowed to each number",
+        )],
+        &all(NUMBERS, Form::Number, "what the run must give for it"),
+        &all(
+            PREDICTED,
+            Form::Number,
+            "what the prediction must give for it",
+        ),
+        &all(
+            PAIRS,
+            Form::List(&Form::List(&Form::Number)),
+            "pairs that the run must give",
+        ),
+    ]]),
+    "numbers of the answer",
+);
+const MOST: Key = Key::new(
+    "most",
+    Form::Table(&[&[&[ITERATIONS, UNSOLVED.or("none")]], &[&[UNSOLVED]]]),
+    "upper bounds on what a run takes",
+);
+const ITERATIONS: Key = Key::new(
+    "iterations_per_step",
+    Form::Positive,
+    "on the mean number of iterations",
+);
+const UNSOLVED: Key = Key::new(
+    "unsolved",
+    Form::Positive,
+    "on the distance of a step to the same step solved to round-off, in units of the tolerance",
+);
+
+/// Keys of these names, none of which must be there.
+const fn all<const N: usize>(
+    names: [&'static str; N],
+    form: Form,
+    meaning: &'static str,
+) -> [Key; N] {
+    let mut keys = [Key::new("", form, meaning).or("not compared"); N];
+    let mut place = 0;
+    while place < N {
+        keys[place].name = names[place];
+        place += 1;
+    }
+    keys
+}
 
 impl Whole {
     pub(super) fn read(section: &Section<'_>, name: String) -> Result<Self, InputError> {
-        let case = ClaimedScene::read(section, name, &["answer", "most"])?;
+        let case = ClaimedScene::read(section, name)?;
         let answers = case.end == End::Answer;
         let none = "none, where a case ends with an error";
         let answer = section.section("answer")?;
@@ -37,7 +109,6 @@ impl Whole {
 impl Most {
     fn read(section: &Section<'_>, scene: &Scene) -> Result<Self, InputError> {
         let [iterations, unsolved] = ["iterations_per_step", "unsolved"];
-        section.allow(&[iterations, unsolved])?;
         let bound = |key: &str| section.get(key).map(|field| field.positive()).transpose();
         let most = Self {
             iterations: bound(iterations)?,
@@ -57,7 +128,6 @@ impl Most {
 
 impl Answer {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        section.allow(&[&["within"], &NUMBERS[..], &PREDICTED, &PAIRS].concat())?;
         let within = section.positive("within")?;
         let mut numbers: NamedNumbers = vec![];
         for name in NUMBERS.into_iter().chain(PREDICTED) {

@@ -52,6 +52,7 @@ pub use shown::{COUNTS, NUMBERS, Shown};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/scenes",
+    keys: Scenes::KEYS,
     read: reader::<RunStudy<Scenes>>,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
@@ -125,12 +126,17 @@ const PREDICTED: [&str; 2] = ["estimated_error", "chosen_u_tip"];
 const MOST_WORK: f64 = 2e8;
 
 impl Runs for Scenes {
+    const KEYS: &'static [Keys] = &[&[&[Key::new(
+        "case",
+        Form::List(&Form::Table(file::CASE)),
+        "scenes, and what their runs must answer",
+    )]]];
+
     /// Number of the scene.
     type Run = usize;
     type Shown = Shown;
 
     fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        root.allow(&["study", "case"])?;
         Ok(Self {
             scenes: named_cases(root, Whole::read)?,
         })

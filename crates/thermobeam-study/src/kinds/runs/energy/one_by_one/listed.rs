@@ -2,25 +2,61 @@
 
 use super::EnergyRun;
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{ClaimedScene, End};
+use crate::kinds::runs::cases::{ClaimedScene, ENDS, End, NAMED};
 use crate::kinds::runs::energy::beams::smooth;
 use crate::kinds::runs::energy::bound::stability;
 use crate::kinds::runs::watch::SOLVED;
-use crate::kinds::tables::Layout;
+use crate::kinds::tables::{Layout, MAP};
+use crate::scene;
+
+/// The keys of `[energy]`.
+pub(super) const ENERGY: [Key; 9] = [
+    Key::new(
+        "scenes",
+        Form::List(&Form::Text),
+        "scene files, relative to this file",
+    ),
+    Key::new(
+        "schemes",
+        Form::List(&Form::Choice(|| SCHEMES.map(|scheme| scheme.name).to_vec())),
+        "the schemes, each applied to all beams",
+    ),
+    Key::new("elements", Form::Count(1), "number of elements"),
+    MAP,
+    Key::new("dt", Form::Positive, "time step"),
+    Key::new("steps", Form::Count(1), "number of steps"),
+    Key::new("random", Form::Count(0), "random beams in addition").or("0"),
+    Key::new("seed", Form::Count(0), "of the random beams").or("0"),
+    Key::new(
+        "tolerance",
+        Form::Positive,
+        "part of the energy by which it may rise or its balance be off",
+    ),
+];
+
+/// The keys of `[[case]]`.
+pub(super) const CASE: Keys = &[
+    &NAMED,
+    &[ENDS],
+    &scene::KEYS,
+    &[
+        Key::new(
+            "drift",
+            Form::Positive,
+            "part of the energy by which a beam without losses may drift",
+        )
+        .or("not checked"),
+        Key::new(
+            "stability",
+            Form::Boolean,
+            "the bound of Corollary 3.2 is checked",
+        )
+        .or("false"),
+    ],
+];
 
 /// The runs of `[energy]`: every scene, then every random beam, by each scheme in turn.
 pub(super) fn runs(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputError> {
-    section.allow(&[
-        "scenes",
-        "schemes",
-        "elements",
-        "map",
-        "dt",
-        "steps",
-        "random",
-        "seed",
-        "tolerance",
-    ])?;
     let names = SCHEMES.map(|scheme| (scheme.name, scheme));
     let schemes = section.list(
         "schemes",
@@ -123,7 +159,7 @@ pub(super) fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, Inp
         claim,
         end,
         scene,
-    } = ClaimedScene::read(section, name, &["drift", "stability"])?;
+    } = ClaimedScene::read(section, name)?;
     let mut stepping = scene
         .one_step()
         .map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;

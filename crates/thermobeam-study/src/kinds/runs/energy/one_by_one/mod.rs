@@ -125,6 +125,19 @@ impl Found {
 }
 
 impl Runs for EnergyRuns {
+    const KEYS: &'static [Keys] = &[
+        &[&[Key::new(
+            "energy",
+            Form::Table(&[&[&listed::ENERGY]]),
+            "beams, and how they are run",
+        )]],
+        &[&[Key::new(
+            "case",
+            Form::List(&Form::Table(&[listed::CASE])),
+            "scenes, and what is claimed of their runs",
+        )]],
+    ];
+
     /// Number of the run.
     type Run = usize;
     type Shown = Found;

@@ -1,0 +1,41 @@
+//! `dev references`: the schemas and reference pages of study files and scenes, made from the keys
+//! that the readers allow.
+
+use convergence_harness::cli::exit::Outcome;
+use convergence_harness::cli::schema::{of_studies, of_tables_file, page, text};
+use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::program;
+use convergence_harness::store::atomic;
+use thermobeam_cli::project;
+
+/// Write the schemas and the reference pages of files anew
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {}
+
+/// Writes the files, from the project's folder.
+pub(crate) fn run(_: &Arguments) -> Outcome {
+    for (path, text) in files() {
+        atomic::write(path.as_ref(), text)?;
+    }
+    Ok(Verdict::Pass)
+}
+
+/// Paths and texts.
+fn files() -> Vec<(String, String)> {
+    let mut files = vec![];
+    for (folder, project) in [
+        ("crates/convergence-study", program::PROJECT),
+        ("crates/thermobeam-study", project("thermobeam")),
+    ] {
+        files.push((format!("{folder}/schema.json"), text(&of_studies(&project))));
+        files.push((format!("{folder}/STUDIES.md"), page(&project)));
+        for (name, set) in project.tables {
+            let schema = of_tables_file(name, set);
+            files.push((format!("{folder}/{name}.schema.json"), text(&schema)));
+        }
+    }
+    files
+}
+
+#[cfg(test)]
+mod tests;

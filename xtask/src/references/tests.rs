@@ -1,0 +1,397 @@
+//! The schemas and the readers allow the same keys: every file of the repository satisfies its
+//! schema, and a file with a key too many, a key too few or a value of another type is refused by
+//! both or by none.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use convergence_harness::cli::schema::{of_studies, of_tables_file};
+use convergence_harness::input::{Form, Key, Keys};
+use convergence_harness::program;
+use convergence_harness::study::StudyFile;
+use serde_json::Value;
+use thermobeam_study::scene::{self, Scene};
+
+use super::files;
+use crate::PROJECT;
+
+/// Why a value does not satisfy a schema; `None` if it does. All words that the schemas use.
+fn complaint(schema: &Value, value: &Value, path: &str) -> Option<String> {
+    let wrong = |what: &str| Some(format!("{path}: {what}: {value}"));
+    for (word, rule) in schema.as_object().expect("a schema") {
+        let found = match word.as_str() {
+            "$schema" | "title" | "description" | "default" | "then" => None,
+            "type" if !has_type(rule.as_str().unwrap(), value) => wrong(&format!("no {rule}")),
+            "minimum" if value.as_f64().is_some_and(|x| x < rule.as_f64().unwrap()) => wrong(word),
+            "exclusiveMinimum" if value.as_f64().is_some_and(|x| x <= rule.as_f64().unwrap()) => {
+                wrong(word)
+            }
+            "enum" if !rule.as_array().unwrap().contains(value) => {
+                wrong(&format!("none of {rule}"))
+            }
+            "const" if rule != value => wrong(&format!("not {rule}")),
+            "type" | "minimum" | "exclusiveMinimum" | "enum" | "const" => None,
+            "items" => in_list(rule, value, path),
+            "properties" => in_table(rule, value, path),
+            "required" => {
+                let names = rule
+                    .as_array()
+                    .unwrap()
+                    .iter()
+                    .map(|name| name.as_str().unwrap());
+                let missing = names
+                    .into_iter()
+                    .find(|name| value.is_object() && value.get(name).is_none());
+                missing.map(|name| format!("{path}.{name}: missing"))
+            }
+            "additionalProperties" => {
+                let known = schema["properties"].as_object().unwrap();
+                let names = value
+                    .as_object()
+                    .into_iter()
+                    .flatten()
+                    .map(|(name, _)| name);
+                let other = names.into_iter().find(|name| !known.contains_key(*name));
+                other.map(|name| format!("{path}.{name}: unknown"))
+            }
+            "allOf" => rule
+                .as_array()
+                .unwrap()
+                .iter()
+                .find_map(|rule| complaint(rule, value, path)),
+            "anyOf" => {
+                let complaints = rule
+                    .as_array()
+                    .unwrap()
+                    .iter()
+                    .map(|rule| complaint(rule, value, path));
+                let complaints: Option<Vec<String>> = complaints.collect();
+                complaints.map(|complaints| complaints.join("; or "))
+            }
+            "if" if complaint(rule, value, path).is_none() => {
+                complaint(&schema["then"], value, path)
+            }
+            "if" => None,
+            _ => panic!("{word}: unknown to this test"),
+        };
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+fn in_list(rule: &Value, value: &Value, path: &str) -> Option<String> {
+    let items = value.as_array().into_iter().flatten().enumerate();
+    items
+        .into_iter()
+        .find_map(|(k, item)| complaint(rule, item, &format!("{path}[{k}]")))
+}
+
+fn in_table(rules: &Value, value: &Value, path: &str) -> Option<String> {
+    let rules = rules.as_object().unwrap().iter();
+    let mut known = rules.filter_map(|(name, rule)| Some((name, rule, value.get(name)?)));
+    known.find_map(|(name, rule, value)| complaint(rule, value, &format!("{path}.{name}")))
+}
+
+fn has_type(name: &str, value: &Value) -> bool {
+    match name {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "integer" => value.is_i64() || value.is_u64(),
+        "number" => value.is_number(),
+        _ => panic!("{name}: unknown to this test"),
+    }
+}
+
+/// Both answers to a text: of the schema, and of the reader.
+#[derive(Debug)]
+struct Answers {
+    schema: Option<String>,
+    reader: Option<String>,
+}
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The TOML files of a folder, in the order of their names.
+fn toml_files(folder: &str) -> impl Iterator<Item = PathBuf> {
+    let entries = fs::read_dir(repository().join(folder)).unwrap();
+    let files = entries.map(|entry| entry.unwrap().path());
+    let files: BTreeSet<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
+    files.into_iter()
+}
+
+fn as_json(text: &str) -> Value {
+    let table: toml::Table = toml::from_str(text).expect("TOML");
+    serde_json::to_value(table).expect("JSON")
+}
+
+/// A change of a text, and what it does to which key.
+struct Mutant {
+    text: String,
+    change: String,
+}
+
+/// Each key left out, each key with a value of another type, a key too many in each table. Each
+/// line of the repository's files has one key, or closes a list.
+fn mutants(text: &str) -> Vec<Mutant> {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut mutants = vec![];
+    let mut table = String::new();
+    for (k, line) in lines.iter().enumerate() {
+        let with =
+            |new: &str, until: usize| [&lines[..k], &[new], &lines[until..]].concat().join("\n");
+        if line.starts_with('[') {
+            table = line.split('#').next().unwrap().trim().to_owned();
+            let text = with(&format!("{table}\nsurplus = 1"), k + 1);
+            mutants.push(Mutant {
+                text,
+                change: format!("{table} has surplus"),
+            });
+            let next = lines[k + 1..].iter().position(|line| line.starts_with('['));
+            let text = with("", next.map_or(lines.len(), |next| k + 1 + next));
+            mutants.push(Mutant {
+                text,
+                change: format!("{table} is missing"),
+            });
+        } else if let Some((key, value)) = line.split_once('=')
+            && !key.starts_with([' ', '#', '"', '{'])
+        {
+            let key = key.trim();
+            let end = (k + 1..=lines.len())
+                .find(|end| toml::from_str::<toml::Table>(&lines[k..*end].join("\n")).is_ok())
+                .expect("a value");
+            mutants.push(Mutant {
+                text: with("", end),
+                change: format!("{table} without {key}"),
+            });
+            let other = if value.trim().starts_with(['t', 'f']) {
+                "1.5"
+            } else {
+                "true"
+            };
+            let text = with(&format!("{key} = {other}"), end);
+            mutants.push(Mutant {
+                text,
+                change: format!("{table} with {key} = {other}"),
+            });
+        }
+    }
+    mutants
+}
+
+/// The changes that a reader refuses and a schema does not, because the reader compares values of
+/// several keys or counts tables.
+const STRICTER: [&str; 12] = [
+    "[beam] is missing",
+    "[beam] without theta_a",
+    "[exact] without theta",
+    "[[reference]] is missing",
+    "[[discretisations]] is missing",
+    "[case.beam] without theta_a",
+    "[case.initial] without theta",
+    "[case.answer] without estimated_error",
+    "[case.answer] without chosen_u_tip",
+    "[refine] without solver",
+    "[refine] without iterations",
+    "[refine] without steps",
+];
+
+/// Keys of the tables of a text that are not there, each with a value of another type: a reader that
+/// does not read a key which it allows would not refuse that.
+fn insertions(text: &str, sets: &[Keys]) -> Vec<Mutant> {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut mutants = vec![];
+    for (k, line) in lines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| line.starts_with('['))
+    {
+        let table = line.split('#').next().unwrap().trim();
+        let path = table.trim_matches(['[', ']']);
+        let own = lines[k + 1..]
+            .iter()
+            .take_while(|line| !line.starts_with('['));
+        let own: Vec<&str> = own
+            .map(|line| line.split('=').next().unwrap().trim())
+            .collect();
+        for key in keys_of(sets, path) {
+            let below = format!("{path}.{}]", key.name);
+            if own.contains(&key.name) || text.contains(&below) {
+                continue;
+            }
+            let other = if matches!(key.form, Form::Boolean) {
+                "1.5"
+            } else {
+                "true"
+            };
+            let added = format!("{} = {other}", key.name);
+            let text = [&lines[..=k], &[&added], &lines[k + 1..]]
+                .concat()
+                .join("\n");
+            mutants.push(Mutant {
+                text,
+                change: format!("{table} with {added}"),
+            });
+        }
+    }
+    mutants
+}
+
+/// The keys of the table at a dotted path.
+fn keys_of(sets: &[Keys], path: &str) -> Vec<&'static Key> {
+    let (name, below) = path
+        .split_once('.')
+        .map_or((path, None), |(name, below)| (name, Some(below)));
+    let keys = sets.iter().copied().flatten().copied().flatten();
+    let tables = keys
+        .filter(|key| key.name == name)
+        .flat_map(|key| tables_of(key.form));
+    let tables: Vec<Keys> = tables.copied().collect();
+    match below {
+        Some(below) => keys_of(&tables, below),
+        None => tables.into_iter().flatten().copied().flatten().collect(),
+    }
+}
+
+/// The sets of keys of a table, or of the tables of a list.
+fn tables_of(form: Form) -> &'static [Keys] {
+    match form {
+        Form::Table(sets) => sets,
+        Form::List(form) => tables_of(*form),
+        _ => &[],
+    }
+}
+
+/// Tries all changes but the `known` ones; returns those to which the two answers differ.
+///
+/// * `sets`: the keys of the file.
+fn compare(
+    text: &str,
+    name: &str,
+    sets: &[Keys],
+    known: &mut BTreeSet<String>,
+    answers: impl Fn(&str) -> Answers,
+) -> Vec<Differing> {
+    let own = answers(text);
+    assert_eq!((own.schema, own.reader), (None, None), "{name}");
+    let mut differing = vec![];
+    for Mutant { text, change } in mutants(text).into_iter().chain(insertions(text, sets)) {
+        if known.contains(&change) || toml::from_str::<toml::Table>(&text).is_err() {
+            continue;
+        }
+        known.insert(change.clone());
+        let answers = answers(&text);
+        if answers.schema.is_some() != answers.reader.is_some() {
+            differing.push(Differing { change, answers });
+        }
+    }
+    differing
+}
+
+/// A change to which the answers differ.
+#[derive(Debug)]
+struct Differing {
+    change: String,
+    answers: Answers,
+}
+
+#[test]
+fn schema_and_readers_of_studies_allow_the_same_keys() {
+    let schema = of_studies(&PROJECT);
+    let mut known = std::collections::BTreeMap::<String, BTreeSet<String>>::new();
+    let mut differing = vec![];
+    for path in toml_files("studies").chain(toml_files("studies/programs")) {
+        let text = fs::read_to_string(&path).unwrap();
+        let file = StudyFile::parse(PROJECT.kinds, &text, &path).unwrap();
+        let kind = file.study.header().kind.clone();
+        let answers = |text: &str| Answers {
+            schema: complaint(&schema, &as_json(text), ""),
+            reader: StudyFile::parse(PROJECT.kinds, text, &file.path)
+                .err()
+                .map(|error| error.to_string()),
+        };
+        let name = file.path.display().to_string();
+        let known = known.entry(kind.clone()).or_default();
+        let row = PROJECT.kinds.iter().find(|row| row.name == kind).unwrap();
+        differing.extend(compare(&text, &name, row.keys, known, answers));
+    }
+    let kinds: Vec<&str> = PROJECT.kinds.iter().map(|row| row.name).collect();
+    assert_eq!(known.len(), kinds.len(), "each of {kinds:?} has a study");
+    let is_stricter = |found: &&Differing| found.answers.schema.is_none();
+    let stricter = differing.iter().filter(is_stricter);
+    let stricter: Vec<&str> = stricter.map(|found| found.change.as_str()).collect();
+    assert_eq!(stricter.len(), differing.len(), "{differing:#?}");
+    let stricter = BTreeSet::from_iter(stricter);
+    assert_eq!(stricter, BTreeSet::from(STRICTER), "{differing:#?}");
+    let tried: usize = known.values().map(BTreeSet::len).sum();
+    assert!(tried > 700, "{tried}");
+}
+
+#[test]
+fn schema_and_reader_of_scenes_allow_the_same_keys() {
+    let schema = of_tables_file("scene", &[&scene::KEYS]);
+    let mut known = BTreeSet::new();
+    let mut differing = vec![];
+    for path in toml_files("studies/scenes") {
+        let text = fs::read_to_string(&path).unwrap();
+        let name = path.display().to_string();
+        let answers = |text: &str| Answers {
+            schema: complaint(&schema, &as_json(text), ""),
+            reader: Scene::parse(text, &name)
+                .err()
+                .map(|error| error.to_string()),
+        };
+        differing.extend(compare(
+            &text,
+            &name,
+            &[&[&scene::KEYS]],
+            &mut known,
+            answers,
+        ));
+    }
+    assert!(known.len() > 30, "{known:?}");
+    assert!(differing.is_empty(), "{differing:#?}");
+}
+
+#[test]
+fn the_committed_schemas_and_pages_are_current() {
+    for (path, text) in files() {
+        let committed = fs::read_to_string(repository().join(&path)).unwrap_or_default();
+        assert!(
+            committed == text,
+            "{path}: run `cargo xtask dev references`"
+        );
+    }
+}
+
+/// What `new` writes for studies and scenes names its schema, which is committed where the URL
+/// points.
+#[test]
+fn new_files_name_a_committed_schema() {
+    const URL: &str = "https://raw.githubusercontent.com/thermobeam/thermobeam/main/";
+    let repository = URL.replace("raw.githubusercontent.com", "github.com");
+    let repository = repository.trim_end_matches("/main/");
+    assert!(
+        include_str!("../../../Cargo.toml").contains(&format!("repository = \"{repository}\""))
+    );
+    let committed: Vec<String> = files().into_iter().map(|(path, _)| path).collect();
+    let templates = PROJECT.templates.iter().chain(program::PROJECT.templates);
+    let mut named = BTreeSet::new();
+    for template in templates.filter(|template| template.name != "manufacture") {
+        let (_, text) = template.files[0];
+        let line = text.lines().next().unwrap();
+        let path = line.strip_prefix(&format!("#:schema {URL}"));
+        let path = path.unwrap_or_else(|| panic!("{}: {line}", template.name));
+        assert!(committed.iter().any(|known| known == path), "{path}");
+        named.insert(path);
+    }
+    assert_eq!(named.len(), 3, "{named:?}");
+}

@@ -237,6 +237,6 @@ fn random_words_in_place_of_the_beams_texts_change_no_conclusion() {
     );
     assert!(before.changes.len() > 2, "{before:?}");
     assert!(diagnosis.claims.is_empty() && !diagnosis.first.is_empty());
-    assert!(diagnosis.look_at.len() > 1, "{before:?}");
+    assert!(!diagnosis.look_at.is_empty(), "{before:?}");
     assert_eq!(before, conclusions(&others, &baseline));
 }

@@ -122,6 +122,10 @@ fn every_command_has_the_same_flags() {
         let expected = seen(program.find_subcommand("verify").unwrap(), name);
         assert!(expected.is_some(), "{name}");
         for command in commands(&program) {
+            // `new` writes files and no results.
+            if command.get_name() == "new" && name == "out" {
+                continue;
+            }
             let wanted = if WITHOUT_FLAGS.contains(&command.get_name()) {
                 None
             } else {

@@ -45,6 +45,12 @@ fn complaint(schema: &Value, value: &Value, path: &str) -> Option<String> {
                     .find(|name| value.is_object() && value.get(name).is_none());
                 missing.map(|name| format!("{path}.{name}: missing"))
             }
+            // A table of values by any names.
+            "additionalProperties" if rule.is_object() => {
+                let values = value.as_object().into_iter().flatten();
+                let mut values = values.map(|(name, value)| (format!("{path}.{name}"), value));
+                values.find_map(|(path, value)| complaint(rule, value, &path))
+            }
             "additionalProperties" => {
                 let known = schema["properties"].as_object().unwrap();
                 let names = value

@@ -10,13 +10,17 @@ use crate::project::Project;
 /// Examples of each command: what it does, and the line. `PROGRAM` stands for the project's
 /// command, `TEMPLATE` for what its `new` begins with. Each line works as it is in the folder that a
 /// test of the program `convergence-study` fills.
-pub const EXAMPLES: [(&str, &[(&str, &str)]); 11] = [
+pub const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
     (
         "new",
         &[
             ("Files to start from", "PROGRAM new TEMPLATE mine"),
             ("In another folder", "PROGRAM new TEMPLATE mine --out cases"),
         ],
+    ),
+    (
+        "schema",
+        &[("For an editor", "PROGRAM schema > studies.schema.json")],
     ),
     (
         "manufacture",

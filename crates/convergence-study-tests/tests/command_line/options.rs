@@ -165,7 +165,7 @@ fn each_command_has_a_man_page() {
     assert!(
         status == Some(2)
             && out.is_empty()
-            && err.contains("man: found `verfy`; expected one of verify, study,"),
+            && err.contains("man: found `verfy`; expected one of schema, verify, study,"),
         "{err}"
     );
     // Where `man` is installed, it finds no fault.

@@ -256,12 +256,12 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "timeout = 9",
             "files = [\"x\"]",
-            "program.files: unknown key `files`; expected command, directory, timeout",
+            "program.files: unknown key `files`; expected command, directory, env, timeout",
         ),
         (
             "timeout = 9",
             "cache = true",
-            "program.cache: unknown key `cache`; expected command, directory, timeout",
+            "program.cache: unknown key `cache`; expected command, directory, env, timeout",
         ),
         (
             "timeout = 9",

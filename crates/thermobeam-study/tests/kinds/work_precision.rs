@@ -250,7 +250,7 @@ fn mistakes_are_named() {
         ),
         (
             format!("{solution}{runs}nodes = [0, 1]"),
-            "no nodes for midpoint",
+            "unknown key `nodes`; expected method, grading, runs",
         ),
         (
             format!("{solution}{dg}runs = [[10, 1]]"),

@@ -368,8 +368,8 @@ fn an_expectation_that_breaks_a_rule_is_named() {
             &["expect[0].order: found 0; expected a finite number > 0"],
         ),
         (
-            "expect = [{ norm = \"shear\", order = 1 }]\n",
-            &["expect[0].tolerance: missing"],
+            "expect = [{ norm = \"shear\", order = 1, tolerance = 0 }]\n",
+            &["expect[0].tolerance: found 0; expected a finite number > 0"],
         ),
         (
             "expect = [{ norm = \"shear\", rate = 1 }]\n",

@@ -153,7 +153,7 @@ fn row<'k>(
 /// A kind of study that a file describes.
 ///
 /// ```
-/// # use convergence_harness::input::{InputError, Section};
+/// # use convergence_harness::input::{Form, InputError, Key, Keys, Section};
 /// # use convergence_harness::judge::claims::Claim;
 /// # use convergence_harness::study::header::of_file as settings_of_file;
 /// # use convergence_harness::study::kind::completion;
@@ -168,10 +168,18 @@ fn row<'k>(
 ///     claim: Claim,
 /// }
 ///
+/// // The keys of the table `[sum]`, and of the file.
+/// const SUM: [Key; 2] = [
+///     Key::new("terms", Form::Count(1), "how many terms"),
+///     Key::new("order", Form::Number, "the expected order"),
+/// ];
+/// const KEYS: [Key; 1] = [Key::new("sum", Form::Table(&[&[&SUM]]), "the sum")];
+///
 /// impl FromFile for Sums {
+///     const KEYS: &'static [Keys] = &[&[&KEYS]];
+///
 ///     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-///         root.allow(&["study", "sum"])?;
-///         let sum = root.table("sum", &["terms", "order"])?;
+///         let sum = root.table("sum", &[&SUM])?;
 ///         let terms = sum.require("terms", "a whole number from 1")?.count(1..=100)?;
 ///         Ok(Self { terms, claim: read_claim(&sum, "order")? })
 ///     }
@@ -180,6 +188,7 @@ fn row<'k>(
 /// // How a project lists the kind, for its files and for `explain`.
 /// const ROW: KindRow = KindRow {
 ///     name: "sums",
+///     keys: Sums::KEYS,
 ///     read: reader::<Sums>,
 ///     why: "The series converges.",
 ///     judged: "Every sum must be finite.",

@@ -262,7 +262,7 @@ fn mistakes_are_named() {
         ),
         (
             format!("{solution}{dg}runs = [[10, 1, 0.02]]\ngrading = 2"),
-            "no grading for dg",
+            "unknown key `grading`; expected method, nodes, runs",
         ),
         (
             format!(

@@ -138,5 +138,8 @@ fn every_command_has_the_same_flags() {
     let shorts = commands(&program)
         .flat_map(clap::Command::get_arguments)
         .filter_map(clap::Arg::get_short);
-    assert_eq!(shorts.collect::<BTreeSet<char>>(), ['h', 'q'].into());
+    assert_eq!(
+        shorts.collect::<BTreeSet<char>>(),
+        ['V', 'h', 'j', 'n', 'o', 'q', 'v'].into()
+    );
 }

@@ -63,9 +63,6 @@ pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap:
         new.mut_arg("what", |what| what.value_parser(values))
             .mut_arg("language", |option| option.hide(without_program))
             .mut_arg("command", |option| option.hide(without_program))
-            .mut_arg("out", |out| {
-                out.help("The folder of the files, which is created if needed")
-            })
             .hide(is_hidden)
     })
 }

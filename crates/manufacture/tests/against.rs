@@ -1,6 +1,7 @@
 //! Foreign sources with one mistake each: the cause that is named.
 
 use std::fs;
+#[cfg(unix)]
 use std::time::Duration;
 
 use manufacture::{Comparison, Sampling};
@@ -209,6 +210,7 @@ fn values_with_few_digits_are_right_within_them() {
 }
 
 /// The message about a program whose answer about five points cannot be used.
+#[cfg(unix)]
 #[track_caller]
 fn refusal(program: &str, limit: Duration) -> String {
     let sampling = Sampling {

@@ -5,7 +5,9 @@ mod folder;
 
 use std::fs::File;
 use std::io;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use glob::Pattern;
 use thiserror::Error;
@@ -107,6 +109,24 @@ pub struct Request {
 }
 
 impl Request {
+    /// All these studies, as those of a tier, on all processors; nothing is blessed.
+    ///
+    /// * `root`: the project's folder; the reports go to `reports/` in it.
+    pub fn of_tier(tier: Tier, studies: &[Box<dyn Study>], root: impl Into<PathBuf>) -> Self {
+        let root = root.into();
+        let headers = studies.iter().map(|study| study.header().clone()).collect();
+        let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        Self {
+            scope: Scope::Tier(tier, headers),
+            effort: jobs.into(),
+            bless: false,
+            reason: None,
+            only: vec![],
+            reports: root.join("reports"),
+            root,
+        }
+    }
+
     /// The file of the baseline.
     pub fn baseline(&self) -> PathBuf {
         self.root.join("studies").join("baseline.json")
@@ -193,6 +213,8 @@ pub enum VerificationError {
 }
 
 /// Runs the studies and writes the reports, and the baseline if requested.
+///
+/// The page "Test in Rust" of the book has an example.
 ///
 /// # Errors
 /// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are reported

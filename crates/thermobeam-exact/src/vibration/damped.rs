@@ -12,8 +12,9 @@ use thermobeam::parameters::{ParameterError, check};
 /// a mesh, each with its own ω.
 ///
 /// ```
-/// use thermobeam::dg::{Field, InitialFunctions, DgProblem, Dg, DgStepping};
+/// use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 /// use thermobeam::mesh::Mesh;
+/// use thermobeam::motion::Motion;
 /// use thermobeam::parameters::Beam;
 /// use thermobeam_exact::vibration::{Mode, TimeFactor};
 ///

@@ -9,6 +9,8 @@ use std::process::Command;
 use convergence_study_tests::output;
 use tempfile::TempDir;
 
+use crate::place::read;
+
 /// Records its arguments, writes a report and exits with STATUS.
 const CARGO: &str = r#"#!/usr/bin/env bash
 printf '%s\n' "$@" >arguments
@@ -139,9 +141,6 @@ fn patterns_reach_the_program_as_they_are() {
 
 #[test]
 fn what_the_action_builds_is_what_it_runs() {
-    let read = |path: &str| {
-        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)).unwrap()
-    };
     let profile = |path: &str, command: &str| {
         read(path)
             .split_once(command)

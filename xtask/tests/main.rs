@@ -4,6 +4,7 @@ mod action;
 mod bench;
 mod dev;
 mod manifests;
+mod place;
 mod quick_tier;
 mod readme;
 mod release;

@@ -2,18 +2,22 @@
 //! forms for issues.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 use yaml_rust2::{Yaml, YamlLoader};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use crate::place::{read, root};
 
-fn read(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
+/// What a manifest takes from the workspace.
+const SHARED: [&str; 7] = [
+    "version",
+    "edition",
+    "rust-version",
+    "license",
+    "authors",
+    "repository",
+    "homepage",
+];
 
 fn toml(path: &str) -> Table {
     read(path)
@@ -70,15 +74,7 @@ fn the_manifest_of_each_published_crate_is_complete() {
     assert!(packages.len() >= 8, "{}", packages.len());
     for package in packages {
         let name = package.name();
-        for inherited in [
-            "version",
-            "edition",
-            "rust-version",
-            "license",
-            "authors",
-            "repository",
-            "homepage",
-        ] {
+        for inherited in SHARED {
             let value = package.field(inherited).get("workspace");
             assert_eq!(value, Some(&Value::Boolean(true)), "{name}: {inherited}");
         }
@@ -153,15 +149,7 @@ fn the_python_package_has_the_metadata_of_the_workspace() {
     let workspace = toml("Cargo.toml");
     let shared = &workspace["workspace"]["package"];
     let manifest = toml("crates/convergence-study-python/Cargo.toml");
-    for key in [
-        "version",
-        "edition",
-        "rust-version",
-        "license",
-        "authors",
-        "repository",
-        "homepage",
-    ] {
+    for key in SHARED {
         assert_eq!(manifest["package"][key], shared[key], "{key}");
     }
     let project = &toml("crates/convergence-study-python/pyproject.toml")["project"];

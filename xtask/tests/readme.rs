@@ -5,21 +5,15 @@
 mod blocks;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use blocks::{Printed, missing, printed};
 
+use crate::place::{read, root};
+
 /// The page of the beam's program.
 const BEAM: &str = "crates/thermobeam-cli/README.md";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-fn read(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap()
-}
 
 /// The lines of `verify` that need no clock, as its report has them: verdict, and the key numbers
 /// of each study.

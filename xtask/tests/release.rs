@@ -1,16 +1,13 @@
 //! The workflow that publishes: only on a tag, with the least rights, by scripts of `.ci/`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use yaml_rust2::{Yaml, YamlLoader};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use crate::place::{read, root};
 
 fn text(name: &str) -> String {
-    fs::read_to_string(root().join(".github/workflows").join(name)).expect("a workflow")
+    read(&format!(".github/workflows/{name}"))
 }
 
 fn workflow(name: &str) -> Yaml {

@@ -1,11 +1,8 @@
 //! What continuous integration runs.
 
 use std::fs;
-use std::path::Path;
 
-fn read(path: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)).unwrap()
-}
+use crate::place::{read, root};
 
 /// The commands of `.ci/run`.
 fn steps(script: &str) -> Vec<&str> {
@@ -47,7 +44,7 @@ fn commands(workflow: &str) -> String {
 
 #[test]
 fn each_script_is_run_by_a_workflow() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.ci");
+    let folder = root().join(".ci");
     let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
     let files = entries.filter(|entry| entry.file_type().unwrap().is_file());
     let scripts: Vec<String> = files

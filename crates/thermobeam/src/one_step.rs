@@ -5,7 +5,7 @@ use crate::energy::{Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
 use crate::motion::{Motion, StepReport, Work};
-use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive};
+use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive, check_stopping};
 use crate::scheme::{Case, Scheme};
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
@@ -299,13 +299,7 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
             tolerance,
             max_iterations,
         } => {
-            check_positive("tolerance", tolerance)?;
-            check(
-                "max_iterations",
-                max_iterations as f64,
-                max_iterations > 0,
-                "an integer >= 1",
-            )?;
+            check_stopping(tolerance, max_iterations)?;
         }
         Stopping::Iterations(iterations) => {
             let is_fixed_point = stepping.settings.solver == Solver::FixedPoint;

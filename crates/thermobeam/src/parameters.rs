@@ -78,6 +78,17 @@ pub(crate) fn check_positive(name: &'static str, found: f64) -> Result<(), Param
     )
 }
 
+/// Refuses a tolerance and a limit with which no iteration can end as converged.
+pub(crate) fn check_stopping(tolerance: f64, max_iterations: usize) -> Result<(), ParameterError> {
+    check_positive("tolerance", tolerance)?;
+    check(
+        "max_iterations",
+        max_iterations as f64,
+        max_iterations > 0,
+        "an integer >= 1",
+    )
+}
+
 /// Refuses a value that is not allowed.
 ///
 /// * `is_allowed` is false for NaN, as every comparison with NaN is.

@@ -14,10 +14,7 @@ use std::path::{Path, PathBuf};
 
 use convergence_study_tests::files::files_below;
 
-/// The root of the workspace.
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use crate::place::root;
 
 /// The folder of a crate.
 fn crate_folder(name: &str) -> PathBuf {

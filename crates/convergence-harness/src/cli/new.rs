@@ -5,6 +5,7 @@ use std::process::{Command, Stdio};
 use std::{env, fs};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
+use manufacture::against::{CommandWords, command_words};
 use serde_json::json;
 
 use super::exit::{Outcome, Unusable};
@@ -91,15 +92,17 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(folder) = &flags.out {
         atomic::prepare_folder(folder)?;
     }
-    let python = format!("[\"{}\"", python());
     for (path, begun) in files.iter().zip(&begun) {
-        let text = begun
+        let mut text = begun
             .text
             .replace("NAME", name)
             .replace("PROGRAM", project.command)
-            .replace("[\"python3\"", &python)
             .replace("DIRECTORY", &place.directory)
             .replace("BELOW", &place.below);
+        // To look for Python starts a process, which only a study of a Python program needs.
+        if text.contains(PYTHON3) {
+            text = text.replace(PYTHON3, &format!("[\"{}\"", python()));
+        }
         atomic::write(path, text)?;
     }
     let ignored = place.root.join(".gitignore");
@@ -116,6 +119,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let words = flags.words(Verdict::Pass, &written, || text);
     Ok(flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?)
 }
+
+/// The beginning of a command in a template that runs Python.
+const PYTHON3: &str = "[\"python3\"";
 
 /// The command that starts Python 3 on this machine; on Windows it often has no 3. Looking for a
 /// file is not enough there: a file of that name may only lead to a shop.
@@ -135,6 +141,21 @@ fn is_python3(command: &str) -> bool {
     version.is_ok_and(|version| version.status.success() && version.stdout.starts_with(b"Python 3"))
 }
 
+/// The words of a command.
+///
+/// # Errors
+/// No word, and a quote without its end, in words.
+fn words(command: &str) -> Result<Vec<String>, String> {
+    let CommandWords { words, open_quote } = command_words(command);
+    if let Some(quote) = open_quote {
+        return Err(format!("found {quote} without its end; expected another"));
+    }
+    if words.is_empty() {
+        return Err("found no word; expected a program and its arguments".to_owned());
+    }
+    Ok(words)
+}
+
 /// The files of a template, or of a program in another language or with a command of its own.
 ///
 /// # Errors
@@ -152,7 +173,8 @@ fn begun(arguments: &Arguments, template: &Template) -> Result<Vec<begin::Begun>
         )));
     }
     if let Some(command) = command {
-        return begin::of_command(command)
+        return words(command)
+            .and_then(begin::of_command)
             .map_err(|reason| Unusable::because(&format!("--command: {reason}")));
     }
     let chosen = begin::LANGUAGES

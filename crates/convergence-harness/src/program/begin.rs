@@ -112,13 +112,12 @@ pub fn in_language(language: &Language) -> Vec<Begun> {
     ]
 }
 
-/// The study of a command, such as `FreeFem++ -nw poisson.edp {n}`.
+/// The study of a command, such as `FreeFem++ -nw poisson.edp {n}`, in its words.
 ///
 /// # Errors
-/// No word, a quote without its end, and a placeholder that the study gives no value, in words.
-pub fn of_command(command: &str) -> Result<Vec<Begun>, String> {
+/// A placeholder that the study gives no value, in words.
+pub fn of_command(words: Vec<String>) -> Result<Vec<Begun>, String> {
     const VALUES: [Parameter; 3] = [("n", 8.0), ("h", 0.125), ("level", 0.0)];
-    let words = words(command)?;
     for word in &words {
         filled(word, &VALUES).map_err(|misread| misread.reason)?;
     }
@@ -128,29 +127,4 @@ pub fn of_command(command: &str) -> Result<Vec<Begun>, String> {
         ending: ".toml",
         text: include_str!("begin/command.toml").replace("COMMAND", &list),
     }])
-}
-
-/// The words of a command, as a shell separates them: by blanks outside quotes.
-fn words(command: &str) -> Result<Vec<String>, String> {
-    let mut words = vec![];
-    let mut word: Option<String> = None;
-    let mut quote = None;
-    for c in command.chars() {
-        if quote == Some(c) {
-            quote = None;
-        } else if quote.is_none() && matches!(c, '\'' | '"') {
-            quote = Some(c);
-            word.get_or_insert_default();
-        } else if quote.is_none() && c.is_whitespace() {
-            words.extend(word.take());
-        } else {
-            word.get_or_insert_default().push(c);
-        }
-    }
-    words.extend(word);
-    match (quote, words.is_empty()) {
-        (Some(quote), _) => Err(format!("found {quote} without its end; expected another")),
-        (None, true) => Err("found no word; expected a program and its arguments".to_owned()),
-        (None, false) => Ok(words),
-    }
 }

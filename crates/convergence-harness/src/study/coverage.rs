@@ -47,7 +47,7 @@ impl Coverage {
             .into_iter()
             .map(|reason| reason.map(Into::into))
             .collect();
-        let asked = reasons.len();
+        let total = reasons.len();
         let groups = grouped(reasons.into_iter().flatten().map(|reason| (reason, ())));
         let left_out: Vec<LeftOut> = groups
             .into_iter()
@@ -58,8 +58,8 @@ impl Coverage {
             .collect();
         Self {
             items: items.into(),
-            asked,
-            judged: asked - left_out.iter().map(|left| left.count).sum::<usize>(),
+            asked: total,
+            judged: total - left_out.iter().map(|left| left.count).sum::<usize>(),
             left_out,
         }
     }
@@ -69,11 +69,11 @@ impl Coverage {
     /// * `reasons`: as in [`Coverage::of`], for the items that have a result.
     pub fn with_total<'r>(
         items: impl Into<String>,
-        asked: usize,
+        total: usize,
         reasons: impl Iterator<Item = Option<&'r str>>,
     ) -> Self {
         let mut reasons: Vec<_> = reasons.collect();
-        reasons.resize(asked.max(reasons.len()), Some(NO_RESULT));
+        reasons.resize(total.max(reasons.len()), Some(NO_RESULT));
         Self::of(items, reasons)
     }
 

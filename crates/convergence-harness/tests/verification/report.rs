@@ -246,8 +246,8 @@ fn a_number_that_moved_by_little_is_shown_with_the_digits_that_moved() {
         to: 0.008_482_598_4,
         tolerance: 1e-8,
     };
-    let told = "moved from 0.0084825987 to 0.0084825984, by -3.5e-6 %, tolerated 1e-6 %";
-    assert_eq!(movement.to_string(), told);
+    let sentence = "moved from 0.0084825987 to 0.0084825984, by -3.5e-6 %, tolerated 1e-6 %";
+    assert_eq!(movement.to_string(), sentence);
 }
 
 #[test]

@@ -189,14 +189,14 @@ fn any_number_of_threads_gives_the_same_outcomes() {
 
 #[test]
 fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
-    let told = Mutex::new(Vec::new());
+    let reports = Mutex::new(Vec::new());
     let studies = vec![study("a", Does::Converge), study("b", Does::Panic)];
     run::run(&studies, jobs(1), &|progress| {
-        told.lock().unwrap().push(progress);
+        reports.lock().unwrap().push(progress);
     })
     .unwrap();
-    let told = told.into_inner().unwrap();
-    let costs: Vec<f64> = told
+    let reports = reports.into_inner().unwrap();
+    let costs: Vec<f64> = reports
         .iter()
         .scan(0.0, |before, now| {
             Some(now.done_cost - std::mem::replace(before, now.done_cost))
@@ -206,7 +206,7 @@ fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
         costs,
         [128.0, 128.0, 64.0, 64.0, 32.0, 32.0, 16.0, 16.0, 8.0, 8.0]
     );
-    let last = told.last().unwrap();
+    let last = reports.last().unwrap();
     assert_eq!((last.done_cases, last.cases), (10, 10));
     assert_eq!((last.done_cost, last.cost), (496.0, 496.0));
 }

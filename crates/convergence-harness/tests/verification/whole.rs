@@ -180,11 +180,11 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
         &quick,
     );
     let whole = committed(&reports);
-    let asked = vec!["a".to_owned(), "b*".to_owned()];
+    let words = vec!["a".to_owned(), "b*".to_owned()];
     let part = run(
         vec![study("a", Does::Stay)],
         &Request {
-            scope: Scope::Selection(asked),
+            scope: Scope::Selection(words),
             ..quick.clone()
         },
     );

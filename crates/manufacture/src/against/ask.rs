@@ -22,8 +22,17 @@ pub(crate) struct Answer {
     pub(crate) units: Vec<f64>,
 }
 
-/// The words of a command; quotes hold blanks together.
-pub(crate) fn words(command: &str) -> Vec<String> {
+/// A command in one text, taken apart.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CommandWords {
+    /// The program and its arguments.
+    pub words: Vec<String>,
+    /// A quote that has no end.
+    pub open_quote: Option<char>,
+}
+
+/// The words of a command, as a shell separates them: by blanks outside quotes.
+pub fn command_words(command: &str) -> CommandWords {
     let mut words = vec![];
     let mut word: Option<String> = None;
     let mut quote: Option<char> = None;
@@ -40,7 +49,10 @@ pub(crate) fn words(command: &str) -> Vec<String> {
         }
     }
     words.extend(word);
-    words
+    CommandWords {
+        words,
+        open_quote: quote,
+    }
 }
 
 /// Points as lines under a line of names.

@@ -6,6 +6,8 @@ mod causes;
 mod right;
 mod sentence;
 
+pub use ask::{CommandWords, command_words};
+
 use std::time::Duration;
 
 use serde::Serialize;
@@ -103,7 +105,7 @@ pub(crate) fn compare(
 ) -> Result<Vec<Comparison>, InputError> {
     let questions = questions(model, face, sampling.seed, sampling.points)?;
     let right = Right::new(model, &questions);
-    let text = ask::run(&ask::words(command), questions.text.clone(), limit)?;
+    let text = ask::run(&command_words(command).words, questions.text.clone(), limit)?;
     let answers = ask::read(&text, command, &right.names(), questions.points.len())?;
     Ok(answers
         .iter()

@@ -6,7 +6,7 @@ use super::space::{Field, Space};
 use super::{DgLevel, MAX_TIME_DEGREE};
 use crate::error::SetupError;
 use crate::mesh::Mesh;
-use crate::parameters::{Beam, Obstacles, check, check_positive};
+use crate::parameters::{Beam, Obstacles, check, check_positive, check_stopping};
 
 /// Allowed rounding errors of an initial value in a boundary condition, in units of the field's
 /// largest coefficient.
@@ -132,13 +132,7 @@ pub(super) fn check_problem(
         few_rungs,
         format!("a ratio that leads from restart_dt to dt in {MAX_RUNGS} steps"),
     )?;
-    check_positive("tolerance", tolerance)?;
-    check(
-        "max_iterations",
-        max_iterations as f64,
-        max_iterations > 0,
-        "an integer >= 1",
-    )?;
+    check_stopping(tolerance, max_iterations)?;
     Ok(())
 }
 

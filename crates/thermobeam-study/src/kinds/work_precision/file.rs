@@ -168,15 +168,6 @@ fn trials(
     let method = section
         .require("method", "the name of a method")?
         .choice(&methods)?;
-    let other = if method.one_step.is_some() {
-        "nodes"
-    } else {
-        "grading"
-    };
-    if let Some(field) = section.get(other) {
-        let allowed = format!("no {other} for {}", method.name);
-        return Err(field.refuse(format!("{other} of {}", method.name), allowed));
-    }
     let resolutions = if method.one_step.is_some() {
         grids(section, observations, most)?
     } else {

@@ -256,7 +256,7 @@ impl Findings<'_> {
         let mut csv: String = ["study"]
             .into_iter()
             .chain(parameters.iter().map(|name| name.as_str()))
-            .map(|name| field(name) + ",")
+            .map(|name| csv_field(name) + ",")
             .collect();
         csv += "norm,error\n";
         for Finished {
@@ -274,8 +274,8 @@ impl Findings<'_> {
                 for (norm, error) in &level.errors {
                     csv += &format!(
                         "{},{values}{},{}\n",
-                        field(&header.id),
-                        field(norm),
+                        csv_field(&header.id),
+                        csv_field(norm),
                         committed(*error)
                     );
                 }
@@ -286,7 +286,7 @@ impl Findings<'_> {
 }
 
 /// A field of a CSV line, in quotes if needed (RFC 4180).
-fn field(text: &str) -> String {
+pub(crate) fn csv_field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

@@ -1,5 +1,6 @@
 //! `rates FILE...`: errors of any code, judged by the rule of the studies.
 
+mod files;
 mod shown;
 
 use std::io::{self, IsTerminal};
@@ -181,16 +182,16 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let verdict = Verdict::worst(findings.iter().map(|judgement| judgement.verdict));
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
-        shown::write(&findings, verdict, folder)?;
+        files::write(&findings, verdict, folder)?;
     }
     let words = match flags.format {
-        Format::Csv => shown::csv(&findings),
-        Format::Md => shown::rows_in_markdown(&findings),
+        Format::Csv => files::csv(&findings),
+        Format::Md => files::rows_in_markdown(&findings),
         Format::Text | Format::Json => {
             shown::text_of_all(&findings, verdict, flags.quiet, screen::verdict)
         }
     };
-    Ok(flags.show("rates", verdict, &shown::object_of_all(&findings), &words)?)
+    Ok(flags.show("rates", verdict, &files::object_of_all(&findings), &words)?)
 }
 
 /// The columns of a table with their judgements.

@@ -1,28 +1,17 @@
-//! The result for people, programs and pages.
-
-use std::io;
-use std::path::Path;
-
-use serde_json::{Value, json};
+//! The result in words, for people.
 
 use super::{JudgedColumn, Judgement};
 use crate::cli::explain::section;
-use crate::cli::github;
 use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Aside, RateVerdict, Reason, SetAside, Verdict, judged_in_words};
-use crate::plots::xy::Xy;
-use crate::plots::{ErrorSeries, Guide, convergence};
-use crate::store::{JudgedSuite, atomic, junit_of};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict, judged_in_words};
 use crate::text::number::{
     committed_rate, counted, error_text, order_text, pair_text, plain_text, short_text,
 };
-use crate::text::visible::{self, visible};
+use crate::text::visible::visible;
 
-/// Most columns in the figure: more would repeat the colours.
-const DRAWN: usize = 8;
 /// Largest difference between two steady rates.
 const STEADY: f64 = 0.2;
 /// Least fall, in orders, of a steady rate where the error stops falling.
@@ -32,7 +21,7 @@ const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
-    fn answer(&self) -> String {
+    pub(super) fn answer(&self) -> String {
         let rate = match self.claim {
             Claim {
                 at_least: true,
@@ -111,7 +100,7 @@ pub(super) fn text_of_all(
 }
 
 /// How many tables agree, or what the only one says.
-fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
+pub(super) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
     if let [alone] = findings {
         return sentence(alone);
     }
@@ -123,7 +112,7 @@ fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
 }
 
 impl Judgement<'_> {
-    fn columns_with_rates(&self) -> Vec<Shown<'_>> {
+    pub(super) fn columns_with_rates(&self) -> Vec<Shown<'_>> {
         self.columns
             .iter()
             .map(JudgedColumn::column_with_rate)
@@ -131,73 +120,8 @@ impl Judgement<'_> {
     }
 }
 
-/// The rows of each table, separated by commas, without marks; a line with its name before each of
-/// several.
-pub(super) fn csv(findings: &[Judgement<'_>]) -> String {
-    let cell = |cell: &String| {
-        let cell = cell.trim_end_matches([' ', '_', '~', '\'']).trim();
-        if cell.contains([',', '"', '\n']) {
-            format!("\"{}\"", cell.replace('"', "\"\""))
-        } else {
-            cell.to_owned()
-        }
-    };
-    let line = |row: &Vec<String>| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
-    let table = |judgement: &Judgement<'_>| {
-        let rows = shown::rows(
-            &judgement.source.table.step,
-            &judgement.columns_with_rates(),
-        );
-        let head = if findings.len() > 1 {
-            format!("# {}\n", visible(&judgement.source.name))
-        } else {
-            String::new()
-        };
-        head + &rows.iter().map(line).collect::<String>()
-    };
-    findings.iter().map(table).collect::<Vec<_>>().join("\n")
-}
-
-/// The rows of each table in Markdown, with the meaning of their marks; each of several under its
-/// name.
-pub(super) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
-    let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row.iter().map(|cell| escaped(cell.trim())).collect();
-        format!("| {} |\n", cells.join(" | "))
-    };
-    let table = |judgement: &Judgement<'_>| {
-        let columns = judgement.columns_with_rates();
-        let rows = shown::rows(&judgement.source.table.step, &columns);
-        let head = if findings.len() > 1 {
-            format!("## {}\n\n", escaped(&judgement.source.name))
-        } else {
-            String::new()
-        };
-        let rule = format!("|{}\n", " --: |".repeat(rows[0].len()));
-        let body: String = rows[1..].iter().map(line).collect();
-        let legend: String = shown::legend(&columns, judgement.judge.floor())
-            .lines()
-            .map(|line| format!("\n{}\n", escaped(line)))
-            .collect();
-        head + &line(&rows[0]) + &rule + &body + &legend
-    };
-    findings.iter().map(table).collect::<Vec<_>>().join("\n")
-}
-
-/// A text in Markdown, without markup of its own.
-fn escaped(text: &str) -> String {
-    let plain = |c: char| {
-        if "\\|*_`<[]".contains(c) {
-            vec!['\\', c]
-        } else {
-            vec![c]
-        }
-    };
-    visible(text).chars().flat_map(plain).collect()
-}
-
 /// The errors with their rates, a verdict for each column, advice, and the overall verdict.
-fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {
+pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {
     let table = &findings.source.table;
     let columns = &findings.columns;
     let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
@@ -386,7 +310,7 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
 }
 
 /// The overall verdict in words.
-fn sentence(findings: &Judgement<'_>) -> String {
+pub(super) fn sentence(findings: &Judgement<'_>) -> String {
     let deciding = || findings.columns.iter().filter(|column| column.decides);
     let passed = deciding()
         .filter(|column| column.rate.verdict == Verdict::Pass)
@@ -396,186 +320,4 @@ fn sentence(findings: &Judgement<'_>) -> String {
         1 => format!("{passed} of 1 column agrees with its order"),
         count => format!("{passed} of {count} columns agree with their orders"),
     }
-}
-
-/// What `rates --format json` prints in addition to the verdict: the object of a table, or a list of
-/// several, each with its name and verdict.
-pub(super) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
-    if let [alone] = findings {
-        return object(alone);
-    }
-    let table = |findings: &Judgement<'_>| {
-        let mut object = object(findings);
-        object["table"] = json!(findings.source.name);
-        object["verdict"] = json!(findings.verdict.name());
-        object
-    };
-    json!({"tables": findings.iter().map(table).collect::<Vec<_>>()})
-}
-
-/// Rates as in `study --format json`, with the column's name as the norm's.
-fn object(findings: &Judgement<'_>) -> Value {
-    let rate = |judged: &JudgedColumn<'_>| {
-        let mut object = json!(judged.rate);
-        let level = |level: &Level| json!({"step": level.step, "error": level.error});
-        let aside =
-            |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
-        object["norm"] = json!(judged.column.name);
-        object["decides"] = json!(judged.decides);
-        object["at_least"] = json!(judged.claim.at_least);
-        object["levels"] = judged.column.levels.iter().map(level).collect();
-        object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
-        if !judged.is_claimed() {
-            object["reason"] = json!("no order is claimed");
-        }
-        if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {
-            object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
-        }
-        if let Some(Ok(gci)) = judged.estimate.as_ref().map(|estimate| &estimate.gci) {
-            object["gci"] = json!(gci.half_width);
-        }
-        object
-    };
-    let not_errors = findings
-        .source
-        .table
-        .not_errors
-        .iter()
-        .map(|(column, because)| json!({"column": column, "because": because}));
-    json!({
-        "step": findings.source.table.step, "floor": findings.judge.floor(),
-        "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.source.table.reading],
-    })
-}
-
-/// Writes figures, Markdown and JUnit XML, each atomically, and appends to the job summary of
-/// GitHub. The figure of an only table is `rates.svg`, those of several are `rates-1.svg`, ...
-///
-/// # Errors
-/// The error of the operating system, with the name of the file.
-pub(super) fn write(findings: &[Judgement<'_>], verdict: Verdict, folder: &Path) -> io::Result<()> {
-    atomic::prepare_folder(folder)?;
-    let mut pages = vec![];
-    for (k, judgement) in findings.iter().enumerate() {
-        let name = if findings.len() == 1 {
-            "rates.svg".to_owned()
-        } else {
-            format!("rates-{}.svg", k + 1)
-        };
-        atomic::write(&folder.join(&name), figure(judgement))?;
-        let picture = format!("![Errors over steps]({name})\n\n");
-        pages.push(markdown(judgement, &picture));
-    }
-    if findings.len() > 1 {
-        pages.push(format!("**{verdict}**: {}\n", sentence_of_all(findings)));
-    }
-    atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
-    let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
-    let project = findings.first().map_or("", |first| first.project.name);
-    let junit = junit_of(project, &suites).map_err(io::Error::other)?;
-    atomic::write(&folder.join("junit.xml"), junit)?;
-    // A picture would need an address on the web.
-    for judgement in findings {
-        github::summarise(&markdown(judgement, ""));
-    }
-    Ok(())
-}
-
-/// A test case for each column that decides; without one a case that fails for want of a claim.
-fn suite(findings: &Judgement<'_>) -> JudgedSuite {
-    let case = |judged: &JudgedColumn<'_>| {
-        let least = if judged.claim.at_least {
-            "at least "
-        } else {
-            ""
-        };
-        let claim = if judged.is_claimed() {
-            format!(": order {least}{}", judged.rate.order)
-        } else {
-            String::new()
-        };
-        (
-            judged.column.name.clone() + &claim,
-            judged.rate.verdict,
-            judged.answer(),
-        )
-    };
-    let deciding = findings.columns.iter().filter(|column| column.decides);
-    let mut cases: Vec<_> = deciding.map(case).collect();
-    if cases.is_empty() {
-        cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
-    }
-    JudgedSuite {
-        name: findings.source.name.clone(),
-        cases,
-    }
-}
-
-/// The errors over the steps, columns with a claim first.
-fn figure(findings: &Judgement<'_>) -> String {
-    let mut drawn: Vec<&JudgedColumn<'_>> = findings
-        .columns
-        .iter()
-        .filter(|judged| judged.estimate.is_none())
-        .collect();
-    drawn.sort_by_key(|judged| !judged.decides);
-    let series = |judged: &&JudgedColumn<'_>| ErrorSeries {
-        label: judged.column.name.clone(),
-        points: judged
-            .column
-            .levels
-            .iter()
-            .map(|level| (level.step, level.error))
-            .collect(),
-        order: Some(judged.rate.order).filter(|order| !order.is_nan()),
-        fit: judged.rate.power_law(),
-        interval: judged.rate.interval,
-        used: Some(judged.rate.used.clone()),
-        ..ErrorSeries::default()
-    };
-    let series: Vec<ErrorSeries> = drawn.iter().take(DRAWN).map(series).collect();
-    let at_floor = |judged: &&JudgedColumn<'_>| {
-        judged
-            .rate
-            .set_aside
-            .iter()
-            .any(|aside| aside.because == Aside::AtFloor)
-    };
-    let floor = drawn.iter().any(at_floor).then(|| Guide {
-        label: "floor".to_owned(),
-        value: findings.judge.floor(),
-    });
-    let guides = floor.into_iter().collect();
-    convergence(
-        Xy {
-            title: Some(format!(
-                "Errors over {}, and the lines of their rates",
-                findings.source.table.step
-            )),
-            guides,
-            ..Xy::of_errors(&findings.source.table.step)
-        },
-        &series,
-        &[],
-    )
-}
-
-/// The printed result, as a page.
-///
-/// * `picture`: the link to the figure, with the empty line below it.
-fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
-    let source = escaped(&findings.source.name);
-    let text = visible::lines(&text(findings, false, plain_verdict));
-    let block: String = text.lines().map(|line| format!("    {line}\n")).collect();
-    format!(
-        "# Rates of {source}\n\n**{}**: {}\n\n{picture}{block}",
-        findings.verdict,
-        sentence(findings)
-    )
-}
-
-/// A verdict without a colour.
-fn plain_verdict(verdict: Verdict) -> String {
-    verdict.to_string()
 }

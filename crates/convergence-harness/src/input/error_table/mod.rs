@@ -17,6 +17,7 @@
 //! column with one of them fails.
 
 mod blocks;
+mod cleaned;
 mod columns;
 mod digits;
 mod forms;
@@ -108,7 +109,7 @@ impl RateTable {
     /// # Errors
     /// As [`RateTable::read_with`], except for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        roles::read(&text::plain(text), file_name, choice)
+        roles::read(&cleaned::plain(text), file_name, choice)
     }
 
     /// Reads all tables of a file, each with its heading, which is empty for an only one; `-` is
@@ -136,7 +137,7 @@ impl RateTable {
         file_name: &str,
         choice: &Choice,
     ) -> Result<Vec<(String, Self)>, InputError> {
-        let text = text::plain(text);
+        let text = cleaned::plain(text);
         let error = match roles::read(&text, file_name, choice) {
             Ok(table) => return Ok(vec![(String::new(), table)]),
             Err(error) => error,

@@ -1,23 +1,9 @@
 //! Any text as rows of cells below names.
 
-use super::forms::joined;
 use super::names::Word;
 use super::number::{is_dash, number};
 use super::pairs::{self, RawTable};
 
-/// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
-/// ended lines with \r.
-const MARKS: [(&str, &str); 9] = [
-    ("\u{feff}", ""),
-    ("\r\n", "\n"),
-    ("\r", "\n"),
-    ("│", "|"),
-    ("┃", "|"),
-    ("┆", "|"),
-    ("║", "|"),
-    ("array(", "("),
-    ("\\hline", "      "),
-];
 /// Types of columns and units, as data frames write them below the names.
 const TYPES: [&str; 8] = [
     "double", "f64", "i64", "float64", "int64", "float", "int", "str",
@@ -26,59 +12,7 @@ const TYPES: [&str; 8] = [
 /// A row that is filled has at least one cell in this many columns.
 const FULL: usize = 4;
 
-/// A text without colours, and a line for each of nested lists without names.
-pub(super) fn plain(text: &str) -> String {
-    let marked = MARKS
-        .iter()
-        .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
-    let marked = joined(&marked);
-    let text = without_numpy_types(&without_colours(&marked));
-    let text: String = text.lines().map(plain_line).collect();
-    if is_list(&text, &['{']) {
-        // `{0.1: 1.6e-3, 0.05: 4e-4}`.
-        text.replace([',', '{', '}'], "\n").replace(':', " ")
-    } else if is_list(&text, &['[', '(']) && !text.contains('{') {
-        text.replace(['[', '(', ',', '\n'], " ")
-            .replace([']', ')'], "\n")
-    } else {
-        text
-    }
-}
-
-/// A text without the codes of a terminal's colours. A code ends after its first letter.
-fn without_colours(text: &str) -> String {
-    let mut parts = text.split("\x1b[");
-    let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |text, part| {
-        text + part
-            .split_once(char::is_alphabetic)
-            .map_or("", |(_, rest)| rest)
-    })
-}
-
-/// A text with `0.1` in place of NumPy's `np.float64(0.1)`.
-fn without_numpy_types(text: &str) -> String {
-    let mut parts = text.split("np.float64(");
-    let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |text, part| text + &part.replacen(')', "", 1))
-}
-
-/// A line without the end of a row of LaTeX, and with single bars in place of Jira's double ones:
-/// it writes `||h||L2||` above `|0.1|1.6e-3|`.
-fn plain_line(line: &str) -> String {
-    match line.find("\\\\").filter(|_| line.contains('&')) {
-        Some(end) => line[..end].to_owned() + "\n",
-        None if line.ends_with("||") => line.replace("||", "|") + "\n",
-        None => line.to_owned() + "\n",
-    }
-}
-
-/// Whether a text is a list without names that begins with one of these brackets.
-fn is_list(text: &str, brackets: &[char]) -> bool {
-    text.trim_start().starts_with(brackets) && !text.contains(['"', '\'', '=', '\\'])
-}
-
-/// Finds the table in a text that has been made [`plain`]: names with numbers after them, or rows
+/// Finds the table in a text that has been made [plain](super::cleaned::plain): names with numbers after them, or rows
 /// below names.
 pub(super) fn read(text: &str) -> RawTable<'_> {
     if let Some(table) = pairs::read(text, true) {

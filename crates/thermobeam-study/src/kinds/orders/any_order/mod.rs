@@ -34,10 +34,10 @@ use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{CONTROL, EXACT, Layout, MAP, control, manufactured};
+use crate::kinds::tables::{EXACT, Layout, control, manufactured};
 use crate::run::dg::DgMotion;
 pub use runs::Resolution;
-use runs::{Over, RunsOfDegree, series};
+use runs::{Over, RUN, RUNS, RunsOfDegree, series};
 
 /// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors
 /// are smaller.
@@ -96,28 +96,6 @@ const FREE: [Key; 1] = [Key::new(
     ]]]),
     "a free vibration in place of an exact solution with loads",
 )];
-const RUNS: [Key; 3] = [
-    Key::new(
-        "run",
-        Form::Table(&[
-            &[&RUN, Over::Space.keys().of_run],
-            &[&RUN, Over::Time.keys().of_run],
-            &[&RUN, Over::Degree.keys().of_run],
-        ]),
-        "what is refined, and what all series share",
-    ),
-    Key::new(
-        "series",
-        Form::List(&Form::Table(&[
-            &[Over::Space.keys().of_series],
-            &[Over::Time.keys().of_series],
-            &[Over::Degree.keys().of_series],
-        ])),
-        "runs that are judged together",
-    ),
-    CONTROL,
-];
-const RUN: [Key; 2] = [Key::new("t_end", Form::Positive, "final time"), MAP];
 
 impl Source for AnyOrder {
     const ROW: KindRow = KindRow {

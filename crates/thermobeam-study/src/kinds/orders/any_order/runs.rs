@@ -1,10 +1,35 @@
 //! The runs of a study of any order: what is refined, and how a file lists it.
 
 use crate::kinds::prelude::*;
-use crate::kinds::tables::increasing;
+use crate::kinds::tables::{CONTROL, MAP, increasing};
 
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;
+
+/// The tables of runs.
+pub(super) const RUNS: [Key; 3] = [
+    Key::new(
+        "run",
+        Form::Table(&[
+            &[&RUN, Over::Space.keys().of_run],
+            &[&RUN, Over::Time.keys().of_run],
+            &[&RUN, Over::Degree.keys().of_run],
+        ]),
+        "what is refined, and what all series share",
+    ),
+    Key::new(
+        "series",
+        Form::List(&Form::Table(&[
+            &[Over::Space.keys().of_series],
+            &[Over::Time.keys().of_series],
+            &[Over::Degree.keys().of_series],
+        ])),
+        "runs that are judged together",
+    ),
+    CONTROL,
+];
+/// What all series share.
+pub(super) const RUN: [Key; 2] = [Key::new("t_end", Form::Positive, "final time"), MAP];
 
 /// What is refined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,96 @@
+//! The script of the action as the runner runs it, with the program itself.
+
+use std::process::Command;
+
+use super::*;
+
+struct Ran {
+    folder: tempfile::TempDir,
+    status: Option<i32>,
+    output: String,
+}
+
+fn run(asked: &str) -> Ran {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("bin")).unwrap();
+    fs::create_dir(at("temporary files")).unwrap();
+    std::os::unix::fs::symlink(
+        env!("CARGO_BIN_EXE_convergence-study"),
+        at("bin/convergence-study"),
+    )
+    .unwrap();
+    fs::write(
+        at("errors.csv"),
+        "h,L2\n0.4,1.6e-1\n0.2,4e-2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n",
+    )
+    .unwrap();
+    let path = format!("{}:{}", at("bin").display(), std::env::var("PATH").unwrap());
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("ci/run.sh");
+    // A script that hangs is ended.
+    let mut command = Command::new("timeout");
+    command
+        .args(["120", "bash"])
+        .arg(script)
+        .current_dir(folder.path())
+        .env("PATH", path)
+        .env("RUN", asked);
+    command
+        .env("RUNNER_TEMP", at("temporary files"))
+        .env("GITHUB_OUTPUT", at("output"));
+    let status = command
+        .env_remove("GITHUB_ACTIONS")
+        .output()
+        .unwrap()
+        .status
+        .code();
+    let output = fs::read_to_string(at("output")).unwrap_or_default();
+    Ran {
+        folder,
+        status,
+        output,
+    }
+}
+
+#[test]
+fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
+    for (asked, status) in [
+        ("rates errors.csv --order 2", 0),
+        ("rates errors.csv --order 1", 1),
+    ] {
+        let ran = run(asked);
+        assert_eq!(ran.status, Some(status));
+        assert!(
+            ran.output.starts_with(&format!("status={status}\nreport=")),
+            "{}",
+            ran.output
+        );
+        let comment = ran
+            .output
+            .lines()
+            .find_map(|line| line.strip_prefix("comment="))
+            .unwrap();
+        assert!(
+            comment.starts_with(&ran.folder.path().display().to_string()),
+            "{comment}"
+        );
+        assert!(
+            fs::read_to_string(comment)
+                .unwrap()
+                .starts_with("# Rates of errors.csv\n"),
+            "{comment}"
+        );
+    }
+}
+
+#[test]
+fn where_nothing_was_written_nothing_is_handed_on() {
+    for asked in ["rates missing.csv --order 2", "verify", "nonsense"] {
+        let ran = run(asked);
+        assert_eq!(
+            (ran.status, ran.output.as_str()),
+            (Some(2), "status=2\n"),
+            "{asked}"
+        );
+    }
+}

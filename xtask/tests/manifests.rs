@@ -1,6 +1,7 @@
 //! What registries, GitHub and citations read: the manifests of all crates and of the Python package, CITATION.cff, the
 //! forms for issues.
 
+#[cfg(unix)]
 use std::fs;
 
 use toml::{Table, Value};

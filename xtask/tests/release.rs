@@ -1,10 +1,13 @@
 //! The workflow that publishes: only on a tag, with the least rights, by scripts of `.ci/`.
 
+#[cfg(unix)]
 use std::fs;
 
 use yaml_rust2::{Yaml, YamlLoader};
 
-use crate::place::{read, root};
+use crate::place::read;
+#[cfg(unix)]
+use crate::place::root;
 
 fn text(name: &str) -> String {
     read(&format!(".github/workflows/{name}"))

@@ -1,12 +1,12 @@
-//! The pages: each note has its example. The page of ten minutes is run by the tests of programs,
-//! but for its last file.
+//! The pages: each note has its example, and the README's problem passes. The page of ten minutes is
+//! run by the tests of programs.
 
 use manufacture::Language;
 
 use crate::files::{check, found, read};
 
 const NOTES: &str = include_str!("../NOTES.md");
-const TEN_MINUTES: &str = include_str!("../TEN-MINUTES.md");
+const README: &str = include_str!("../README.md");
 
 #[test]
 fn each_example_of_a_note_has_it() {
@@ -28,8 +28,8 @@ fn each_example_of_a_note_has_it() {
 }
 
 #[test]
-fn the_other_problem_of_ten_minutes_passes_without_a_note() {
-    let file = TEN_MINUTES.rsplit("```toml\n").next().unwrap();
+fn the_problem_of_the_readme_passes_without_a_note() {
+    let file = README.rsplit("```toml\n").next().unwrap();
     let file = file.split("```").next().unwrap();
     let check = check(file);
     assert_eq!(

@@ -200,11 +200,74 @@ fn found(sample: &Sample) -> String {
     }
 }
 
+/// A row of the page: tables that are read in the same way, or refused with the same words.
+struct Row {
+    titles: Vec<String>,
+    options: String,
+    text: String,
+}
+
+/// The rows of one table of the page.
+#[derive(Default)]
+struct Rows(Vec<Row>);
+
+impl Rows {
+    fn add(&mut self, sample: &Sample, text: &str) {
+        let title = sample.title.trim_start_matches("captured: ").to_owned();
+        let options = shown(&sample.options);
+        let same = |row: &&mut Row| row.options == options && row.text == text;
+        match self.0.iter_mut().find(same) {
+            Some(row) => row.titles.push(title),
+            None => self.0.push(Row {
+                titles: vec![title],
+                options,
+                text: text.to_owned(),
+            }),
+        }
+    }
+
+    /// As Markdown.
+    ///
+    /// * `last`: the name of the last column.
+    fn table(&self, last: &str) -> String {
+        let mut table = format!("| table | options | {last} |\n| --- | --- | --- |\n");
+        for row in &self.0 {
+            let cells = [row.titles.join("; "), row.options.clone(), row.text.clone()];
+            let cells = cells.map(|cell| cell.replace('|', "\\|"));
+            table += &format!("| {} |\n", cells.join(" | "));
+        }
+        table
+    }
+}
+
+/// Options as the page shows them: without an order that is claimed for all columns.
+fn shown(options: &str) -> String {
+    let words = words(options);
+    let pairs = words.chunks(2);
+    let matter = pairs.filter(|pair| pair[0] != "--order" || pair[1].contains('='));
+    let text = matter.map(|pair| pair.join(" ")).collect::<Vec<_>>();
+    match text.join(" ") {
+        empty if empty.is_empty() => empty,
+        options => format!("`{options}`"),
+    }
+}
+
+/// What the page says of a refusal: the message without the place, and the first command that works.
+fn refusal(message: &str) -> String {
+    let (message, rest) = message.split_once('\n').unwrap_or((message, ""));
+    let command = rest
+        .lines()
+        .find_map(|line| line.strip_prefix("  "))
+        .map_or(String::new(), |line| format!(": `{line}`"));
+    let is_place = |c: char| c == ':' || c == ' ' || c.is_ascii_digit();
+    message.trim_start_matches(is_place).to_owned() + &command
+}
+
 #[test]
 fn every_table_is_read_or_refused_as_the_page_says() {
     let samples = samples();
     let (mut tables, mut wrong) = (String::new(), vec![]);
-    let [mut read, mut refused] = [String::new(), String::new()];
+    let [mut read, mut refused] = [Rows::default(), Rows::default()];
     for sample in &samples {
         let found = found(sample);
         tables += &format!(
@@ -214,43 +277,18 @@ fn every_table_is_read_or_refused_as_the_page_says() {
         if found.trim_end() != sample.found {
             wrong.push(format!("{}:\n{found}", sample.title));
         }
-        let options = if sample.options.is_empty() {
-            String::new()
-        } else {
-            format!("`{}`", sample.options)
-        };
-        let cell = |text: &str| text.replace('|', "\\|");
-        let row = |text: &str| {
-            format!(
-                "| {} | {} | {} |\n",
-                cell(&sample.title),
-                cell(&options),
-                cell(text)
-            )
-        };
         match found.strip_prefix("refused: TABLE") {
-            Some(message) => {
-                let (message, rest) = message.split_once('\n').unwrap_or((message, ""));
-                let command = rest
-                    .lines()
-                    .find_map(|line| line.strip_prefix("  "))
-                    .map_or(String::new(), |line| format!(": `{line}`"));
-                refused += &row(&(message
-                    .trim_start_matches(|c: char| c == ':' || c == ' ' || c.is_ascii_digit())
-                    .to_owned()
-                    + &command));
-            }
-            None => read += &row(found.lines().next().unwrap_or_default()),
+            Some(message) => refused.add(sample, &refusal(message)),
+            None => read.add(sample, found.lines().next().unwrap_or_default()),
         }
     }
     let (head, _) = include_str!("../book/src/reading-tables.md")
         .split_once("## Read\n")
         .expect("a head");
-    let head_of = |last: &str| format!("| table | options | {last} |\n| --- | --- | --- |\n");
     let page = format!(
-        "{head}## Read\n\n{}{read}\n## Refused\n\n{}{refused}",
-        head_of("how it is read"),
-        head_of("what is said")
+        "{head}## Read\n\n{}\n## Refused\n\n{}",
+        read.table("how it is read"),
+        refused.table("what is said")
     );
     if env::var_os("BLESS_TABLES").is_some() {
         fs::write(file("tests/tables.txt"), &tables).expect("written");

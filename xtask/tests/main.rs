@@ -9,5 +9,6 @@ mod quick_tier;
 mod readme;
 mod release;
 mod reworded;
+mod site;
 mod sources;
 mod workflow;

@@ -3,44 +3,13 @@
 #[cfg(unix)]
 use std::fs;
 
-use yaml_rust2::{Yaml, YamlLoader};
+use yaml_rust2::Yaml;
 
-use crate::place::read;
 #[cfg(unix)]
 use crate::place::root;
-
-fn text(name: &str) -> String {
-    read(&format!(".github/workflows/{name}"))
-}
-
-fn workflow(name: &str) -> Yaml {
-    YamlLoader::load_from_str(&text(name))
-        .expect("YAML")
-        .remove(0)
-}
-
-fn keys(map: &Yaml) -> Vec<&str> {
-    let map = map.as_hash().expect("a map");
-    map.keys()
-        .map(|key| key.as_str().expect("a text"))
-        .collect()
-}
-
-fn steps(job: &Yaml) -> &Vec<Yaml> {
-    job["steps"].as_vec().expect("steps")
-}
-
-/// All commands of a workflow, with the names of their jobs.
-fn commands(workflow: &Yaml) -> Vec<(&str, &str)> {
-    let jobs = workflow["jobs"].as_hash().expect("jobs");
-    let of_job = |(name, job)| -> Vec<(&str, &str)> {
-        let name: &Yaml = name;
-        let runs = steps(job).iter().filter_map(|step| step["run"].as_str());
-        runs.map(|run| (name.as_str().expect("a name"), run))
-            .collect()
-    };
-    jobs.iter().flat_map(of_job).collect()
-}
+use crate::workflow::{
+    WORKFLOWS, assert_no_logic, assert_pinned, assert_rights, commands, keys, text, workflow,
+};
 
 #[test]
 fn nothing_but_a_tag_starts_a_release() {
@@ -53,38 +22,19 @@ fn nothing_but_a_tag_starts_a_release() {
 
 #[test]
 fn each_job_has_the_least_rights() {
-    let workflow = workflow("release.yml");
-    assert!(workflow["permissions"].as_hash().expect("none").is_empty());
-    let jobs = &workflow["jobs"];
-    assert_eq!(
-        keys(jobs),
-        ["check", "binaries", "wheels", "publish", "release"]
+    assert_rights(
+        "release.yml",
+        &[
+            ("check", "contents: read"),
+            ("binaries", "contents: read"),
+            ("wheels", "contents: read"),
+            ("publish", "contents: read, id-token: write"),
+            (
+                "release",
+                "attestations: write, contents: write, id-token: write",
+            ),
+        ],
     );
-    for (job, rights) in [
-        ("check", "contents: read"),
-        ("binaries", "contents: read"),
-        ("wheels", "contents: read"),
-        ("publish", "contents: read, id-token: write"),
-        (
-            "release",
-            "attestations: write, contents: write, id-token: write",
-        ),
-    ] {
-        let permissions = &jobs[job]["permissions"];
-        let given = keys(permissions).into_iter().map(|right| {
-            let value = permissions[right].as_str().expect("a text");
-            format!("{right}: {value}")
-        });
-        let given: Vec<String> = given.collect();
-        assert_eq!(given.join(", "), rights, "{job}");
-        let is_left = |step: &&Yaml| {
-            let uses = step["uses"].as_str().unwrap_or_default();
-            uses.starts_with("actions/checkout@")
-                && step["with"]["persist-credentials"].as_bool() != Some(false)
-        };
-        let left = steps(&jobs[job]).iter().find(is_left);
-        assert_eq!(left, None, "{job} leaves its token in the checkout");
-    }
 }
 
 #[test]
@@ -104,7 +54,7 @@ fn publishing_waits_for_all_checks_and_for_a_reviewer() {
 
 #[test]
 fn only_the_job_publish_publishes_and_only_by_its_script() {
-    for name in ["release.yml", "ci.yml"] {
+    for name in WORKFLOWS {
         let workflow = workflow(name);
         for (job, command) in commands(&workflow) {
             let publishes = ["publish", "twine", "gh release"]
@@ -125,35 +75,15 @@ fn only_the_job_publish_publishes_and_only_by_its_script() {
 
 #[test]
 fn actions_are_pinned_by_commit() {
-    let text = text("release.yml");
-    let uses: Vec<&str> = text
-        .lines()
-        .filter_map(|line| line.trim_start().split_once("uses: "))
-        .map(|(_, action)| action)
-        .collect();
-    assert!(uses.len() >= 8, "{uses:?}");
-    for action in uses {
-        let (_, pin) = action.split_once('@').expect("a version");
-        let (commit, version) = pin.split_once(" # v").expect("a commit and its version");
-        let is_commit = commit.len() == 40 && commit.chars().all(|c| c.is_ascii_hexdigit());
-        assert!(is_commit && !version.is_empty(), "{action}");
-    }
+    assert_pinned("release.yml", 8);
 }
 
-/// Whatever a job does, a developer can run.
 #[test]
-fn the_workflow_has_no_logic_of_its_own() {
-    let text = text("release.yml");
-    assert!(text.lines().count() <= 200);
+fn the_workflow_assert_no_logic_of_its_own() {
+    assert!(text("release.yml").lines().count() <= 200);
+    assert_no_logic("release.yml");
     let workflow = workflow("release.yml");
     let commands = commands(&workflow);
-    for (job, command) in &commands {
-        let has_logic = command.contains('\n')
-            || ["if ", "for ", "|"]
-                .iter()
-                .any(|word| command.contains(word));
-        assert!(!has_logic, "{job}: {command}");
-    }
     for script in [
         ".ci/run",
         ".ci/release --dry-run \"$GITHUB_REF_NAME\"",

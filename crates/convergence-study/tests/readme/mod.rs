@@ -185,30 +185,6 @@ fn what_published_tools_passed_is_judged_as_the_first_page_says() {
     }
 }
 
-/// Words of the longest page; a reference that is written by a program may be longer.
-const LONGEST: usize = 900;
-
-#[test]
-fn the_book_has_each_page_once_and_no_long_one() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src");
-    let summary = fs::read_to_string(folder.join("SUMMARY.md")).unwrap();
-    let mut pages = 0;
-    for entry in fs::read_dir(&folder).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        // Other entries are pictures.
-        if name == "SUMMARY.md" || !name.ends_with(".md") {
-            continue;
-        }
-        pages += 1;
-        assert_eq!(summary.matches(&format!("]({name})")).count(), 1, "{name}");
-        let text = fs::read_to_string(folder.join(&name)).unwrap();
-        let words = text.split_whitespace().count();
-        let is_reference = name == "reading-tables.md";
-        assert!(words <= LONGEST || is_reference, "{name}: {words} words");
-    }
-    assert_eq!(summary.matches(".md)").count(), pages);
-}
-
 #[test]
 fn a_line_that_is_not_printed_is_found() {
     let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();

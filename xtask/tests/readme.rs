@@ -242,3 +242,14 @@ fn the_first_page_is_short() {
     let words = readme.split_whitespace().count();
     assert!(words <= 900, "{words} words");
 }
+
+/// The commands that set up everything, on the first screen.
+#[test]
+fn the_first_screen_has_the_two_commands() {
+    let readme = read("README.md");
+    let screen: Vec<&str> = readme.lines().take(20).collect();
+    for command in ["cargo xtask verify ", "cargo test --workspace "] {
+        let found = screen.iter().any(|line| line.starts_with(command));
+        assert!(found, "{command}");
+    }
+}

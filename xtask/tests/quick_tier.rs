@@ -29,7 +29,7 @@ fn the_quick_tier_passes_and_no_number_moves() {
     );
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
     command
-        .args(["verify", "--quiet", "--case-limit", "120"])
+        .args(["verify", "--quiet", "--time-limit", "120"])
         .current_dir(root.path());
     let output = command.output().expect("the program starts");
     assert_eq!(

@@ -1,4 +1,4 @@
-//! A limit on the time that one case may take.
+//! The time limit and the work limit of a case.
 //!
 //! A case is computed by one thread from start to end, so the limit belongs to the thread: the
 //! runner sets it around a case, and every time loop asks its own [`Patience`] before a step. The
@@ -14,15 +14,15 @@ use thiserror::Error;
 
 /// The limit was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("stopped at the limit of {}, after step {step}, t = {t}", self.allowed())]
+#[error("stopped at the {}, after step {step}, t = {t}", self.allowed())]
 pub struct TimeUp {
     /// Steps done, or whatever the case counts.
     pub step: usize,
     /// Simulated time reached.
     pub t: f64,
-    /// The limit of time; zero if the limit of work was reached.
+    /// The time limit; zero if the work limit was reached.
     pub limit: Duration,
-    /// The limit of work, if that was reached.
+    /// The work limit, if that was reached.
     pub work: Option<u64>,
 }
 
@@ -30,9 +30,11 @@ impl TimeUp {
     fn allowed(&self) -> String {
         match self.work {
             Some(work) => {
-                format!("{work} passes over a node, three times what it took when blessed (work)")
+                format!(
+                    "work limit of {work} passes over a node, three times what it took when blessed (work)"
+                )
             }
-            None => format!("{} s", self.limit.as_secs_f64()),
+            None => format!("time limit of {} s", self.limit.as_secs_f64()),
         }
     }
 }
@@ -219,7 +221,7 @@ mod tests {
         assert!(
             up.unwrap()
                 .to_string()
-                .starts_with("stopped at the limit of 0.02 s, after step ")
+                .starts_with("stopped at the time limit of 0.02 s, after step ")
         );
         assert_eq!(rounds(None, 1000), (1000, None));
     }

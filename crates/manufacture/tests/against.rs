@@ -232,7 +232,7 @@ fn a_program_that_hangs_is_stopped_at_its_limit() {
         let program = format!("sh -c '{closing}sleep 30; touch {}'", file.display());
         let message = refusal(&program, Duration::from_millis(300));
         assert!(
-            message.contains("was stopped at the limit of 0.3 s"),
+            message.contains("was stopped at its time limit of 0.3 s"),
             "{message}"
         );
         assert!(!file.exists());

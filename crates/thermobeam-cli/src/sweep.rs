@@ -25,10 +25,10 @@ use convergence_harness::run;
 pub struct Arguments {
     /// The sweep file
     file: PathBuf,
-    /// Time limit of a case; its line says where it stopped, and the others continue
+    /// Time limit of each case; its line says where it stopped, and the others continue
     /// [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    case_limit: Option<Duration>,
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    time_limit: Option<Duration>,
     /// Continue the sweep in the folder; start it if the folder is empty
     #[arg(long, requires = "out")]
     resume: bool,
@@ -60,7 +60,7 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> io::Resu
         sweep,
         &mine,
         jobs(arguments),
-        arguments.case_limit,
+        arguments.time_limit,
         |line: Line| {
             let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
             state.1 = if line.passed { state.1 } else { Verdict::Fail };
@@ -151,7 +151,7 @@ fn journaled(
         sweep,
         &pending,
         jobs(arguments),
-        arguments.case_limit,
+        arguments.time_limit,
         |line| {
             bar.inc(1);
             journal

@@ -218,7 +218,7 @@ fn a_thousand_million_steps_need_consent_or_a_limit() {
         &["run", "studies/scenes/s.toml", "--out", "reports"],
         words,
     );
-    let words = "long: found work for about 3.8e2 seconds on one thread; expected at most 60, or --yes, or --case-limit SECONDS";
+    let words = "long: found work for about 3.8e2 seconds on one thread; expected at most 60, or --yes, or --time-limit SECONDS";
     unusable(&root, &["study", "studies/long.toml"], words);
     unusable(&root, &["verify"], words);
     // With a limit both run, until it stops them.
@@ -238,7 +238,7 @@ fn a_thousand_million_steps_need_consent_or_a_limit() {
         Some(1)
     );
     assert_eq!(
-        ended(&["study", "studies/long.toml", "--case-limit", "0.1"]),
+        ended(&["study", "studies/long.toml", "--time-limit", "0.1"]),
         Some(1)
     );
 }

@@ -2,7 +2,7 @@
 //!
 //! Elements and steps of a one-step method: as long as runs are cheap, either is doubled, whichever
 //! lowers the error more. Then both grow so that the errors of space and time shrink by the same
-//! factor, by the orders of the method, until the next run would exceed the limit of time. The
+//! factor, by the orders of the method, until the next run would exceed the time limit. The
 //! orders choose what is run; every number of the benchmark is measured.
 
 use std::collections::HashMap;

@@ -27,8 +27,8 @@ fn is_left_out(name: &str) -> bool {
 /// incrementally.
 const PROFILE: &str = "regressions";
 
-/// Longest time of a case, in seconds: with a mistake it may never end.
-const CASE_LIMIT: &str = "20";
+/// Time limit of a case in seconds: with a mistake it may never end.
+const TIME_LIMIT: &str = "20";
 
 /// A copy of the work tree.
 pub(super) struct Copy {
@@ -199,7 +199,7 @@ impl Copy {
         let program = build.join(format!("{PROFILE}/xtask{}", env::consts::EXE_SUFFIX));
         let mut verify = Command::new(&program);
         verify
-            .args(["verify", "--case-limit", CASE_LIMIT, "--out"])
+            .args(["verify", "--time-limit", TIME_LIMIT, "--out"])
             .arg(&out)
             .current_dir(self.tree());
         verify

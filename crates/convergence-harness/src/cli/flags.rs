@@ -41,6 +41,19 @@ fn jobs(text: &str) -> Result<NonZeroUsize, String> {
         .map_err(|_| "expected a whole number >= 1".to_owned())
 }
 
+/// A number on the command line; the command compares it with what it allows.
+pub(super) fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "expected a number".to_owned())
+}
+
+/// A whole number on the command line, at least this.
+pub(super) fn at_least(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| *number >= least);
+        number.ok_or_else(|| format!("expected a whole number >= {least}"))
+    }
+}
+
 /// The JSON object of a command: its verdict, then what it found.
 #[derive(Serialize)]
 struct Printed<'a, T> {
@@ -60,10 +73,10 @@ fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
 
 impl Flags {
     /// Threads and time of a run; without a number, all threads of the machine.
-    pub fn effort(&self, case_limit: Option<Duration>) -> Effort {
+    pub fn effort(&self, time_limit: Option<Duration>) -> Effort {
         Effort {
             jobs: self.jobs.unwrap_or_else(run::available),
-            case_limit,
+            time_limit,
             fail_fast: false,
         }
     }

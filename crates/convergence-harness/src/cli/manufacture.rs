@@ -8,8 +8,11 @@ use manufacture::{Check, Comparison, Finding, Language, Manufacture, Sampling};
 use serde_json::{Value, json};
 
 use super::exit::{Outcome, Unusable};
-use super::flags::Flags;
+use super::flags::{Flags, at_least};
+use super::new::words;
+use super::running::seconds;
 use super::screen::{self, Format};
+use crate::input::read_text;
 use crate::judge::verdict::Verdict;
 use crate::store::atomic;
 use crate::store::json as text_of;
@@ -17,7 +20,7 @@ use crate::store::json as text_of;
 /// Version of the formats of this command.
 const SCHEMA: u32 = 1;
 
-/// Derive and check source terms and data for a chosen exact solution, and write them in a language
+/// Derive, check and write source terms and data for a chosen exact solution
 ///
 /// Without further options: the check. Its notes say what a test with this solution would not
 /// notice. Exit status 1 if the check fails, or if a foreign source differs; then no file is
@@ -37,19 +40,19 @@ pub struct Arguments {
     ///
     /// The command reads a line of names and then a point a line; it prints a line of numbers for
     /// each point, under a line of names if there are several quantities.
-    #[arg(long, value_name = "COMMAND", conflicts_with = "language")]
+    #[arg(long, value_name = "COMMAND", conflicts_with = "language", value_parser = command)]
     against: Option<String>,
     /// The face whose data the command computes
     #[arg(long, value_name = "FACE", requires = "against")]
     on: Option<String>,
-    /// The time limit of the command
-    #[arg(long, value_name = "SECONDS", requires = "against", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..))]
-    timeout: u64,
+    /// Time limit of the command
+    #[arg(long, value_name = "SECONDS", requires = "against", default_value = "600", value_parser = seconds, allow_hyphen_values = true)]
+    time_limit: Duration,
     /// The same seed draws the same points
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = at_least(0), allow_hyphen_values = true)]
     seed: u64,
     /// Random points of each part of the domain
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(2..))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = at_least(2), allow_hyphen_values = true)]
     points: u64,
     /// Notes fail, too
     #[arg(long)]
@@ -66,12 +69,18 @@ fn language(text: &str) -> Result<Language, String> {
         .ok_or(format!("expected one of {names}"))
 }
 
+/// A command of at least one word.
+fn command(text: &str) -> Result<String, String> {
+    words(text).map(|_| text.to_owned())
+}
+
 /// Reads the file, and does what is requested of it.
 ///
 /// # Errors
 /// A file, a table or a command that cannot be used.
 pub(super) fn run(arguments: &Arguments) -> Outcome {
-    let manufacture = Manufacture::read(&arguments.file)?;
+    let file = arguments.file.display().to_string();
+    let manufacture = Manufacture::parse(&read_text(&arguments.file)?, &file)?;
     let sampling = Sampling {
         seed: arguments.seed,
         points: arguments.points as usize,
@@ -82,8 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     }
     if let Some(command) = &arguments.against {
         let face = arguments.on.as_deref();
-        let limit = Duration::from_secs(arguments.timeout);
-        let comparisons = manufacture.against(command, face, &sampling, limit)?;
+        let comparisons = manufacture.against(command, face, &sampling, arguments.time_limit)?;
         return compared(arguments, &manufacture, &comparisons);
     }
     let mut check = manufacture.check(&sampling)?;
@@ -128,7 +136,7 @@ fn temporary(languages: &[Language]) -> Result<PathBuf, Unusable> {
 }
 
 fn values(manufacture: &Manufacture, table: &Path) -> Outcome {
-    let text = fs::read_to_string(table).map_err(|error| Unusable::file(table, &error))?;
+    let text = read_text(table)?;
     let values = manufacture.at(&text, &table.display().to_string())?;
     screen::print(&text_of(&values)?)?;
     Ok(Verdict::Pass)

@@ -20,10 +20,10 @@ use crate::study::Study;
 /// Time limits of the commands that run studies.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub struct Limits {
-    /// The longest that a case may take; its study fails and the others go on
-    /// [default: as long as it takes]
+    /// Time limit of each case; the study of a case that exceeds it fails, and the others go on
+    /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
-    pub(super) case_limit: Option<Duration>,
+    pub(super) time_limit: Option<Duration>,
     /// Run also studies that are expected to take minutes
     #[arg(long)]
     yes: bool,
@@ -65,13 +65,13 @@ impl Limits {
     ) -> Result<(), Unusable> {
         let Some(unit) = project
             .seconds_per_cost
-            .filter(|_| !self.yes && self.case_limit.is_none())
+            .filter(|_| !self.yes && self.time_limit.is_none())
         else {
             return Ok(());
         };
         studies.iter().try_for_each(|study| {
             let cost: f64 = study.plan().cases().iter().map(|case| case.cost).sum();
-            consent(&study.header().id, unit * cost, "--case-limit")
+            consent(&study.header().id, unit * cost, "--time-limit")
         })
     }
 }

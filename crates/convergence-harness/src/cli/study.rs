@@ -45,7 +45,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         .out
         .as_deref()
         .map_or(Ok(()), atomic::prepare_folder)?;
-    let effort = flags.effort(arguments.limits.case_limit);
+    let effort = flags.effort(arguments.limits.time_limit);
     let mut finished = watched(&studies, flags.quiet, |progress| {
         run::run(&studies, effort, progress)
     })?;
@@ -103,7 +103,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 
 /// What a study fails to test; the search takes no longer than a case may.
 fn untested(study: &dyn Study, effort: Effort) -> Vec<Untested> {
-    match time_limit::within(effort.case_limit, || study.untested()) {
+    match time_limit::within(effort.time_limit, || study.untested()) {
         (untested, None) => untested,
         (_, Some(up)) => vec![Untested {
             what: "not known".to_owned(),

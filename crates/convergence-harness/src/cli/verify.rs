@@ -16,6 +16,7 @@ use crate::report::{
 use crate::run::{Effort, Finished};
 use crate::store::{Change, Record, diagnosis::Diagnosis, json, without_baseline};
 use crate::study::{Study, StudyFile, Tier};
+use crate::text::number::counted;
 use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
@@ -136,9 +137,11 @@ fn dry_run(arguments: &Arguments, root: &Path, all: &[StudyFile], mask: &[bool])
         cases += own;
         total += seconds.unwrap_or(0.0);
     }
+    let noun = if rows.len() == 1 { "study" } else { "studies" };
     let sentence = format!(
-        "{} studies with {cases} cases would run; {total:.1} s in their last runs\n",
-        rows.len()
+        "{} {noun} with {} would run; {total:.1} s in their last runs\n",
+        rows.len(),
+        counted(cases, "case")
     );
     let words = if arguments.flags.quiet {
         sentence
@@ -157,7 +160,7 @@ fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> Request {
         scope,
         effort: Effort {
             fail_fast: arguments.fail_fast,
-            ..flags.effort(arguments.limits.case_limit)
+            ..flags.effort(arguments.limits.time_limit)
         },
         bless: arguments.bless,
         reason: arguments.reason.clone(),

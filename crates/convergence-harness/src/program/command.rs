@@ -39,7 +39,7 @@ pub(super) struct Invocation {
     /// Its standard input; may be empty.
     pub(super) input: String,
     /// Its time limit.
-    pub(super) timeout: Duration,
+    pub(super) time_limit: Duration,
 }
 
 impl Invocation {
@@ -78,8 +78,8 @@ impl Invocation {
             ended.map_err(|error| failed(format!("cannot be waited for: {error}")))?;
         if !in_time {
             return Err(failed(format!(
-                "was stopped at the limit of {} s{words}",
-                self.timeout.as_secs_f64()
+                "was stopped at its time limit of {} s{words}",
+                self.time_limit.as_secs_f64()
             )));
         }
         if !status.success() {
@@ -128,7 +128,7 @@ impl Invocation {
     /// to end and given a moment to do so.
     fn wait(&self, child: &mut Child, group: &Group) -> io::Result<bool> {
         let start = Instant::now();
-        if has_ended_by(child, start.checked_add(self.timeout))? {
+        if has_ended_by(child, start.checked_add(self.time_limit))? {
             return Ok(true);
         }
         group.ask_to_end(child);

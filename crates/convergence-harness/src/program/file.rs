@@ -47,14 +47,14 @@ const PROGRAM: [Key; 4] = [
     .or("\".\""),
     Key::new(
         "env",
-        Form::Texts,
+        Form::Named(&[], &Form::Text),
         "variables of the program's environment, beside those of the harness",
     )
     .or("none"),
     Key::new(
-        "timeout",
+        "time_limit",
         Form::Positive,
-        "seconds that a resolution may take",
+        "the time limit of a case in seconds",
     )
     .or("600"),
 ];
@@ -101,7 +101,7 @@ const FACTOR: [Key; 2] = [
 ];
 
 /// The default time limit of a case.
-const TIMEOUT: Duration = Duration::from_secs(600);
+const TIME_LIMIT: Duration = Duration::from_secs(600);
 
 pub(super) fn read(
     _header: &Header,
@@ -114,7 +114,7 @@ pub(super) fn read(
     let directory = directory(&section, folder)?;
     let refine = refine(root)?;
     let words = words(&section, &refine.resolutions()[0].parameters)?;
-    let timeout = section.get("timeout").map_or(Ok(TIMEOUT), |field| {
+    let time_limit = section.get("time_limit").map_or(Ok(TIME_LIMIT), |field| {
         let allowed = "a number of seconds > 0";
         let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
         Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
@@ -124,7 +124,7 @@ pub(super) fn read(
         words,
         directory,
         variables: variables(&section)?,
-        timeout,
+        time_limit,
         refine,
         expect,
     })

@@ -98,7 +98,7 @@ pub struct Program {
     /// Variables of its environment beside those of the harness.
     variables: Vec<(String, String)>,
     /// The time limit of a case.
-    timeout: Duration,
+    time_limit: Duration,
     refine: Refine,
     expect: Vec<Expectation>,
 }
@@ -147,7 +147,8 @@ impl Program {
             } else {
                 case.json()
             },
-            timeout: time_limit::granted().map_or(self.timeout, |limit| limit.min(self.timeout)),
+            time_limit: time_limit::granted()
+                .map_or(self.time_limit, |limit| limit.min(self.time_limit)),
         }
     }
 }
@@ -217,9 +218,9 @@ impl Kind for Program {
         };
         let orders: Vec<String> = self.expect.iter().map(order).collect();
         let run = format!(
-            "{}, for at most {} s a case.",
+            "{}, with a time limit of {} s a case.",
             self.words.join(" "),
-            self.timeout.as_secs_f64()
+            self.time_limit.as_secs_f64()
         );
         vec![
             ("what is run".to_owned(), run),

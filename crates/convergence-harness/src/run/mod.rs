@@ -95,21 +95,21 @@ pub enum RunError {
 pub struct Effort {
     /// Number of threads; at most one for each case is started.
     pub jobs: NonZeroUsize,
-    /// The longest time that a case may take; `None` for no limit.
-    pub case_limit: Option<Duration>,
+    /// The time limit of each case; `None` for none.
+    pub time_limit: Option<Duration>,
     /// Whether no case begins after a study has failed: studies that had not ended are then left
     /// out.
     pub fail_fast: bool,
 }
 
-/// The most work that a case may do, by its study and its label; `None` for no limit.
+/// The work limit of a case, by its study and its label; `None` for none.
 pub type Allowed<'a> = &'a (dyn Fn(&Header, &str) -> Option<u64> + Sync);
 
 impl From<NonZeroUsize> for Effort {
     fn from(jobs: NonZeroUsize) -> Self {
         Self {
             jobs,
-            case_limit: None,
+            time_limit: None,
             fail_fast: false,
         }
     }
@@ -135,7 +135,7 @@ pub fn run(
     run_within(studies, effort.into(), &|_, _| None, progress)
 }
 
-/// The same with a limit on the work of each case: a case that exceeds it fails.
+/// The same with a work limit of each case: a case that exceeds it fails.
 pub fn run_within(
     studies: &[Box<dyn Study>],
     effort: Effort,
@@ -275,7 +275,7 @@ fn run_cases(
             return;
         }
         counter.enter(&job);
-        let case = run_case(planned, effort.case_limit, allowed, job);
+        let case = run_case(planned, effort.time_limit, allowed, job);
         let verdict = planned
             .record(case)
             .map(|done| finish(planned, done, effort, allowed, job));
@@ -300,7 +300,7 @@ fn finish(
 ) -> Verdict {
     while let Some(case) = planned.next_case(last.case) {
         let job = Job { case, ..last };
-        done.push(run_case(planned, effort.case_limit, allowed, job));
+        done.push(run_case(planned, effort.time_limit, allowed, job));
     }
     let finished = conclude(planned, &done);
     let verdict = finished.outcome.verdict;

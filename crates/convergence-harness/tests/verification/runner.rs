@@ -82,7 +82,7 @@ fn a_failed_case_keeps_its_label_and_reason() {
 #[test]
 fn a_case_stopped_at_its_limit_has_failed_even_if_it_returns_a_result() {
     let effort = Effort {
-        case_limit: Some(Duration::from_millis(50)),
+        time_limit: Some(Duration::from_millis(50)),
         ..jobs(2).into()
     };
     let studies = vec![
@@ -96,7 +96,7 @@ fn a_case_stopped_at_its_limit_has_failed_even_if_it_returns_a_result() {
     assert!(
         stopped
             .reason
-            .starts_with("stopped at the limit of 0.05 s, after step "),
+            .starts_with("stopped at the time limit of 0.05 s, after step "),
         "{}",
         stopped.reason
     );
@@ -125,7 +125,7 @@ fn a_case_that_works_too_much_fails_at_the_same_step_for_any_number_of_threads()
     assert!(
         stopped
             .reason
-            .starts_with("stopped at the limit of 1000000 passes over a node, three times"),
+            .starts_with("stopped at the work limit of 1000000 passes over a node, three times"),
         "{}",
         stopped.reason
     );

@@ -230,7 +230,7 @@ fn a_program_without_placeholders_reads_the_case() {
 
 #[test]
 fn what_a_study_file_may_get_wrong_is_named() {
-    let place = Place::new("ok", "timeout = 9");
+    let place = Place::new("ok", "time_limit = 9");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     for (old, new, message) in [
         (
@@ -244,29 +244,29 @@ fn what_a_study_file_may_get_wrong_is_named() {
             "program.command: found the list []; expected a list of the program",
         ),
         (
-            "timeout = 9",
-            "timeout = 0",
-            "s.toml:8:11: program.timeout: found 0; expected a number of seconds > 0",
+            "time_limit = 9",
+            "time_limit = 0",
+            "s.toml:8:11: program.time_limit: found 0; expected a number of seconds > 0",
         ),
         (
-            "timeout = 9",
+            "time_limit = 9",
             "directory = \"x\"",
             "program.directory: found the text \"x\", but ./x is no folder",
         ),
         (
-            "timeout = 9",
+            "time_limit = 9",
             "files = [\"x\"]",
-            "program.files: unknown key `files`; expected command, directory, env, timeout",
+            "program.files: unknown key `files`; expected command, directory, env, time_limit",
         ),
         (
-            "timeout = 9",
+            "time_limit = 9",
             "cache = true",
-            "program.cache: unknown key `cache`; expected command, directory, env, timeout",
+            "program.cache: unknown key `cache`; expected command, directory, env, time_limit",
         ),
         (
-            "timeout = 9",
+            "time_limit = 9",
             "shell = true",
-            "program.shell: unknown key `shell`; expected command, directory, env, timeout",
+            "program.shell: unknown key `shell`; expected command, directory, env, time_limit",
         ),
         (
             "n = [4, ",

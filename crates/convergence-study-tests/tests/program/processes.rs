@@ -77,13 +77,16 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
 fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
     // Long enough for the programs that do not hang, on a busy machine.
     for mode in ["hang", "ignore-term"] {
-        let line = complaint(&Place::new(mode, "timeout = 3"));
-        assert!(line.contains("was stopped at the limit of 3 s"), "{line}");
+        let line = complaint(&Place::new(mode, "time_limit = 3"));
+        assert!(
+            line.contains("was stopped at its time limit of 3 s"),
+            "{line}"
+        );
     }
     let place = Place::new("hang", "");
-    let (status, out, _) = place.study(&["--case-limit", "3"]);
+    let (status, out, _) = place.study(&["--time-limit", "3"]);
     assert!(
-        status == Some(1) && out.contains("was stopped at the limit of 3 s"),
+        status == Some(1) && out.contains("was stopped at its time limit of 3 s"),
         "{out}"
     );
     assert_eq!(place.running(), [""; 0]);
@@ -116,7 +119,7 @@ fn nothing_is_left_after(name: &str) {
     for mode in ["hang", "ignore-term", "fork", "leave"] {
         let mut place = Place::new(mode, "");
         // So that a program whose child hangs is still running, too.
-        place.more = "timeout = 100".to_owned();
+        place.more = "time_limit = 100".to_owned();
         let hangs = |mode: &str| matches!(mode, "hang" | "ignore-term");
         let harness = place.start();
         if hangs(mode) {

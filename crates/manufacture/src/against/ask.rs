@@ -71,7 +71,7 @@ pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
 /// Runs a command on a question, and returns what it prints.
 ///
 /// # Errors
-/// It cannot be started, it fails, or it takes longer than the limit: then it is stopped.
+/// It cannot be started, it fails, or it takes longer than its time limit: then it is stopped.
 pub(crate) fn run(
     command: &[String],
     question: String,
@@ -94,7 +94,9 @@ pub(crate) fn run(
     let status = child.wait().map_err(|error| failed(error.to_string()))?;
     let Some(answer) = answer else {
         let limit = limit.as_secs_f64();
-        return Err(failed(format!("was stopped at the limit of {limit} s")));
+        return Err(failed(format!(
+            "was stopped at its time limit of {limit} s"
+        )));
     };
     let answer = answer.map_err(|error| failed(error.to_string()))?;
     if !status.success() {

@@ -13,7 +13,7 @@ use thermobeam_study::scene::Scene;
 use super::Arguments;
 use super::summary::Line;
 
-/// Ticks of the progress bar over the limit of work.
+/// Ticks of the progress bar over the work limit.
 const TICKS: f64 = 1000.0;
 
 /// The quantity whose error is meant.
@@ -44,7 +44,7 @@ pub(crate) struct Planned {
     spent: Cost,
 }
 
-/// Searches with a limit of work and a bar that shows the part used; also ends at the time limit.
+/// Searches with a work limit and a bar that shows the part used; also ends at the time limit.
 fn search<T>(
     arguments: &Arguments,
     scene: &Scene,

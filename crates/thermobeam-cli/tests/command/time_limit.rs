@@ -1,4 +1,4 @@
-//! A limit on the time of a case.
+//! The time limit of a case.
 
 use super::workspace::{endless, quick, set, verify, workspace};
 use super::{Folder, ended};
@@ -11,7 +11,7 @@ fn a_case_at_its_limit_fails_its_study_and_no_other() {
         "w",
         &[("short", quick("short")), ("long", endless("long"))],
     );
-    let ended = ended(&mut verify(&root, &["--case-limit", "1", "--verbose"]));
+    let ended = ended(&mut verify(&root, &["--time-limit", "1", "--verbose"]));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(1), ""));
     let line = |id: &str| {
         ended
@@ -28,7 +28,7 @@ fn a_case_at_its_limit_fails_its_study_and_no_other() {
     );
     let page = std::fs::read_to_string(root.join("reports/README.md")).expect("a report");
     for piece in [
-        "n = 8, 9000000000 steps: stopped at the limit of 1 s, after step ",
+        "n = 8, 9000000000 steps: stopped at the time limit of 1 s, after step ",
         "| every case completes, with finite numbers | fail",
     ] {
         assert!(page.contains(piece), "{piece}: {page}");
@@ -43,7 +43,7 @@ fn a_limit_that_is_not_reached_changes_no_bit() {
         let arguments = if name == "plain" {
             &[][..]
         } else {
-            &["--case-limit", "3600"]
+            &["--time-limit", "3600"]
         };
         assert_eq!(ended(&mut verify(&root, arguments)).status, Some(1));
         set(&root.join("reports"))
@@ -56,12 +56,12 @@ fn a_limit_that_is_none_is_unusable() {
     let folder = Folder::new();
     let root = workspace(&folder, "w", &[("short", quick("short"))]);
     for limit in ["0", "-1", "nan", "inf", "1e300", "soon"] {
-        let ended = ended(&mut verify(&root, &[&format!("--case-limit={limit}")]));
+        let ended = ended(&mut verify(&root, &[&format!("--time-limit={limit}")]));
         assert_eq!(
             (ended.status, ended.stdout.as_str()),
             (Some(2), ""),
             "{limit}"
         );
-        assert!(ended.stderr.contains("--case-limit"), "{}", ended.stderr);
+        assert!(ended.stderr.contains("--time-limit"), "{}", ended.stderr);
     }
 }

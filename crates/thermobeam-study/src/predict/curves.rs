@@ -251,7 +251,7 @@ impl Curves {
 ///   [`TIMES`] evenly spaced levels before.
 ///
 /// # Errors
-/// The scene is refused, a step fails, or the limit of time or work is reached.
+/// The scene is refused, a step fails, or the time limit or the work limit is reached.
 pub(super) fn curves(
     scene: &Scene,
     rows: &Rows,

@@ -105,8 +105,8 @@ pub enum Reason {
     /// Refinement did not help.
     #[error("it was refined as often as is sensible")]
     Rounds,
-    /// The limit of work was reached.
-    #[error("finer runs would exceed the limit of {limit:.1e} unknowns times solves (about {:.0} s)", 2e-8 * limit)]
+    /// The work limit was reached.
+    #[error("finer runs would exceed the work limit of {limit:.1e} unknowns times solves (about {:.0} s)", 2e-8 * limit)]
     Work {
         /// Unknowns times solves, or elements times steps.
         limit: f64,

@@ -299,13 +299,25 @@ fn source_of_lines(folder: &Path) -> PathBuf {
 /// would have written.
 ///
 /// # Errors
-/// [`SweepError`]: folders of different sweeps, a missing or repeated case, a file that cannot be read or written. Nothing
+/// [`SweepError`]: folders of different sweeps, a missing or repeated case, `out` among `folders`, a file that cannot be read or written. Nothing
 /// is written then.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     let manifests = folders
         .iter()
         .map(|folder| Manifest::require(folder))
         .collect::<Result<Vec<_>, _>>()?;
+    let place = |folder: &Path| folder.canonicalize().ok();
+    if let Some(share) = folders
+        .iter()
+        .find(|share| out.exists() && place(share) == place(out))
+    {
+        return Err(SweepError::Other {
+            folder: share.clone(),
+            what: "another folder",
+            expected: "for the joined results".to_owned(),
+            found: "that of a share".to_owned(),
+        });
+    }
     let results = out.join(RESULTS);
     let Some(first) = manifests.first() else {
         return Ok(Merged {

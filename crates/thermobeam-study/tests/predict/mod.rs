@@ -15,7 +15,7 @@ use thermobeam_study::run::Sample;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::{Method, Scene};
 
-/// Runs a search with the usual limit of work.
+/// Runs a search with the usual work limit.
 fn limited<T>(find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
     let mut told = |part: f64| assert!((0.0..=1.0).contains(&part));
     let mut work = Work::new(MOST_WORK, &mut told);

@@ -178,7 +178,7 @@ fn a_case_that_takes_too_long_is_stopped_and_the_others_go_on() {
         thermobeam()
             .arg("sweep")
             .arg(&file)
-            .args(["--case-limit", "1"]),
+            .args(["--time-limit", "1"]),
     );
     let lines = lines(&ended.stdout);
     assert_eq!(
@@ -193,7 +193,7 @@ fn a_case_that_takes_too_long_is_stopped_and_the_others_go_on() {
     );
     let reason = lines[0]["reason"].as_str().unwrap();
     assert!(
-        reason.starts_with("stopped at the limit of 1 s, after step "),
+        reason.starts_with("stopped at the time limit of 1 s, after step "),
         "{reason}"
     );
     let failure = &lines[0]["result"]["failure"];

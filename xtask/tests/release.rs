@@ -150,3 +150,59 @@ fn the_script_refuses_to_publish_elsewhere() {
     }
     assert!(!folder.path().join("used").exists());
 }
+
+/// Runs `.ci/man` on a program of `sh` with these answers to `--help`, `man`, `man rates` and
+/// `man list`; returns whether it ended well, what it said, and the names of the pages.
+#[cfg(unix)]
+fn pages(answers: [&str; 4]) -> (bool, String, Vec<String>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("program");
+    let [help, whole, rates, list] = answers;
+    let text = format!(
+        "case \"$*\" in --help) {help} ;; man) {whole} ;; 'man rates') {rates} ;; 'man list') {list} ;; *) exit 2 ;; esac"
+    );
+    fs::write(&program, text).expect("a file");
+    let pages = folder.path().join("pages");
+    let output = std::process::Command::new("bash")
+        .arg(root().join(".ci/man"))
+        .arg(&pages)
+        .args(["tool", "sh"])
+        .arg(&program)
+        .output()
+        .expect("it runs");
+    let names = fs::read_dir(pages).expect("a folder");
+    let mut names: Vec<String> = names
+        .map(|entry| entry.expect("a file").file_name().display().to_string())
+        .collect();
+    names.sort();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.success(), message, names)
+}
+
+#[cfg(unix)]
+#[test]
+fn an_archive_without_one_of_its_man_pages_is_refused() {
+    let help = "printf 'Commands:\\n  rates  Judge\\n  list   List\\n'";
+    let whole = "printf '.TH tool 1\\ntool\\\\-rates(1)\\ntool\\\\-list(1)\\ntool\\\\-help(1)\\n'";
+    let one = "echo '.TH tool 1'";
+    let (ended_well, message, names) = pages([help, whole, one, one]);
+    assert!(ended_well, "{message}");
+    assert_eq!(names, ["tool-list.1", "tool-rates.1", "tool.1"]);
+    for (answers, words) in [
+        ([help, "exit 2", one, one], "found no man page from `sh"),
+        ([help, "true", one, one], "found no man page from `sh"),
+        ([help, whole, "exit 2", one], "man rates`"),
+        (
+            [help, whole, one, "echo none"],
+            "man list`; expected a line",
+        ),
+        (["true", whole, one, one], "tool --help: found no command"),
+        (
+            [help, "printf '.TH tool 1\\ntool-rates(1)\\n'", one, one],
+            "tool: its man page names rates ; expected list rates",
+        ),
+    ] {
+        let (ended_well, message, _) = pages(answers);
+        assert!(!ended_well && message.contains(words), "{words}: {message}");
+    }
+}

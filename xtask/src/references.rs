@@ -2,7 +2,9 @@
 //! that the readers allow.
 
 use convergence_harness::cli::exit::Outcome;
-use convergence_harness::cli::schema::{of_studies, of_tables_file, page, text};
+use convergence_harness::cli::schema::{
+    MANUFACTURE, of_studies, of_tables_file, other_files, page, text,
+};
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::program;
 use convergence_harness::store::atomic;
@@ -20,16 +22,22 @@ pub(crate) fn run(_: &Arguments) -> Outcome {
     Ok(Verdict::Pass)
 }
 
+/// Where the references of the harness are.
+const HARNESS: &str = "crates/convergence-study";
+
 /// Paths and texts.
 fn files() -> Vec<(String, String)> {
     let mut files = vec![];
     for (folder, project) in [
-        ("crates/convergence-study", program::PROJECT),
+        (HARNESS, program::PROJECT),
         ("crates/thermobeam-study", project("thermobeam")),
     ] {
         files.push((format!("{folder}/schema.json"), text(&of_studies(&project))));
         files.push((format!("{folder}/STUDIES.md"), page(&project)));
-        for (name, set) in project.tables {
+        let others = other_files(&project).into_iter();
+        // Both projects have the files of `manufacture`.
+        let others = others.filter(|(name, _)| *name != MANUFACTURE || folder == HARNESS);
+        for (name, set) in others {
             let schema = of_tables_file(name, set);
             files.push((format!("{folder}/{name}.schema.json"), text(&schema)));
         }

@@ -32,7 +32,7 @@ use std::time::Duration;
 pub use against::Comparison;
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
-pub use problem::InputError;
+pub use problem::{InputError, keys};
 
 /// A file, read and derived.
 #[derive(Debug)]

@@ -39,6 +39,16 @@ fn names_and_keys_are_checked_before_what_follows_from_them() {
         "[exakt]",
         &["unknown key `exakt`, did you mean `exact`?"],
     );
+    refused(
+        "[boundary.x_max]",
+        "[boundary.x_max]\nface = \"x_max\"\nlevel = \"x - 1\"",
+        &["boundary.x_max.face: found `face` and `level`; expected one of them"],
+    );
+    refused(
+        "n = [",
+        "n = [0, ",
+        &["study.n: expected a whole number >= 1, found 0"],
+    );
     refused("h = 2.5", "e = 2.5", &["`e` is a constant"]);
     refused("h = 2.5", "n = 2.5", &["`n` is the unit normal"]);
     refused("h = 2.5", "sin = 2.5", &["`sin` is a function"]);

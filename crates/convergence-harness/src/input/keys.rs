@@ -40,8 +40,8 @@ pub enum Form {
     OneOf(&'static [Form]),
     /// A table with one of these sets of keys.
     Table(&'static [Keys]),
-    /// A table of texts by any names.
-    Texts,
+    /// A table with these keys, and with values of this form under names that the user chooses.
+    Named(Keys, &'static Form),
 }
 
 impl Key {
@@ -139,6 +139,16 @@ impl Form {
     fn allow_only(self, field: &Field<'_>) -> Result<(), InputError> {
         match self {
             Self::Table(sets) if field.is_table() => field.section()?.allow_only(&[], sets),
+            Self::Named(keys, form) if field.is_table() => {
+                let section = field.section()?;
+                section.keys().try_for_each(|name| {
+                    let mut known = keys.iter().copied().flatten();
+                    let known = known.find(|key| key.name == name);
+                    let form = known.map_or(*form, |key| key.form);
+                    let value = section.get(name);
+                    value.map_or(Ok(()), |value| form.allow_only(&value))
+                })
+            }
             Self::List(form) if field.is_list() => field
                 .items("a list")?
                 .iter()

@@ -3,6 +3,7 @@
 mod canonical;
 mod constant;
 mod error;
+pub mod keys;
 mod reader;
 mod sections;
 
@@ -139,7 +140,7 @@ impl Norm {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Study {
     pub(crate) command: Vec<String>,
-    pub(crate) n: Vec<i64>,
+    pub(crate) n: Vec<u64>,
     /// Name of an error, and its order as written.
     pub(crate) orders: Vec<(String, String)>,
 }

@@ -170,14 +170,13 @@ impl<'t> Field<'t> {
         }
     }
 
-    pub(super) fn integer(&self) -> Result<i64, InputError> {
-        match self.value {
-            DeValue::Integer(_) => self
-                .written
-                .parse()
-                .map_err(|_| self.expected("an integer")),
-            _ => Err(self.expected("an integer")),
-        }
+    /// A whole number of at least 1.
+    pub(super) fn count(&self) -> Result<u64, InputError> {
+        let number = match self.value {
+            DeValue::Integer(_) => self.written.parse().ok().filter(|count| *count >= 1),
+            _ => None,
+        };
+        number.ok_or_else(|| self.expected("a whole number >= 1"))
     }
 
     /// The number as written.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::keys::{FACE, FILE, HEAD, HELD, REQUIRE, STUDY, names};
 use super::reader::{Field, Reader, Section};
 use super::{
     Datum, Definition, Equation, Expression, Face, InputError, Norm, Parameter, Problem, Study,
@@ -9,31 +10,15 @@ use super::{
 };
 use crate::language::names::{did_you_mean, reserved};
 
-/// The tables of a file.
-const SECTIONS: [&str; 11] = [
-    "manufacture",
-    "domain",
-    "parameters",
-    "exact",
-    "define",
-    "equations",
-    "boundary",
-    "initial",
-    "require",
-    "norms",
-    "study",
-];
-
 impl Problem {
     /// Reads the text of a file.
     pub(crate) fn parse(text: &str, file: &str) -> Result<Self, InputError> {
         let reader = Reader { file, text };
         let document = reader.parse()?;
         let whole = reader.whole(document.get_ref());
-        let keys = ["name", "coordinates", "time", "system"];
-        whole.allow(&SECTIONS)?;
+        whole.allow(&names(&FILE))?;
         let head = whole.require("manufacture")?.section()?;
-        head.allow(&keys)?;
+        head.allow(&names(&HEAD))?;
         let time = head.field("time");
         let mut problem = Self {
             file: file.to_owned(),
@@ -180,7 +165,7 @@ impl Problem {
             let surface = self.surface(&field, &section)?;
             let mut data = vec![];
             for entry in section.fields() {
-                if entry.name != "face" && entry.name != "level" {
+                if !names(&FACE).contains(&entry.name.as_str()) {
                     data.push(datum(&entry)?);
                 }
             }
@@ -204,6 +189,10 @@ impl Problem {
 
     fn surface(&self, field: &Field<'_>, section: &Section<'_>) -> Result<Surface, InputError> {
         if let Some(level) = section.field("level") {
+            if let Some(face) = section.field("face") {
+                let problem = "found `face` and `level`; expected one of them";
+                return Err(face.place.error(problem));
+            }
             return Ok(Surface::Level(level.expression()?));
         }
         let name = match section.field("face") {
@@ -246,7 +235,7 @@ impl Problem {
             }
         }
         if let Some(require) = whole.section("require")? {
-            require.allow(&["positive", "zero"])?;
+            require.allow(&names(&REQUIRE))?;
             self.positive = expressions(&require, "positive")?;
             self.zero = expressions(&require, "zero")?;
         }
@@ -407,7 +396,7 @@ fn datum(field: &Field<'_>) -> Result<Datum, InputError> {
         });
     }
     let section = field.section()?;
-    section.allow(&["of", "is"])?;
+    section.allow(&names(&HELD))?;
     Ok(Datum {
         name,
         value: section.require("of")?.value()?,
@@ -426,7 +415,7 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     let Some(section) = whole.section("study")? else {
         return Ok(None);
     };
-    section.allow(&["command", "n", "order"])?;
+    section.allow(&names(&STUDY))?;
     let command = section.require("command")?.list()?;
     let n = section.require("n")?.list()?;
     let orders = section.require("order")?.section()?.fields();
@@ -435,7 +424,7 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
             .iter()
             .map(Field::string)
             .collect::<Result<_, _>>()?,
-        n: n.iter().map(Field::integer).collect::<Result<_, _>>()?,
+        n: n.iter().map(Field::count).collect::<Result<_, _>>()?,
         orders: orders
             .iter()
             .map(|field| Ok((field.name.clone(), field.number()?)))

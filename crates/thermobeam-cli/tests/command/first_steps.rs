@@ -175,7 +175,14 @@ fn every_shell_gets_completions_that_know_the_commands() {
 #[test]
 fn the_schemas_are_printed_as_committed() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../thermobeam-study");
-    for (files, name) in [("study", "schema.json"), ("scene", "scene.schema.json")] {
+    for (files, name) in [
+        ("study", "schema.json"),
+        ("scene", "scene.schema.json"),
+        (
+            "manufacture",
+            "../convergence-study/manufacture.schema.json",
+        ),
+    ] {
         let ended = ended(thermobeam().args(["schema", files]));
         let committed = fs::read_to_string(folder.join(name)).expect(name);
         assert_eq!((ended.status, ended.stdout), (Some(0), committed));
@@ -184,7 +191,7 @@ fn the_schemas_are_printed_as_committed() {
     assert_eq!(other.status, Some(2));
     assert_eq!(
         other.stderr,
-        "error: found `mesh`; expected study or scene\n"
+        "error: schema: found `mesh`; expected one of study, scene, manufacture\n"
     );
 }
 

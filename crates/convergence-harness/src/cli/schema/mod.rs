@@ -3,6 +3,7 @@
 //! It is made from the keys that the readers allow. It is weaker where a reader compares values: a
 //! list whose numbers must increase is a list of numbers here.
 
+mod manufacture;
 mod page;
 
 use serde_json::{Map, Value, json};
@@ -21,10 +22,13 @@ pub use page::page;
 /// The dialect that editors of TOML read.
 const DIALECT: &str = "http://json-schema.org/draft-07/schema#";
 
-/// The files that every project has.
+/// The study files, which every project has.
 const STUDIES: &str = "study";
 
-/// Print the JSON schema of study files, for completion in editors
+/// The files of the command `manufacture`, which every project has.
+pub const MANUFACTURE: &str = "manufacture";
+
+/// Print the JSON schema of study files, or of other files, for completion in editors
 ///
 /// An editor that understands TOML schemas (Even Better TOML, taplo) completes and checks a file
 /// whose first line is `#:schema URL`, or `#:schema ./FILE`.
@@ -37,25 +41,33 @@ pub struct Arguments {
 
 /// Runs the command.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
-    let of_tables = project
-        .tables
-        .iter()
-        .find(|(name, _)| *name == arguments.files);
-    let schema = match of_tables {
+    let others = other_files(project);
+    let schema = match others.iter().find(|(name, _)| *name == arguments.files) {
         Some((name, set)) => of_tables_file(name, set),
         None if arguments.files == STUDIES => of_studies(project),
         None => {
-            let names = project.tables.iter().map(|(name, _)| *name);
+            let names = others.iter().map(|(name, _)| *name);
             let names: Vec<&str> = std::iter::once(STUDIES).chain(names).collect();
             return Err(Unusable::because(&format!(
-                "found `{}`; expected {}",
+                "schema: found `{}`; expected one of {}",
                 arguments.files,
-                names.join(" or ")
+                names.join(", ")
             )));
         }
     };
     screen::print(&text(&schema))?;
     Ok(Verdict::Pass)
+}
+
+/// The files of a project that are no studies, by name, with the keys of their topmost table.
+pub fn other_files(project: &Project) -> Vec<(&'static str, Keys)> {
+    let manufacture = (MANUFACTURE, manufacture::keys());
+    project
+        .tables
+        .iter()
+        .copied()
+        .chain([manufacture])
+        .collect()
 }
 
 /// A schema as a file.
@@ -159,7 +171,11 @@ fn form(values: Form) -> Value {
         Form::Number => json!({ "type": "number" }),
         Form::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
         Form::Boolean => json!({ "type": "boolean" }),
-        Form::Texts => json!({ "type": "object", "additionalProperties": { "type": "string" } }),
+        Form::Named(keys, values) => {
+            let mut schema = table(&[], keys);
+            schema["additionalProperties"] = form(*values);
+            schema
+        }
         Form::Choice(names) => json!({ "enum": names() }),
         Form::List(items) => json!({ "type": "array", "items": form(*items) }),
         Form::OneOf(forms) => one_of(forms.iter().map(|values| form(*values)).collect()),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use super::other_files;
 use crate::input::{Form, Key, Keys};
 use crate::project::Project;
 use crate::study::STUDY_TABLE;
@@ -21,8 +22,8 @@ pub fn page(project: &Project) -> String {
     for row in project.kinds {
         page.chapter(&format!("Kind `{}`", row.name), row.keys);
     }
-    for (name, set) in project.tables {
-        page.chapter(&format!("Files with a {name}"), &[set]);
+    for (name, set) in other_files(project) {
+        page.chapter(&format!("Files of `{name}`"), &[set]);
     }
     page.text
 }
@@ -54,6 +55,7 @@ impl Page {
     fn tables_of(&mut self, title: &str, path: &str, key: &Key, form: Form, is_listed: bool) {
         match form {
             Form::Table(sets) => self.table(title, path, key, sets, is_listed),
+            Form::Named(keys, form) => self.named(title, path, key, keys, *form),
             Form::List(form) => self.tables_of(title, path, key, *form, true),
             Form::OneOf(forms) => {
                 for form in forms {
@@ -64,18 +66,40 @@ impl Page {
         }
     }
 
-    fn table(&mut self, title: &str, path: &str, key: &Key, sets: &[Keys], is_listed: bool) {
+    /// A table with names of the user's, and with values of this form under them. One without keys
+    /// is said in the row of its own key, if that is in a table.
+    fn named(&mut self, title: &str, path: &str, key: &Key, keys: Keys, form: Form) {
+        if !keys.is_empty() {
+            self.table(title, path, key, &[keys], false);
+            let _ = writeln!(self.text, "\nUnder other names: {}.", values(form));
+        } else if path == key.name {
+            self.heading(path, key, false);
+            let _ = writeln!(self.text, "\nUnder each name: {}.", values(form));
+        }
+        self.tables_of(title, &format!("{path}{NAME}"), key, form, false);
+    }
+
+    /// Writes the heading of a table, and what it means; returns the heading.
+    fn heading(&mut self, path: &str, key: &Key, is_listed: bool) -> String {
         let heading = if is_listed {
             format!("[[{path}]]")
         } else {
             format!("[{path}]")
         };
-        let default = match key.default {
-            None | Some("") => String::new(),
-            Some(_) => format!(" Without it: {}.", default_of(key)),
-        };
-        let meaning = capitalized(key.meaning);
-        let _ = writeln!(self.text, "\n### `{heading}`\n\n{meaning}.{default}");
+        let _ = writeln!(self.text, "\n### `{heading}`\n");
+        // A table under a name of the user's is part of what was said of those above it.
+        if !path.ends_with(NAME) {
+            let default = match key.default {
+                None | Some("") => String::new(),
+                Some(_) => format!(" Without it: {}.", default_of(key)),
+            };
+            let _ = writeln!(self.text, "{}.{default}", capitalized(key.meaning));
+        }
+        heading
+    }
+
+    fn table(&mut self, title: &str, path: &str, key: &Key, sets: &[Keys], is_listed: bool) {
+        let heading = self.heading(path, key, is_listed);
         let rows = rows(sets);
         if let Some(place) = self.places.get(&rows) {
             let _ = writeln!(self.text, "Its keys are those under {place}.");
@@ -159,6 +183,17 @@ fn default_of(key: &Key) -> String {
     }
 }
 
+/// In the path of a table: any name that the user chooses.
+const NAME: &str = ".NAME";
+
+/// The values in a list or a table.
+fn each(form: Form) -> String {
+    match form {
+        Form::OneOf(_) => format!("({})", values(form)),
+        _ => values(form),
+    }
+}
+
 fn values(form: Form) -> String {
     match form {
         Form::Text => "a text".to_owned(),
@@ -166,18 +201,18 @@ fn values(form: Form) -> String {
         Form::Number => "a number".to_owned(),
         Form::Positive => "a number > 0".to_owned(),
         Form::Boolean => "`true` or `false`".to_owned(),
-        Form::Texts => "a table of texts by name".to_owned(),
+        Form::Named(&[], form) => format!("a table by name, each {}", each(*form)),
         Form::Choice(names) => {
             let names: Vec<String> = names().iter().map(|name| format!("`\"{name}\"`")).collect();
             names.join(", ")
         }
         Form::List(Form::Table(_)) => "tables".to_owned(),
-        Form::List(form) => format!("a list, each {}", values(*form)),
+        Form::List(form) => format!("a list, each {}", each(*form)),
         Form::OneOf(forms) => {
             let forms: Vec<String> = forms.iter().map(|form| values(*form)).collect();
             forms.join("; or ")
         }
-        Form::Table(_) => "a table".to_owned(),
+        Form::Named(..) | Form::Table(_) => "a table".to_owned(),
     }
 }
 

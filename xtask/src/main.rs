@@ -11,7 +11,7 @@ use convergence_calibration::kind;
 use convergence_harness::cli::{command_line, ended};
 use convergence_harness::project::Project;
 use convergence_harness::study::KindRow;
-use thermobeam_cli::{GROUPS, project};
+use thermobeam_cli::{GROUPS, PAGES, project};
 use thermobeam_study::kinds::{KINDS, settings};
 
 /// The beam under this command, and the calibration of the rule.
@@ -60,7 +60,7 @@ enum Dev {
 
 fn main() -> ExitCode {
     let groups = [&GROUPS[..], &[("This project", &["bench", "dev"])]].concat();
-    let line = command_line::<Xtask>(&PROJECT, &groups);
+    let line = command_line::<Xtask>(&PROJECT, &groups, &PAGES);
     ended(line.clone(), |asked: Xtask| match asked.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
         Command::Bench(arguments) => bench::run(&PROJECT, &arguments),

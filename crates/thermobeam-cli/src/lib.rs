@@ -10,6 +10,7 @@ mod run;
 mod sweep;
 
 use clap::{Parser, Subcommand};
+use convergence_harness::cli::help::HelpPage;
 use convergence_harness::cli::{self, exit};
 use convergence_harness::project::Project;
 
@@ -46,6 +47,62 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
     ("Everything else", &["schema", "completions", "man"]),
+];
+
+/// The pages of the beam's commands. Each example works as it is in the folder that a test fills.
+pub const PAGES: [HelpPage; 4] = [
+    HelpPage {
+        command: "run",
+        without: &["jobs"],
+        examples: &[
+            ("The result", "PROGRAM run scene.toml"),
+            (
+                "The time history and pictures, too",
+                "PROGRAM run scene.toml --out beam",
+            ),
+            (
+                "The cheapest run with this error",
+                "PROGRAM run scene.toml --target-error 1e-6",
+            ),
+        ],
+    },
+    HelpPage {
+        command: "equilibria",
+        without: &["jobs"],
+        examples: &[
+            ("A table", "PROGRAM equilibria scene.toml"),
+            (
+                "For a program",
+                "PROGRAM equilibria scene.toml --format json",
+            ),
+        ],
+    },
+    HelpPage {
+        command: "sweep",
+        without: &[],
+        examples: &[
+            ("All cases, a line each", "PROGRAM sweep sweep.toml"),
+            (
+                "Into a folder; the same line continues it after an interruption",
+                "PROGRAM sweep sweep.toml --out swept --resume",
+            ),
+            (
+                "The first of two shares",
+                "PROGRAM sweep sweep.toml --out first --partition 1/2",
+            ),
+        ],
+    },
+    HelpPage {
+        command: "merge",
+        without: &["jobs"],
+        examples: &[
+            ("Two shares", "PROGRAM merge share-1 share-2 --out joined"),
+            (
+                "For a program",
+                "PROGRAM merge share-1 share-2 --out joined --format json",
+            ),
+        ],
+    },
 ];
 
 impl Command {

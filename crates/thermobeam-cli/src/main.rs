@@ -3,11 +3,11 @@
 use std::process::ExitCode;
 
 use convergence_harness::cli::{command_line, ended};
-use thermobeam_cli::{GROUPS, Thermobeam, project};
+use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
 fn main() -> ExitCode {
     let project = project("thermobeam");
-    let line = command_line::<Thermobeam>(&project, &GROUPS);
+    let line = command_line::<Thermobeam>(&project, &GROUPS, &PAGES);
     ended(line.clone(), |asked: Thermobeam| {
         asked.command.run(&project, line)
     })

@@ -6,13 +6,18 @@ use std::path::Path;
 
 use convergence_harness::cli::command_line;
 use convergence_study_tests::files::files_below;
-use thermobeam_cli::{GROUPS, Thermobeam, project};
+use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
 /// The name of the program that exists only in a checkout.
 const ELSEWHERE: &str = "xtask";
 
+/// Columns of a help text.
+const WIDEST: usize = 100;
+
 fn program() -> clap::Command {
-    let mut program = command_line::<Thermobeam>(&project("thermobeam"), &GROUPS);
+    // As on a wide terminal, and in a file.
+    let mut program =
+        command_line::<Thermobeam>(&project("thermobeam"), &GROUPS, &PAGES).term_width(WIDEST);
     program.build();
     program
 }
@@ -37,8 +42,8 @@ fn every_command_is_in_one_group_of_the_help() {
     assert_eq!(listed.len(), commands.len(), "{listed:?}");
 }
 
-#[test]
-fn no_help_names_a_program_that_is_not_there() {
+/// All help texts, short and long.
+fn help_texts() -> Vec<String> {
     let mut program = program();
     let texts = [program.render_help(), program.render_long_help()].map(|text| text.to_string());
     let mut texts = texts.to_vec();
@@ -48,11 +53,38 @@ fn no_help_names_a_program_that_is_not_there() {
         );
     }
     assert!(texts.len() > 20);
-    for text in texts {
+    texts
+}
+
+#[test]
+fn no_help_names_a_program_that_is_not_there() {
+    for text in help_texts() {
         assert!(
             text.contains("Usage: thermobeam") && !text.contains(ELSEWHERE),
             "{text}"
         );
+    }
+}
+
+#[test]
+fn every_help_fits_its_columns_and_has_no_word_that_stands_for_another() {
+    for text in help_texts() {
+        for line in text.lines() {
+            assert!(line.chars().count() <= WIDEST, "{line}");
+            assert!(
+                !line.contains("PROGRAM") && !line.contains("TEMPLATE"),
+                "{line}"
+            );
+        }
+    }
+    // clap prints `{n}` as the end of a line.
+    for command in program().get_subcommands() {
+        for argument in command.get_arguments() {
+            let helps = [argument.get_help(), argument.get_long_help()];
+            for help in helps.into_iter().flatten() {
+                assert!(!help.to_string().contains("{n}"), "{help}");
+            }
+        }
     }
 }
 

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use super::exit::{Outcome, Unusable};
-use super::flags::Flags;
+use super::flags::{Flags, number};
 use crate::cli::screen;
 use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare, rule};
 use crate::judge::verdict::Verdict;
 use crate::store::Record;
 use crate::text::visible::{self, visible};
 
-/// Compare two versions by their records: order, errors at the same step, work for the same error
+/// Compare the records of two versions: orders, errors at a step, work for an error
 ///
 /// `verify` writes records to results.json, and `study --format json` prints them. Exit status 1 if
 /// anything is worse or lost.
@@ -28,6 +28,7 @@ pub struct Arguments {
         long,
         value_name = "E",
         default_value_t = 0.0,
+        value_parser = number,
         allow_hyphen_values = true
     )]
     floor: f64,

@@ -17,7 +17,8 @@ use crate::store::atomic;
 use crate::text::visible;
 
 /// For the end of `--help`.
-pub const HELP: &str = "Exit status: 0 all is well; 1 something failed; 2 input or output that cannot be used; 130 interrupted.";
+pub const HELP: &str =
+    "Exit status: 0 all is well; 1 something failed; 2 unusable input or output; 130 interrupted.";
 
 /// Input that cannot be read or makes no sense, or a place that cannot be written to: exit
 /// status 2.

@@ -16,7 +16,7 @@ use crate::text::lists::grouped;
 use crate::text::names::nearest;
 use crate::text::visible::{self, visible};
 
-/// Explain what a study claims, why it should hold, how it is judged, and what a failure would mean
+/// Explain what a study claims, why it should hold, how it is judged, what failing means
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// A study's id or file; or a reason for a verdict (too-low), a kind of study, a word of the
@@ -41,6 +41,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     // Terms, reasons and files can be explained outside a workspace.
     let studies =
         || workspace::root().map_or_else(|_| PathBuf::from("studies"), |root| root.join("studies"));
+    if let Some(folder) = arguments.dir.as_deref().filter(|folder| !folder.is_dir()) {
+        return Err(Unusable::because(&format!(
+            "--dir {}: expected a folder with studies, found none",
+            visible::path(folder)
+        )));
+    }
     let folder = arguments.dir.clone().unwrap_or_else(studies);
     let text = match term(project, name) {
         Some(text) => text,
@@ -96,7 +102,7 @@ fn unknown(project: &Project, name: &str, folder: &Path, nearest: Option<String>
     )
 }
 
-/// The code of a case stopped at its limit of work.
+/// The code of a case stopped at its work limit.
 const WORK: &str = "work";
 
 const WORK_MEANS: &str = "The case has counted three times the node-steps of its blessing, and two per cent of its tier's: it was stopped, at \

@@ -7,66 +7,91 @@ use clap::{Arg, Command};
 use super::screen::{Colour, Format, formats};
 use crate::project::Project;
 
-/// Examples of each command: what it does, and the line. `PROGRAM` stands for the project's
-/// command, `TEMPLATE` for what its `new` begins with. Each line works as it is in the folder that a
-/// test of the program `convergence-study` fills.
-pub const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
-    (
-        "new",
-        &[
+/// What the help of a command says in addition to its arguments.
+#[derive(Debug, Clone, Copy)]
+pub struct HelpPage {
+    /// The command.
+    pub command: &'static str,
+    /// Options that all commands accept and that mean nothing for this one: they are left out.
+    pub without: &'static [&'static str],
+    /// Examples: what each does, and the line. `PROGRAM` stands for the project's command,
+    /// `TEMPLATE` for what its `new` begins with.
+    pub examples: &'static [(&'static str, &'static str)],
+}
+
+/// The pages of the harness's commands. Each example works as it is in the folder that a test of the
+/// program `convergence-study` fills.
+pub const PAGES: [HelpPage; 12] = [
+    HelpPage {
+        command: "new",
+        without: &["jobs"],
+        examples: &[
             ("Files to start from", "PROGRAM new TEMPLATE mine"),
             ("In another folder", "PROGRAM new TEMPLATE mine --out cases"),
         ],
-    ),
-    (
-        "schema",
-        &[("For an editor", "PROGRAM schema > studies.schema.json")],
-    ),
-    (
-        "manufacture",
-        &[
+    },
+    HelpPage {
+        command: "schema",
+        without: &[],
+        examples: &[
+            ("For an editor", "PROGRAM schema > studies.schema.json"),
+            (
+                "Of the files of `manufacture`",
+                "PROGRAM schema manufacture > manufacture.schema.json",
+            ),
+        ],
+    },
+    HelpPage {
+        command: "manufacture",
+        without: &["jobs"],
+        examples: &[
             ("Check a file", "PROGRAM manufacture heat.toml"),
             (
                 "Write what a solver imports",
                 "PROGRAM manufacture heat.toml --language python --out sources",
             ),
         ],
-    ),
-    (
-        "verify",
-        &[
+    },
+    HelpPage {
+        command: "verify",
+        without: &[],
+        examples: &[
             ("What would run, and how long", "PROGRAM verify --dry-run"),
             ("Accept the first numbers", "PROGRAM verify --bless"),
             ("Some studies", "PROGRAM verify 'po*' --durations"),
         ],
-    ),
-    (
-        "study",
-        &[
+    },
+    HelpPage {
+        command: "study",
+        without: &[],
+        examples: &[
             ("Run a file", "PROGRAM study studies/poisson.toml"),
             (
                 "Keep a report",
                 "PROGRAM study studies/poisson.toml -j 2 -o page",
             ),
         ],
-    ),
-    (
-        "list",
-        &[
+    },
+    HelpPage {
+        command: "list",
+        without: &["jobs", "out"],
+        examples: &[
             ("All studies", "PROGRAM list"),
             ("Some of them", "PROGRAM list 'po*' --tier quick"),
         ],
-    ),
-    (
-        "explain",
-        &[
+    },
+    HelpPage {
+        command: "explain",
+        without: &["jobs", "out"],
+        examples: &[
             ("A reason for a verdict", "PROGRAM explain too-low"),
             ("A study", "PROGRAM explain poisson"),
         ],
-    ),
-    (
-        "rates",
-        &[
+    },
+    HelpPage {
+        command: "rates",
+        without: &["jobs"],
+        examples: &[
             ("A table", "PROGRAM rates errors.csv --order 2"),
             (
                 "Several, one column with an order of its own",
@@ -77,10 +102,11 @@ pub const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
                 "cat log.txt | PROGRAM rates --order 2 --dim 2",
             ),
         ],
-    ),
-    (
-        "compare",
-        &[
+    },
+    HelpPage {
+        command: "compare",
+        without: &["jobs"],
+        examples: &[
             (
                 "Two versions",
                 "PROGRAM compare old.json reports/results.json",
@@ -90,54 +116,48 @@ pub const EXAMPLES: [(&str, &[(&str, &str)]); 12] = [
                 "PROGRAM compare old.json reports/results.json --all",
             ),
         ],
-    ),
-    (
-        "report",
-        &[
+    },
+    HelpPage {
+        command: "report",
+        without: &["jobs"],
+        examples: &[
             ("In its own folder", "PROGRAM report reports/results.json"),
             (
                 "In another folder",
                 "PROGRAM report reports/results.json -o page",
             ),
         ],
-    ),
-    (
-        "completions",
-        &[("For bash", "PROGRAM completions bash > completions.bash")],
-    ),
-    (
-        "man",
-        &[
+    },
+    HelpPage {
+        command: "completions",
+        without: &[],
+        examples: &[
+            ("For bash", "PROGRAM completions bash > completions.bash"),
+            ("For fish", "PROGRAM completions fish > completions.fish"),
+        ],
+    },
+    HelpPage {
+        command: "man",
+        without: &[],
+        examples: &[
             ("The page of the program", "PROGRAM man > program.1"),
             ("The page of a command", "PROGRAM man rates > rates.1"),
         ],
-    ),
-];
-
-/// Options that all commands accept and that mean nothing for these.
-const WITHOUT_MEANING: [(&str, &[&str]); 7] = [
-    ("list", &["jobs", "out"]),
-    ("explain", &["jobs", "out"]),
-    ("rates", &["jobs"]),
-    ("compare", &["jobs"]),
-    ("report", &["jobs"]),
-    ("new", &["jobs"]),
-    ("manufacture", &["jobs"]),
+    },
 ];
 
 /// The command line with examples, `--color` and `--version` for every command, and without options
 /// that mean nothing.
-pub(super) fn completed(mut command: Command, project: &Project) -> Command {
-    for (name, lines) in EXAMPLES {
-        let examples = examples(lines, project);
-        command = command.mut_subcommand(name, |command| command.after_help(examples));
-    }
-    for (name, options) in WITHOUT_MEANING {
-        for option in options {
-            command = command.mut_subcommand(name, |command| {
-                command.mut_arg(option, |option| option.hide(true))
-            });
-        }
+///
+/// * `others`: the pages of the project's own commands.
+pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpPage]) -> Command {
+    for page in PAGES.iter().chain(others) {
+        command = command.mut_subcommand(page.command, |mut command| {
+            for option in page.without {
+                command = command.mut_arg(option, |option| option.hide(true));
+            }
+            command.after_help(examples(page.examples, project))
+        });
     }
     let colour = Arg::new(COLOUR)
         .long("color")

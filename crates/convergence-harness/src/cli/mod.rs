@@ -28,6 +28,7 @@ use std::ffi::OsString;
 use std::fmt::Write;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
 use clap_complete::{Shell, generate};
 
@@ -51,8 +52,9 @@ pub enum Command {
     Manufacture(manufacture::Arguments),
     /// Print completions for a shell
     ///
-    /// A shell completes a program of that name on the PATH, not an alias such as cargo's. For
-    /// bash: source <(PROGRAM completions bash)
+    /// A shell completes a program of that name on the PATH, not an alias such as cargo's. What is
+    /// printed belongs where the shell looks for completions; for one session, bash reads it by
+    /// `source FILE`.
     Completions {
         /// The shell
         #[arg(value_enum)]
@@ -133,11 +135,7 @@ fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outc
 /// An unknown command.
 fn man(mut whole: clap::Command, name: Option<&str>) -> exit::Outcome {
     whole.build();
-    let known: Vec<&str> = whole
-        .get_subcommands()
-        .filter(|command| !command.is_hide_set())
-        .map(clap::Command::get_name)
-        .collect();
+    let known = visible_commands(&whole);
     let page = match name {
         None => whole.clone(),
         Some(name) if known.contains(&name) => {
@@ -154,6 +152,17 @@ fn man(mut whole: clap::Command, name: Option<&str>) -> exit::Outcome {
     clap_mangen::Man::new(page).render(&mut text)?;
     screen::print(&String::from_utf8_lossy(&text))?;
     Ok(Verdict::Pass)
+}
+
+/// The names of the commands for users.
+fn visible_commands(line: &clap::Command) -> Vec<&str> {
+    let commands = line
+        .get_subcommands()
+        .filter(|command| !command.is_hide_set());
+    let names = commands.map(clap::Command::get_name);
+    let mut names: Vec<&str> = names.filter(|name| *name != "help").collect();
+    names.sort_unstable();
+    names
 }
 
 /// Guards the process group that this process leads; the harness starts it next to every program
@@ -174,13 +183,18 @@ fn serve(mark: &str) -> exit::Outcome {
 /// The command line of the program `P`, under the name that its users type, its commands in groups.
 ///
 /// * `groups`: heading, and names of commands. `--help` does not list a command outside all groups.
-pub fn command_line<P: Parser>(project: &Project, groups: &[(&str, &[&str])]) -> clap::Command {
+/// * `pages`: what the help of the commands that are not the harness's says.
+pub fn command_line<P: Parser>(
+    project: &Project,
+    groups: &[(&str, &[&str])],
+    pages: &[help::HelpPage],
+) -> clap::Command {
     let command = P::command()
         .name(project.command)
         .bin_name(project.command)
         .about(project.about);
     grouped(
-        help::completed(new::with_templates(command, project), project)
+        help::completed(new::with_templates(command, project), project, pages)
             .version(env!("CARGO_PKG_VERSION")),
         groups,
     )
@@ -229,7 +243,29 @@ fn status<P: Parser>(
     arguments: impl Iterator<Item = OsString>,
     run: impl FnOnce(P) -> exit::Outcome,
 ) -> u8 {
-    let matches = line.get_matches_from(arguments);
+    let arguments: Vec<OsString> = arguments.collect();
+    if let Some(colour) = screen::colour_in(&arguments) {
+        screen::set_colour(colour);
+    }
+    let line = line.color(screen::choice());
+    let usage = format!("{} [OPTIONS] <COMMAND>", line.get_name());
+    let known = visible_commands(&line).join(", ");
+    let matches = line
+        .try_get_matches_from(arguments)
+        .unwrap_or_else(|mut error| {
+            // Not that of a command of a command.
+            let is_first = error
+                .get(ContextKind::Usage)
+                .is_some_and(|text| text.to_string().contains(&usage));
+            if error.kind() == ErrorKind::InvalidSubcommand && is_first {
+                let tip = format!("the commands are {known}");
+                error.insert(
+                    ContextKind::Suggested,
+                    ContextValue::StyledStrs(vec![tip.into()]),
+                );
+            }
+            error.exit()
+        });
     let program = P::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     if let Some(colour) = matches.get_one(help::COLOUR) {
         screen::set_colour(*colour);
@@ -246,7 +282,7 @@ struct CommandLine {
 
 /// The command line of a project that adds no commands of its own.
 pub fn program(project: &Project) -> clap::Command {
-    command_line::<CommandLine>(project, &[("Commands", &COMMANDS)])
+    command_line::<CommandLine>(project, &[("Commands", &COMMANDS)], &[])
 }
 
 /// The whole `main` of a project that adds no commands of its own.

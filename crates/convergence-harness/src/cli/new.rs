@@ -33,7 +33,7 @@ pub struct Arguments {
     /// The language of a program, which is otherwise Python
     #[arg(long, value_name = "LANGUAGE", conflicts_with = "command", value_parser = PossibleValuesParser::new(begin::LANGUAGES.map(|language| language.name)))]
     language: Option<String>,
-    /// The command of a program that exists, such as "FreeFem++ -nw poisson.edp {n}"
+    /// The command of a program that exists, such as "./solver {h}"
     #[arg(long, value_name = "COMMAND")]
     command: Option<String>,
     #[command(flatten)]
@@ -145,7 +145,7 @@ fn is_python3(command: &str) -> bool {
 ///
 /// # Errors
 /// No word, and a quote without its end, in words.
-fn words(command: &str) -> Result<Vec<String>, String> {
+pub(super) fn words(command: &str) -> Result<Vec<String>, String> {
     let CommandWords { words, open_quote } = command_words(command);
     if let Some(quote) = open_quote {
         return Err(format!("found {quote} without its end; expected another"));

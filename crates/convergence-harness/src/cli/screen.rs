@@ -2,12 +2,13 @@
 //! verdicts in colour.
 
 use std::env;
+use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::sync::OnceLock;
 
-use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{ColorChoice, ValueEnum};
 
 use crate::judge::verdict::Verdict;
 use crate::text::columns::Columns;
@@ -170,16 +171,43 @@ pub fn width() -> Option<usize> {
         .filter(|_| io::stdout().is_terminal())
 }
 
-/// Whether to use colours: as `--color` says, else as `FORCE_COLOR` or `CLICOLOR_FORCE` do, else on
-/// a terminal, unless `NO_COLOR` is set to anything.
-fn colours() -> bool {
+/// What these arguments say about colours: help texts and errors of the command line are printed
+/// before it is parsed as a whole.
+pub(super) fn colour_in(arguments: &[OsString]) -> Option<Colour> {
+    let options = arguments.iter().take_while(|argument| *argument != "--");
+    let mut words = options.filter_map(|argument| argument.to_str());
+    let value = loop {
+        let word = words.next()?;
+        if word == "--color" {
+            break words.next()?;
+        }
+        if let Some(value) = word.strip_prefix("--color=") {
+            break value;
+        }
+    };
+    Colour::from_str(value, false).ok()
+}
+
+/// When to use colours: as `--color` says, else as `FORCE_COLOR` or `CLICOLOR_FORCE` do, else on a
+/// terminal, unless `NO_COLOR` is set to anything.
+pub(super) fn choice() -> ColorChoice {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     let forces = |name| is_set(name) && env::var_os(name).is_some_and(|value| value != "0");
     match COLOUR.get() {
-        Some(Colour::Always) => true,
-        Some(Colour::Never) => false,
-        _ if forces("FORCE_COLOR") || forces("CLICOLOR_FORCE") => true,
-        _ => io::stdout().is_terminal() && !is_set("NO_COLOR"),
+        Some(Colour::Always) => ColorChoice::Always,
+        Some(Colour::Never) => ColorChoice::Never,
+        _ if forces("FORCE_COLOR") || forces("CLICOLOR_FORCE") => ColorChoice::Always,
+        _ if is_set("NO_COLOR") => ColorChoice::Never,
+        _ => ColorChoice::Auto,
+    }
+}
+
+/// Whether to use colours on standard output.
+fn colours() -> bool {
+    match choice() {
+        ColorChoice::Always => true,
+        ColorChoice::Never => false,
+        ColorChoice::Auto => io::stdout().is_terminal(),
     }
 }
 

@@ -54,6 +54,13 @@ pub(crate) const PROBE: &str = "probe";
 /// # Errors
 /// The error of the operating system, preceded by `folder`.
 pub fn prepare_folder(folder: &Path) -> io::Result<()> {
+    let mut taken = folder
+        .ancestors()
+        .filter(|above| above.exists() && !above.is_dir());
+    if let Some(file) = taken.next() {
+        let problem = "expected a folder, found a file";
+        return Err(naming(file)(io::Error::other(problem)));
+    }
     fs::create_dir_all(folder)
         .and_then(|()| probe(&folder.join(PROBE)))
         .map_err(naming(folder))

@@ -108,7 +108,12 @@ pub fn content_hash(bytes: &[u8]) -> u64 {
 /// The error of the operating system; also if the file is not a regular file or not UTF-8.
 pub fn read_to_string(path: &Path) -> io::Result<String> {
     check(path)?;
-    fs::read_to_string(path)
+    fs::read_to_string(path).map_err(|error| match error.kind() {
+        io::ErrorKind::InvalidData => {
+            io::Error::other("found bytes that are no UTF-8; expected UTF-8 text")
+        }
+        _ => error,
+    })
 }
 
 /// The bytes of a regular file.

@@ -15,15 +15,24 @@ const ESCAPE: char = '\u{1b}';
 fn colours_follow_the_option_then_the_environment() {
     let root = workspace(false);
     fs::write(root.path().join("t"), TABLE).unwrap();
-    let is_coloured = |option: &[&str], variables: &[(&str, &str)]| {
-        let mut command = command(root.path(), &["rates", "t", "--order", "2"]);
+    let ended = |words: &[&str], option: &[&str], variables: &[(&str, &str)]| {
+        let mut command = command(root.path(), words);
         for name in ["NO_COLOR", "FORCE_COLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
         }
-        command.args(option).envs(variables.iter().copied());
-        let (status, out, err) = texts(&mut command);
+        texts(command.args(option).envs(variables.iter().copied()))
+    };
+    let is_coloured = |option: &[&str], variables: &[(&str, &str)]| {
+        let (status, out, err) = ended(&["rates", "t", "--order", "2"], option, variables);
         assert_eq!(status, Some(0), "{err}");
-        out.contains("\u{1b}[32mpass\u{1b}[0m")
+        let is_coloured = out.contains("\u{1b}[32mpass\u{1b}[0m");
+        // Helps, and errors of the command line, follow the same rule.
+        let (_, help, _) = ended(&["rates", "--help"], option, variables);
+        let (status, _, err) = ended(&["rates", "--odrer", "2"], option, variables);
+        assert_eq!(status, Some(2), "{err}");
+        assert_eq!(help.contains(ESCAPE), is_coloured, "{help}");
+        assert_eq!(err.contains(ESCAPE), is_coloured, "{err}");
+        is_coloured
     };
     let no_color = [("NO_COLOR", "1")];
     assert!(!is_coloured(&[], &[]));
@@ -165,7 +174,7 @@ fn each_command_has_a_man_page() {
     assert!(
         status == Some(2)
             && out.is_empty()
-            && err.contains("man: found `verfy`; expected one of schema, verify, study,"),
+            && err.contains("man: found `verfy`; expected one of compare, completions, explain,"),
         "{err}"
     );
     // Where `man` is installed, it finds no fault.

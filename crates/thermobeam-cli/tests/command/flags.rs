@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use convergence_harness::cli::command_line;
 use convergence_harness::program;
 use serde_json::Value;
-use thermobeam_cli::{GROUPS, Thermobeam, project};
+use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
 use super::workspace::{quick, workspace};
 use super::{Ended, Folder, ended, thermobeam, thrown};
@@ -39,7 +39,7 @@ const COMMANDS: [(&[&str], i32, &str); 13] = [
 /// Commands missing from [`COMMANDS`]: a script for a shell; the help; man pages; the schema.
 const OTHERS: [&str; 4] = ["schema", "completions", "help", "man"];
 
-fn place(folder: &Folder) -> PathBuf {
+pub(super) fn place(folder: &Folder) -> PathBuf {
     let root = workspace(folder, "w", &[("short", quick("short"))]);
     let rates = "h,L2\n0.4,1.6e-1\n0.2,4e-2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n";
     let sweep = "[sweep]\nscene = \"scene.toml\"\n[grid]\nbeam.beta = [0, 1]\n";
@@ -72,7 +72,7 @@ fn place(folder: &Folder) -> PathBuf {
 
 #[test]
 fn every_command_is_tried() {
-    let mut program = command_line::<Thermobeam>(&project("thermobeam"), &GROUPS);
+    let mut program = command_line::<Thermobeam>(&project("thermobeam"), &GROUPS, &PAGES);
     program.build();
     let tried = COMMANDS
         .iter()

@@ -3,6 +3,7 @@
 mod accuracy;
 mod any_order;
 mod equilibria;
+mod examples;
 mod failure;
 mod first_steps;
 mod flags;
@@ -13,6 +14,7 @@ mod interrupted;
 mod killed;
 mod places;
 mod rates;
+mod refusals;
 #[cfg(unix)]
 mod run;
 mod sweep;

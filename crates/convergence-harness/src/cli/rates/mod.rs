@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::exit::{Outcome, Unusable};
-use super::flags::Flags;
+use super::flags::{Flags, number};
 use super::screen::{self, Format};
 use crate::input::error_table::{Choice, Column, RateTable, names::position};
 use crate::judge::claims::{Claim, order_from_text};
@@ -28,7 +28,7 @@ use crate::text::names::{did_you_mean, nearest, quoted};
 /// command that reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The tables, - for standard input, which is read without a file, too
+    /// The tables; `-` is standard input, which is read without a file, too
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
     /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may
@@ -37,7 +37,7 @@ pub struct Arguments {
     order: Vec<Claimed>,
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, because bands of half
     /// an order around consecutive whole orders would overlap
-    #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, value_parser = number, allow_negative_numbers = true)]
     tolerance: f64,
     /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors
     /// are not above E; 0 drops none
@@ -47,6 +47,7 @@ pub struct Arguments {
         long,
         value_name = "E",
         default_value_t = 0.0,
+        value_parser = number,
         allow_negative_numbers = true
     )]
     floor: f64,
@@ -68,7 +69,7 @@ pub struct Arguments {
     dim: Option<f64>,
     /// The column of the step numbers the levels of refinement, each with a step R times as small:
     /// h = R^(-level)
-    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", value_parser = ratio, conflicts_with = "dim", allow_negative_numbers = true)]
     ratio: Option<f64>,
     /// Columns without a claim count, too: then nothing passes
     #[arg(long)]

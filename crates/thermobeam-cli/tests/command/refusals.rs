@@ -1,0 +1,243 @@
+//! Wrong command lines of all commands: exit status 2, what was found and what is allowed, and
+//! nothing is written.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::flags::place;
+use super::{Folder, ended, thermobeam};
+
+const NO_FILE: &str = "missing: cannot be read: ";
+const FOLDER: &str = "studies: cannot be read: ";
+const BYTES: &str = "bytes:1:1: found the byte 0xff; expected UTF-8 text";
+const TAKEN: &str = "rates.csv: expected a folder, found a file";
+const POSITIVE: &str = "expected a number > 0";
+const WITHOUT: &str = "required arguments were not provided";
+
+/// Command lines, and words of the message.
+const REFUSED: [(&str, &str); 88] = [
+    (
+        "rnu scene.toml",
+        "the commands are compare, completions, equilibria, ",
+    ),
+    ("--colour never list", "'--color'"),
+    ("--color blue list", "possible values: auto, always, never"),
+    ("run", WITHOUT),
+    ("run missing", NO_FILE),
+    ("run studies", FOLDER),
+    ("run bytes", BYTES),
+    (
+        "run empty",
+        "empty:1:1: time: missing; expected a table with dt and t_end",
+    ),
+    ("run rates.csv", "rates.csv:1:2: not valid TOML"),
+    (
+        "run sweep.toml",
+        "unknown key `sweep`; expected beam, obstacles",
+    ),
+    (
+        "run scene.toml scene.toml",
+        "unexpected argument 'scene.toml'",
+    ),
+    ("run scene.toml --out rates.csv", TAKEN),
+    ("run scene.toml --out rates.csv/below", TAKEN),
+    ("run scene.toml --time-limit 0", POSITIVE),
+    ("run scene.toml --time-limit -1", POSITIVE),
+    ("run scene.toml --time-limit nan", POSITIVE),
+    ("run scene.toml --case-limit 3", "'--time-limit'"),
+    (
+        "run scene.toml --target-error small",
+        "expected a finite number > 0",
+    ),
+    ("run scene.toml --keep-scheme", "--target-error <ERROR>"),
+    ("run scene.toml --format csv", "possible values: text, json"),
+    ("run scene.toml --jobs 0", "expected a whole number >= 1"),
+    ("equilibria", WITHOUT),
+    ("equilibria missing", NO_FILE),
+    ("equilibria bytes", BYTES),
+    ("equilibria scene.toml -o rates.csv", TAKEN),
+    ("sweep missing", NO_FILE),
+    ("sweep studies", FOLDER),
+    (
+        "sweep scene.toml",
+        "unknown key `obstacles`; expected sweep, set, grid, latin",
+    ),
+    ("sweep sweep.toml --resume", "--out <DIR>"),
+    (
+        "sweep sweep.toml --partition 3/2",
+        "expected k/n with 1 <= k <= n",
+    ),
+    ("sweep sweep.toml --time-limit -3", POSITIVE),
+    (
+        "sweep sweep.toml --out swept",
+        "swept: expected a folder without results",
+    ),
+    (
+        "merge swept",
+        "--out DIR: expected the folder for the joined results; found none",
+    ),
+    (
+        "merge missing --out joined",
+        "missing: not the folder of a sweep",
+    ),
+    ("merge swept swept --out joined", "expected each case once"),
+    (
+        "merge swept --out swept",
+        "swept: expected another folder for the joined results, found that of a share",
+    ),
+    ("merge swept --out rates.csv", TAKEN),
+    (
+        "verify long",
+        "`long` matches no study; expected short, or a pattern",
+    ),
+    ("verify [", "`[` is not a pattern"),
+    ("verify --tier slow", "possible values: quick, full"),
+    ("verify --case-limit 3", "'--time-limit'"),
+    ("verify --time-limit soon", POSITIVE),
+    ("verify --only a", "--reason <TEXT>"),
+    (
+        "verify --bless --dry-run",
+        "cannot be used with '--dry-run'",
+    ),
+    ("verify --failed", "--failed: found no record of a run"),
+    ("verify --out rates.csv", TAKEN),
+    ("study", WITHOUT),
+    ("study missing", NO_FILE),
+    ("study studies", FOLDER),
+    ("study bytes", BYTES),
+    (
+        "study scene.toml",
+        "study: missing; expected a table with id, claim and tier",
+    ),
+    (
+        "study studies/short.toml studies/short.toml",
+        "expected an id that no other study has",
+    ),
+    ("list long", "`long` matches no study"),
+    ("list --format md", "possible values: text, json"),
+    ("explain too-lw", "did you mean too-low?"),
+    (
+        "explain short --dir missing",
+        "--dir missing: expected a folder with studies, found none",
+    ),
+    ("new", WITHOUT),
+    ("new solver x", "possible values: study, scene, "),
+    ("new study X", "lowercase letters, digits, `.` or `-`"),
+    (
+        "new study short",
+        "expected a new file, found one of that name",
+    ),
+    (
+        "new study x --language julia",
+        "found `new study`; expected `new program`",
+    ),
+    ("new program x --language perl", "possible values: python, "),
+    ("new program x --command {m}", "found the placeholder {m}"),
+    ("new program x --out rates.csv", TAKEN),
+    ("manufacture missing", NO_FILE),
+    ("manufacture studies", FOLDER),
+    ("manufacture bytes", BYTES),
+    (
+        "manufacture scene.toml",
+        "unknown key `mesh`; expected one of manufacture domain ",
+    ),
+    (
+        "manufacture heat.toml --language perl",
+        "expected one of c, fortran, python",
+    ),
+    ("manufacture heat.toml --at missing", NO_FILE),
+    (
+        "manufacture heat.toml --at rates.csv",
+        "unknown column `h`; expected x face",
+    ),
+    (
+        "manufacture heat.toml --against no-such-program",
+        "no-such-program: ",
+    ),
+    (
+        "manufacture heat.toml --against cat --timeout 3",
+        "'--time-limit'",
+    ),
+    (
+        "manufacture heat.toml --points 1",
+        "expected a whole number >= 2",
+    ),
+    (
+        "manufacture heat.toml --seed -1",
+        "expected a whole number >= 0",
+    ),
+    ("compare missing record.json", "missing: "),
+    (
+        "compare bytes bytes",
+        "found bytes that are no UTF-8; expected UTF-8 text",
+    ),
+    (
+        "compare record.json rates.csv",
+        "expected a record as `verify` writes it",
+    ),
+    (
+        "compare record.json record.json --floor low",
+        "expected a number",
+    ),
+    (
+        "report rates.csv",
+        "expected a record as `verify` writes it",
+    ),
+    ("rates missing", NO_FILE),
+    ("rates bytes", BYTES),
+    (
+        "rates rates.csv --order two",
+        "expected a number > 0, '>=P' with such a number P",
+    ),
+    ("rates rates.csv --tolerance wide", "expected a number"),
+    (
+        "rates rates.csv --dim 2 --ratio 2",
+        "cannot be used with '--ratio <R>'",
+    ),
+    (
+        "schema mesh",
+        "schema: found `mesh`; expected one of study, scene, manufacture",
+    ),
+    ("completions tcsh", "possible values: bash, "),
+    (
+        "man guard",
+        "man: found `guard`; expected one of compare, completions, ",
+    ),
+];
+
+/// All files below a folder, with their bytes, and all folders.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            found.extend(contents(&path));
+            found.insert(path, None);
+        } else {
+            let bytes = fs::read(&path).expect("a file");
+            found.insert(path, Some(bytes));
+        }
+    }
+    found
+}
+
+#[test]
+fn a_wrong_command_line_is_refused_in_words_and_nothing_is_written() {
+    let folder = Folder::new();
+    let root = place(&folder);
+    fs::write(root.join("empty"), "").expect("a file");
+    fs::write(root.join("bytes"), [0xff, 0x00, 0x80]).expect("a file");
+    let before = contents(&root);
+    for (line, words) in REFUSED {
+        let refused = ended(thermobeam().args(line.split(' ')).current_dir(&root));
+        assert_eq!(refused.status, Some(2), "{line}: {}", refused.stderr);
+        assert_eq!(refused.stdout, "", "{line}");
+        assert!(refused.stderr.contains(words), "{line}: {}", refused.stderr);
+        let change = contents(&root)
+            .into_iter()
+            .find(|entry| before.get(&entry.0) != Some(&entry.1));
+        assert_eq!(change, None, "{line}");
+    }
+    assert_eq!(contents(&root).len(), before.len());
+}

@@ -130,7 +130,7 @@ fn exit_status_and_output_are_those_of_every_command() {
     assert_eq!((status, out.as_str()), (Some(2), ""));
     assert!(
         err.starts_with(
-            "error: heat.toml:25: equations.heat.loss: unknown name `TT`; expected one of x h T k q"
+            "error: heat.toml:26: equations.heat.loss: unknown name `TT`; expected one of x h T k q"
         ),
         "{err}"
     );

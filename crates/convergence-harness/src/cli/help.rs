@@ -184,7 +184,7 @@ pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpP
 }
 
 /// The id of `--color`.
-pub(super) const COLOUR: &str = "color";
+const COLOUR: &str = "color";
 
 fn examples(lines: &[(&str, &str)], project: &Project) -> String {
     let template = project.templates.first().map_or("", |first| first.name);

@@ -248,30 +248,25 @@ fn status<P: Parser>(
         screen::set_colour(colour);
     }
     let line = line.color(screen::choice());
-    let usage = format!("{} [OPTIONS] <COMMAND>", line.get_name());
-    let known = visible_commands(&line).join(", ");
-    let matches = line
-        .try_get_matches_from(arguments)
-        .unwrap_or_else(|mut error| {
-            // Not that of a command of a command.
-            let is_first = error
-                .get(ContextKind::Usage)
-                .is_some_and(|text| text.to_string().contains(&usage));
-            if error.kind() == ErrorKind::InvalidSubcommand && is_first {
-                let tip = format!("the commands are {known}");
-                error.insert(
-                    ContextKind::Suggested,
-                    ContextValue::StyledStrs(vec![tip.into()]),
-                );
-            }
-            error.exit()
-        });
+    let parsed = line.clone().try_get_matches_from(arguments);
+    let matches = parsed.unwrap_or_else(|error| with_commands(error, &line).exit());
     let program = P::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
-    if let Some(colour) = matches.get_one(help::COLOUR) {
-        screen::set_colour(*colour);
-    }
     exit::listen();
     exit::status(run(program))
+}
+
+/// An error of the command line; if the command is unknown, it lists those that exist.
+fn with_commands(mut error: clap::Error, line: &clap::Command) -> clap::Error {
+    // That of a command of a command, such as `dev` of a project, has another usage.
+    let usage = format!("{} [OPTIONS] <COMMAND>", line.get_name());
+    let shown = error.get(ContextKind::Usage).map(ToString::to_string);
+    let is_topmost = shown.is_some_and(|shown| shown.contains(&usage));
+    if error.kind() == ErrorKind::InvalidSubcommand && is_topmost {
+        let tip = format!("the commands are {}", visible_commands(line).join(", "));
+        let tips = ContextValue::StyledStrs(vec![tip.into()]);
+        error.insert(ContextKind::Suggested, tips);
+    }
+    error
 }
 
 #[derive(Debug, Parser)]

@@ -198,6 +198,8 @@ pub(super) fn choice() -> ColorChoice {
         Some(Colour::Never) => ColorChoice::Never,
         _ if forces("FORCE_COLOR") || forces("CLICOLOR_FORCE") => ColorChoice::Always,
         _ if is_set("NO_COLOR") => ColorChoice::Never,
+        // Where it is left to `clap`, any value of `CLICOLOR_FORCE` forces colours.
+        _ if !io::stdout().is_terminal() && !io::stderr().is_terminal() => ColorChoice::Never,
         _ => ColorChoice::Auto,
     }
 }

@@ -246,7 +246,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "time_limit = 9",
             "time_limit = 0",
-            "s.toml:8:11: program.time_limit: found 0; expected a number of seconds > 0",
+            "s.toml:8:14: program.time_limit: found 0; expected a number of seconds > 0",
         ),
         (
             "time_limit = 9",

@@ -262,9 +262,9 @@ fn with_commands(mut error: clap::Error, line: &clap::Command) -> clap::Error {
     let shown = error.get(ContextKind::Usage).map(ToString::to_string);
     let is_topmost = shown.is_some_and(|shown| shown.contains(&usage));
     if error.kind() == ErrorKind::InvalidSubcommand && is_topmost {
-        let tip = format!("the commands are {}", visible_commands(line).join(", "));
-        let tips = ContextValue::StyledStrs(vec![tip.into()]);
-        error.insert(ContextKind::Suggested, tips);
+        let known = format!("the commands are {}", visible_commands(line).join(", "));
+        let advice = ContextValue::StyledStrs(vec![known.into()]);
+        error.insert(ContextKind::Suggested, advice);
     }
     error
 }

@@ -354,6 +354,13 @@ mod tests {
                     .find(|listed| listed.name == name)
                     .map(|listed| listed.place(&root()))
             };
+            let listed = all.iter().find(|listed| listed.name == one.mistake);
+            assert_eq!(
+                listed.map(|listed| listed.file.as_str()),
+                Some(one.file.as_str()),
+                "{}",
+                one.mistake
+            );
             let own_place = place(&one.mistake);
             let others = |from: &Fingerprints| {
                 let others = from.known.iter();

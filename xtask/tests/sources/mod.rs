@@ -6,6 +6,7 @@ mod independence;
 mod layers;
 mod links;
 mod one_loop;
+mod paths;
 mod tests_run;
 mod texts;
 mod theory;

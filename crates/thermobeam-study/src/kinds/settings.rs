@@ -47,7 +47,7 @@ pub const PLACES: [(&str, &str); 18] = [
     ),
     (
         "a hot end, theta_A > 0",
-        "the lifting: crates/thermobeam/src/simulation.rs, energy/sums.rs",
+        "the lifting: crates/thermobeam/src/one_step.rs, energy.rs",
     ),
     ("obstacles", "crates/thermobeam/src/contact.rs"),
     (

@@ -243,5 +243,5 @@ fn names(outcome: &Outcome) -> Vec<&String> {
         .levels
         .iter()
         .flat_map(|level| level.errors.iter().map(|(name, _)| name));
-    distinct(errors.chain(outcome.rates.iter().map(|(name, _)| name)))
+    distinct(errors.chain(outcome.rates.iter().map(|rate| &rate.name)))
 }

@@ -4,7 +4,7 @@
 use convergence_harness::judge::grid::{Adding, GridErrors};
 use convergence_harness::judge::verdict::{Reason, Verdict};
 use convergence_harness::study::grid::{Grid, GridColumn};
-use convergence_harness::study::{Claim, Outcome};
+use convergence_harness::study::{Claim, NamedRate, Outcome};
 
 fn halved(first: f64, levels: usize) -> Vec<f64> {
     (0..levels)
@@ -43,8 +43,8 @@ fn judged(
 
 fn verdicts(verdict: &Outcome) -> [Verdict; 3] {
     [
-        verdict.rates[0].1.verdict,
-        verdict.rates[1].1.verdict,
+        verdict.rates[0].rate.verdict,
+        verdict.rates[1].rate.verdict,
         verdict.checks[0].verdict,
     ]
 }
@@ -66,7 +66,7 @@ fn three_levels_do_not_tell() {
         verdict
             .rates
             .iter()
-            .all(|(_, rate)| rate.kind == Reason::TooFewLevels)
+            .all(|named| named.rate.kind == Reason::TooFewLevels)
     );
 }
 
@@ -92,7 +92,7 @@ fn a_hidden_order_and_pollution_are_seen_on_four_levels() {
         }),
     ] {
         let verdict = judged(&h, &dt, claims, tolerance, polluted);
-        for ((name, rate), order) in verdict.rates.iter().zip(claims) {
+        for (NamedRate { name, rate, .. }, order) in verdict.rates.iter().zip(claims) {
             assert_ne!(rate.verdict, Verdict::Fail, "{name}: {}", rate.reason);
             assert!(
                 rate.interval
@@ -116,10 +116,10 @@ fn pure_powers_pass_on_any_steps_and_wrong_claims_fail() {
         };
         let verdict = judged(&h, &dt, [2.0, 1.0], 0.05, error);
         assert_eq!(verdicts(&verdict), [Verdict::Pass; 3], "{verdict:?}");
-        let [p, q] = [0, 1].map(|k| verdict.rates[k].1.fitted.expect("a rate"));
+        let [p, q] = [0, 1].map(|k| verdict.rates[k].rate.fitted.expect("a rate"));
         assert!((p - 2.0).abs() < 1e-6 && (q - 1.0).abs() < 1e-6, "{p} {q}");
-        assert_eq!(verdict.rates[0].0, "L2 in h");
-        assert_eq!(verdict.rates[1].0, "L2 in dt");
+        assert_eq!(verdict.rates[0].name, "L2 in h");
+        assert_eq!(verdict.rates[1].name, "L2 in dt");
         let wrong = judged(&h, &dt, [1.0, 2.0], 0.2, error);
         assert_eq!(
             verdicts(&wrong),
@@ -127,7 +127,7 @@ fn pure_powers_pass_on_any_steps_and_wrong_claims_fail() {
             "{wrong:?}"
         );
         assert_eq!(
-            [wrong.rates[0].1.kind, wrong.rates[1].1.kind],
+            [wrong.rates[0].rate.kind, wrong.rates[1].rate.kind],
             [Reason::TooHigh, Reason::TooLow]
         );
     }
@@ -140,7 +140,7 @@ fn the_constant_is_that_of_one_contribution() {
     let verdict = judged(&h, &dt, [2.0, 1.0], 0.05, |h, dt| {
         (3.0 * h * h).hypot(0.2 * dt)
     });
-    for ((_, rate), constant) in verdict.rates.iter().zip([3.0, 0.2]) {
+    for (NamedRate { rate, .. }, constant) in verdict.rates.iter().zip([3.0, 0.2]) {
         assert!(
             (rate.constant.expect("a rate") / constant - 1.0).abs() < 1e-6,
             "{rate:?}"
@@ -183,7 +183,7 @@ fn contributions_of_opposite_signs_are_judged_where_one_of_them_prevails() {
     assert_eq!(verdicts(&prevails), [Verdict::Pass; 3], "{prevails:?}");
     // On the finest meshes the error in dt is larger: e falls, then grows.
     let changes = judged(&h, &dt, [1.0, 1.0], 0.1, |h, dt| (h - 10.0 * dt).abs());
-    assert_ne!(changes.rates[0].1.verdict, Verdict::Pass, "{changes:?}");
+    assert_ne!(changes.rates[0].rate.verdict, Verdict::Pass, "{changes:?}");
 }
 
 /// Differences cancel a constant: none of these errors tends to zero.
@@ -206,7 +206,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
         ([1.0, 1.0], |h, dt| h + dt + 2e-3, "2.000e-3"),
     ] {
         let verdict = judged(&h, &dt, claims, 0.2, error);
-        for (name, rate) in &verdict.rates {
+        for NamedRate { name, rate, .. } in &verdict.rates {
             assert_eq!(
                 (rate.kind, rate.verdict),
                 (Reason::WrongLimit, Verdict::Fail),
@@ -231,7 +231,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
             h + dt + share * finest / (1.0 - share)
         });
         assert!(
-            verdict.rates.iter().all(|(_, rate)| rate.kind == kind),
+            verdict.rates.iter().all(|named| named.rate.kind == kind),
             "{share}: {verdict:?}"
         );
     }
@@ -255,7 +255,7 @@ fn differences_that_change_their_sign_do_not_pass() {
         [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
         "{verdict:?}"
     );
-    assert_eq!(verdict.rates[0].1.kind, Reason::NotAsymptotic);
+    assert_eq!(verdict.rates[0].rate.kind, Reason::NotAsymptotic);
 }
 
 /// The error in h is invisible next to that in dt, which is known to one part in a thousand.
@@ -271,7 +271,7 @@ fn what_scatter_hides_is_inconclusive() {
         [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
         "{verdict:?}"
     );
-    assert_eq!(verdict.rates[0].1.kind, Reason::RoundOffFloor);
+    assert_eq!(verdict.rates[0].rate.kind, Reason::RoundOffFloor);
 }
 
 #[test]

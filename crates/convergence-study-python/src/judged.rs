@@ -6,7 +6,7 @@ use convergence_harness::judge::verdict::{
     DEFAULT_TOLERANCE, RateVerdict, Verdict, judged_in_words,
 };
 use convergence_harness::study::over_levels::{ErrorColumn, Levels};
-use convergence_harness::study::{Axis, Claim, Refinement};
+use convergence_harness::study::{Axis, Claim, NamedRate, Refinement};
 use convergence_harness::text::number::{committed_rate, decimals, order_text};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -101,18 +101,15 @@ impl Judgement {
             step: level.step,
         };
         let claim = Some(self.claim).filter(|_| self.is_claimed());
-        let errors = self.levels.iter().map(|level| Some(level.error)).collect();
+        let errors = self.levels.iter().map(|level| Some(level.error));
         let axis = if self.step == "dt" {
             Axis::Time
         } else {
             Axis::Space
         };
-        let columns = vec![ErrorColumn {
-            name: self.name.clone(),
-            symbol: None,
-            errors,
+        let columns = [ErrorColumn {
             claim,
-            look: 0,
+            ..ErrorColumn::without_claim(&self.name, errors)
         }];
         let levels = Levels::new(axis, self.levels.iter().map(refinement), columns);
         levels
@@ -120,7 +117,7 @@ impl Judgement {
                 "",
                 None,
                 String::new(),
-                &[(self.name.clone(), self.rate.clone())],
+                &[NamedRate::new(&self.name, self.rate.clone())],
             )
             .svg
     }

@@ -8,7 +8,7 @@ use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::program;
 use convergence_harness::run::Finished;
 use convergence_harness::study::until_decided::Next;
-use convergence_harness::study::{NamedErrors, STEPS};
+use convergence_harness::study::{NamedErrors, NamedRate, STEPS};
 use convergence_harness::verify;
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
@@ -40,7 +40,7 @@ impl Study {
 
     fn judgements(&self) -> Vec<Judgement> {
         let outcome = &self.finished.outcome;
-        let judgement = |(name, rate): &(String, _)| {
+        let judgement = |NamedRate { name, rate, .. }: &NamedRate| {
             let claims = self.results.claims.iter();
             let mut claims = claims.filter(|claimed| claimed.name == *name);
             Some(Judgement {
@@ -49,7 +49,7 @@ impl Study {
                 levels: outcome.levels_of(name),
                 claim: claims.next()?.claim(),
                 floor: self.results.options.floor,
-                rate: Clone::clone(rate),
+                rate: rate.clone(),
             })
         };
         outcome.rates.iter().filter_map(judgement).collect()
@@ -115,13 +115,7 @@ impl Study {
                 name.clone(),
                 levels.iter().map(|level| level.error(name)).collect(),
             ));
-            if let Some((_, rate)) = self
-                .finished
-                .outcome
-                .rates
-                .iter()
-                .find(|(rated, _)| rated == name)
-            {
+            if let Some(rate) = self.finished.outcome.rate(name) {
                 let rates = std::iter::once(f64::NAN)
                     .chain(rate.pairwise.iter().copied())
                     .collect();

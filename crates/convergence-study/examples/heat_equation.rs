@@ -71,7 +71,7 @@ mod tests {
         let rates: Vec<f64> = outcome
             .rates
             .iter()
-            .map(|(_, rate)| rate.fitted.unwrap())
+            .map(|named| named.rate.fitted.unwrap())
             .collect();
         assert!(
             rates.len() == 2 && rates.iter().all(|rate| (rate - 2.0).abs() < 0.01),

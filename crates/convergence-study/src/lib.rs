@@ -68,8 +68,8 @@ pub use convergence_harness::{
     },
     run::{Finished, RunError, assert_order, run_one},
     study::{
-        Axis, Case, CaseFailure, Check, ErrorsOverLevels, Figure, Header, Kind, Outcome, Quantity,
-        Ran, Reading, Refinement, Study, Subject, Table, Tier, erased,
+        Axis, Case, CaseFailure, Check, ErrorsOverLevels, Figure, Header, Kind, NamedRate, Outcome,
+        Quantity, Ran, Reading, Refinement, Study, Subject, Table, Tier, erased,
         grid::{Grid, GridColumn},
         kind::completion,
         levels,

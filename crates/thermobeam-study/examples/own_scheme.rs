@@ -53,7 +53,7 @@ fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error
     study.formulas = Some(FORMULAS);
     study.expect[0].1.order = order;
     let outcome = run_one(&study);
-    Ok((outcome.verdict, outcome.rates[0].1.reason.clone()))
+    Ok((outcome.verdict, outcome.rates[0].rate.reason.clone()))
 }
 
 /// The largest residual of the energy's balance over a swing between the obstacles.

@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             level.parameter("elements").unwrap_or(f64::NAN)
         );
     }
-    println!("{}: {}", rust.verdict, rust.rates[0].1.reason);
+    println!("{}: {}", rust.verdict, rust.rates[0].rate.reason);
     assert_eq!(rust.levels, toml.levels);
     Ok(())
 }

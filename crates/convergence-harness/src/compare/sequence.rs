@@ -39,9 +39,7 @@ pub(super) struct ErrorSequence<'r> {
 
 impl<'r> ErrorSequence<'r> {
     pub(super) fn new(outcome: &'r Outcome, name: &str, rule: &Judge) -> Self {
-        let mut rates = outcome.rates.iter();
-        let rate = rates.find(|(known, _)| known == name);
-        let rate = rate.map(|(_, rate)| rate);
+        let rate = outcome.rate(name);
         let mut points = vec![];
         for level in &outcome.levels {
             if let Some((_, error)) = level.errors.iter().find(|(other, _)| other == name) {

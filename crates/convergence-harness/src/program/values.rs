@@ -2,9 +2,9 @@
 
 use super::{Program, Run};
 use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
-use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{Reason, Verdict};
 use crate::study::over_levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
-use crate::study::{Claim, Figure, Outcome, Quantity, Subject, Table};
+use crate::study::{Claim, Figure, NamedRate, Outcome, Quantity, Subject, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a
@@ -23,7 +23,7 @@ pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) ->
         .collect();
     let rates: Vec<_> = estimates
         .iter()
-        .map(|(column, estimate)| (name(column), estimate.judged.clone()))
+        .map(|(column, estimate)| NamedRate::new(name(column), estimate.judged.clone()))
         .collect();
     let value = |column: &ErrorColumn, level: usize| {
         let value = name(column);
@@ -48,7 +48,7 @@ pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) ->
     Outcome {
         tables: limits.into_iter().chain(values).collect(),
         figures: figure.into_iter().collect(),
-        quantities: over_levels::rate_quantities(&rates, |name| Subject::of(name))
+        quantities: over_levels::rate_quantities(&rates)
             .chain(guarded)
             .collect(),
         ..Outcome::new(summary.join("; "), rates, vec![])
@@ -98,18 +98,16 @@ fn differences(
     study: &Program,
     estimates: &[(&ErrorColumn, Estimate)],
     refinements: &[Refinement],
-    rates: &[(String, RateVerdict)],
+    rates: &[NamedRate],
 ) -> Figure {
-    let column = |(column, _): &(&ErrorColumn, Estimate)| ErrorColumn {
-        name: name(column),
-        symbol: None,
-        errors: column
-            .errors
-            .windows(2)
-            .map(|pair| Some((pair[0]? - pair[1]?).abs()))
-            .collect(),
-        claim: column.claim,
-        look: column.look,
+    let column = |(column, _): &(&ErrorColumn, Estimate)| {
+        let pairs = column.errors.windows(2);
+        let differences = pairs.map(|pair| Some((pair[0]? - pair[1]?).abs()));
+        ErrorColumn {
+            claim: column.claim,
+            look: column.look,
+            ..ErrorColumn::without_claim(name(column), differences)
+        }
     };
     let levels = Levels::new(
         study.refine.axis(),
@@ -120,7 +118,7 @@ fn differences(
     // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates
         .iter()
-        .filter(|(_, rate)| rate.kind != Reason::NoResult)
+        .filter(|named| named.rate.kind != Reason::NoResult)
         .cloned()
         .collect();
     levels.figure("differences", None, caption.to_owned(), &drawn)

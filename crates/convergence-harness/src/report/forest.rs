@@ -4,7 +4,7 @@ use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
 use crate::plots::{ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
-use crate::study::Figure;
+use crate::study::{Figure, NamedRate};
 use crate::text::lists;
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
 
@@ -22,7 +22,7 @@ const MOST: usize = 10;
 pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
     let mut rates: Vec<StudyRate<'_>> = vec![];
     for study in finished {
-        for (name, rate) in &study.outcome.rates {
+        for NamedRate { name, rate, .. } in &study.outcome.rates {
             rates.push(StudyRate {
                 study: &study.header.id,
                 name,

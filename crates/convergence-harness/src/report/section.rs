@@ -215,9 +215,7 @@ fn find_figure<'f>(studies: &'f [Finished], file: &str) -> Option<(&'f Finished,
 
 /// The numbers of a study that answer a statement: the rate of this name, or its key numbers.
 fn answer(study: &Finished, name: &str) -> String {
-    let mut rates = study.outcome.rates.iter();
-    let rate = rates
-        .find(|(known, _)| known == name)
-        .map(|(_, rate)| format!("rate {}", rate.against(RATE_PLACES)));
+    let rate = study.outcome.rate(name);
+    let rate = rate.map(|rate| format!("rate {}", rate.against(RATE_PLACES)));
     rate.unwrap_or_else(|| key_numbers(&study.outcome))
 }

@@ -3,7 +3,7 @@
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
-use crate::study::outcome::{Check, LevelErrors, Outcome, Table};
+use crate::study::outcome::{Check, LevelErrors, NamedRate, Outcome, Table};
 use crate::text::lists::distinct;
 use crate::text::number::{
     RATE_PLACES, committed_rate, decimals, error_text, interval_places, interval_text, plain_text,
@@ -45,11 +45,8 @@ fn rates(outcome: &Outcome) -> Table {
         "reason",
     ];
     let rates = &outcome.rates;
-    let mut rows: Vec<Vec<String>> = rates
-        .iter()
-        .map(|(norm, rate)| rate_row(norm, rate))
-        .collect();
-    if rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass) {
+    let mut rows: Vec<Vec<String>> = rates.iter().map(rate_row).collect();
+    if rates.iter().all(|rate| rate.rate.verdict.is_pass()) {
         head.pop();
         for row in &mut rows {
             row.pop();
@@ -59,12 +56,12 @@ fn rates(outcome: &Outcome) -> Table {
 }
 
 /// The row of a rate; the last cell is its reason.
-fn rate_row(norm: &str, rate: &RateVerdict) -> Vec<String> {
+fn rate_row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
     let places = rate.interval.map_or(RATE_PLACES - 1, |interval| {
         interval_places(interval, RATE_PLACES)
     });
     vec![
-        norm.to_owned(),
+        name.clone(),
         rate.claim(),
         number_cell(rate.fitted.or_else(|| rate.finest_rate()), places),
         rate.interval.map_or_else(
@@ -192,7 +189,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
             .iter()
             .flat_map(|level| level.errors.iter().map(|(name, _)| name)),
     );
-    let is_judged = |name: &&String| outcome.rates.iter().any(|(known, _)| known == *name);
+    let is_judged = |name: &&String| outcome.rate(name).is_some();
     if judged && names.iter().any(is_judged) {
         names.retain(is_judged);
     }
@@ -269,10 +266,9 @@ impl Column {
             .collect();
         let measured = cells.iter().filter(|cell| **cell != Cell::NotMeasured);
         let pairs = measured.count().saturating_sub(1);
-        let mut rates = outcome.rates.iter();
-        let judged = rates.find(|(known, _)| known == name);
-        let pairwise = judged
-            .map(|(_, rate)| rate.pairwise.as_slice())
+        let pairwise = outcome
+            .rate(name)
+            .map(|rate| rate.pairwise.as_slice())
             .filter(|pairwise| pairwise.len() == pairs);
         let Some(pairwise) = pairwise else {
             let texts = cells.iter().map(|cell| cell.text().map(|text| vec![text]));

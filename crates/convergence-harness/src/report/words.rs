@@ -5,7 +5,7 @@ use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement, without_baseline};
 use crate::study::coverage::incomplete;
-use crate::study::outcome::{Outcome, joined};
+use crate::study::outcome::{NamedRate, Outcome, joined};
 use crate::text::lists::{self, and_more};
 use crate::text::number::{RATE_PLACES, committed_rate, counted, decimals, interval_places};
 
@@ -168,7 +168,7 @@ pub fn key_numbers(outcome: &Outcome) -> String {
         vec![headline.clone()]
     };
     parts.extend(count_not_passed(
-        rates.iter().map(|(_, rate)| rate.verdict),
+        rates.iter().map(|named| named.rate.verdict),
         "rates",
     ));
     parts.extend(count_not_passed(
@@ -188,10 +188,8 @@ pub fn key_numbers(outcome: &Outcome) -> String {
 /// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a
 /// table has each of them.
 pub fn summary(outcome: &Outcome) -> String {
-    let all_pass = outcome
-        .rates
-        .iter()
-        .all(|(_, rate)| rate.verdict == Verdict::Pass);
+    let mut rates = outcome.rates.iter();
+    let all_pass = rates.all(|rate| rate.rate.verdict.is_pass());
     match &outcome.after_rates {
         Some(more) if !all_pass => joined(&grouped(&outcome.rates), more),
         _ => outcome.summary.clone(),
@@ -200,18 +198,17 @@ pub fn summary(outcome: &Outcome) -> String {
 
 /// The rates that do not pass, grouped by reason and claim:
 /// `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
-fn grouped(rates: &[(String, RateVerdict)]) -> String {
-    let not_passed = rates
-        .iter()
-        .filter(|(_, rate)| rate.verdict != Verdict::Pass);
-    let groups = lists::grouped(not_passed.map(|rate| ((rate.1.kind, rate.1.claim()), rate)));
+fn grouped(rates: &[NamedRate]) -> String {
+    let not_passed = rates.iter().filter(|rate| !rate.rate.verdict.is_pass());
+    let groups =
+        lists::grouped(not_passed.map(|named| ((named.rate.kind, named.rate.claim()), named)));
     let mut parts = vec![];
     for ((kind, claim), group) in &groups {
-        if let [(name, rate)] = group[..] {
+        if let [NamedRate { name, rate, .. }] = group[..] {
             parts.push(format!("{name}: {}", rate.line()));
             continue;
         }
-        let range = range(group.iter().map(|(_, rate)| rate));
+        let range = range(group.iter().map(|named| &named.rate));
         let reason = kind.brief();
         let count = format!("{} of {} rates", group.len(), rates.len());
         parts.push(match kind {
@@ -252,15 +249,19 @@ pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String 
 }
 
 /// The worst rate, and the largest distance of the others from their orders.
-fn rates_in_words(rates: &[(String, RateVerdict)]) -> Vec<String> {
+fn rates_in_words(rates: &[NamedRate]) -> Vec<String> {
     // Of several worst rates, the first that the study names.
-    let Some((name, worst)) = rates.iter().rev().max_by_key(|(_, rate)| rate.verdict) else {
+    let worst = rates.iter().rev().max_by_key(|named| named.rate.verdict);
+    let Some(NamedRate {
+        name, rate: worst, ..
+    }) = worst
+    else {
         return vec![];
     };
     let mut parts = vec![format!("{name} {}", worst.beside_order(RATE_PLACES - 1))];
     let distances: Option<Vec<f64>> = rates
         .iter()
-        .map(|(_, rate)| Some((committed_rate(rate.fitted?) - rate.order).abs()))
+        .map(|NamedRate { rate, .. }| Some((committed_rate(rate.fitted?) - rate.order).abs()))
         .collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1)
     {
@@ -291,9 +292,9 @@ mod tests {
     use crate::judge::verdict::judge_pairs;
     use crate::study::outcome::Check;
 
-    fn rate(exponent: f64, order: f64) -> (String, RateVerdict) {
+    fn rate(exponent: f64, order: f64) -> NamedRate {
         let pairs = (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(k).powf(exponent)));
-        (format!("of {exponent}"), judge_pairs(pairs, order, 0.05))
+        NamedRate::new(format!("of {exponent}"), judge_pairs(pairs, order, 0.05))
     }
 
     #[test]

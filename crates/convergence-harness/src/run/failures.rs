@@ -7,7 +7,7 @@ use std::fmt;
 use super::Finished;
 use crate::judge::verdict::{Cause, RateVerdict, Reason, Verdict};
 use crate::study::kind::cases_in_words;
-use crate::study::{Check, Origin, Outcome};
+use crate::study::{Check, NamedRate, Origin, Outcome};
 use crate::text::lists::grouped;
 
 /// Something that a study judged; [`Display`](fmt::Display) gives it in a line.
@@ -113,7 +113,7 @@ pub fn items(finished: &Finished) -> Vec<Item<'_>> {
     let rates = outcome
         .rates
         .iter()
-        .map(|(name, rate)| Item::Rate { name, rate });
+        .map(|NamedRate { name, rate, .. }| Item::Rate { name, rate });
     let judged: Vec<Item<'_>> = rates
         .chain(outcome.checks.iter().map(Item::Check))
         .collect();

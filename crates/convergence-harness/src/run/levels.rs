@@ -4,7 +4,7 @@ use super::{Finished, run_kind};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, Shown};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict, judge};
-use crate::study::{ErrorsOverLevels, IntoErrors};
+use crate::study::{ErrorsOverLevels, IntoErrors, NamedRate};
 
 /// Judges errors against the order that theory claims, in any test; the tolerance is
 /// [`DEFAULT_TOLERANCE`].
@@ -86,11 +86,11 @@ impl Finished {
         let levels: Vec<Vec<Level>> = outcome
             .rates
             .iter()
-            .map(|(name, _)| outcome.levels_of(name))
+            .map(|rate| outcome.levels_of(&rate.name))
             .collect();
         let rates = outcome.rates.iter().zip(&levels);
         let columns: Vec<Shown<'_>> = rates
-            .map(|((name, rate), levels)| Shown {
+            .map(|(NamedRate { name, rate, .. }, levels)| Shown {
                 name,
                 levels,
                 rate,

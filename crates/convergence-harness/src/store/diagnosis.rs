@@ -11,7 +11,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::{Check, Header, Origin, Outcome, Subject};
+use crate::study::{Check, Header, NamedRate, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::short_text;
@@ -177,9 +177,8 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
             header,
             votes: vec![],
         };
-        for (norm, rate) in &outcome.rates {
-            let subject = outcome.subject_of_rate(norm);
-            study.count(&subject, !rate.verdict.is_pass(), any_judged);
+        for NamedRate { subject, rate, .. } in &outcome.rates {
+            study.count(subject, !rate.verdict.is_pass(), any_judged);
         }
         for check in &outcome.checks {
             if check.origin == Origin::Completion && check.verdict.is_pass() {
@@ -293,7 +292,7 @@ fn clearest(failing: &[&Finished]) -> Vec<String> {
 /// The largest distance of a rate that does not pass from its order, in units of its tolerance.
 fn largest_distance(outcome: &Outcome) -> f64 {
     let mut largest: f64 = 0.0;
-    for (_, rate) in &outcome.rates {
+    for NamedRate { rate, .. } in &outcome.rates {
         if let Some(fitted) = rate.fitted
             && !rate.verdict.is_pass()
         {

@@ -121,7 +121,9 @@ impl Record {
                 level.step = level.step.map(committed);
                 level.work = level.work.map(committed);
             }
-            outcome.rates.iter_mut().for_each(|(_, rate)| round(rate));
+            for named in &mut outcome.rates {
+                round(&mut named.rate);
+            }
             outcome
                 .quantities
                 .iter_mut()

@@ -290,7 +290,7 @@ mod tests {
         };
         assert_eq!(
             judged(&levels(COUNTS, some).claim("e", 2.0)).rates[0]
-                .1
+                .rate
                 .kind,
             Reason::StepsNotDecreasing
         );
@@ -305,11 +305,11 @@ mod tests {
         let found =
             judged(&levels(COUNTS, |n| [("L2", 1.0 / n as f64), ("up", 1.0)]).claim("L3", 2.0));
         assert_eq!(
-            (found.verdict, found.rates[0].1.kind),
+            (found.verdict, found.rates[0].rate.kind),
             (Verdict::Fail, Reason::NoResult)
         );
         assert_eq!(
-            found.rates[0].1.reason,
+            found.rates[0].rate.reason,
             "no level has an error `L3`; there are L2, up"
         );
     }
@@ -360,7 +360,7 @@ mod tests {
         );
         let expected = "e 2.0000 (order 2): 1 of 5 levels has no result: cells = 8; 2.0000 ± 0.00005 from levels 1 to 5 of 5";
         assert!(failed.summary.starts_with(expected), "{}", failed.summary);
-        let rate = &failed.rates[0].1;
+        let rate = &failed.rates[0].rate;
         assert_eq!(
             (rate.kind, rate.set_aside.len(), rate.set_aside[0].level),
             (Reason::NoResult, 1, 1)
@@ -374,7 +374,7 @@ mod tests {
             [("e", if n == 8 { f64::NAN } else { error })]
         });
         assert_eq!(
-            (nan.verdict, nan.rates[0].1.kind),
+            (nan.verdict, nan.rates[0].rate.kind),
             (Verdict::Fail, Reason::NonFiniteError)
         );
         let lacks = |n, error| {

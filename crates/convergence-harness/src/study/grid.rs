@@ -3,7 +3,7 @@
 
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
-use super::outcome::{Check, Outcome};
+use super::outcome::{Check, NamedRate, Outcome};
 use super::over_levels::{Claim, summary};
 use super::subject::Subject;
 use crate::judge::grid::{Adding, GridErrors};
@@ -54,7 +54,7 @@ pub struct GridColumn {
 /// let grid = Grid { points, times: steps.len(), columns: vec![column], squares_add: false };
 /// let outcome = grid.judge();
 /// assert!(outcome.verdict.is_pass(), "{}", outcome.summary);
-/// assert_eq!(outcome.rates[1].0, "L2 in dt");
+/// assert_eq!(outcome.rates[1].name, "L2 in dt");
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
@@ -109,7 +109,7 @@ impl Grid {
                         if !missing.is_empty() {
                             rate = rate.without_result(self.points.len(), &missing);
                         }
-                        rates.push((name, rate));
+                        rates.push(NamedRate::new(name, rate));
                     }
                 }
                 // Readers of study files have already refused such a tolerance.

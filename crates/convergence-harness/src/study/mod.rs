@@ -28,7 +28,7 @@ pub use header::{Exercised, Header, Tier};
 pub use kind::{
     Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here,
 };
-pub use outcome::{Check, Figure, LevelErrors, Origin, Outcome, Quantity, Table};
+pub use outcome::{Check, Figure, LevelErrors, NamedRate, Origin, Outcome, Quantity, Table};
 pub use over_levels::{Axis, Claim, Refinement};
 pub use readings::Reading;
 pub use subject::{Sort, Subject};

@@ -5,6 +5,7 @@
 //! by record, baseline and report are unique.
 
 mod check;
+mod rate;
 mod settle;
 mod table;
 
@@ -15,6 +16,7 @@ use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::json;
 
 pub use check::{Check, Origin};
+pub use rate::NamedRate;
 pub(crate) use settle::joined;
 pub use settle::settle;
 pub use table::{Figure, Table};
@@ -36,12 +38,8 @@ pub struct Outcome {
     pub headline: String,
     /// Errors of each level of a convergence study.
     pub levels: Vec<LevelErrors>,
-    /// Judged rates, each with its norm.
-    #[serde(with = "rates")]
-    pub rates: Vec<(String, RateVerdict)>,
-    /// What rates are about, by their names, where that is more than the name.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub rate_subjects: Vec<(String, Subject)>,
+    /// Judged rates.
+    pub rates: Vec<NamedRate>,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
     /// How many items of each sort were judged, and why not the others; empty in older records.
@@ -155,57 +153,11 @@ pub struct NotFinite {
     pub value: String,
 }
 
-/// Rates as objects: the norm, the judgement, and advice unless it is a pass.
-mod rates {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    use crate::judge::verdict::RateVerdict;
-
-    #[derive(Serialize)]
-    struct Written<'r> {
-        norm: &'r str,
-        #[serde(flatten)]
-        rate: &'r RateVerdict,
-        /// What the reason means, and what to do; absent for a pass.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        advice: Option<String>,
-    }
-
-    #[derive(Deserialize)]
-    struct Read {
-        norm: String,
-        #[serde(flatten)]
-        rate: RateVerdict,
-    }
-
-    pub(super) fn serialize<S: Serializer>(
-        rates: &[(String, RateVerdict)],
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(rates.iter().map(|(norm, rate)| Written {
-            norm,
-            rate,
-            advice: rate.advice(),
-        }))
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<Vec<(String, RateVerdict)>, D::Error> {
-        let rates: Vec<Read> = Vec::deserialize(deserializer)?;
-        Ok(rates
-            .into_iter()
-            .map(|Read { norm, rate }| (norm, rate))
-            .collect())
-    }
-}
-
 impl Outcome {
-    /// What a rate is about: by default the error of its name.
-    pub fn subject_of_rate(&self, name: &str) -> Subject {
-        let mut subjects = self.rate_subjects.iter();
-        let entry = subjects.find(|(rate, _)| rate == name);
-        entry.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
+    /// The judged rate of that name.
+    pub fn rate(&self, name: &str) -> Option<&RateVerdict> {
+        let mut rates = self.rates.iter();
+        rates.find(|rate| rate.name == name).map(|rate| &rate.rate)
     }
 
     /// The errors of that name over their steps; NaN on a level without one.
@@ -220,14 +172,10 @@ impl Outcome {
     }
 
     /// Builds an outcome; the verdict is the worst of all rates and checks.
-    pub fn new(
-        summary: impl Into<String>,
-        rates: Vec<(String, RateVerdict)>,
-        checks: Vec<Check>,
-    ) -> Self {
+    pub fn new(summary: impl Into<String>, rates: Vec<NamedRate>, checks: Vec<Check>) -> Self {
         let verdicts = rates
             .iter()
-            .map(|(_, rate)| rate.verdict)
+            .map(|rate| rate.rate.verdict)
             .chain(checks.iter().map(|check| check.verdict));
         Self {
             verdict: Verdict::worst(verdicts),
@@ -236,7 +184,6 @@ impl Outcome {
             headline: String::new(),
             levels: vec![],
             rates,
-            rate_subjects: vec![],
             checks,
             coverage: vec![],
             tables: vec![],
@@ -279,7 +226,6 @@ impl Outcome {
         self.verdict = Verdict::worst([self.verdict, part.verdict]);
         self.levels.extend(part.levels);
         self.rates.extend(part.rates);
-        self.rate_subjects.extend(part.rate_subjects);
         self.checks.extend(part.checks);
         coverage::merge(&mut self.coverage, part.coverage);
         self.tables.extend(part.tables);
@@ -295,7 +241,7 @@ impl Outcome {
                 list.check(*error, || format!("levels[{i}].errors.{norm}"));
             }
         }
-        for (i, (_, rate)) in self.rates.iter().enumerate() {
+        for (i, NamedRate { rate, .. }) in self.rates.iter().enumerate() {
             for (j, rate) in rate.pairwise.iter().enumerate() {
                 list.check(*rate, || format!("rates[{i}].pairwise[{j}]"));
             }

@@ -5,13 +5,13 @@
 mod figure;
 mod rates;
 
-use super::outcome::{Check, LevelErrors, Outcome, Quantity};
+use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
 use super::subject::{Sort, Subject};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{self, Judge, RateVerdict, Reason};
 use crate::text::lists::distinct;
-pub use rates::{RATE_TOLERANCE, Rates, rate_quantities, rate_table, summary};
+pub use rates::{RATE_TOLERANCE, rate_quantities, rate_table, summary};
 
 /// Relative change of an error that the baseline tolerates: another processor or mathematical
 /// library changes it by at most 1e-8, a change of the computation by more.
@@ -64,6 +64,8 @@ impl Axis {
 pub struct ErrorColumn {
     /// Its name: a norm, a quantity.
     pub name: String,
+    /// What it is about.
+    pub subject: Subject,
     /// Its notation in the legends of figures; `None`: its name.
     pub symbol: Option<String>,
     /// As measured; `None` without a result: the case failed, or found no such error.
@@ -89,10 +91,25 @@ impl ErrorColumn {
         errors: impl IntoIterator<Item = Option<f64>>,
     ) -> Self {
         Self {
-            name: name.into(),
+            claim: Some(claim),
+            ..Self::without_claim(name, errors)
+        }
+    }
+
+    /// An error without a claim, about what its name says, and called by it in figures.
+    ///
+    /// * `errors`: coarse to fine; `None` without a result.
+    pub fn without_claim(
+        name: impl Into<String>,
+        errors: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        let name = name.into();
+        Self {
+            subject: Subject::of(&name),
+            name,
             symbol: None,
             errors: errors.into_iter().collect(),
-            claim: Some(claim),
+            claim: None,
             look: 0,
         }
     }
@@ -111,15 +128,14 @@ impl ErrorColumn {
         distinct(claimed_names.chain(computed_names))
             .into_iter()
             .enumerate()
-            .map(|(look, name)| Self {
-                name: name.to_owned(),
-                symbol: None,
-                errors: levels
-                    .iter()
-                    .map(|errors| value_of(errors.as_deref()?, name))
-                    .collect(),
-                claim: value_of(claims, name),
-                look,
+            .map(|(look, name)| {
+                let errors = levels.iter();
+                let errors = errors.map(|errors| value_of(errors.as_deref()?, name));
+                Self {
+                    claim: value_of(claims, name),
+                    look,
+                    ..Self::without_claim(name, errors)
+                }
             })
             .collect()
     }
@@ -176,8 +192,6 @@ pub struct Levels {
     /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
     /// that is known.
     pub floor: f64,
-    /// What errors are about, by their names, where that is more than the name.
-    pub subjects: Vec<(String, Subject)>,
 }
 
 impl Levels {
@@ -194,7 +208,6 @@ impl Levels {
             refinements,
             columns,
             floor: 0.0,
-            subjects: vec![],
         }
     }
 
@@ -203,17 +216,6 @@ impl Levels {
     /// * `floor`: finite, at least 0.
     pub fn with_floor(self, floor: f64) -> Self {
         Self { floor, ..self }
-    }
-
-    /// The same where errors of these names are about more than their names.
-    pub fn with_subjects(self, subjects: Vec<(String, Subject)>) -> Self {
-        Self { subjects, ..self }
-    }
-
-    fn subject(&self, name: &str) -> Subject {
-        let mut subjects = self.subjects.iter();
-        let entry = subjects.find(|(error, _)| error == name);
-        entry.map_or_else(|| Subject::of(name), |(_, subject)| subject.clone())
     }
 
     /// The errors of a column over their steps, without levels that lack a result.
@@ -238,11 +240,15 @@ impl Levels {
 
     /// One verdict for each error with a claimed order. A level without a result makes it fail; the
     /// rate is that of the others.
-    pub fn judge(&self) -> Vec<(String, RateVerdict)> {
+    pub fn judge(&self) -> Vec<NamedRate> {
         let mut verdicts = vec![];
         for column in &self.columns {
             if let Some(claim) = &column.claim {
-                verdicts.push((column.name.clone(), self.verdict(column, claim)));
+                verdicts.push(NamedRate {
+                    name: column.name.clone(),
+                    subject: column.subject.clone(),
+                    rate: self.verdict(column, claim),
+                });
             }
         }
         verdicts
@@ -287,9 +293,7 @@ impl Levels {
             errors: column.errors.iter().copied().take(levels).collect(),
             ..column.clone()
         });
-        Self::new(self.axis, refinements, columns)
-            .with_floor(self.floor)
-            .with_subjects(self.subjects.clone())
+        Self::new(self.axis, refinements, columns).with_floor(self.floor)
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and
@@ -313,7 +317,6 @@ impl Levels {
             levels: self.errors(),
             figures: figure.into_iter().collect(),
             quantities: self.quantities(&rates),
-            rate_subjects: self.subjects.clone(),
             ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
         }
     }
@@ -344,15 +347,15 @@ impl Levels {
     }
 
     /// The numbers that the baseline guards: every observed rate, then every error of every level.
-    pub fn quantities(&self, rates: &Rates) -> Vec<Quantity> {
-        let mut quantities: Vec<Quantity> =
-            rate_quantities(rates, |name| self.subject(name)).collect();
+    pub fn quantities(&self, rates: &[NamedRate]) -> Vec<Quantity> {
+        let mut quantities: Vec<Quantity> = rate_quantities(rates).collect();
         for (i, Refinement { label, .. }) in self.refinements.iter().enumerate() {
-            for ErrorColumn { name, errors, .. } in &self.columns {
-                let error = number_at(errors, i);
+            for column in &self.columns {
+                let error = number_at(&column.errors, i);
+                let name = format!("error {}, {label}", column.name);
                 quantities.push(
-                    Quantity::new(format!("error {name}, {label}"), error, ERROR_TOLERANCE)
-                        .about(self.subject(name).at(label))
+                    Quantity::new(name, error, ERROR_TOLERANCE)
+                        .about(column.subject.clone().at(label))
                         .of_sort(Sort::Error),
                 );
             }
@@ -383,20 +386,13 @@ mod tests {
             let errors = refinements
                 .iter()
                 .take(count)
-                .map(|level| Some(level.step * level.step))
-                .collect();
-            let claim = Some(Claim::new(2.0, tolerance));
-            let column = ErrorColumn {
-                name: "L2".into(),
-                symbol: None,
-                errors,
-                claim,
-                look: 0,
-            };
+                .map(|level| Some(level.step * level.step));
+            let claim = Claim::new(2.0, tolerance);
+            let column = ErrorColumn::new("L2", claim, errors);
             Levels::new(Axis::Space, refinements.clone(), [column])
                 .judge()
                 .remove(0)
-                .1
+                .rate
         };
         assert_eq!(judged(5, 0.1).verdict, Verdict::Pass);
         assert_eq!(
@@ -426,20 +422,9 @@ mod tests {
         let errors = refinements
             .iter()
             .zip(factors)
-            .map(|(level, factor)| Some(factor * level.step * level.step))
-            .collect();
-        let claim = Some(Claim::new(2.0, 0.1));
-        Levels::new(
-            Axis::Space,
-            refinements,
-            [ErrorColumn {
-                name: "L2".into(),
-                symbol: None,
-                errors,
-                claim,
-                look: 0,
-            }],
-        )
+            .map(|(level, factor)| Some(factor * level.step * level.step));
+        let column = ErrorColumn::new("L2", Claim::new(2.0, 0.1), errors);
+        Levels::new(Axis::Space, refinements.clone(), [column])
     }
 
     /// The errors zigzag: their rate may be anything.

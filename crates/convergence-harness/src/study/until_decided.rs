@@ -8,8 +8,8 @@
 #[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
 use crate::judge::verdict::{Reason, Verdict};
-use crate::study::outcome::Outcome;
-use crate::study::over_levels::{Levels, Rates};
+use crate::study::outcome::{NamedRate, Outcome};
+use crate::study::over_levels::Levels;
 
 /// Levels at the first look, each twice as fine as the previous one.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
@@ -34,10 +34,10 @@ pub enum Next {
 
 /// * `rates`: those of the levels so far.
 /// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
-pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
+pub fn next(rates: &[NamedRate], levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
     let open: Vec<Reason> = rates
         .iter()
-        .map(|(_, rate)| rate.kind)
+        .map(|named| named.rate.kind)
         .filter(|kind| kind.verdict() == Verdict::Inconclusive)
         .collect();
     let Some(&first) = open.first() else {
@@ -60,7 +60,7 @@ pub fn next(rates: &Rates, levels: usize, cost: f64, spent: f64, budget: f64) ->
 /// and by at least two.
 ///
 /// * `seconds`: time of each level; at least two.
-pub fn next_by_time(rates: &Rates, seconds: &[f64], budget: f64) -> Next {
+pub fn next_by_time(rates: &[NamedRate], seconds: &[f64], budget: f64) -> Next {
     let [.., before, last] = seconds else {
         return Next::Another;
     };
@@ -100,7 +100,7 @@ pub fn conclude(
 /// How the study ended, in words: `decided after 5 levels; 4 were enough for L2`.
 ///
 /// * `unit`: of costs and budget, such as `s`.
-fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str) -> String {
+fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit: &str) -> String {
     let count = levels.refinements.len();
     let undecided = format!("undecided after {count} levels");
     match next {
@@ -124,18 +124,18 @@ fn in_words(next: Next, levels: &Levels, rates: &Rates, budget: f64, unit: &str)
 }
 
 /// Errors whose verdict has not changed since fewer levels, each with that number of levels.
-fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r Rates) -> Vec<(&'r str, usize)> {
+fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(&'r str, usize)> {
     let all = levels.refinements.len();
     let mut enough = vec![all; rates.len()];
     for count in (FIRST.len()..all).rev() {
         let earlier = levels.coarsest(count).judge();
-        for ((enough, (_, rate)), (_, earlier)) in enough.iter_mut().zip(rates).zip(&earlier) {
-            if *enough == count + 1 && earlier.verdict == rate.verdict {
+        for ((enough, last), earlier) in enough.iter_mut().zip(rates).zip(&earlier) {
+            if *enough == count + 1 && earlier.rate.verdict == last.rate.verdict {
                 *enough = count;
             }
         }
     }
-    let names = rates.iter().map(|(name, _)| name.as_str());
+    let names = rates.iter().map(|rate| rate.name.as_str());
     names
         .zip(enough)
         .filter(|(_, enough)| *enough < all)

@@ -175,7 +175,7 @@ fn levels_at_the_floor_of_the_study_are_not_compared() {
         let judge = Judge::new(0.1)
             .and_then(|judge| judge.with_floor(floor))
             .unwrap();
-        study.outcome.rates[0].1 = judge.judge(&pairs, 2.0);
+        study.outcome.rates[0].rate = judge.judge(&pairs, 2.0);
         study
     };
     assert_eq!(

@@ -6,7 +6,7 @@ use convergence_harness::compare::{Comparison, Shift, WITHIN, compare, rule};
 use convergence_harness::judge::verdict::{Verdict, judge_pairs};
 use convergence_harness::run::{Finished, Spent};
 use convergence_harness::store::{Record, json};
-use convergence_harness::study::{Header, LevelErrors, Outcome};
+use convergence_harness::study::{Header, LevelErrors, NamedRate, Outcome};
 use std::path::Path;
 
 const COUNTS: [u32; 5] = [8, 16, 32, 64, 128];
@@ -37,10 +37,7 @@ fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> 
         let pairs = counts
             .iter()
             .map(|&n| (1.0 / f64::from(n), errors(n)[norm].1));
-        (
-            ["L2", "H1"][norm].to_owned(),
-            judge_pairs(pairs, order, 0.1),
-        )
+        NamedRate::new(["L2", "H1"][norm], judge_pairs(pairs, order, 0.1))
     };
     let levels = counts.iter().map(|&n| level(n, &errors(n))).collect();
     Finished {
@@ -205,7 +202,7 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
                 .iter_mut()
                 .for_each(|level| level.errors.retain(|(name, _)| name != norm));
         }
-        new.outcome.rates.retain(|(name, _)| name != norm);
+        new.outcome.rates.retain(|rate| rate.name != *norm);
         new
     };
     let coarser = || study("a", &COUNTS[..4], smooth(1.0, 2.0), smooth(3.0, 1.0));
@@ -400,7 +397,7 @@ fn grids_and_records_without_steps_are_compared_by_their_parameters() {
 fn a_record_is_read_as_it_was_written() {
     let mut written = record(vec![sound("a")]);
     written.studies[0].outcome.levels[0].errors[0].1 = f64::NAN;
-    written.studies[0].outcome.rates[0].1.interval = Some([f64::NAN, 1.0]);
+    written.studies[0].outcome.rates[0].rate.interval = Some([f64::NAN, 1.0]);
     let text = json(&written).unwrap();
     let read = Record::parse(&text, Path::new("r.json")).unwrap();
     assert_eq!(json(&read).unwrap(), text);

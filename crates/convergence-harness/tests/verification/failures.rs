@@ -4,7 +4,7 @@ use convergence_harness::judge::verdict::{Verdict, judge_pairs};
 use convergence_harness::report::{tables, text_of_failures};
 use convergence_harness::run::{Finished, Item, NotPassed, not_passed};
 use convergence_harness::store::junit;
-use convergence_harness::study::over_levels;
+use convergence_harness::study::{NamedRate, over_levels};
 use roxmltree::Document;
 
 use super::fake::{Does, PROJECT, finished, study};
@@ -140,7 +140,8 @@ fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
 fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
     let mut finished = judged(&[("L2", 1.0), ("H1", 1.001), ("L1", 3.0)], |_, _| false);
     let steps = || (0..5).map(|level| 0.5_f64.powi(level + 3));
-    for ((_, rate), order) in finished.outcome.rates.iter_mut().zip([1.0, 1.001, 3.0]) {
+    for (NamedRate { rate, .. }, order) in finished.outcome.rates.iter_mut().zip([1.0, 1.001, 3.0])
+    {
         *rate = judge_pairs(steps().map(|h| (h, h.powf(order))), 2.0, 0.01);
     }
     finished.outcome.verdict = Verdict::Fail;
@@ -160,7 +161,7 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
 fn a_claim_without_a_rate_and_an_order_with_many_digits_are_short() {
     let mut finished = judged(&[("L2", 1.0)], |_, _| false);
     let steps = (0..6).map(|level| 0.5_f64.powi(level + 3));
-    finished.outcome.rates[0].1 = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
+    finished.outcome.rates[0].rate = judge_pairs(steps.map(|h| (h, f64::NAN)), 2.0 / 3.0, 0.02);
     finished.outcome.verdict = Verdict::Fail;
     let studies = [finished];
     let failing = not_passed(&studies).remove(0);

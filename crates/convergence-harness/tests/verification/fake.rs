@@ -8,8 +8,8 @@ use convergence_harness::project::Project;
 use convergence_harness::run::time_limit::Patience;
 use convergence_harness::run::{self, Finished};
 use convergence_harness::study::{
-    Case, CaseFailure, Check, Figure, Header, Kind, LevelErrors, Outcome, Quantity, Ran, Study,
-    Table, Tier, erased,
+    Case, CaseFailure, Check, Figure, Header, Kind, LevelErrors, NamedRate, Outcome, Quantity, Ran,
+    Study, Table, Tier, erased,
 };
 use convergence_harness::verify::{Request, Scope};
 
@@ -156,7 +156,7 @@ impl Kind for Fake {
             figures: vec![figure],
             ..Outcome::new(
                 rate.reason.clone(),
-                vec![("velocity".to_owned(), rate)],
+                vec![NamedRate::new("velocity", rate)],
                 vec![Check::that(
                     finest < 10.0,
                     "|error| < 10",

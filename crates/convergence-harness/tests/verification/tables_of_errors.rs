@@ -3,7 +3,7 @@
 use convergence_harness::judge::verdict::judge_pairs;
 use convergence_harness::report::tables;
 use convergence_harness::run::Finished;
-use convergence_harness::study::outcome::{LevelErrors, Table};
+use convergence_harness::study::outcome::{LevelErrors, NamedRate, Table};
 
 use super::fake::{Does, finished, study};
 
@@ -34,7 +34,7 @@ pub(super) fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool
             .enumerate()
             .filter(|(level, _)| !lacks(k, *level))
             .map(|(_, h)| (h, h.powf(*order)));
-        ((*name).to_owned(), judge_pairs(pairs, *order, 0.05))
+        NamedRate::new(*name, judge_pairs(pairs, *order, 0.05))
     };
     outcome.rates = names.iter().enumerate().map(rate).collect();
     finished

@@ -6,7 +6,7 @@ use convergence_harness::run::{Finished, not_passed};
 use convergence_harness::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, diagnose};
 use convergence_harness::store::{Baseline, Change};
 use convergence_harness::study::outcome::settle;
-use convergence_harness::study::{Check, Outcome, Subject};
+use convergence_harness::study::{Check, NamedRate, Outcome, Subject};
 
 use super::fake::{Does, PROJECT, finished, study};
 
@@ -25,7 +25,7 @@ impl Words {
         if let Some(more) = &mut outcome.after_rates {
             self.replace(more);
         }
-        for (_, rate) in &mut outcome.rates {
+        for NamedRate { rate, .. } in &mut outcome.rates {
             self.replace(&mut rate.because);
             self.replace(&mut rate.reason);
         }
@@ -65,7 +65,7 @@ fn failing() -> Vec<Finished> {
         other_studies: vec!["c".to_owned()],
         ..others.about(Subject::of("no fault"))
     });
-    let (_, rate) = &mut studies[4].outcome.rates[0];
+    let rate = &mut studies[4].outcome.rates[0].rate;
     *rate = rate.clone().with_reason(Reason::TooLow, "too low");
     let settled = |study: Finished| Finished {
         outcome: settle(&study.header.id, study.outcome),

@@ -11,7 +11,7 @@ use blocks::{Printed, fenced, missing, printed};
 use convergence_harness::judge::verdict::{Verdict, judge_pairs};
 use convergence_harness::run::{Finished, Spent};
 use convergence_harness::store::{Record, json};
-use convergence_harness::study::{Header, LevelErrors, Outcome};
+use convergence_harness::study::{Header, LevelErrors, NamedRate, Outcome};
 
 const README: &str = include_str!("../../README.md");
 
@@ -67,7 +67,7 @@ fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f
             .iter()
             .map(|n| (1.0 / n, errors(*n)[k].1))
             .filter(|(_, error)| !error.is_nan());
-        (["L2", "H1"][k].to_owned(), judge_pairs(pairs, order, 0.1))
+        NamedRate::new(["L2", "H1"][k], judge_pairs(pairs, order, 0.1))
     };
     let levels = counts.iter().map(level).collect();
     Finished {

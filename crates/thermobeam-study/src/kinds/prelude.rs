@@ -7,7 +7,7 @@ pub(crate) use convergence_harness::input::{
 };
 pub(crate) use convergence_harness::judge::random::SplitMix;
 pub(crate) use convergence_harness::judge::richardson;
-pub(crate) use convergence_harness::judge::verdict::{Judge, RateVerdict, Verdict};
+pub(crate) use convergence_harness::judge::verdict::{Judge, Verdict};
 pub(crate) use convergence_harness::plots;
 pub(crate) use convergence_harness::plots::xy::Xy;
 pub(crate) use convergence_harness::run::time_limit::Patience;
@@ -16,8 +16,8 @@ pub(crate) use convergence_harness::study::kind::completion;
 pub(crate) use convergence_harness::study::over_levels::{ErrorColumn, Levels, summary};
 pub(crate) use convergence_harness::study::{
     Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
-    KindRow, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
-    Untested, allow_only, read_claim, reader, readings,
+    KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject,
+    Table, Untested, allow_only, read_claim, reader, readings,
 };
 pub(crate) use convergence_harness::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,

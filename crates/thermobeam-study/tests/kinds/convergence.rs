@@ -136,12 +136,8 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
     let elements = "elements = [16, 32, 64, 128]";
     let claimed = |claim: &str| {
         let outcome = outcome(elements, &format!("tolerance = 0.25\n{claim}"));
-        let rate = outcome
-            .rates
-            .iter()
-            .find(|(norm, _)| norm == "theorem-3.4")
-            .unwrap();
-        (rate.1.kind, rate.1.constant.unwrap())
+        let rate = outcome.rate("theorem-3.4").unwrap();
+        (rate.kind, rate.constant.unwrap())
     };
     let (kind, constant) = claimed("");
     assert_eq!(kind, Reason::Agrees);

@@ -39,7 +39,7 @@ fn elements_of_higher_degree_have_twice_their_degree_as_order_and_no_other() {
                 && outcome
                     .rates
                     .iter()
-                    .all(|(_, rate)| rate.verdict != Verdict::Pass),
+                    .all(|named| named.rate.verdict != Verdict::Pass),
             "{degree}"
         );
     }

@@ -2,7 +2,7 @@ use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, text};
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::run::run_one;
-use convergence_harness::study::{Described, FromFile, Kind, run_cases_here};
+use convergence_harness::study::{Described, FromFile, Kind, NamedRate, run_cases_here};
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::self_convergence::{self, Traced};
@@ -165,7 +165,12 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
         }
         let outcome = study.judge(&planted);
         assert_ne!(outcome.verdict, Verdict::Pass, "{name}");
-        for (quantity, rate) in &outcome.rates {
+        for NamedRate {
+            name: quantity,
+            rate,
+            ..
+        } in &outcome.rates
+        {
             // In the theorem's norm the interpolation error, of first order in h, hides such a
             // small defect.
             let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
@@ -209,7 +214,7 @@ fn an_order_that_the_scheme_has_not_fails() {
         outcome
             .rates
             .iter()
-            .all(|(_, rate)| rate.verdict == Verdict::Fail),
+            .all(|named| named.rate.verdict == Verdict::Fail),
         "{}",
         report(&outcome)
     );
@@ -239,7 +244,7 @@ fn the_legend_says_of_which_differences_nothing_is_claimed() {
         outcome
             .rates
             .iter()
-            .filter(|(name, _)| name.contains("not claimed"))
+            .filter(|rate| rate.name.contains("not claimed"))
             .count(),
         0
     );

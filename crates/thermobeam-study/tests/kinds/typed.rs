@@ -3,7 +3,7 @@
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::study::kind::{judge, run_cases_here};
 use convergence_harness::study::outcome::settle;
-use convergence_harness::study::{CaseFailure, Coverage, Kind, Outcome, Ran};
+use convergence_harness::study::{CaseFailure, Coverage, Kind, NamedRate, Outcome, Ran};
 
 /// The results of a study: every case, run on this thread.
 pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
@@ -169,7 +169,7 @@ pub(crate) fn report(outcome: &Outcome) -> String {
     let rates = outcome
         .rates
         .iter()
-        .map(|(name, rate)| format!("{name}: {} {}", rate.verdict, rate.reason));
+        .map(|NamedRate { name, rate, .. }| format!("{name}: {} {}", rate.verdict, rate.reason));
     let checks = outcome.checks.iter().map(|check| {
         let statement = check.statement();
         format!("{statement}: {} {}", check.verdict, check.evidence)

@@ -3,7 +3,7 @@
 use super::{Field, moved_numbers, subject_of_number};
 use crate::run::Finished;
 use crate::store::{Change, Movement};
-use crate::study::Sort;
+use crate::study::{NamedRate, Sort};
 
 /// The share of a field is this power of its weight over the largest of its study: half the weight
 /// is 1/256 of the share.
@@ -76,10 +76,10 @@ fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
     }
     let rates = outcome.rates.iter();
     let wrong: Vec<(String, Option<[f64; 2]>)> = rates
-        .filter(|(_, rate)| !rate.verdict.is_pass())
-        .map(|(norm, rate)| {
-            let name = outcome.subject_of_rate(norm).quantity;
-            (name, rate.fitted.map(|fitted| [fitted, rate.order]))
+        .filter(|named| !named.rate.verdict.is_pass())
+        .map(|NamedRate { subject, rate, .. }| {
+            let orders = rate.fitted.map(|fitted| [fitted, rate.order]);
+            (subject.quantity.clone(), orders)
         })
         .collect();
     let unmoved: Vec<MovedField> = wrong

@@ -40,7 +40,7 @@ impl Fingerprint {
             let rates = outcome
                 .rates
                 .iter()
-                .map(|(norm, rate)| (outcome.subject_of_rate(norm).quantity, rate.verdict));
+                .map(|named| (named.subject.quantity.clone(), named.rate.verdict));
             let checks = outcome
                 .checks
                 .iter()

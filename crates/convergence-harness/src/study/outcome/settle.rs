@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{Check, Figure, Outcome};
+use super::{Check, Figure, NamedRate, Outcome};
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::coverage;
 use crate::study::subject::Subject;
@@ -26,7 +26,7 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
         );
     }
     let claimed = outcome.verdict;
-    let rates = outcome.rates.iter().map(|(_, rate)| rate.verdict);
+    let rates = outcome.rates.iter().map(|named| named.rate.verdict);
     let parts = Verdict::worst(rates.chain(outcome.checks.iter().map(|check| check.verdict)));
     outcome.verdict = parts.max(claimed);
     if outcome.rates.is_empty() && outcome.checks.is_empty() {
@@ -53,7 +53,7 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
     let mut defects = Vec::new();
     defects.extend(repetitions(
         "the rate",
-        outcome.rates.iter().map(|(norm, _)| norm),
+        outcome.rates.iter().map(|rate| &rate.name),
     ));
     defects.extend(repetitions(
         "the quantity",
@@ -69,10 +69,10 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
             level.errors.iter().map(|(norm, _)| norm),
         ));
     }
-    for (norm, rate) in &outcome.rates {
+    for NamedRate { name, rate, .. } in &outcome.rates {
         if rate.verdict == Verdict::Pass && !rests_on_numbers(rate) {
             defects.push(format!(
-                "`{norm}` passes without a finite rate in a finite interval"
+                "`{name}` passes without a finite rate in a finite interval"
             ));
         }
     }
@@ -145,10 +145,8 @@ mod tests {
 
     fn passing() -> Outcome {
         let levels = [(0.5, 0.5), (0.25, 0.25), (0.125, 0.125), (0.0625, 0.0625)];
-        let rates = vec![(
-            "velocity".to_owned(),
-            verdict::judge_pairs(levels, 1.0, 0.1),
-        )];
+        let rate = verdict::judge_pairs(levels, 1.0, 0.1);
+        let rates = vec![NamedRate::new("velocity", rate)];
         Outcome::new("fine", rates, vec![Check::that(true, "c", "e")])
     }
 
@@ -265,7 +263,7 @@ mod tests {
             "the counts of `points` do not add up",
         );
         let mut nan = passing();
-        nan.rates[0].1.fitted = Some(f64::NAN);
+        nan.rates[0].rate.fitted = Some(f64::NAN);
         refused(nan, "`velocity` passes without");
     }
 }

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::{Axis, Levels, Rates, result_at};
+use super::{Axis, Levels, result_at};
 use crate::plots::{self, ErrorSeries, xy::Xy};
-use crate::study::outcome::Figure;
+use crate::study::outcome::{Figure, NamedRate};
 
 /// The explanation of the lines in a caption.
 pub(super) const LINES: &str =
@@ -45,7 +45,7 @@ impl Levels {
         what: &str,
         subject: Option<String>,
         caption: String,
-        rates: &Rates,
+        rates: &[NamedRate],
     ) -> Figure {
         let claimed = self
             .columns
@@ -53,17 +53,19 @@ impl Levels {
             .filter_map(|column| column.claim.map(|claim| (column, claim)));
         let series = claimed.map(|(column, claim)| {
             let points = self.points(column);
-            let rate = rates.iter().find(|(name, _)| *name == column.name);
+            let mut judged = rates.iter();
+            let rate = judged.find(|rate| rate.name == column.name);
+            let rate = rate.map(|rate| &rate.rate);
             ErrorSeries {
                 label: column.symbol.clone().unwrap_or(column.name.clone()),
-                fit: rate.and_then(|(_, rate)| rate.power_law()),
-                interval: rate.and_then(|(_, rate)| rate.interval),
+                fit: rate.and_then(|rate| rate.power_law()),
+                interval: rate.and_then(|rate| rate.interval),
                 points: points
                     .iter()
                     .map(|level| (level.step, level.error))
                     .collect(),
                 order: Some(claim.order),
-                used: rate.map(|(_, rate)| among_results(&rate.used, &self.has_result(column))),
+                used: rate.map(|rate| among_results(&rate.used, &self.has_result(column))),
                 look: Some(column.look),
             }
         });

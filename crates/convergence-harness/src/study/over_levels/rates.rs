@@ -1,8 +1,8 @@
 //! Judged rates: as guarded numbers, as a table, and in a sentence.
 
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::study::outcome::{Quantity, Table};
-use crate::study::subject::{Sort, Subject};
+use crate::study::outcome::{NamedRate, Quantity, Table};
+use crate::study::subject::Sort;
 use crate::text::number::{
     RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text,
 };
@@ -10,25 +10,23 @@ use crate::text::number::{
 /// Relative change of an observed rate that the baseline tolerates.
 pub const RATE_TOLERANCE: f64 = 1e-4;
 
-/// Rates that were judged, each with the name of its error.
-pub type Rates = [(String, RateVerdict)];
-
 /// The observed rates, as numbers that the baseline guards.
-///
-/// * `subject`: what the rate of that name is about.
-pub fn rate_quantities(
-    rates: &Rates,
-    subject: impl Fn(&str) -> Subject,
-) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(move |(name, rate)| {
-        let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
-        Some(guarded.about(subject(name)).of_sort(Sort::Rate))
-    })
+pub fn rate_quantities(rates: &[NamedRate]) -> impl Iterator<Item = Quantity> {
+    rates.iter().filter_map(
+        |NamedRate {
+             name,
+             subject,
+             rate,
+         }| {
+            let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
+            Some(guarded.about(subject.clone()).of_sort(Sort::Rate))
+        },
+    )
 }
 
 /// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
 /// nothing.
-pub fn rate_table(title: &str, rates: &Rates) -> Table {
+pub fn rate_table(title: &str, rates: &[NamedRate]) -> Table {
     let head = [
         "error of",
         "order",
@@ -38,15 +36,11 @@ pub fn rate_table(title: &str, rates: &Rates) -> Table {
         "verdict",
         "because",
     ];
-    Table::new(
-        title,
-        head,
-        rates.iter().map(|(name, rate)| row(name, rate)),
-    )
+    Table::new(title, head, rates.iter().map(row))
 }
 
 /// The row of a rate.
-fn row(name: &str, rate: &RateVerdict) -> Vec<String> {
+fn row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
     let pairwise: Vec<String> = rate
         .pairwise
         .iter()
@@ -57,7 +51,7 @@ fn row(name: &str, rate: &RateVerdict) -> Vec<String> {
         |interval| interval_text(interval, RATE_PLACES),
     );
     vec![
-        name.to_owned(),
+        name.clone(),
         rate.order.to_string(),
         pairwise.join(" "),
         rate_cell(rate),
@@ -78,10 +72,10 @@ fn rate_cell(rate: &RateVerdict) -> String {
 
 /// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with
 /// its reason.
-pub fn summary(rates: &Rates) -> String {
-    let passes = rates.iter().all(|(_, rate)| rate.verdict == Verdict::Pass);
+pub fn summary(rates: &[NamedRate]) -> String {
+    let passes = rates.iter().all(|rate| rate.rate.verdict.is_pass());
     let mut parts = vec![];
-    for (name, rate) in rates {
+    for NamedRate { name, rate, .. } in rates {
         let rate_and_order = rate.beside_order(RATE_PLACES);
         if passes {
             parts.push(format!("{name} {rate_and_order}"));

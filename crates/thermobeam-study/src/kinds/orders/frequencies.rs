@@ -187,15 +187,12 @@ impl Frequencies {
         }
         let mut columns = vec![];
         for mode in self.first - 1..self.count {
+            let errors = runs.iter();
+            let errors = errors.map(|run| Some(run.ok()?.get(mode)? - exact[mode]));
             columns.push(ErrorColumn {
-                name: format!("omega-{}", mode + 1),
                 symbol: Some(format!("ω{}", subscript(mode + 1))),
-                errors: runs
-                    .iter()
-                    .map(|run| Some(run.ok()?.get(mode)? - exact[mode]))
-                    .collect(),
-                claim: Some(self.claim),
                 look: mode,
+                ..ErrorColumn::new(format!("omega-{}", mode + 1), self.claim, errors)
             });
         }
         Levels::new(Axis::Space, refinements, columns)
@@ -222,7 +219,7 @@ impl Frequencies {
         ];
         let mut rows = vec![];
         let exact = frequencies(self.count).into_iter().skip(self.first - 1);
-        for ((mode, omega), (column, (_, rate))) in (self.first..)
+        for ((mode, omega), (column, NamedRate { rate, .. })) in (self.first..)
             .zip(exact)
             .zip(series.levels.columns.iter().zip(series.rates()))
         {

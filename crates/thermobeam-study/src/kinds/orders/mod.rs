@@ -16,7 +16,7 @@ use std::ops::{Deref, DerefMut};
 
 use convergence_harness::study::LevelErrors;
 use convergence_harness::study::grid::Grid;
-use convergence_harness::study::over_levels::{Rates, rate_table};
+use convergence_harness::study::over_levels::rate_table;
 use convergence_harness::study::until_decided::{self, Next};
 
 use super::prelude::*;
@@ -278,7 +278,6 @@ impl Series {
         Self {
             judged: Outcome {
                 levels: levels.errors(),
-                rate_subjects: levels.subjects.clone(),
                 quantities: levels.quantities(&judged.rates),
                 ..judged
             },
@@ -337,7 +336,7 @@ impl Series {
     }
 
     /// The rates of the errors with claims, with their verdicts.
-    pub fn rates(&self) -> &Rates {
+    pub fn rates(&self) -> &[NamedRate] {
         &self.judged.rates
     }
 }

@@ -23,18 +23,16 @@ pub(super) fn levels<'r>(
     }
     let mut columns = vec![];
     for norm in Norm::ALL {
+        let runs = runs.clone();
+        let errors = runs.map(|(_, errors)| errors.map(|errors| errors[norm]));
         columns.push(ErrorColumn {
-            name: norm.name().to_owned(),
             symbol: Some(norm.symbol().to_owned()),
-            errors: runs
-                .clone()
-                .map(|(_, errors)| errors.map(|errors| errors[norm]))
-                .collect(),
             claim: expect
                 .iter()
                 .find(|(claimed, _)| *claimed == norm)
                 .map(|(_, claim)| *claim),
             look: norm as usize,
+            ..ErrorColumn::without_claim(norm.name(), errors)
         });
     }
     Levels::new(refine.axis, refinements, columns)

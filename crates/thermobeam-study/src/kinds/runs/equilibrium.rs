@@ -260,29 +260,24 @@ impl EndStates {
     /// Largest errors at the nodes over the mean mesh width.
     fn levels<'e>(&self, scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
         let mut columns = vec![];
-        let mut subjects = vec![];
         for (k, ends) in scenes.enumerate() {
             for (field, name) in ["u", "φ"].into_iter().enumerate() {
                 let scene = &ends.scene.name;
                 let errors = ends.ends.iter();
-                let column = ErrorColumn {
-                    name: format!("{scene}: {name}"),
-                    symbol: None,
-                    errors: errors
-                        .map(|end| end.map(|end| end.errors()[field]))
-                        .collect(),
-                    claim: Some(Claim::new(ORDER, self.tolerance)),
+                let errors = errors.map(|end| end.map(|end| end.errors()[field]));
+                let claim = Claim::new(ORDER, self.tolerance);
+                columns.push(ErrorColumn {
+                    subject: Subject::of(name).in_case(scene),
                     look: 2 * k + field,
-                };
-                subjects.push((column.name.clone(), Subject::of(name).in_case(scene)));
-                columns.push(column);
+                    ..ErrorColumn::new(format!("{scene}: {name}"), claim, errors)
+                });
             }
         }
         let refinements = self
             .elements
             .iter()
             .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64));
-        Levels::new(Axis::Space, refinements, columns).with_subjects(subjects)
+        Levels::new(Axis::Space, refinements, columns)
     }
 
     fn ends<'r>(&'r self, results: &Results<'r, Self>, scene: usize) -> Ends<'r> {

@@ -76,10 +76,8 @@ pub struct Findings {
     pub figures: Vec<Figure>,
     /// Items other than cases: how many were judged, and why not the others.
     pub coverage: Vec<Coverage>,
-    /// Judged rates, each with its name.
-    pub rates: Vec<(String, RateVerdict)>,
-    /// What they are about, by their names.
-    pub rate_subjects: Vec<(String, Subject)>,
+    /// Judged rates.
+    pub rates: Vec<NamedRate>,
     /// Errors over levels.
     pub levels: Vec<LevelErrors>,
     /// Guarded numbers that are in no listing.
@@ -89,15 +87,10 @@ pub struct Findings {
 impl Findings {
     /// The same with the rates of these errors: guarded, like the errors themselves.
     #[must_use]
-    pub(crate) fn with_orders(
-        mut self,
-        levels: &Levels,
-        rates: Vec<(String, RateVerdict)>,
-    ) -> Self {
+    pub(crate) fn with_orders(mut self, levels: &Levels, rates: Vec<NamedRate>) -> Self {
         self.quantities.extend(levels.quantities(&rates));
         Self {
             levels: levels.errors(),
-            rate_subjects: levels.subjects.clone(),
             rates,
             ..self
         }
@@ -211,7 +204,6 @@ impl<R: Runs> Kind for RunStudy<R> {
             figures,
             coverage,
             rates,
-            rate_subjects,
             levels,
             quantities,
         } = self.0.judge(&Results { ran });
@@ -228,7 +220,6 @@ impl<R: Runs> Kind for RunStudy<R> {
             tables,
             figures,
             levels,
-            rate_subjects,
             quantities: [guarded.concat(), quantities].concat(),
             headline,
             ..Outcome::new(summary, rates, checks)

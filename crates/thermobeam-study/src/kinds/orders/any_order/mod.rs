@@ -328,17 +328,15 @@ impl AnyOrder {
     /// * `degree`: in words, such as `p = 2`.
     fn levels(&self, degree: &str, series: &RunsOfDegree, runs: &Runs<Self>) -> Levels {
         let mut columns = vec![];
-        let mut subjects = vec![];
         for (look, (error, order)) in self.orders(series.runs[0]).into_iter().enumerate() {
-            let name = format!("{degree}, {error}");
-            subjects.push((name.clone(), Subject::of(error).in_case(degree)));
+            let claim = Claim::new(order as f64, series.tolerance);
+            let errors = runs.iter().map(|run| run.ok()?.of(error));
             columns.push(ErrorColumn {
-                name,
+                subject: Subject::of(error).in_case(degree),
                 // The degree is in the title.
                 symbol: Some(error.replace("u_t", "uₜ")),
-                errors: runs.iter().map(|run| run.ok()?.of(error)).collect(),
-                claim: Some(Claim::new(order as f64, series.tolerance)),
                 look,
+                ..ErrorColumn::new(format!("{degree}, {error}"), claim, errors)
             });
         }
         let axis = match self.over {
@@ -346,9 +344,7 @@ impl AnyOrder {
             Over::Space | Over::Degree => Axis::Space,
         };
         let refinements = runs.iter().map(|run| self.refinement(run));
-        Levels::new(axis, refinements, columns)
-            .with_floor(FLOOR)
-            .with_subjects(subjects)
+        Levels::new(axis, refinements, columns).with_floor(FLOOR)
     }
 
     fn refinement(&self, run: &Ran<Resolution, Errors>) -> Refinement {

@@ -68,12 +68,11 @@ impl SelfConvergence {
             // A norm that is also one of errors has its look wherever it is drawn.
             let mut norms = Norm::ALL.iter();
             let norm = norms.position(|norm| norm.name() == observable.name);
+            let name = format!("{}, {}", observable.name, reading.name());
             columns.push(ErrorColumn {
-                name: format!("{}, {}", observable.name, reading.name()),
                 symbol: Some(observable.symbol.to_owned()),
-                errors,
-                claim: claim.or(Some(smooth)),
                 look: norm.unwrap_or(Norm::ALL.len() + place),
+                ..ErrorColumn::new(name, claim.unwrap_or(smooth), errors)
             });
         }
         let mut refinements = vec![];

@@ -179,7 +179,7 @@ pub(super) fn judge(study: &RigidObstacles, results: &Results<'_, RigidObstacles
     let rates = rates(study, &compliances);
     let observed: Vec<String> = rates
         .iter()
-        .map(|(name, rate)| format!("{name} {}", rate_text(rate.fitted)))
+        .map(|named| format!("{} {}", named.name, rate_text(named.rate.fitted)))
         .collect();
     let forces = rows(&compliances, Compliance::forces);
     let solvers = rows(&compliances, Compliance::solvers);
@@ -224,7 +224,7 @@ fn rows<'r>(
 }
 
 /// The four orders in ε.
-fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<(String, RateVerdict)> {
+fn rates(study: &RigidObstacles, compliances: &[Compliance<'_>]) -> Vec<NamedRate> {
     let averaged: Vec<_> = compliances
         .iter()
         .filter(|compliance| compliance.is_averaged())
@@ -260,7 +260,7 @@ fn rate(
     name: &str,
     claim: Claim,
     error: fn(&Compliance<'_>) -> Option<f64>,
-) -> Vec<(String, RateVerdict)> {
+) -> Vec<NamedRate> {
     let errors = range.iter().map(|compliance| error(compliance));
     let levels = range
         .iter()

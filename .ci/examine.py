@@ -66,6 +66,10 @@ def complaints(path: Path, folders: list[str]):
         print(f"{path.name}: newest symbol GLIBC_{newest[0]}.{newest[1]}")
         if "manylinux2014" in path.name and newest > OLDEST_GLIBC:
             yield f"found GLIBC_{newest[0]}.{newest[1]}; expected at most 2.17"
+    if is_wheel and "musllinux" in path.name:
+        libraries = [content for name, content in files.items() if name.endswith(".so")]
+        if not libraries or any(b"libc.so.6\0" in content or b"GLIBC_" in content for content in libraries):
+            yield "found a library that needs glibc; expected musl"
 
 
 def main() -> int:

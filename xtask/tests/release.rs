@@ -88,7 +88,7 @@ fn the_workflow_assert_no_logic_of_its_own() {
         ".ci/run",
         ".ci/release --dry-run \"$GITHUB_REF_NAME\"",
         ".ci/archive --target \"$TARGET\" dist",
-        ".ci/wheel dist",
+        ".ci/wheel $MUSL dist",
     ] {
         assert!(
             commands.iter().any(|(_, command)| *command == script),

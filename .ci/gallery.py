@@ -1,8 +1,8 @@
 """The codes of the gallery: python3 .ci/gallery.py HARNESS [--wheel FILE] [--install] [--write]
 
-Each code runs where its software is there, and must pass; with one line changed it must fail. The rows of the page
-`book/src/gallery.md` must be what was found. `--write` writes these rows, and the page of each code with its figure.
-PyPI's packages go to a folder of their own; Debian's are installed with `--install`.
+Each code of .ci/gallery_codes.py runs where its software is there, and must pass; with one line changed it must fail. The
+rows of the page `book/src/gallery.md` must be what was found. `--write` writes these rows, and the page of each code with
+its figure. PyPI's packages go to a folder of their own; Debian's are installed with `--install`.
 
 Prints a line `pass: ...`, `FAIL: ...` or `skipped: ...` for each thing that is seen.
 """
@@ -84,7 +84,8 @@ def report_in_words(report):
     page = (report / "README.md").read_text()
     page = page[page.index("**Rates**") :]
     parts = re.split(r"\n!\[|\n<details", page)[0].split("\n\n")
-    parts = [part for part in parts if not part.startswith("**Checks**") and "every case completes" not in part]
+    left_out = re.compile(r"\*\*Checks\*\*|On the page|.*every case completes", re.DOTALL)
+    parts = [part for part in parts if not left_out.match(part.strip())]
     return "\n\n".join(part.strip() for part in parts)
 
 

@@ -80,7 +80,7 @@ CODES = [
     study("cpp", "C++", "advection, finite differences, Lax-Wendroff", "advection.cpp",
           "exact(0, t); ", "exact(0, t - dt); ", "a boundary value of the step before", build=["c++ -O2 -o advection advection.cpp"],
           needs="command -v c++", debian=["g++"]),
-    study("julia", "Julia", "pendulum, implicit midpoint rule", "midpoint.jl",
+    study("julia", "Julia", "pendulum, implicit midpoint rule", "midpoint-julia.jl",
           "u + h / 2 * mv, v", "u + h / 2 * v, v", "a half step with the old velocity", needs="command -v julia"),
     study("cvode", "SUNDIALS CVODE, C++", "the beam of this project, by another code", "cvode.cpp",
           "add(1, 4, a, c)", "add(1, 4, 0, c)", "heat that does not bend the beam", build=[f"c++ -O3 -o cvode cvode.cpp {SUNDIALS}"],

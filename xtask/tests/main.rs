@@ -3,6 +3,7 @@
 mod action;
 mod bench;
 mod dev;
+mod gallery;
 mod manifests;
 mod place;
 mod quick_tier;

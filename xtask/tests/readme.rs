@@ -2,7 +2,7 @@
 //! that no test compares.
 
 #[path = "../../crates/convergence-study/tests/readme/blocks.rs"]
-mod blocks;
+pub(crate) mod blocks;
 
 use std::fs;
 use std::path::PathBuf;

@@ -29,7 +29,10 @@ HEAD = "| --- | --- | --: | --- | --- | --- |"
 MOST_LINES, MOST_LINES_FOR_THE_HARNESS = 60, 10
 HARNESS_MARK = "For the harness:"
 # The language of a block of code, by the ending of the file.
-LANGUAGES = {".edp": "cpp", ".cpp": "cpp", ".cc": "cpp", ".f90": "fortran", ".m": "matlab", ".jl": "julia", ".py": "python", ".toml": "toml", ".txt": "cmake"}
+LANGUAGES = {
+    **{".edp": "cpp", ".cpp": "cpp", ".cc": "cpp", ".f90": "fortran", ".m": "matlab", ".jl": "julia", ".py": "python"},
+    **{".toml": "toml", ".txt": "cmake"},
+}
 
 
 @dataclass
@@ -43,7 +46,7 @@ class Found:
 
     def cell(self):
         """The verdict and each rate, with the order claimed in brackets."""
-        return f"{self.verdict}: " + ", ".join(map(in_words, self.rates))
+        return ": ".join(filter(None, [self.verdict, ", ".join(map(in_words, self.rates))]))
 
     def is_failure_of_a_rate(self):
         """Whether a rate was found and is wrong: a program that no longer runs is no finding."""
@@ -129,7 +132,8 @@ def make_available(code, env, venv, wheel, install):
     if install and code.debian:
         apt = ["apt-get", "-o", "DPkg::Lock::Timeout=600"]
         subprocess.run([*apt, "update"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        done = subprocess.run([*apt, "install", "-y", "--no-install-recommends", *code.debian], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        command = [*apt, "install", "-y", "--no-install-recommends", *code.debian]
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if has(code, env):
             return ""
         return f"not there after apt-get install {' '.join(code.debian)}: {done.stdout.strip().splitlines()[-1]}"

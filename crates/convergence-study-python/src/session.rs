@@ -80,8 +80,8 @@ impl Request {
         let mut known = headers(studies);
         known.extend(self.not_judged(numbers, &known));
         if let Err(refusal) = numbers.bless(studies, Some(&known), self.reason.as_deref()) {
-            let words = "--convergence-bless --convergence-reason";
-            return Ok(Some(refusal.to_string().replace("--bless --reason", words)));
+            let blessing = "--convergence-bless --convergence-reason TEXT";
+            return Ok(Some(refusal.words(blessing)));
         }
         if let Some(folder) = self.baseline.parent() {
             atomic::prepare_folder(folder)?;

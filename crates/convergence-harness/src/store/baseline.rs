@@ -75,12 +75,31 @@ pub struct Guarded {
     pub reason: Option<String>,
 }
 
-/// Why a run was not accepted as baseline, in words: a study does not pass, or was not run; a
-/// number cannot be met by any run, because it is not finite or its tolerance is invalid; a claim
-/// has changed, and no reason is given.
+/// Why a run was not accepted as baseline. Shown in the words of the command line.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct Refusal(String);
+#[error("{}", self.words("--bless --reason TEXT"))]
+pub enum Refusal {
+    /// A study does not pass, or was not run; a number cannot be met by any run, because it is not
+    /// finite or its tolerance is invalid: in words.
+    Unacceptable(String),
+    /// These claims have changed, and no reason is given.
+    Unreasoned(Vec<String>),
+}
+
+impl Refusal {
+    /// The message.
+    ///
+    /// * `blessing`: the options that bless with a reason.
+    pub fn words(&self, blessing: &str) -> String {
+        match self {
+            Self::Unacceptable(why) => why.clone(),
+            Self::Unreasoned(claims) => format!(
+                "not blessed: a changed claim needs a reason; repeat it with {blessing}\n  {}",
+                claims.join("\n  ")
+            ),
+        }
+    }
+}
 
 impl Default for Baseline {
     fn default() -> Self {
@@ -195,11 +214,7 @@ impl Baseline {
             .map(|change| visible::visible(&change.to_string()))
             .collect();
         if !claims.is_empty() {
-            let remedy = "a changed claim needs a reason; repeat it with --bless --reason TEXT";
-            return Err(Refusal(format!(
-                "not blessed: {remedy}\n  {}",
-                claims.join("\n  ")
-            )));
+            return Err(Refusal::Unreasoned(claims));
         }
         changes.iter().try_for_each(|change| {
             let is_new = matches!(change.movement, Movement::New { .. });
@@ -254,7 +269,7 @@ impl Baseline {
             }
             // It changes only with a run that passes.
             (_, None) => {
-                return Err(Refusal(format!(
+                return Err(Refusal::Unacceptable(format!(
                     "not accepted: `{study}` was not run; name it, or its tier"
                 )));
             }
@@ -322,14 +337,14 @@ fn acceptable(
         let refused = format!(
             "the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass"
         );
-        return Err(Refusal(format!("not blessed: {refused}")));
+        return Err(Refusal::Unacceptable(format!("not blessed: {refused}")));
     }
     let cannot_be_met =
         |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
     outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance, .. }| {
         let refused =
             format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
-        Err(Refusal(format!("not blessed: {refused}")))
+        Err(Refusal::Unacceptable(format!("not blessed: {refused}")))
     })
 }
 

@@ -3,9 +3,11 @@
 //!
 //! There is no rule here: the code that confirms an order is shared with Rust and the command line.
 
+mod call;
 mod judged;
 mod levels;
 mod limit;
+mod rates;
 mod results;
 mod session;
 mod studied;
@@ -46,6 +48,8 @@ mod _native {
     use super::judged::{Judgement, failure};
     #[pymodule_export]
     use super::limit::{Limit, limit};
+    #[pymodule_export]
+    use super::rates::rates;
     #[pymodule_export]
     use super::run_program;
     #[pymodule_export]

@@ -4,8 +4,9 @@ use convergence_harness::input::error_table::{Choice, Column, RateTable};
 use convergence_harness::study::Claim;
 use pyo3::prelude::*;
 
+use crate::call::{Call, OF_JUDGE};
 use crate::judged::Judgement;
-use crate::values::{self, Claims, Columns, refuse};
+use crate::values::{self, Claims, refuse};
 
 /// Which columns of a table to use, as `rates` knows it.
 #[derive(FromPyObject)]
@@ -13,17 +14,33 @@ use crate::values::{self, Claims, Columns, refuse};
 pub(crate) struct Chosen {
     step: Option<String>,
     columns: Option<Vec<String>>,
+    values: Option<Vec<String>>,
     names: Option<Vec<String>>,
     dim: Option<f64>,
     ratio: Option<f64>,
 }
 
+impl From<Chosen> for Choice {
+    fn from(chosen: Chosen) -> Self {
+        Self {
+            step: chosen.step,
+            columns: chosen.columns,
+            values: chosen.values.unwrap_or_default(),
+            names: chosen.names,
+            claimed: vec![],
+            dim: chosen.dim,
+            ratio: chosen.ratio,
+        }
+    }
+}
+
 /// Judges the columns of a data frame or of a dict of lists; `None` if `table` is neither.
 ///
+/// * `function`: the function that was called, for the calls that a refusal offers.
 /// * Returns the judgements of the columns with a claim, or of all for a common claim.
 ///
 /// # Errors
-/// `ValueError` with the options of the command line: Python words them.
+/// `ValueError` with the argument, or with the cell of the table.
 #[pyfunction]
 pub(crate) fn judge_table(
     table: &Bound<'_, PyAny>,
@@ -31,23 +48,20 @@ pub(crate) fn judge_table(
     tolerance: f64,
     floor: f64,
     chosen: Chosen,
+    function: &str,
 ) -> PyResult<Option<Vec<Judgement>>> {
     let claims = Claims::read(order, tolerance)?;
     let judge = values::judge_with(tolerance, floor)?;
     let choice = Choice {
-        step: chosen.step,
-        columns: chosen.columns,
-        names: chosen.names,
         claimed: claims.names(),
-        dim: chosen.dim,
-        ratio: chosen.ratio,
-        command: "judge".to_owned(),
-        ..Choice::default()
+        ..chosen.into()
     };
+    let call = Call::new(table.py(), function, "table", order, OF_JUDGE)?;
     let Some(columns) = values::columns(table, &choice.claimed)? else {
         return Ok(None);
     };
-    let table = read(&columns, &choice)?;
+    let table = RateTable::from_columns(&columns, "h", &choice)
+        .map_err(|error| refuse(error.words(&call)))?;
     let judged = |column: &Column, claim: Claim| Judgement {
         name: column.name.clone(),
         step: table.step.clone(),
@@ -78,36 +92,4 @@ pub(crate) fn judge_table(
         .map(judgement)
         .collect::<PyResult<_>>()
         .map(Some)
-}
-
-/// Columns of numbers, read like a text by `convergence-study rates`, with all digits.
-fn read(columns: &Columns, choice: &Choice) -> PyResult<RateTable> {
-    let rows = columns.iter().map(|(_, numbers)| numbers.len()).max();
-    let rows = rows.unwrap_or(0);
-    if let Some((name, numbers)) = columns.iter().find(|(_, numbers)| numbers.len() != rows) {
-        return Err(refuse(format!(
-            "{name}: expected {rows} numbers, as other columns have; found {}",
-            numbers.len()
-        )));
-    }
-    let names: Vec<String> = columns
-        .iter()
-        .map(|(name, _)| format!("\"{}\"", name.replace('"', "'")))
-        .collect();
-    let mut text = names.join(",") + "\n";
-    for row in 0..rows {
-        let cells: Vec<String> = columns
-            .iter()
-            .map(|(_, numbers)| values::text(numbers[row]))
-            .collect();
-        text += &(cells.join(",") + "\n");
-    }
-    RateTable::parse_with(&text, "h", choice).map_err(|error| {
-        // The text is not the user's: a cell has a row, counted as in Python.
-        let place = match (&error.field, error.place) {
-            (Some(field), Some(place)) => format!("{field}[{}]", place.line.saturating_sub(2)),
-            _ => error.file.clone(),
-        };
-        refuse(format!("{place}: {}", error.complaint))
-    })
 }

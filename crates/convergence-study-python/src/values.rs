@@ -1,5 +1,6 @@
 //! Converts Python values to Rust; an invalid value is a `ValueError` that names the argument.
 
+use convergence_harness::input::error_table::FrameColumn;
 use convergence_harness::judge::claims::{Claim, order_from_text};
 use convergence_harness::judge::fit::Level;
 use convergence_harness::judge::verdict::Judge;
@@ -176,21 +177,11 @@ impl Claims {
     }
 }
 
-/// A number with all digits; levels and counts are whole, without a point.
-pub(crate) fn text(number: f64) -> String {
-    const WHOLE: f64 = 1e15;
-    if number.fract() == 0.0 && number.abs() < WHOLE {
-        format!("{number}")
-    } else {
-        format!("{number:?}")
-    }
-}
-
-/// Numbers by the names of their columns.
-pub(crate) type Columns = Vec<(String, Vec<f64>)>;
-
 /// The columns of numbers of a data frame or a dict of lists, by name; `None` for other types.
-pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<Option<Columns>> {
+pub(crate) fn columns(
+    table: &Bound<'_, PyAny>,
+    needed: &[String],
+) -> PyResult<Option<Vec<FrameColumn>>> {
     let names = match table.cast::<PyDict>() {
         Ok(table) => table.keys().into_any(),
         Err(_) if table.hasattr("columns")? => table.getattr("columns")?,
@@ -202,7 +193,10 @@ pub(crate) fn columns(table: &Bound<'_, PyAny>, needed: &[String]) -> PyResult<O
         let name = name?;
         let text = name.str()?.to_string();
         match numbers(&text, &table.get_item(&name)?) {
-            Ok(numbers) => columns.push((text, numbers)),
+            Ok(numbers) => columns.push(FrameColumn {
+                name: text,
+                numbers,
+            }),
             // A column of words is a remark, unless there is a claim about it.
             Err(error) if needed.contains(&text) => return Err(error),
             Err(error) => {

@@ -51,9 +51,12 @@ def test_tables_are_refused_in_words_of_python_with_calls_that_work():
     table = {"n": N, "L2": E}
     text = refusal(table, order={"L2": 2})
     assert text.startswith("h: expected dim=D for h = n^(-1/D)") and "step=COLUMN" in text
-    calls = [line.strip() for line in text.splitlines()[1:]]
-    assert calls[0] == "judge(table, order={'L2': 2}, dim=1)  # along an edge" and len(calls) == 3
-    assert eval(calls[0], {"judge": cs.judge, "table": table})["L2"].verdict == "pass"
+    places = {1: "along an edge", 2: "all, in the plane", 3: "all, in space"}
+    assert text.splitlines()[1:] == [f"  judge(table, order={{'L2': 2}}, dim={dim})  # {place}" for dim, place in places.items()]
+    # Cells that are counted as the comment says have the order of their steps.
+    for call, dim in zip(text.splitlines()[1:], places):
+        counted = {"n": [n**dim for n in N], "L2": E}
+        assert eval(call.strip(), {"judge": cs.judge, "table": counted})["L2"].verdict == "pass", call
     # Levels that halve the step, two columns of steps, one name twice.
     levels = {"level": [0, 1, 2, 3], "L2": SQUARES}
     text = refusal(levels, order=2)
@@ -61,23 +64,41 @@ def test_tables_are_refused_in_words_of_python_with_calls_that_work():
     assert cs.judge(levels, order=2, ratio=2)["L2"].verdict == "pass"
     assert "step='dx'" in refusal({"dx": STEPS, "dt": [0.3, 0.1, 0.02, 0.01], "L2": SQUARES}, order=2)
     assert refusal({"h": [0.2, 0.1, 0.1], "L2": [4, 1, 1]}, order=2).endswith("found `h` = 0.1 in rows 1 and 2")
+    assert refusal({"h": STEPS, "L2": [1, 2, 3]}, order=2).startswith("L2: expected 4 numbers, as other columns have, found 3")
     assert refusal({"h": STEPS, "L2": [1, "x", 2, 3]}, order=2) == "L2[1]: expected a number, found 'x'"
     assert refusal({"h": [0.2, 0, 0.1], "L2": [4, 1, 1]}, order=2).startswith("h[1]: expected a step, a finite number > 0, found")
 
 
 def test_every_refusal_of_a_table_is_in_words_of_python():
     columns = {"n": N, "level": [0, 1, 2, 3], "dx": STEPS, "log h": [-1.0, -2.0, -3.0, -4.0]}
-    columns |= {"u": [3.1, 3.04, 3.01, 3.0025], "w": [1.0, 3.0, 2.0, 4.0]}
+    columns |= {"steps": N, "u": [3.1, 3.04, 3.01, 3.0025], "drag": [3.1, 3.04, 3.01, 3.0025], "w": [1.0, 3.0, 2.0, 4.0]}
     chosen = [{}, {"dim": 2}, {"ratio": 2}, {"dim": 2, "ratio": 2}, {"step": "L9"}, {"columns": ["L9"]}, {"columns": ["u", "u"]}, {"names": ["a"]}]
-    texts = set()
+    texts, calls = set(), set()
     for names in itertools.chain(itertools.combinations(columns, 2), itertools.combinations(columns, 3)):
         for options in chosen:
+            table = {name: columns[name] for name in names}
             try:
-                cs.judge({name: columns[name] for name in names}, order=2, **options)
+                cs.judge(table, order=2, **options)
             except ValueError as error:
                 texts.add(str(error))
-    assert len(texts) > 20
+                for call in str(error).splitlines()[1:]:
+                    # Each call that is offered is accepted.
+                    assert eval(call.strip(), {"judge": cs.judge, "table": table}), call
+                    calls.add(call)
+    assert len(texts) > 20 and len(calls) > 8
     assert not [text for text in texts if "--" in text or "data frame" in text or " = ..." in text or "standard input" in text]
+
+
+def test_offers_are_the_call_as_it_was_made_with_other_arguments(convergence):
+    both = {"level": [0, 1, 2, 3], "L2": SQUARES}
+    text = refusal(both, order=2, ratio=2, dim=2)
+    assert text.splitlines() == ["h: expected one of dim=... and ratio=..., found both", "  judge(table, order=2, ratio=2)"]
+    values = {"h": STEPS, "it's": [3.1, 3.04, 3.01, 3.0025]}
+    assert "expected a column of errors, or columns=LIST, found `it's` (tends to 3" in refusal(values, order=2)
+    doubtful = {"h": STEPS, "it's": [1.0, 3.0, 2.0, 4.0], "2": SQUARES}
+    assert refusal(doubtful, order=2).splitlines()[1:] == ["  judge(table, order=2, columns=[2])", "  judge(table, order=2, columns=[2, \"it's\"])"]
+    for function, name in [(cs.assert_order, "assert_order"), (convergence.assert_order, "convergence.assert_order")]:
+        assert f"\n  {name}(table, order=2, dim=1)  # along an edge" in refusal({"n": N, "L2": E}, function=function, order=2)
 
 
 def test_step_columns_names_floor_and_tolerance_mean_what_they_mean_for_rates():
@@ -268,9 +289,17 @@ def test_rates_returns_what_the_program_prints(tmp_path):
     assert cs.rates(path)["verdict"] == "inconclusive" and cs.rates(path, order=3, columns="L2")["verdict"] == "fail"
     counts = "n L2\n10 0.16\n20 0.04\n40 0.01\n"
     text = refusal(counts, function=cs.rates, order=2)
-    assert text.startswith("standard input:1:1: expected dim=D") and "\n  rates(text, order=2, dim=2)  # all, in the plane" in text
+    assert text.startswith("text:1:1: expected dim=D") and "\n  rates(text, order=2, dim=2)  # all, in the plane" in text
     assert cs.rates(counts, order=2, dim=1)["verdict"] == "inconclusive"
     assert cs.rates("level L2\n0 0.16\n1 0.04\n2 0.01\n", ratio=2)["step"] == "2^(-level)"
+    path.write_text(counts)
+    assert f"\n  rates({str(path)!r}, order=2, dim=2)  #" in refusal(path, function=cs.rates, order=2)
+    assert refusal("h L2\n0.2 4\n0.1 1\n0.1 1\n", function=cs.rates, order=2).endswith("found `h` = 0.1 in lines 3 and 4")
+    found = refusal("h L2\n0.2 4\n0.1 1\n", function=cs.rates, order={"L3": ">=2"})
+    assert found == "order={'L3': '>=2'}: expected a column of errors: L2; found `L3`, did you mean `L2`?"
+    # A name may have a comma.
+    named = cs.rates("0.2 4\n0.1 1\n", names=["h", "e, max"], columns=["e, max"], order={"e, max": 2})
+    assert [rate["norm"] for rate in named["rates"]] == ["e, max"]
     assert refusal(tmp_path / "no.csv", function=cs.rates).startswith("path_or_text: expected an existing file")
     assert refusal(counts, function=cs.rates, order="two").startswith("order: expected a number > 0")
     assert refusal(counts, function=cs.rates, order=-1).startswith("order: expected a number > 0")

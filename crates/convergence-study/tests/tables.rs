@@ -5,6 +5,7 @@
 
 use std::{env, fs, path::Path};
 
+use convergence_harness::input::advice::CommandLine;
 use convergence_harness::input::error_table::{Choice, Column, RateTable};
 use convergence_harness::judge::claims::Claim;
 use convergence_harness::judge::richardson::Estimator;
@@ -70,13 +71,7 @@ fn words(line: &str) -> Vec<String> {
 
 /// The choice made by the options, and the orders they claim.
 fn choice(options: &[String]) -> (Choice, Vec<(Option<String>, f64)>) {
-    let (mut choice, mut orders) = (
-        Choice {
-            command: "rates TABLE".to_owned(),
-            ..Choice::default()
-        },
-        vec![],
-    );
+    let (mut choice, mut orders) = (Choice::default(), vec![]);
     for option in options.chunks(2) {
         let value = option[1].clone();
         let list = || value.split(',').map(str::to_owned).collect::<Vec<_>>();
@@ -179,7 +174,9 @@ fn found(sample: &Sample) -> String {
             tables.iter().map(one).collect()
         }
         Err(error) => {
-            let message = error.to_string();
+            let message = error.words(&CommandLine {
+                command: Some("rates TABLE"),
+            });
             let mut text = format!("refused: {message}\n");
             // Every command in the message reads the table.
             for line in message

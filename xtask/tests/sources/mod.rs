@@ -1,6 +1,7 @@
 //! The tests that read the sources as text: links, citations, layers between crates, and calls that
 //! are refused.
 
+mod arguments;
 mod citations;
 mod independence;
 mod layers;

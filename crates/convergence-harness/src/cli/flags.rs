@@ -8,11 +8,12 @@ use std::time::Duration;
 
 use clap::Args;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::screen::{self, Format, formats};
 use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort};
-use crate::store::{atomic, json};
+use crate::store::{self, atomic};
 
 /// Version of the format of [`Printed`]: increased when a key of any command changes its meaning or
 /// disappears.
@@ -63,12 +64,23 @@ struct Printed<'a, T> {
     found: &'a T,
 }
 
-fn object(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
-    json(&Printed {
-        schema: SCHEMA,
-        verdict: verdict.name(),
-        found,
-    })
+impl<'a, T: Serialize> Printed<'a, T> {
+    fn new(verdict: Verdict, found: &'a T) -> Self {
+        Self {
+            schema: SCHEMA,
+            verdict: verdict.name(),
+            found,
+        }
+    }
+}
+
+fn text(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
+    store::json(&Printed::new(verdict, found))
+}
+
+/// The JSON object of a command.
+pub(super) fn object(verdict: Verdict, found: &Value) -> Value {
+    json!(Printed::new(verdict, found))
 }
 
 impl Flags {
@@ -106,11 +118,20 @@ impl Flags {
         words: &str,
     ) -> io::Result<Verdict> {
         if self.format == Format::Json {
-            screen::print(&object(verdict, found)?)?;
+            screen::print(&text(verdict, found)?)?;
         } else {
             screen::print(words)?;
         }
         Ok(verdict)
+    }
+
+    /// Prints why a command has no result as a JSON object, for programs.
+    pub fn print_refusal(&self, refusal: &Value) -> io::Result<()> {
+        if self.format != Format::Json {
+            return Ok(());
+        }
+        let object = json!({"schema": SCHEMA, "refused": refusal});
+        screen::print(&store::json(&object)?)
     }
 
     /// The same; also writes the object as `COMMAND.json` to the folder given.
@@ -125,7 +146,7 @@ impl Flags {
             atomic::prepare_folder(folder)?;
             atomic::write(
                 &folder.join(command).with_extension("json"),
-                object(verdict, found)?,
+                text(verdict, found)?,
             )?;
         }
         self.print(verdict, found, words)

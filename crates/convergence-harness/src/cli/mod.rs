@@ -14,7 +14,7 @@ pub mod help;
 mod list;
 mod manufacture;
 mod new;
-mod rates;
+pub mod rates;
 mod report;
 pub mod running;
 pub mod schema;

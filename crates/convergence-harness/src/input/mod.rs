@@ -4,6 +4,7 @@
 //! place in the file, a [`Field`] a value with its place. Readers take values from them and never
 //! compute the position of a message.
 
+pub mod advice;
 pub mod keys;
 mod lists;
 mod settings;
@@ -17,6 +18,9 @@ use std::path::Path;
 use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+use advice::{CommandLine, Surface, Text};
+use error_table::Offer;
 
 use crate::text::names::did_you_mean;
 use crate::text::visible;
@@ -39,17 +43,19 @@ pub struct Place {
 /// An input file that cannot be used: where, which field, what was found and what is allowed.
 ///
 /// Shown as one line `file:line:column: field: complaint`; a complaint about an expression may add
-/// two lines, with a caret below the place.
+/// two lines, with a caret below the place. [`InputError::words`] adds what it offers.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub struct InputError {
-    /// The file, as given.
+    /// The file, as given. Of a data frame the argument that it is, or the cell, `L2[0]`.
     pub file: String,
-    /// The place; `None` if the file could not be read at all.
+    /// The place; `None` if the file could not be read at all, or is a data frame.
     pub place: Option<Place>,
     /// The field by its dotted name, such as `solver.tolerance`; `None` for the whole file.
     pub field: Option<String>,
     /// What is wrong.
     pub complaint: Box<Complaint>,
+    /// Choices that read a table that is refused.
+    pub offers: Vec<Offer>,
 }
 
 /// What is wrong with an input file.
@@ -73,6 +79,14 @@ pub enum Complaint {
         /// The values allowed, in words.
         allowed: String,
     },
+    /// A table that cannot be read.
+    #[error("expected {expected}, found {found}")]
+    Table {
+        /// What must be there, or must be said.
+        expected: Text,
+        /// What is there, in words.
+        found: String,
+    },
     /// A file or a text that cannot be read, or a missing key without a default.
     #[error("{reason}")]
     Invalid {
@@ -81,16 +95,43 @@ pub enum Complaint {
     },
 }
 
-impl fmt::Display for InputError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&visible(&self.file))?;
+impl Complaint {
+    /// What is wrong, in the words of a surface.
+    fn words(&self, surface: &dyn Surface) -> String {
+        match self {
+            Self::Table { expected, found } => {
+                format!("expected {}, found {found}", expected.words(surface))
+            }
+            other => other.to_string(),
+        }
+    }
+}
+
+impl InputError {
+    /// The message in the words of a surface, with a line for each call that it offers.
+    pub fn words(&self, surface: &dyn Surface) -> String {
+        let offers = self.offers.iter().filter_map(|offer| offer.line(surface));
+        let mut text = visible(&self.file);
         if let Some(Place { line, column }) = self.place {
-            write!(f, ":{line}:{column}")?;
+            text += &format!(":{line}:{column}");
         }
         if let Some(field) = &self.field {
-            write!(f, ": {}", visible(field))?;
+            text += &format!(": {}", visible(field));
         }
-        write!(f, ": {}", visible::lines(&self.complaint.to_string()))
+        let complaint = self.complaint.words(surface) + &offers.collect::<String>();
+        text + ": " + &visible::lines(&complaint)
+    }
+
+    /// The same error, with choices that may read the table.
+    fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
+        self.offers.extend(offers);
+        self
+    }
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words(&CommandLine { command: None }))
     }
 }
 
@@ -143,6 +184,7 @@ fn failed(file: &str, complaint: Complaint) -> InputError {
         place: None,
         field: None,
         complaint: Box::new(complaint),
+        offers: vec![],
     }
 }
 

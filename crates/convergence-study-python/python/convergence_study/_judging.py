@@ -5,14 +5,12 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-import subprocess
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Union
 
 from . import _native
 from ._native import Judgement, Limit, Study
-from ._tables import in_python, in_rows, with_index
+from ._tables import with_index
 
 Order = Union[float, str, Mapping[str, Union[float, str]], None]
 Numbers = Union[Iterable[Any], None]
@@ -48,7 +46,7 @@ def judge(
     Returns a Judgement; for a table of several columns a dict of them by name. Raises ValueError or TypeError, which names the argument, if
     the input is not a table of numbers. NaN among the errors is a finding, not bad input.
     """
-    found, is_table = judged(h, errors, order, tolerance, n=n, dim=dim, floor=floor, step=step, columns=columns, names=names, ratio=ratio)
+    found, is_table = judged("judge", h, errors, order, tolerance, n, dim, floor, step, columns, names, ratio)
     return {judgement.name: judgement for judgement in found} if is_table else found[0]
 
 
@@ -73,7 +71,7 @@ def assert_order(
     do. With allow_inconclusive only the verdict fail is a failure. Raises ValueError and TypeError as judge does.
     """
     __tracebackhide__ = True
-    found, _ = judged(h, errors, order, tolerance, n=n, dim=dim, floor=floor, step=step, columns=columns, names=names, ratio=ratio)
+    found, _ = judged("assert_order", h, errors, order, tolerance, n, dim, floor, step, columns, names, ratio)
     message = _native.failure(found, allow_inconclusive)
     if message is not None:
         raise AssertionError(message)
@@ -146,24 +144,10 @@ def rates(
     path_or_text: a file, or a text of several lines with a table, a log, a list or JSON. values: the columns of values that tend to an unknown
     limit. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
     """
-    text, source, shown = _source(path_or_text)
-    orders = order if isinstance(order, Mapping) else {} if order is None else {"": order}
-    tolerance, floor = number("tolerance", tolerance), number("floor", floor)
-    for claim in orders.values():
-        # Refuses what the program would refuse in other words.
-        Judgement("error", "h", [1], [1], claim, tolerance, floor)
-    arguments = ["--order=" + (f"{name}={claim}" if name else str(claim)) for name, claim in orders.items()]
-    arguments += [f"--tolerance={tolerance}", f"--floor={floor}"]
-    arguments += [] if step is None else [f"--step={step}"]
-    lists = {"columns": columns, "values": values, "names": names}
-    arguments += [f"--{name}={','.join(_names(name, given))}" for name, given in lists.items() if given is not None]
-    arguments += [f"--{name}={value}" for name, value in _numbers(dim, ratio).items() if value is not None]
-    program = [sys.executable, "-m", "convergence_study", "rates", source, "--format", "json", *arguments]
-    done = subprocess.run(program, input=text, capture_output=True, encoding="utf-8", check=False)
-    if done.returncode not in (0, 1):
-        call = f"rates({shown}" + ("" if order is None else f", order={order!r}")
-        raise ValueError(in_python(done.stderr.partition("error: ")[2].strip() or done.stderr, call))
-    return json.loads(done.stdout)
+    source, is_text = _source(path_or_text)
+    order = dict(order) if isinstance(order, Mapping) else order
+    chosen = _chosen(step, columns, names, dim, ratio, values)
+    return json.loads(_native.rates(source, is_text, order, number("tolerance", tolerance), number("floor", floor), chosen))
 
 
 def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
@@ -179,14 +163,13 @@ def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
     }
 
 
-def judged(h, errors, order, tolerance, *, n=None, dim=None, floor=0.0, step=None, columns=None, names=None, ratio=None):
-    """The judgements of one or several errors, and whether there may be several."""
-    chosen = {"step": step, "columns": columns, "names": names, "ratio": ratio}
+def judged(function, h, errors, order, tolerance, n=None, dim=None, floor=0.0, step=None, columns=None, names=None, ratio=None):
+    """The judgements of one or several errors, and whether there may be several; function: the one that was called."""
     tolerance, floor = number("tolerance", tolerance), number("floor", floor)
     if h is None and n is None and errors is not None:
         h, errors = errors, None
     if errors is not None:
-        for name, value in chosen.items():
+        for name, value in {"step": step, "columns": columns, "names": names, "ratio": ratio}.items():
             if value is not None:
                 raise ValueError(f"{name}: expected only with a table in place of h and errors, found {value!r}")
         steps, label = _steps(h, n, dim)
@@ -199,18 +182,7 @@ def judged(h, errors, order, tolerance, *, n=None, dim=None, floor=0.0, step=Non
     if h is None:
         raise ValueError("h: expected steps, or a table with a column of steps, found None")
     table, is_series = with_index(h)
-    chosen["step"] = None if step is None else str(step)
-    chosen.update(
-        columns=None if columns is None else _names("columns", columns),
-        names=None if names is None else _names("names", names),
-        **_numbers(dim, ratio),
-    )
-    given = {"order": order, "step": step, "columns": columns, "names": names, "dim": dim, "ratio": ratio}
-    call = "judge(table" + "".join(f", {name}={value!r}" for name, value in given.items() if value is not None)
-    try:
-        found = _native.judge_table(table, order, tolerance, floor, chosen)
-    except ValueError as error:
-        raise ValueError(in_python(in_rows(str(error)), call, drop=["values"])) from None
+    found = _native.judge_table(table, order, tolerance, floor, _chosen(step, columns, names, dim, ratio), function)
     if found is None:
         raise ValueError("errors: expected the errors at the steps h, or a table in place of h; found None")
     return found, not is_series
@@ -261,16 +233,22 @@ def number(name, value, above=None):
     return found
 
 
-def _numbers(dim, ratio):
-    """The arguments dim and ratio, if they are given."""
+def _chosen(step, columns, names, dim, ratio, values=None):
+    """How a table is read."""
     return {
+        "step": None if step is None else str(step),
+        "columns": _names("columns", columns),
+        "values": _names("values", values),
+        "names": _names("names", names),
         "dim": None if dim is None else number("dim", dim, above=0),
         "ratio": None if ratio is None else number("ratio", ratio, above=1),
     }
 
 
 def _names(name, given):
-    """A list of names of columns, or of their numbers from 1."""
+    """A list of names of columns, or of their numbers from 1, if it is given."""
+    if given is None:
+        return None
     if isinstance(given, (str, int)):
         given = [given]
     if not all(isinstance(one, (str, int)) for one in given):
@@ -279,12 +257,12 @@ def _names(name, given):
 
 
 def _source(path_or_text):
-    """Text for the standard input of the program, the file that it reads, and how messages show it."""
+    """A path or a text, and whether it is a text."""
     if isinstance(path_or_text, os.PathLike) or isinstance(path_or_text, str) and "\n" not in path_or_text:
         path = pathlib.Path(path_or_text)
         if not path.is_file():
             raise ValueError(f"path_or_text: expected an existing file, or a text of several lines; found {str(path)!r}")
-        return None, str(path), repr(str(path))
+        return str(path), False
     if isinstance(path_or_text, str):
-        return path_or_text, "-", "text"
+        return path_or_text, True
     raise TypeError(f"path_or_text: expected a path or a text, found {path_or_text!r}")

@@ -1,9 +1,4 @@
-"""Tables of other libraries as columns, and refusals in words of Python."""
-
-import re
-import shlex
-
-OPTIONS = ("names", "step", "dim", "ratio", "columns", "values")
+"""Tables of other libraries as columns."""
 
 
 def with_index(table):
@@ -38,44 +33,3 @@ def with_index(table):
             raise ValueError(f"h: expected one step; found an index and a column of the name `{name}`")
         return table, False
     return table.rename_axis(name).reset_index(), is_series
-
-
-def in_python(message, call, drop=()):
-    """A refusal that names options of the command line, with arguments of Python.
-
-    call: the call that was refused, without the closing parenthesis; commands that are offered become this call with more arguments, unless
-    they need one of `drop`.
-    """
-    lines = []
-    for line in message.splitlines():
-        if not line.startswith("  "):
-            lines.append(_named(line))
-        elif (offer := _offer(line, call, drop)) is not None:
-            lines.append(offer)
-    return "\n".join(lines)
-
-
-def _named(line):
-    line = re.sub(r"--(\w+) ([A-Z]+)\b", r"\1=\2", line)
-    return re.sub(r"--(\w+)", r"\1=...", line)
-
-
-def in_rows(message):
-    """The message with rows of a table in place of the lines of its text, whose first line has the names."""
-    return re.sub(r"in lines (\d+) and (\d+)", lambda lines: "in rows {} and {}".format(*(int(line) - 2 for line in lines.groups())), message)
-
-
-def _offer(line, call, drop):
-    command, _, comment = line.partition("  # ") if "  # " in line else (line, "", "")
-    words = shlex.split(command)
-    given = [(word[2:], value) for word, value in zip(words, words[1:]) if word[:2] == "--" and word[2:] in OPTIONS]
-    if any(name in drop for name, _ in given):
-        return None
-    arguments = "".join(f", {name}={_literal(name, value)}" for name, value in given if f" {name}=" not in call)
-    return f"  {call}{arguments})" + (f"  # {comment}" if comment else "")
-
-
-def _literal(name, value):
-    if name in ("dim", "ratio"):
-        return value
-    return repr(value) if name == "step" else repr(value.split(","))

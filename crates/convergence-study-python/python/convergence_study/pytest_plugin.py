@@ -57,7 +57,7 @@ class Convergence:
 
     def _assert_order(self, h=None, errors=None, order=None, tolerance=0.25, *, floor=0.0, allow_inconclusive=False, **table):
         __tracebackhide__ = True
-        found, _ = _judging.judged(h, errors, order, tolerance, floor=floor, **table)
+        found, _ = _judging.judged("convergence.assert_order", h, errors, order, tolerance, floor=floor, **table)
         return self._kept(_native.study_of(found, self._options(None, floor=floor, allow_inconclusive=allow_inconclusive)))
 
     def _study(self, solve, n=None, order=None, budget=60.0, tolerance=0.25, name=None, *, h=None, floor=0.0, allow_inconclusive=False):

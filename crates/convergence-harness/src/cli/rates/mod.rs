@@ -1,22 +1,29 @@
 //! `rates FILE...`: errors of any code, judged by the rule of the studies.
 
+mod claims;
 mod files;
+mod refusal;
 mod shown;
 
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 use clap::Args;
+use serde_json::Value;
 
 use super::exit::{Outcome, Unusable};
-use super::flags::{Flags, number};
+use super::flags::{self, Flags, number};
 use super::screen::{self, Format};
-use crate::input::error_table::{Choice, Column, RateTable, names::position};
-use crate::judge::claims::{Claim, order_from_text};
+use crate::input::advice::CommandLine;
+use crate::input::error_table::{Choice, Column, RateTable};
+use crate::judge::claims::Claim;
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
 use crate::project::Project;
-use crate::text::names::{did_you_mean, nearest, quoted};
+use crate::text::names::quoted;
+pub use claims::Claimed;
+use claims::claimed;
+pub use refusal::Refusal;
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
@@ -78,34 +85,6 @@ pub struct Arguments {
     flags: Flags,
 }
 
-/// A value of `--order`.
-#[derive(Debug, Clone)]
-struct Claimed {
-    /// As given.
-    text: String,
-    /// The column; `None` for all.
-    name: Option<String>,
-    order: f64,
-    at_least: bool,
-}
-
-fn claimed(text: &str) -> Result<Claimed, String> {
-    let at = text
-        .rfind(">=")
-        .or_else(|| text.rfind('=').map(|at| at + 1));
-    let (name, order) = text.split_at(at.unwrap_or(0));
-    let name = name.trim_end();
-    let order = order_from_text(order).filter(|_| name.is_empty() || name.ends_with('='));
-    let (order, at_least) = order
-        .ok_or("expected a number > 0, '>=P' with such a number P, or NAME= before one of them")?;
-    Ok(Claimed {
-        text: text.to_owned(),
-        name: name.strip_suffix('=').map(str::to_owned),
-        order,
-        at_least,
-    })
-}
-
 fn dimension(text: &str) -> Result<f64, String> {
     let dim = text
         .parse()
@@ -158,29 +137,62 @@ struct Judgement<'t> {
     verdict: Verdict,
 }
 
+/// What is judged, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// The orders that theory claims; without one nothing passes.
+    pub claims: Vec<Claimed>,
+    /// Allowed deviation of a rate from its order, above or below.
+    pub tolerance: f64,
+    /// Round-off, in the unit of the errors.
+    pub floor: f64,
+    /// How the tables are read; the columns with a claim need not be named again.
+    pub choice: Choice,
+    /// Whether columns without a claim count, too.
+    pub all: bool,
+}
+
+/// Where tables come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tables<'t> {
+    /// A file; `-` is standard input.
+    File(&'t str),
+    /// A text.
+    Text(&'t str),
+}
+
+/// The name of a text in messages.
+const TEXT: &str = "text";
+
+/// The object that `rates --format json` prints.
+///
+/// # Errors
+/// [`Refusal`], if the tables cannot be read or the claims are about other columns.
+pub fn object(project: &Project, tables: Tables<'_>, request: &Request) -> Result<Value, Refusal> {
+    let rule = Rule::new(request)?;
+    let sources = read(tables, &request.choice())?;
+    let findings = judge(project, &sources, &rule, request)?;
+    Ok(flags::object(
+        verdict_of(&findings),
+        &files::object_of_all(&findings),
+    ))
+}
+
 /// Judges the tables, prints rates and verdicts, and writes the files requested.
 ///
 /// # Errors
 /// Tables or claims that cannot be used, and a folder that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
-    let judge = Judge::new(arguments.tolerance)?.with_floor(arguments.floor)?;
-    let estimator = Estimator::new(arguments.tolerance)?;
-    let sources = sources(project, arguments)?;
-    let claims = claims(arguments, &sources)?;
-    let judged = |(source, claims): (_, Vec<Claim>)| {
-        let columns = judged_columns(source, &claims, &judge, &estimator, arguments.all);
-        let deciding = columns.iter().filter(|column| column.decides);
-        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
-        Judgement {
-            project,
-            source,
-            columns,
-            judge: &judge,
-            verdict,
-        }
-    };
-    let findings: Vec<Judgement<'_>> = sources.iter().zip(claims).map(judged).collect();
-    let verdict = Verdict::worst(findings.iter().map(|judgement| judgement.verdict));
+    let request = arguments.request();
+    let files = arguments.files()?;
+    let refused = |refusal| refuse(project, arguments, &refusal);
+    let rule = Rule::new(&request).map_err(refused)?;
+    let mut sources = vec![];
+    for file in &files {
+        sources.extend(read(Tables::File(file), &request.choice()).map_err(refused)?);
+    }
+    let findings = judge(project, &sources, &rule, &request).map_err(refused)?;
+    let verdict = verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
         files::write(&findings, verdict, folder)?;
@@ -195,6 +207,144 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(flags.show("rates", verdict, &files::object_of_all(&findings), &words)?)
 }
 
+/// The refusal in the words of the command line; with `--format json` it is printed as an object,
+/// too.
+fn refuse(project: &Project, arguments: &Arguments, refusal: &Refusal) -> Unusable {
+    let command = match refusal {
+        Refusal::Table { file, .. } => Some(arguments.command(project, file)),
+        Refusal::Claim(_) | Refusal::Rule(_) => None,
+    };
+    let surface = CommandLine {
+        command: command.as_deref(),
+    };
+    match arguments.flags.print_refusal(&refusal.object(&surface)) {
+        Ok(()) => Unusable::because(&refusal.words(&surface)),
+        Err(error) => error.into(),
+    }
+}
+
+impl Arguments {
+    /// What the arguments say, but for the files.
+    fn request(&self) -> Request {
+        Request {
+            claims: self.order.clone(),
+            tolerance: self.tolerance,
+            floor: self.floor,
+            choice: Choice {
+                step: self.step.clone(),
+                columns: self.columns.clone(),
+                values: self.values.clone(),
+                names: self.names.clone(),
+                claimed: vec![],
+                dim: self.dim,
+                ratio: self.ratio,
+            },
+            all: self.all,
+        }
+    }
+
+    /// The files; without one standard input, unless it is a terminal.
+    fn files(&self) -> Result<Vec<String>, Unusable> {
+        if !self.files.is_empty() {
+            let files = self.files.iter().map(|file| file.display().to_string());
+            return Ok(files.collect());
+        }
+        if io::stdin().is_terminal() {
+            return Err(Unusable::because(
+                "rates: found no FILE; expected a table, or one that another program writes to standard input",
+            ));
+        }
+        Ok(vec!["-".to_owned()])
+    }
+
+    /// The command that judges a file, without the settings of the reader.
+    fn command(&self, project: &Project, file: &str) -> String {
+        let orders = self.order.iter();
+        let orders = orders.map(|claimed| format!(" --order {}", quoted(&claimed.text)));
+        format!(
+            "{} rates {file}{}",
+            project.command,
+            orders.collect::<String>()
+        )
+    }
+}
+
+impl Request {
+    /// How the tables are read.
+    fn choice(&self) -> Choice {
+        let claims = self.claims.iter();
+        Choice {
+            claimed: claims.filter_map(|claimed| claimed.name.clone()).collect(),
+            ..self.choice.clone()
+        }
+    }
+}
+
+/// The rule for errors and the rule for values.
+struct Rule {
+    judge: Judge,
+    estimator: Estimator,
+}
+
+impl Rule {
+    fn new(request: &Request) -> Result<Self, Refusal> {
+        Ok(Self {
+            judge: Judge::new(request.tolerance)?.with_floor(request.floor)?,
+            estimator: Estimator::new(request.tolerance)?,
+        })
+    }
+}
+
+/// Reads all tables of a file or a text.
+fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<Source>, Refusal> {
+    let (file, tables) = match tables {
+        Tables::File(file) => (file, RateTable::read_all_with(file, choice)),
+        Tables::Text(text) => (TEXT, RateTable::parse_all_with(text, TEXT, choice)),
+    };
+    let tables = tables.map_err(|error| Refusal::Table {
+        file: file.to_owned(),
+        error: Box::new(error),
+    })?;
+    let source = |(heading, table): (String, RateTable)| Source {
+        name: if heading.is_empty() {
+            file.to_owned()
+        } else {
+            format!("{file}: {heading}")
+        },
+        file: file.to_owned(),
+        table,
+    };
+    Ok(tables.into_iter().map(source).collect())
+}
+
+/// The judgements of all tables.
+fn judge<'t>(
+    project: &'t Project,
+    sources: &'t [Source],
+    rule: &'t Rule,
+    request: &Request,
+) -> Result<Vec<Judgement<'t>>, Refusal> {
+    let claims = claims::claims(request, sources)?;
+    let judged = |(source, claims): (&'t Source, Vec<Claim>)| {
+        let columns = judged_columns(source, &claims, rule, request.all);
+        let deciding = columns.iter().filter(|column| column.decides);
+        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
+        Judgement {
+            project,
+            source,
+            columns,
+            judge: &rule.judge,
+            verdict,
+        }
+    };
+    Ok(sources.iter().zip(claims).map(judged).collect())
+}
+
+/// The verdict on all tables.
+fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
+    Verdict::worst(findings.iter().map(|judgement| judgement.verdict))
+}
+
 /// The columns of a table with their judgements.
 ///
 /// * `claims`: one for each column, errors first.
@@ -202,15 +352,14 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 fn judged_columns<'t>(
     source: &'t Source,
     claims: &[Claim],
-    judge: &Judge,
-    estimator: &Estimator,
+    rule: &Rule,
     all: bool,
 ) -> Vec<JudgedColumn<'t>> {
     let errors = source.table.columns.len();
     let judged = |(k, (column, claim)): (usize, (&'t Column, &Claim))| {
-        let estimate = (k >= errors).then(|| column.estimate(estimator, claim.order));
+        let estimate = (k >= errors).then(|| column.estimate(&rule.estimator, claim.order));
         let rate = estimate.as_ref().map_or_else(
-            || column.judge(judge, claim),
+            || column.judge(&rule.judge, claim),
             |estimate| estimate.judged.clone(),
         );
         JudgedColumn {
@@ -225,143 +374,28 @@ fn judged_columns<'t>(
     columns.map(judged).collect()
 }
 
-/// Reads the tables of all files; without a file those of standard input, unless it is a terminal.
-fn sources(project: &Project, arguments: &Arguments) -> Result<Vec<Source>, Unusable> {
-    let mut files: Vec<String> = arguments
-        .files
-        .iter()
-        .map(|file| file.display().to_string())
-        .collect();
-    if files.is_empty() {
-        if io::stdin().is_terminal() {
-            return Err(Unusable::because(
-                "rates: found no FILE; expected a table, or one that another program writes to standard input",
-            ));
-        }
-        files.push("-".to_owned());
-    }
-    let mut sources = vec![];
-    for file in files {
-        let choice = choice(project, arguments, &file);
-        for (heading, table) in RateTable::read_all_with(&file, &choice)? {
-            let name = if heading.is_empty() {
-                file.clone()
-            } else {
-                format!("{file}: {heading}")
-            };
-            let file = file.clone();
-            sources.push(Source { file, name, table });
-        }
-    }
-    Ok(sources)
-}
-
-/// What the arguments say about the table.
-///
-/// * `source`: the file, as the command that repeats the run names it.
-fn choice(project: &Project, arguments: &Arguments, source: &str) -> Choice {
-    let claims = arguments.order.iter();
-    let names = claims.clone().filter_map(|claimed| claimed.name.clone());
-    let options: String = claims
-        .map(|claimed| format!(" --order {}", quoted(&claimed.text)))
-        .collect();
-    Choice {
-        step: arguments.step.clone(),
-        columns: arguments.columns.clone(),
-        values: arguments.values.clone(),
-        names: arguments.names.clone(),
-        claimed: names.collect(),
-        dim: arguments.dim,
-        ratio: arguments.ratio,
-        command: format!("{} rates {source}{options}", project.command),
-    }
-}
-
 /// The columns to judge: errors, then values.
 fn columns(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
     table.columns.iter().chain(&table.values)
 }
 
-/// The claims for each column of each table. Each column that is named must be in one of them.
-fn claims(arguments: &Arguments, sources: &[Source]) -> Result<Vec<Vec<Claim>>, Unusable> {
-    let all: Vec<&str> = sources
-        .iter()
-        .flat_map(|source| columns(&source.table))
-        .map(|column| column.name.as_str())
-        .collect();
-    for claimed in &arguments.order {
-        let is_in = |source: &Source, name: &str| {
-            let names = columns(&source.table).map(|column| column.name.as_str());
-            position(names, name).is_some()
-        };
-        if let Some(name) = &claimed.name
-            && !sources.iter().any(|source| is_in(source, name))
-        {
-            return Err(unknown(name, &claimed.text, &all));
+#[cfg(test)]
+mod tests {
+    use clap::Args;
+
+    use super::Arguments;
+    use crate::input::advice::Argument;
+
+    #[test]
+    fn every_argument_of_a_message_is_an_option_of_the_command() {
+        let command = Arguments::augment_args(clap::Command::new("rates"));
+        for argument in Argument::ALL {
+            let mut options = command.get_arguments();
+            let option = options
+                .find(|option| option.get_long() == Some(argument.name()))
+                .unwrap_or_else(|| panic!("no --{}", argument.name()));
+            let names = option.get_value_names().expect("a value");
+            assert_eq!(names, [argument.placeholder()], "{}", argument.name());
         }
     }
-    sources
-        .iter()
-        .map(|source| claims_of(arguments, &source.table))
-        .collect()
-}
-
-/// The claim for each column; the order is NaN without one.
-fn claims_of(arguments: &Arguments, table: &RateTable) -> Result<Vec<Claim>, Unusable> {
-    let names: Vec<&str> = columns(table).map(|column| column.name.as_str()).collect();
-    // The last entry is the claim for all columns.
-    let mut of: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
-    for claimed in &arguments.order {
-        let text = &claimed.text;
-        let place = claimed.name.as_deref().map_or(Some(names.len()), |name| {
-            position(names.iter().copied(), name)
-        });
-        // Another table has the column.
-        let Some(k) = place else { continue };
-        if let Some(Claimed { text: first, .. }) = of[k].replace(claimed) {
-            let expected = "expected one order for all columns, and --order NAME=P for others";
-            return Err(Unusable::because(&match names.get(k) {
-                Some(name) => format!(
-                    "--order {text}: expected each column once; found `{name}` a second time"
-                ),
-                None => format!("{expected}; found --order {first} and --order {text}"),
-            }));
-        }
-    }
-    let claim = |(k, name): (usize, &&str)| match of[k].or(of[names.len()]) {
-        Some(Claimed {
-            order,
-            at_least: true,
-            ..
-        }) if k >= table.columns.len() => {
-            let found = format!("found --order '>={order}' for `{name}`");
-            Err(Unusable::because(&format!(
-                "expected an order alone for values; {found}"
-            )))
-        }
-        Some(&Claimed {
-            order, at_least, ..
-        }) => Ok(Claim {
-            at_least,
-            ..Claim::new(order, arguments.tolerance)
-        }),
-        None => Ok(Claim::new(f64::NAN, arguments.tolerance)),
-    };
-    names.iter().enumerate().map(claim).collect()
-}
-
-/// The error of a claim about a column that is not judged.
-fn unknown(name: &str, claim: &str, names: &[&str]) -> Unusable {
-    /// Most names that a message lists.
-    const LISTED: usize = 12;
-    let more = if names.len() > LISTED { ", ..." } else { "" };
-    let hint = if name.contains(['=', ',']) {
-        "; repeat --order for each column".to_owned()
-    } else {
-        did_you_mean(&nearest(name, names.iter().copied()).map(str::to_owned))
-    };
-    let known = names[..names.len().min(LISTED)].join(", ") + more;
-    Unusable::because(&format!(
-        "--order {claim}: expected a column of errors: {known}; found `{name}`{hint}"
-    ))
 }

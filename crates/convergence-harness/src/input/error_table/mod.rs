@@ -13,7 +13,7 @@
 //! shows which. The numbers decide what a column is, and its name if they do not: the step falls,
 //! or grows if it is a count, by regular ratios; errors are positive and fall; rates are those of
 //! another column; values tend to a limit. [`RateTable::reading`] says in a line how the table was
-//! read. Ambiguous tables are refused, with the command that works. `NaN` and `inf` are errors; a
+//! read. Ambiguous tables are refused, with the choices that work. `NaN` and `inf` are errors; a
 //! column with one of them fails.
 
 mod blocks;
@@ -21,6 +21,7 @@ mod cleaned;
 mod columns;
 mod digits;
 mod forms;
+mod frame;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;
@@ -33,10 +34,12 @@ mod text;
 use std::io;
 use std::path::Path;
 
+use super::advice::{Argument, Setting, Surface, Value};
 use crate::input::{self, InputError};
-use crate::text::names::quoted;
 pub use columns::limit;
 pub use digits::Column;
+pub use frame::FrameColumn;
+use frame::Original;
 
 /// A table of errors that was read.
 ///
@@ -88,9 +91,15 @@ pub struct Choice {
     pub dim: Option<f64>,
     /// Ratio R > 1 of the steps of consecutive levels: h = R^(-level).
     pub ratio: Option<f64>,
-    /// The command that reads the table, for advice; empty if unknown. Advice is given only if it
-    /// reads the table.
-    pub command: String,
+}
+
+/// A choice that reads a table which was refused.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Offer {
+    /// The choice that was made, changed.
+    pub choice: Choice,
+    /// What tells it from other offers, or when it is right; may be empty.
+    pub comment: &'static str,
 }
 
 impl RateTable {
@@ -109,7 +118,7 @@ impl RateTable {
     /// # Errors
     /// As [`RateTable::read_with`], except for the file.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        roles::read(&cleaned::plain(text), file_name, choice)
+        roles::read(Original::of_text(&cleaned::plain(text), file_name), choice)
     }
 
     /// Reads all tables of a file, each with its heading, which is empty for an only one; `-` is
@@ -138,7 +147,7 @@ impl RateTable {
         choice: &Choice,
     ) -> Result<Vec<(String, Self)>, InputError> {
         let text = cleaned::plain(text);
-        let error = match roles::read(&text, file_name, choice) {
+        let error = match roles::read(Original::of_text(&text, file_name), choice) {
             Ok(table) => return Ok(vec![(String::new(), table)]),
             Err(error) => error,
         };
@@ -146,7 +155,7 @@ impl RateTable {
         let tables: Result<Vec<_>, InputError> = blocks
             .into_iter()
             .map(|block| {
-                let table = roles::read(block.text, file_name, choice)?;
+                let table = roles::read(Original::of_text(block.text, file_name), choice)?;
                 Ok((block.heading, table))
             })
             .collect();
@@ -160,11 +169,6 @@ impl RateTable {
     }
 }
 
-/// The names in a list of the command line; `None` without any.
-fn list(names: &[String]) -> Option<String> {
-    Some(names.join(",")).filter(|list| !list.is_empty())
-}
-
 /// The text of a file, and its name in messages.
 fn text_and_name(path: &Path) -> Result<(String, String), InputError> {
     const STANDARD_INPUT: &str = "standard input";
@@ -176,22 +180,34 @@ fn text_and_name(path: &Path) -> Result<(String, String), InputError> {
 }
 
 impl Choice {
-    /// The command with this choice.
-    fn line(&self) -> String {
-        let options = [
-            ("names", list(self.names.as_deref().unwrap_or_default())),
-            ("step", self.step.clone()),
-            ("dim", self.dim.map(|dim| dim.to_string())),
-            ("ratio", self.ratio.map(|ratio| ratio.to_string())),
-            ("columns", list(self.columns.as_deref().unwrap_or_default())),
-            ("values", list(&self.values)),
+    /// What is chosen about the reading.
+    pub fn settings(&self) -> Vec<Setting> {
+        let names = |names: &[String]| {
+            let is_given = !names.is_empty();
+            is_given.then(|| Value::Names(names.to_vec()))
+        };
+        let values = [
+            (Argument::Names, self.names.as_deref().and_then(names)),
+            (Argument::Step, self.step.clone().map(Value::Name)),
+            (Argument::Dim, self.dim.map(Value::Number)),
+            (Argument::Ratio, self.ratio.map(Value::Number)),
+            (Argument::Columns, self.columns.as_deref().and_then(names)),
+            (Argument::Values, names(&self.values)),
         ];
-        let mut line = self.command.clone();
-        for (name, value) in options {
-            if let Some(value) = value {
-                line += &format!(" --{name} {}", quoted(&value));
-            }
-        }
-        line
+        let setting = |(argument, value): (Argument, Option<Value>)| {
+            value.map(|value| Setting { argument, value })
+        };
+        values.into_iter().filter_map(setting).collect()
+    }
+}
+
+impl Offer {
+    /// The line of a message with the call and the comment; `None` if the surface has no such call.
+    pub(super) fn line(&self, surface: &dyn Surface) -> Option<String> {
+        let call = surface.call(&self.choice.settings())?;
+        Some(match self.comment {
+            "" => format!("\n  {call}"),
+            comment => format!("\n  {call}  # {comment}"),
+        })
     }
 }

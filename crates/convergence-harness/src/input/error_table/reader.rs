@@ -2,13 +2,15 @@
 
 use std::collections::HashSet;
 
-use super::Choice;
 use super::columns::Cells;
+use super::frame::{Original, Rows};
 use super::names::{self, Word};
 use super::number::{halves, has_percent, in_percent, number};
 use super::pairs::{LeftOut, RawTable};
 use super::text::counts_rows;
-use crate::input::{Complaint, InputError, Source, shorten};
+use super::{Choice, Offer};
+use crate::input::advice::{Argument, Text};
+use crate::input::{Complaint, InputError, Source, failed, shorten};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::counted;
 
@@ -19,8 +21,7 @@ pub(super) const NEIGHBOURS: usize = 40;
 
 /// A table and the choices of the user.
 pub(super) struct TableReader<'t> {
-    pub(super) text: &'t str,
-    file: &'t str,
+    pub(super) original: Original<'t>,
     pub(super) choice: &'t Choice,
     table: &'t RawTable<'t>,
     pub(super) columns: Vec<Cells<'t>>,
@@ -28,35 +29,6 @@ pub(super) struct TableReader<'t> {
     pub(super) rows: Option<usize>,
     /// What is not an error.
     pub(super) left_out: Vec<LeftOut>,
-}
-
-/// A table that cannot be used, and choices that may read it.
-pub(super) struct Refusal {
-    pub(super) error: InputError,
-    pub(super) offers: Vec<Offer>,
-}
-
-/// A choice, and a comment that tells it from others.
-pub(super) struct Offer {
-    pub(super) choice: Choice,
-    pub(super) comment: &'static str,
-}
-
-impl From<InputError> for Refusal {
-    fn from(error: InputError) -> Self {
-        Self {
-            error,
-            offers: vec![],
-        }
-    }
-}
-
-impl Refusal {
-    /// The same, with choices that may read the table.
-    pub(super) fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
-        self.offers.extend(offers);
-        self
-    }
 }
 
 /// The name of a column, with its unit if its numbers are in per cent.
@@ -76,14 +48,12 @@ pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
 impl<'t> TableReader<'t> {
     /// Splits the table of a text into columns.
     pub(super) fn new(
-        text: &'t str,
-        file: &'t str,
+        original: Original<'t>,
         choice: &'t Choice,
         table: &'t RawTable<'t>,
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, InputError> {
         let mut reader = Self {
-            text,
-            file,
+            original,
             choice,
             table,
             columns: vec![],
@@ -110,11 +80,12 @@ impl<'t> TableReader<'t> {
     }
 
     /// The columns; refuses a text without a table, and names that do not fit its columns.
-    fn columns(&self) -> Result<Vec<Cells<'t>>, Refusal> {
+    fn columns(&self) -> Result<Vec<Cells<'t>>, InputError> {
         let RawTable { names, rows, .. } = self.table;
         let width = rows.iter().map(Vec::len).max().unwrap_or(0);
         if width == 0 {
             let line = self
+                .original
                 .text
                 .lines()
                 .find(|line| !line.trim().is_empty())
@@ -123,7 +94,7 @@ impl<'t> TableReader<'t> {
                 format!("no row of numbers, but `{line}`")
             });
             let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
-            return Err(self.refuse(expected, &found).into());
+            return Err(self.refuse(expected, &found));
         }
         let names: Vec<String> = match &self.choice.names {
             Some(names) => names.clone(),
@@ -137,22 +108,17 @@ impl<'t> TableReader<'t> {
             let offer = self.offer(|choice| choice.names = Some(example));
             let expected = format!("{}, one for each name", counted(names.len(), "cell"));
             let found = counted(row.len(), "cell");
-            let error = self.error(row.first().unwrap_or(&self.text), None, &expected, &found);
-            return Err(Refusal::from(error).offering([offer]));
+            let first = row.first().unwrap_or(&self.original.text);
+            let error = self.error(first, None, expected, &found);
+            return Err(error.offering([offer]));
         }
         if let Some(k) = names
             .iter()
             .position(|name| name.contains(char::is_control))
         {
             let found = format!("`{}`", shorten(&names[k]));
-            return Err(self
-                .error(
-                    self.head(k),
-                    None,
-                    "a name without control characters",
-                    &found,
-                )
-                .into());
+            let expected = "a name without control characters";
+            return Err(self.error(self.head(k), None, expected, &found));
         }
         let columns = self.columns_of(names);
         if width < 2 && self.choice.ratio.is_none() {
@@ -163,7 +129,7 @@ impl<'t> TableReader<'t> {
                 ..self.offer(|choice| choice.ratio = Some(2.0))
             };
             let is_column = columns[0].is_steep();
-            return Err(Refusal::from(refusal).offering(is_column.then_some(halved)));
+            return Err(refusal.offering(is_column.then_some(halved)));
         }
         Ok(columns)
     }
@@ -246,8 +212,8 @@ impl<'t> TableReader<'t> {
         columns
     }
 
-    /// The column with that name, or with that number from 1.
-    pub(super) fn find(&self, wanted: &str, option: &str) -> Result<usize, InputError> {
+    /// The column with that name, or with that number from 1, which an argument selects.
+    pub(super) fn find(&self, wanted: &str, argument: Argument) -> Result<usize, InputError> {
         let names = self.columns.iter().map(|column| column.name.as_str());
         if let Some(column) = names::position(names.clone(), wanted) {
             return Ok(column);
@@ -260,7 +226,8 @@ impl<'t> TableReader<'t> {
         let suggestion = nearest(wanted, names.clone().take(LISTED)).map(str::to_owned);
         let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
         let list = listed(names.map(str::to_owned));
-        Err(self.refuse(&format!("a column for {option}: {list}"), &found))
+        let expected = Text::from("a column for ") + argument.alone() + format!(": {list}");
+        Err(self.refuse(expected, &found))
     }
 
     /// The number of a cell that must hold one.
@@ -285,7 +252,7 @@ impl<'t> TableReader<'t> {
             } else {
                 ""
             };
-            self.error(cell, Some(name), &format!("a number{more}"), &format!("`{}`", shorten(cell)))
+            self.error(cell, Some(name), format!("a number{more}"), &format!("`{}`", shorten(cell)))
         })
     }
 
@@ -307,17 +274,21 @@ impl<'t> TableReader<'t> {
 
     /// The name above a column, or the beginning of the text.
     pub(super) fn head(&self, column: usize) -> &str {
-        self.table.names.get(column).copied().unwrap_or(self.text)
+        self.table
+            .names
+            .get(column)
+            .copied()
+            .unwrap_or(self.original.text)
     }
 
     /// A complaint about the row of names.
-    pub(super) fn refuse(&self, expected: &str, found: &str) -> InputError {
+    pub(super) fn refuse(&self, expected: impl Into<Text>, found: &str) -> InputError {
         self.error(self.head(0), None, expected, found)
     }
 
     /// The byte offset of a piece within the text.
     pub(super) fn offset(&self, piece: &str) -> usize {
-        (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
+        (piece.as_ptr() as usize).saturating_sub(self.original.text.as_ptr() as usize)
     }
 
     /// A complaint about a piece of the text.
@@ -325,22 +296,25 @@ impl<'t> TableReader<'t> {
         &self,
         piece: &str,
         field: Option<&str>,
-        expected: &str,
+        expected: impl Into<Text>,
         found: &str,
     ) -> InputError {
-        let reason = format!("expected {expected}, found {found}");
-        let source = Source {
-            file: self.file,
-            text: self.text,
+        let Original { text, name, rows } = self.original;
+        let complaint = Complaint::Table {
+            expected: expected.into(),
+            found: found.to_owned(),
         };
-        let error = source.error(
-            self.offset(piece),
-            field.map(str::to_owned),
-            Complaint::Invalid { reason },
-        );
-        InputError {
-            place: error.place.filter(|_| !self.text.trim().is_empty()),
-            ..error
+        let offset = self.offset(piece);
+        match (rows, field) {
+            (Rows::Frame, Some(field)) => {
+                let row = self.original.row(offset);
+                failed(&format!("{field}[{row}]"), complaint)
+            }
+            (Rows::Lines, _) if !text.trim().is_empty() => {
+                let source = Source { file: name, text };
+                source.error(offset, field.map(str::to_owned), complaint)
+            }
+            _ => failed(name, complaint),
         }
     }
 }

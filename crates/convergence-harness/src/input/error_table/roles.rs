@@ -5,12 +5,14 @@ use std::collections::HashSet;
 use std::hash::Hash;
 
 use super::columns::{Cells, Derived, Trend};
+use super::frame::Original;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
-use super::reader::{NEIGHBOURS, Offer, Refusal, TableReader, listed};
+use super::reader::{NEIGHBOURS, TableReader, listed};
 use super::step::{Measure, Step};
-use super::{Choice, Column, RateTable, names, text};
-use crate::input::{Complaint, InputError, shorten};
+use super::{Choice, Column, Offer, RateTable, names, text};
+use crate::input::advice::{Argument, Text};
+use crate::input::{InputError, shorten};
 use crate::judge::verdict::Level;
 use crate::text::number::plain_text;
 
@@ -40,28 +42,16 @@ fn repeated<K: Copy, N: Eq + Hash>(
     keys.find(|key| !seen.insert(name(*key)))
 }
 
-/// Reads the step and the chosen errors. A refusal has the commands that read the table and find
+/// Reads the step and the chosen errors. A refusal offers the choices that read the table and find
 /// its claimed columns.
-pub(super) fn read(text: &str, file: &str, choice: &Choice) -> Result<RateTable, InputError> {
-    let table = text::read(text);
-    attempt(text, file, choice, &table).map_err(|Refusal { error, offers }| {
-        let commands: String = offers
-            .iter()
-            .filter(|offer| !offer.choice.command.is_empty())
-            .filter(|offer| {
-                attempt(text, file, &offer.choice, &table)
-                    .is_ok_and(|read| has_claimed_columns(&read, choice))
-            })
-            .map(command_line)
-            .collect();
-        if commands.is_empty() {
-            return error;
-        }
-        let reason = error.complaint.to_string() + &commands;
-        InputError {
-            complaint: Box::new(Complaint::Invalid { reason }),
-            ..error
-        }
+pub(super) fn read(original: Original<'_>, choice: &Choice) -> Result<RateTable, InputError> {
+    let table = text::read(original.text);
+    attempt(original, choice, &table).map_err(|mut error| {
+        error.offers.retain(|offer| {
+            attempt(original, &offer.choice, &table)
+                .is_ok_and(|read| has_claimed_columns(&read, choice))
+        });
+        error
     })
 }
 
@@ -71,16 +61,6 @@ fn has_claimed_columns(table: &RateTable, choice: &Choice) -> bool {
     let names = columns.map(|column| column.name.as_str());
     let mut claimed = choice.claimed.iter();
     claimed.all(|name| names::position(names.clone(), name).is_some())
-}
-
-/// The line of a message with the command of an offer, and its comment.
-fn command_line(offer: &Offer) -> String {
-    let command = format!("\n  {}", offer.choice.line());
-    if offer.comment.is_empty() {
-        command
-    } else {
-        format!("{command}  # {}", offer.comment)
-    }
 }
 
 /// The k-th column over the steps.
@@ -110,12 +90,11 @@ fn column(
 
 /// Reads a table with one choice.
 fn attempt(
-    text: &str,
-    file: &str,
+    original: Original<'_>,
     choice: &Choice,
     table: &RawTable<'_>,
-) -> Result<RateTable, Refusal> {
-    let mut reader = TableReader::new(text, file, choice, table)?;
+) -> Result<RateTable, InputError> {
+    let mut reader = TableReader::new(original, choice, table)?;
     let step = reader.step()?;
     let steps = reader.sort(&step)?;
     let ChosenColumns { mut errors, values } = reader.chosen_columns(step.column)?;
@@ -196,9 +175,9 @@ impl TableReader<'_> {
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]));
         if let Some(two) = order.windows(2).find(|two| steps[two[0]] == steps[two[1]]) {
             let [before, cell] = [two[0], two[1]].map(|row| cells.texts[row]);
-            let [first, second] =
-                [before, cell].map(|cell| self.text[..self.offset(cell)].matches('\n').count() + 1);
-            let found = format!("`{}` = {cell} in lines {first} and {second}", cells.name);
+            let [first, second] = [before, cell].map(|cell| self.original.row(self.offset(cell)));
+            let rows = self.original.noun();
+            let found = format!("`{}` = {cell} in {rows} {first} and {second}", cells.name);
             return Err(self.error(
                 cell,
                 None,
@@ -212,17 +191,19 @@ impl TableReader<'_> {
 
     /// The columns chosen as errors and as values.
     fn chosen_columns(&self, step: usize) -> Result<ChosenColumns, InputError> {
-        let values = self.find_all(&self.choice.values, "--values")?;
+        let values = self.find_all(&self.choice.values, Argument::Values)?;
         let names = self.choice.columns.as_deref().unwrap_or_default();
-        let errors = self.find_all(names, "--columns")?;
+        let errors = self.find_all(names, Argument::Columns)?;
         let mut earlier = HashSet::new();
         for k in errors.iter().chain(&values) {
             let Cells { name, word, .. } = &self.columns[*k];
             if *k == step {
-                return Err(self.refuse("errors for --columns", &format!("the step `{name}`")));
+                let expected = Text::from("errors for ") + Argument::Columns.alone();
+                return Err(self.refuse(expected, &format!("the step `{name}`")));
             }
             if !earlier.insert(*k) {
-                let expected = "each column of --columns and --values once";
+                let both = Argument::Columns.alone() + " and " + Argument::Values.alone();
+                let expected = Text::from("each column of ") + both + " once";
                 return Err(self.refuse(expected, &format!("twice `{name}`")));
             }
             if *word == Word::Logarithm {
@@ -233,9 +214,10 @@ impl TableReader<'_> {
         Ok(ChosenColumns { errors, values })
     }
 
-    /// The columns of these names, which an option selects.
-    fn find_all(&self, names: &[String], option: &str) -> Result<Vec<usize>, InputError> {
-        names.iter().map(|name| self.find(name, option)).collect()
+    /// The columns of these names, which an argument selects.
+    fn find_all(&self, names: &[String], argument: Argument) -> Result<Vec<usize>, InputError> {
+        let columns = names.iter().map(|name| self.find(name, argument));
+        columns.collect()
     }
 
     /// The columns of errors; the others are left out, each with the reason. Refuses to judge
@@ -246,7 +228,7 @@ impl TableReader<'_> {
         step: &Step,
         steps: &[f64],
         values: &[usize],
-    ) -> Result<Vec<usize>, Refusal> {
+    ) -> Result<Vec<usize>, InputError> {
         let mut errors = vec![];
         let mut limits = vec![];
         let mut doubtful = vec![];
@@ -289,7 +271,7 @@ impl TableReader<'_> {
         &self,
         limits: &[usize],
         doubtful: &[usize],
-    ) -> Result<Refusal, InputError> {
+    ) -> Result<InputError, InputError> {
         let mut columns = self.columns.iter();
         let unknown =
             columns.position(|column| column.word.noun().is_none() && !column.is_number[0]);
@@ -301,23 +283,25 @@ impl TableReader<'_> {
         } else {
             Some(self.offer(|choice| choice.values = self.names(limits)))
         };
-        let expected = "a column of errors, or --columns LIST";
-        let refusal = self.refuse(expected, &reasons(&self.left_out));
-        Ok(Refusal::from(refusal).offering(offer))
+        let expected = Text::from("a column of errors, or ") + Argument::Columns.with_placeholder();
+        Ok(self
+            .refuse(expected, &reasons(&self.left_out))
+            .offering(offer))
     }
 
     /// The refusal of a table with columns that may be errors but do not fall, where no name says
     /// which columns are errors.
-    fn refuse_doubtful(&self, errors: &[usize], doubtful: &[usize]) -> Refusal {
+    fn refuse_doubtful(&self, errors: &[usize], doubtful: &[usize]) -> InputError {
         let name = &self.columns[doubtful[0]].name;
         let mut others = self.left_out.iter();
         let reason = others
             .find(|other| other.name == *name)
             .map_or("", |other| &other.reason);
         let found = format!("`{name}`, which is {reason}");
-        let refusal = self.refuse("--columns LIST to say which columns are errors", &found);
+        let expected = Argument::Columns.with_placeholder() + " to say which columns are errors";
         let all = [errors, doubtful].concat();
-        Refusal::from(refusal).offering([self.with_columns(errors), self.with_columns(&all)])
+        self.refuse(expected, &found)
+            .offering([self.with_columns(errors), self.with_columns(&all)])
     }
 
     /// The command with these columns as errors.
@@ -403,7 +387,7 @@ impl TableReader<'_> {
     }
 
     /// The refusal of a name that two of the columns have; it offers names with numbers.
-    fn refuse_repetition(&self, column: usize) -> Refusal {
+    fn refuse_repetition(&self, column: usize) -> InputError {
         let mut seen = HashSet::new();
         let numbered = self
             .columns
@@ -419,7 +403,7 @@ impl TableReader<'_> {
             });
         let offer = self.offer(|choice| choice.names = Some(numbered.collect()));
         let found = format!("`{}` a second time", shorten(&self.columns[column].name));
-        Refusal::from(self.error(self.head(column), None, "each name once", &found))
+        self.error(self.head(column), None, "each name once", &found)
             .offering([offer])
     }
 }

@@ -1,8 +1,11 @@
 //! Which column is the step, or the count or level that it is computed from.
 
+use super::Offer;
 use super::columns::Cells;
 use super::names::{Word, reciprocal};
-use super::reader::{NEIGHBOURS, Offer, Refusal, TableReader, listed};
+use super::reader::{NEIGHBOURS, TableReader, listed};
+use crate::input::InputError;
+use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;
 
 /// The step of a table.
@@ -67,9 +70,9 @@ struct RegularColumn {
 impl TableReader<'_> {
     /// The step: the column chosen for it, the levels, or the column that its name or its numbers
     /// identify.
-    pub(super) fn step(&self) -> Result<Step, Refusal> {
+    pub(super) fn step(&self) -> Result<Step, InputError> {
         let StepColumn { column, how } = match &self.choice.step {
-            Some(wanted) => StepColumn::certain(self.find(wanted, "--step")?),
+            Some(wanted) => StepColumn::certain(self.find(wanted, Argument::Step)?),
             None if self.choice.ratio.is_some() => StepColumn::certain(self.levels()?),
             None => self.natural_step()?,
         };
@@ -94,7 +97,7 @@ impl TableReader<'_> {
 
     /// The column that numbers the levels: one named so rather than any that counts the rows, or the
     /// rows themselves where no column is a step.
-    fn levels(&self) -> Result<usize, Refusal> {
+    fn levels(&self) -> Result<usize, InputError> {
         if let Some(rows) = self.rows
             && (self.columns.len() == 2 || self.natural_step().is_err())
         {
@@ -109,8 +112,11 @@ impl TableReader<'_> {
         named.or(indices.first()).copied().ok_or_else(|| {
             let printed = self.columns[..self.rows.unwrap_or(self.columns.len())].iter();
             let names = listed(printed.map(|column| format!("`{}`", column.name)));
-            let expected = "a column of levels 0, 1, 2, ... for --ratio, or --step COLUMN";
-            Refusal::from(self.refuse(expected, &names))
+            let expected = Text::from("a column of levels 0, 1, 2, ... for ")
+                + Argument::Ratio.alone()
+                + ", or "
+                + Argument::Step.with_placeholder();
+            self.refuse(expected, &names)
                 .offering([self.offer(|choice| choice.ratio = None)])
         })
     }
@@ -133,20 +139,17 @@ impl TableReader<'_> {
 
     /// The step by its name, else the count closest to it, else the column that falls by regular
     /// ratios.
-    fn natural_step(&self) -> Result<StepColumn, Refusal> {
+    fn natural_step(&self) -> Result<StepColumn, InputError> {
         let steps = self.candidates(|k, word| word == Word::Step || self.is_misnamed(k));
         if let [first, others @ ..] = &steps[..] {
             if let Some(other) = others
                 .iter()
                 .find(|k| !self.columns[*first].is_in_proportion(&self.columns[**k]))
             {
-                let refusal = self.refuse(
-                    "one column of steps, or --step COLUMN",
-                    &self.names(&steps).join(", "),
-                );
-                return Err(
-                    Refusal::from(refusal).offering([*first, *other].map(|k| self.with_step(k)))
-                );
+                let expected =
+                    Text::from("one column of steps, or ") + Argument::Step.with_placeholder();
+                let refusal = self.refuse(expected, &self.names(&steps).join(", "));
+                return Err(refusal.offering([*first, *other].map(|k| self.with_step(k))));
             }
             let how = if others.is_empty() {
                 String::new()
@@ -164,12 +167,14 @@ impl TableReader<'_> {
                 let name = &self.columns[count].name;
                 let found =
                     format!("`{name}`, which has the name of a count and falls with the errors");
-                let refusal = self.refuse(
-                    &format!("--step COLUMN, or --dim D for h = {name}^(-1/D)"),
-                    &found,
-                );
+                let expected = Argument::Step.with_placeholder()
+                    + ", or "
+                    + Argument::Dim.with_placeholder()
+                    + format!(" for h = {name}^(-1/D)");
                 let edge = self.offer(|choice| choice.dim = Some(1.0));
-                Err(Refusal::from(refusal).offering([self.with_step(count), edge]))
+                Err(self
+                    .refuse(expected, &found)
+                    .offering([self.with_step(count), edge]))
             }
             Some(count) => Ok(StepColumn::certain(count)),
             None => self.regular_step(),
@@ -186,7 +191,7 @@ impl TableReader<'_> {
 
     /// The only column of unknown name that falls by regular ratios; of several the first, unless
     /// another has a smaller ratio.
-    fn regular_step(&self) -> Result<StepColumn, Refusal> {
+    fn regular_step(&self) -> Result<StepColumn, InputError> {
         let first = self.columns.iter().position(|column| !column.is_index);
         let unknown = self.candidates(|k, word| word == Word::Unknown && !self.columns[k].is_index);
         let regular: Vec<RegularColumn> = unknown
@@ -230,9 +235,10 @@ impl TableReader<'_> {
             ..self.offer(|choice| choice.ratio = Some(2.0))
         });
         let names = listed(self.columns.iter().map(name_with_reason));
-        let refusal = self.refuse("a column of steps: add `h`, or name it with --step", &names);
+        let expected =
+            Text::from("a column of steps: add `h`, or name it with ") + Argument::Step.alone();
         let offers = with_first.into_iter().chain(with_levels).chain(with_rows);
-        Err(Refusal::from(refusal).offering(offers))
+        Err(self.refuse(expected, &names).offering(offers))
     }
 
     /// The command with a column as the step.
@@ -246,24 +252,27 @@ impl TableReader<'_> {
     }
 
     /// What the column of the step holds, and the rates that say so where no option does.
-    fn measure(&self, step: usize) -> Result<(Measure, String), Refusal> {
+    fn measure(&self, step: usize) -> Result<(Measure, String), InputError> {
         let Cells { name, word, .. } = &self.columns[step];
         let is_edge =
             reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
         let is_count = self.is_count(step);
         if *word == Word::Logarithm {
             let refusal = self.refuse("the values, not their logarithms", &format!("`{name}`"));
-            return Err(Refusal::from(refusal).offering([self.offer(|choice| choice.dim = None)]));
+            return Err(refusal.offering([self.offer(|choice| choice.dim = None)]));
         }
         let (expected, found) = match (self.choice.dim, self.choice.ratio) {
-            (Some(_), Some(_)) => ("one of --dim and --ratio", "both".to_owned()),
+            (Some(_), Some(_)) => {
+                let both = Argument::Dim.alone() + " and " + Argument::Ratio.alone();
+                (Text::from("one of ") + both, "both".to_owned())
+            }
             (None, Some(ratio)) => return Ok((Measure::Level(ratio), String::new())),
             (Some(dim), None) if is_count && is_edge && dim != 1.0 => (
-                "no --dim but 1",
+                Text::from("no ") + Argument::Dim.alone() + " but 1",
                 format!("`{name}`, which is known to be of one dimension"),
             ),
             (Some(_), None) if !is_count && *word != Word::Unknown => (
-                "no --dim, which is for counts such as `cells`",
+                Text::from("no ") + Argument::Dim.alone() + ", which is for counts such as `cells`",
                 format!("the step `{name}`"),
             ),
             (None, None) if is_count && is_edge && matches!(word, Word::Count(_)) => {
@@ -288,13 +297,14 @@ impl TableReader<'_> {
                 return Ok((measure, String::new()));
             }
         };
-        Err(Refusal::from(self.refuse(expected, &found))
+        Err(self
+            .refuse(expected, &found)
             .offering([self.offer(|choice| choice.dim = None)]))
     }
 
     /// The refusal of a count without its dimension: regular columns, which may be the step, are
     /// offered first.
-    fn without_dimension(&self, count: usize) -> Refusal {
+    fn without_dimension(&self, count: usize) -> InputError {
         let Cells { name, word, .. } = &self.columns[count];
         let steps = self
             .candidates(|_, word| word == Word::Unknown)
@@ -310,11 +320,11 @@ impl TableReader<'_> {
             comment,
             ..self.offer(|choice| choice.dim = Some(dim))
         });
-        let expected = format!(
-            "--dim D for h = {name}^(-1/D), with D = 1 for cells along an edge, or --step COLUMN"
-        );
-        let refusal = self.refuse(&expected, &format!("the count `{name}` and no step"));
-        Refusal::from(refusal).offering(steps.map(|k| self.with_step(k)).chain(dims))
+        let expected = Argument::Dim.with_placeholder()
+            + format!(" for h = {name}^(-1/D), with D = 1 for cells along an edge, or ")
+            + Argument::Step.with_placeholder();
+        self.refuse(expected, &format!("the count `{name}` and no step"))
+            .offering(steps.map(|k| self.with_step(k)).chain(dims))
     }
 
     /// Whether a column counts: by its name, or because it has whole numbers that grow while errors

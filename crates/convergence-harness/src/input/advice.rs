@@ -1,0 +1,205 @@
+//! Messages that name the arguments of a call, and the calls that they offer: each caller prints
+//! them in its own words, as options of a command or as arguments of a function.
+
+use std::fmt;
+use std::ops::Add;
+
+use crate::text::names::quoted;
+
+/// What says how a table is read and judged: an option of a command, or an argument of a function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Argument {
+    /// The order that theory claims.
+    Order,
+    /// The column of the step.
+    Step,
+    /// The columns of errors.
+    Columns,
+    /// The columns of values.
+    Values,
+    /// Names for all columns.
+    Names,
+    /// The dimension of what a count counts.
+    Dim,
+    /// The ratio of the steps of consecutive levels.
+    Ratio,
+}
+
+impl Argument {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Order,
+        Self::Step,
+        Self::Columns,
+        Self::Values,
+        Self::Names,
+        Self::Dim,
+        Self::Ratio,
+    ];
+
+    /// Its name: that of an option without dashes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Order => "order",
+            Self::Step => "step",
+            Self::Columns => "columns",
+            Self::Values => "values",
+            Self::Names => "names",
+            Self::Dim => "dim",
+            Self::Ratio => "ratio",
+        }
+    }
+
+    /// What stands for its value.
+    pub fn placeholder(self) -> &'static str {
+        match self {
+            Self::Order => "[NAME=]P",
+            Self::Step => "COLUMN",
+            Self::Columns | Self::Values | Self::Names => "LIST",
+            Self::Dim => "D",
+            Self::Ratio => "R",
+        }
+    }
+
+    /// Its name in a message.
+    pub(crate) fn alone(self) -> Text {
+        Text(vec![Part::Argument {
+            argument: self,
+            value: None,
+        }])
+    }
+
+    /// The same with a value as the caller writes it.
+    pub(crate) fn with(self, value: &str) -> Text {
+        Text(vec![Part::Argument {
+            argument: self,
+            value: Some(value.to_owned()),
+        }])
+    }
+
+    /// The same with what stands for its value.
+    pub(crate) fn with_placeholder(self) -> Text {
+        self.with(self.placeholder())
+    }
+}
+
+/// A part of a message.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Part {
+    /// Words, which name no argument.
+    Words(String),
+    /// An argument.
+    Argument {
+        /// Which one.
+        argument: Argument,
+        /// Its value as the caller writes it, or what stands for a value.
+        value: Option<String>,
+    },
+}
+
+/// A message, or a part of one, that may name arguments. Shown in the words of the command line.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Text(Vec<Part>);
+
+impl Text {
+    /// Its parts in order.
+    pub fn parts(&self) -> &[Part] {
+        &self.0
+    }
+
+    /// The message in the words of a surface.
+    pub fn words(&self, surface: &dyn Surface) -> String {
+        let word = |part: &Part| match part {
+            Part::Words(words) => words.clone(),
+            Part::Argument { argument, value } => surface.argument(*argument, value.as_deref()),
+        };
+        self.0.iter().map(word).collect()
+    }
+}
+
+impl fmt::Display for Text {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words(&CommandLine { command: None }))
+    }
+}
+
+impl From<&str> for Text {
+    fn from(words: &str) -> Self {
+        words.to_owned().into()
+    }
+}
+
+impl From<String> for Text {
+    fn from(words: String) -> Self {
+        Self(vec![Part::Words(words)])
+    }
+}
+
+impl<T: Into<Self>> Add<T> for Text {
+    type Output = Self;
+
+    fn add(mut self, more: T) -> Self {
+        self.0.extend(more.into().0);
+        self
+    }
+}
+
+/// An argument with its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// Which argument.
+    pub argument: Argument,
+    /// Its value.
+    pub value: Value,
+}
+
+/// The value of an argument.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A column, by its name or its number from 1.
+    Name(String),
+    /// Several columns.
+    Names(Vec<String>),
+}
+
+/// Where messages are read: how a caller writes arguments and calls.
+pub trait Surface {
+    /// An argument in a sentence, with a value if one is given.
+    fn argument(&self, argument: Argument, value: Option<&str>) -> String;
+
+    /// The call that was refused, with these settings in place of its own; `None` if it cannot have
+    /// them.
+    fn call(&self, settings: &[Setting]) -> Option<String>;
+}
+
+/// The command line: `--dim 2`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CommandLine<'c> {
+    /// The command without the settings of the reader; without one, no call is offered.
+    pub command: Option<&'c str>,
+}
+
+impl Surface for CommandLine<'_> {
+    fn argument(&self, argument: Argument, value: Option<&str>) -> String {
+        let value = value.map_or(String::new(), |value| format!(" {value}"));
+        format!("--{}{value}", argument.name())
+    }
+
+    fn call(&self, settings: &[Setting]) -> Option<String> {
+        let option = |setting: &Setting| {
+            let value = match &setting.value {
+                Value::Number(number) => number.to_string(),
+                Value::Name(name) => name.clone(),
+                Value::Names(names) => names.join(","),
+            };
+            format!(
+                " {}",
+                self.argument(setting.argument, Some(&quoted(&value)))
+            )
+        };
+        let options: String = settings.iter().map(option).collect();
+        Some(self.command?.to_owned() + &options)
+    }
+}

@@ -1,0 +1,82 @@
+//! Tables of files and texts, judged by the command `rates`.
+
+use convergence_harness::cli::rates::{Claimed, Request, Tables, object};
+use convergence_harness::input::advice::Argument;
+use convergence_harness::program::PROJECT;
+use convergence_harness::study::Claim;
+use pyo3::prelude::*;
+
+use crate::call::{Call, literal};
+use crate::table::Chosen;
+use crate::values::{self, Claims, refuse};
+
+/// The object that `rates --format json` prints, as text.
+///
+/// * `source`: a text with tables, or the path of a file.
+///
+/// # Errors
+/// `ValueError` with the place in the text, or with the argument.
+#[pyfunction]
+pub(crate) fn rates(
+    py: Python<'_>,
+    source: &str,
+    is_text: bool,
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+    floor: f64,
+    chosen: Chosen,
+) -> PyResult<String> {
+    // Refuses what the rule cannot use.
+    let _ = values::judge_with(tolerance, floor)?;
+    let request = Request {
+        claims: claimed(py, order, tolerance)?,
+        tolerance,
+        floor,
+        choice: chosen.into(),
+        all: false,
+    };
+    let (tables, first) = if is_text {
+        (Tables::Text(source), "text".to_owned())
+    } else {
+        (Tables::File(source), literal(py, source))
+    };
+    let call = Call::new(py, "rates", &first, order, &Argument::ALL)?;
+    let found = py.detach(|| object(&PROJECT, tables, &request));
+    let found = found.map_err(|refusal| refuse(refusal.words(&call)))?;
+    Ok(found.to_string())
+}
+
+/// The claims for columns by name, or for all.
+fn claimed(
+    py: Python<'_>,
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+) -> PyResult<Vec<Claimed>> {
+    let Some(order) = order else {
+        return Ok(vec![]);
+    };
+    let one = |name: Option<String>, claim: Claim| {
+        let order = if claim.at_least {
+            format!("'>={}'", claim.order)
+        } else {
+            claim.order.to_string()
+        };
+        let text = match &name {
+            Some(name) => format!("{{{}: {order}}}", literal(py, name)),
+            None => order,
+        };
+        Claimed {
+            text,
+            name,
+            order: claim.order,
+            at_least: claim.at_least,
+        }
+    };
+    Ok(match Claims::read(Some(order), tolerance)? {
+        Claims::ForAll(claim) => vec![one(None, claim)],
+        Claims::Named(named) => {
+            let named = named.into_iter();
+            named.map(|(name, claim)| one(Some(name), claim)).collect()
+        }
+    })
+}

@@ -124,6 +124,16 @@ struct Answers {
     reader: Option<String>,
 }
 
+impl Answers {
+    /// * `read`: what the reader makes of the text.
+    fn new<T, E: std::fmt::Display>(schema: &Value, text: &str, read: Result<T, E>) -> Self {
+        Self {
+            schema: complaint(schema, &as_json(text), ""),
+            reader: read.err().map(|error| error.to_string()),
+        }
+    }
+}
+
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -320,6 +330,13 @@ struct Differing {
     answers: Answers,
 }
 
+impl Differing {
+    /// Whether only the reader refuses the text.
+    fn is_stricter(&self) -> bool {
+        self.answers.schema.is_none()
+    }
+}
+
 #[test]
 fn schema_and_readers_of_studies_allow_the_same_keys() {
     let schema = of_studies(&PROJECT);
@@ -329,11 +346,12 @@ fn schema_and_readers_of_studies_allow_the_same_keys() {
         let text = fs::read_to_string(&path).unwrap();
         let file = StudyFile::parse(PROJECT.kinds, &text, &path).unwrap();
         let kind = file.study.header().kind.clone();
-        let answers = |text: &str| Answers {
-            schema: complaint(&schema, &as_json(text), ""),
-            reader: StudyFile::parse(PROJECT.kinds, text, &file.path)
-                .err()
-                .map(|error| error.to_string()),
+        let answers = |text: &str| {
+            Answers::new(
+                &schema,
+                text,
+                StudyFile::parse(PROJECT.kinds, text, &file.path),
+            )
         };
         let name = file.path.display().to_string();
         let known = known.entry(kind.clone()).or_default();
@@ -342,8 +360,7 @@ fn schema_and_readers_of_studies_allow_the_same_keys() {
     }
     let kinds: Vec<&str> = PROJECT.kinds.iter().map(|row| row.name).collect();
     assert_eq!(known.len(), kinds.len(), "each of {kinds:?} has a study");
-    let is_stricter = |found: &&Differing| found.answers.schema.is_none();
-    let stricter = differing.iter().filter(is_stricter);
+    let stricter = differing.iter().filter(|found| found.is_stricter());
     let stricter: Vec<&str> = stricter.map(|found| found.change.as_str()).collect();
     assert_eq!(stricter.len(), differing.len(), "{differing:#?}");
     let stricter = BTreeSet::from_iter(stricter);
@@ -360,12 +377,7 @@ fn schema_and_reader_of_scenes_allow_the_same_keys() {
     for path in toml_files("studies/scenes") {
         let text = fs::read_to_string(&path).unwrap();
         let name = path.display().to_string();
-        let answers = |text: &str| Answers {
-            schema: complaint(&schema, &as_json(text), ""),
-            reader: Scene::parse(text, &name)
-                .err()
-                .map(|error| error.to_string()),
-        };
+        let answers = |text: &str| Answers::new(&schema, text, Scene::parse(text, &name));
         differing.extend(compare(
             &text,
             &name,
@@ -430,18 +442,12 @@ fn schema_and_reader_of_manufacture_allow_the_same_keys() {
     let files = manufacture_files();
     assert!(files.len() > 10, "{}", files.len());
     for (name, text) in files {
-        let answers = |text: &str| Answers {
-            schema: complaint(&schema, &as_json(text), ""),
-            reader: Manufacture::parse(text, &name)
-                .err()
-                .map(|error| error.to_string()),
-        };
+        let answers = |text: &str| Answers::new(&schema, text, Manufacture::parse(text, &name));
         differing.extend(compare(&text, &name, &[*keys], &mut known, answers));
     }
     assert!(known.len() > 100, "{known:?}");
-    let is_stricter = |found: &&Differing| found.answers.schema.is_none();
     assert!(
-        differing.iter().all(|found| is_stricter(&found)),
+        differing.iter().all(Differing::is_stricter),
         "{differing:#?}"
     );
     let stricter: BTreeSet<&str> = differing

@@ -97,6 +97,15 @@ pub enum Part {
     },
 }
 
+impl Part {
+    fn words(&self, surface: &dyn Surface) -> String {
+        match self {
+            Self::Words(words) => words.clone(),
+            Self::Argument { argument, value } => surface.argument(*argument, value.as_deref()),
+        }
+    }
+}
+
 /// A message, or a part of one, that may name arguments. Shown in the words of the command line.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Text(Vec<Part>);
@@ -109,11 +118,7 @@ impl Text {
 
     /// The message in the words of a surface.
     pub fn words(&self, surface: &dyn Surface) -> String {
-        let word = |part: &Part| match part {
-            Part::Words(words) => words.clone(),
-            Part::Argument { argument, value } => surface.argument(*argument, value.as_deref()),
-        };
-        self.0.iter().map(word).collect()
+        self.0.iter().map(|part| part.words(surface)).collect()
     }
 }
 
@@ -164,6 +169,24 @@ pub enum Value {
     Names(Vec<String>),
 }
 
+impl Value {
+    /// `None` without names.
+    pub(crate) fn names(names: &[String]) -> Option<Self> {
+        (!names.is_empty()).then(|| Self::Names(names.to_vec()))
+    }
+}
+
+/// The value of an option: several columns are separated by commas.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => number.fmt(f),
+            Self::Name(name) => f.write_str(name),
+            Self::Names(names) => f.write_str(&names.join(",")),
+        }
+    }
+}
+
 /// Where messages are read: how a caller writes arguments and calls.
 pub trait Surface {
     /// An argument in a sentence, with a value if one is given.
@@ -188,18 +211,12 @@ impl Surface for CommandLine<'_> {
     }
 
     fn call(&self, settings: &[Setting]) -> Option<String> {
-        let option = |setting: &Setting| {
-            let value = match &setting.value {
-                Value::Number(number) => number.to_string(),
-                Value::Name(name) => name.clone(),
-                Value::Names(names) => names.join(","),
-            };
-            format!(
-                " {}",
-                self.argument(setting.argument, Some(&quoted(&value)))
-            )
-        };
-        let options: String = settings.iter().map(option).collect();
-        Some(self.command?.to_owned() + &options)
+        let mut call = self.command?.to_owned();
+        for Setting { argument, value } in settings {
+            let value = quoted(&value.to_string());
+            call += " ";
+            call += &self.argument(*argument, Some(&value));
+        }
+        Some(call)
     }
 }

@@ -128,6 +128,22 @@ struct Source {
     table: RateTable,
 }
 
+impl Source {
+    /// * `heading`: of the table, if its file has several; otherwise empty.
+    fn new(file: &str, heading: &str, table: RateTable) -> Self {
+        let name = if heading.is_empty() {
+            file.to_owned()
+        } else {
+            format!("{file}: {heading}")
+        };
+        Self {
+            file: file.to_owned(),
+            name,
+            table,
+        }
+    }
+}
+
 /// Everything that is printed and written about a table.
 struct Judgement<'t> {
     project: &'t Project,
@@ -305,16 +321,10 @@ fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<Source>, Refusal> {
         file: file.to_owned(),
         error: Box::new(error),
     })?;
-    let source = |(heading, table): (String, RateTable)| Source {
-        name: if heading.is_empty() {
-            file.to_owned()
-        } else {
-            format!("{file}: {heading}")
-        },
-        file: file.to_owned(),
-        table,
-    };
-    Ok(tables.into_iter().map(source).collect())
+    let tables = tables.into_iter();
+    Ok(tables
+        .map(|(heading, table)| Source::new(file, &heading, table))
+        .collect())
 }
 
 /// The judgements of all tables.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::input::advice::{self, Part, Setting, Surface, Text};
+use crate::input::advice::{self, Part, Surface, Text};
 use crate::input::error_table::Offer;
 use crate::input::{Complaint, InputError};
 use crate::judge::verdict::JudgeError;
@@ -78,17 +78,22 @@ fn part(part: &Part) -> Value {
 /// Settings by name, with the call that has them.
 fn offer(offer: &Offer, surface: &dyn Surface) -> Value {
     let settings = offer.choice.settings();
-    let value = |setting: &Setting| match &setting.value {
-        advice::Value::Number(number) => json!(number),
-        advice::Value::Name(name) => json!(name),
-        advice::Value::Names(names) => json!(names),
-    };
-    let by_name = settings
-        .iter()
-        .map(|setting| (setting.argument.name().to_owned(), value(setting)));
+    let mut by_name = serde_json::Map::new();
+    for setting in &settings {
+        by_name.insert(setting.argument.name().to_owned(), value(&setting.value));
+    }
     json!({
-        "settings": by_name.collect::<serde_json::Map<_, _>>(),
+        "settings": by_name,
         "comment": offer.comment,
         "call": surface.call(&settings),
     })
+}
+
+/// The value of an argument.
+fn value(value: &advice::Value) -> Value {
+    match value {
+        advice::Value::Number(number) => json!(number),
+        advice::Value::Name(name) => json!(name),
+        advice::Value::Names(names) => json!(names),
+    }
 }

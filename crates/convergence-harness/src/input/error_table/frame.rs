@@ -93,14 +93,23 @@ impl RateTable {
 
 /// Columns separated by commas, below their names in quotes.
 fn text(columns: &[FrameColumn], rows: usize) -> String {
-    let line = |cells: Vec<String>| cells.join(",") + "\n";
-    let name = |column: &FrameColumn| format!("\"{}\"", column.name.replace('"', "'"));
-    let head = line(columns.iter().map(name).collect());
-    let row = |k: usize| {
-        let cells = columns.iter().map(|column| all_digits(column.numbers[k]));
-        line(cells.collect())
-    };
-    head + &(0..rows).map(row).collect::<String>()
+    let names = columns.iter().map(FrameColumn::name_in_quotes);
+    let mut text = line(names.collect());
+    for row in 0..rows {
+        let cells = columns.iter().map(|column| all_digits(column.numbers[row]));
+        text += &line(cells.collect());
+    }
+    text
+}
+
+impl FrameColumn {
+    fn name_in_quotes(&self) -> String {
+        format!("\"{}\"", self.name.replace('"', "'"))
+    }
+}
+
+fn line(cells: Vec<String>) -> String {
+    cells.join(",") + "\n"
 }
 
 /// A number with all digits; levels and counts are whole, without a point.

@@ -182,22 +182,25 @@ fn text_and_name(path: &Path) -> Result<(String, String), InputError> {
 impl Choice {
     /// What is chosen about the reading.
     pub fn settings(&self) -> Vec<Setting> {
-        let names = |names: &[String]| {
-            let is_given = !names.is_empty();
-            is_given.then(|| Value::Names(names.to_vec()))
-        };
         let values = [
-            (Argument::Names, self.names.as_deref().and_then(names)),
+            (
+                Argument::Names,
+                self.names.as_deref().and_then(Value::names),
+            ),
             (Argument::Step, self.step.clone().map(Value::Name)),
             (Argument::Dim, self.dim.map(Value::Number)),
             (Argument::Ratio, self.ratio.map(Value::Number)),
-            (Argument::Columns, self.columns.as_deref().and_then(names)),
-            (Argument::Values, names(&self.values)),
+            (
+                Argument::Columns,
+                self.columns.as_deref().and_then(Value::names),
+            ),
+            (Argument::Values, Value::names(&self.values)),
         ];
-        let setting = |(argument, value): (Argument, Option<Value>)| {
-            value.map(|value| Setting { argument, value })
-        };
-        values.into_iter().filter_map(setting).collect()
+        let mut settings = vec![];
+        for (argument, value) in values {
+            settings.extend(value.map(|value| Setting { argument, value }));
+        }
+        settings
     }
 }
 

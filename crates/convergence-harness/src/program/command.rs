@@ -107,8 +107,27 @@ impl Invocation {
         Ok(answer)
     }
 
+    /// The program, as the system is asked for it.
+    #[cfg(not(windows))]
+    fn program(&self) -> &str {
+        &self.words[0]
+    }
+
+    /// The program, as the system is asked for it: Windows takes a path from the folder of the
+    /// harness. In its own folder the program is found by its name, as on the command line there.
+    #[cfg(windows)]
+    fn program(&self) -> PathBuf {
+        let name = &self.words[0];
+        let here = self.directory.join(name);
+        if here.is_file() || self.directory.join(format!("{name}.exe")).is_file() {
+            here
+        } else {
+            PathBuf::from(name)
+        }
+    }
+
     fn command(&self) -> Command {
-        let mut command = Command::new(&self.words[0]);
+        let mut command = Command::new(self.program());
         let input = if self.input.is_empty() {
             Stdio::null()
         } else {

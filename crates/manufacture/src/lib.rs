@@ -29,7 +29,7 @@ mod sample;
 use std::path::Path;
 use std::time::Duration;
 
-pub use against::Comparison;
+pub use against::{Comparison, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
 pub use problem::{InputError, keys};
@@ -135,8 +135,21 @@ impl Manufacture {
         at::values(&self.model, table, file)
     }
 
+    /// The points at which another program is to compute the sources, or the data of a face.
+    ///
+    /// # Errors
+    /// An unknown face.
+    pub fn question(
+        &self,
+        face: Option<&str>,
+        sampling: &Sampling,
+    ) -> Result<Question<'_>, InputError> {
+        Question::new(&self.model, face, sampling)
+    }
+
     /// Compares sources, or the data of a face, with those that a command computes, and explains
-    /// the differences.
+    /// the differences. At its time limit the program itself is ended, not what it has started:
+    /// with [`question`](Self::question) the caller runs it.
     ///
     /// # Errors
     /// A command that fails, takes longer than the limit, or whose answer cannot be used.

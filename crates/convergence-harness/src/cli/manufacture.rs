@@ -14,6 +14,7 @@ use super::running::seconds;
 use super::screen::{self, Format};
 use crate::input::read_text;
 use crate::judge::verdict::Verdict;
+use crate::program::printed;
 use crate::store::atomic;
 use crate::store::json as text_of;
 
@@ -91,7 +92,12 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     }
     if let Some(command) = &arguments.against {
         let face = arguments.on.as_deref();
-        let comparisons = manufacture.against(command, face, &sampling, arguments.time_limit)?;
+        let question = manufacture.question(face, &sampling)?;
+        let input = question.text().to_owned();
+        let words = words(command).map_err(|why| Unusable::because(&why))?;
+        let answer = printed(words, input, arguments.time_limit)
+            .map_err(|failure| Unusable::because(&failure.reason))?;
+        let comparisons = question.compare(&answer, command)?;
         return compared(arguments, &manufacture, &comparisons);
     }
     let mut check = manufacture.check(&sampling)?;

@@ -1,9 +1,9 @@
 //! The command of a case: its words, with placeholders such as `{n}`, and its run from start to
 //! end: no shell, no inherited standard input, a time limit, and nothing left behind.
 
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::PathBuf;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -24,6 +24,9 @@ const GRACE: Duration = Duration::from_secs(1);
 /// How long the output of an ended program may stay open: a process that escaped may still hold it.
 const DRAIN: Duration = Duration::from_secs(5);
 
+/// Why the output of a program that has ended is not known.
+const HELD_OPEN: &str = "a process that it has started holds its standard output open";
+
 /// Longest pause between two looks at a program; the first ones are shorter.
 const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
@@ -42,6 +45,14 @@ pub(super) struct Invocation {
     pub(super) time_limit: Duration,
 }
 
+/// A program that has ended with status 0.
+struct Ended<T> {
+    /// What was read of its standard output; it may still be held open.
+    printed: Receiver<T>,
+    /// Its last words on standard error, with what leads to them; may be empty.
+    words: String,
+}
+
 impl Invocation {
     /// Runs the command, and reads its answer.
     ///
@@ -51,20 +62,73 @@ impl Invocation {
     /// The program cannot be started, ended with a status other than 0, took too long, or gave no
     /// answer: in one line that names it.
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
+        let names = expected.iter().map(|expected| expected.name.clone());
+        let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
+        let Ended { printed, words } = self.end_of(move |stream| read_output(stream, &names))?;
+        let held = |_| NoAnswer {
+            reason: HELD_OPEN.to_owned(),
+            ..NoAnswer::default()
+        };
+        let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
+        let object = object.or_else(|nothing| {
+            object_of_lines(&nothing.numbers, expected).ok_or_else(|| CaseFailure {
+                advice: example(&nothing.last_line, expected),
+                ..self.failed(&format!("answered nothing: {}{words}", nothing.reason))
+            })
+        })?;
         let program = visible(&self.words[0]);
-        let failed = |what: String| CaseFailure::new(format!("{program} {what}"));
+        let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
+        let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
+        let missing = || {
+            expected
+                .iter()
+                .find_map(|expected| answer.require(expected).err())
+        };
+        answer.failure = complaint.or_else(missing).map(unusable);
+        Ok(answer)
+    }
+
+    /// Runs the command, and returns all that it prints.
+    ///
+    /// # Errors
+    /// As for an answer; also for bytes that are not UTF-8.
+    pub(super) fn text(&self) -> Result<String, CaseFailure> {
+        let Ended { printed, words } = self.end_of(|mut stream: ChildStdout| {
+            let mut text = String::new();
+            stream.read_to_string(&mut text).map(|_| text)
+        })?;
+        match printed.recv_timeout(DRAIN) {
+            Ok(Ok(text)) => Ok(text),
+            Ok(Err(error)) => Err(self.failed(&format!("printed no text: {error}{words}"))),
+            Err(_) => Err(self.failed(&format!("answered nothing: {HELD_OPEN}{words}"))),
+        }
+    }
+
+    fn failed(&self, what: &str) -> CaseFailure {
+        CaseFailure::new(format!("{} {what}", visible(&self.words[0])))
+    }
+
+    /// Runs the command to its end with status 0.
+    ///
+    /// * `read`: reads its standard output, in a thread of its own.
+    ///
+    /// # Errors
+    /// The program cannot be started, ended with a status other than 0, or took too long.
+    fn end_of<T: Send + 'static>(
+        &self,
+        read: impl FnOnce(ChildStdout) -> T + Send + 'static,
+    ) -> Result<Ended<T>, CaseFailure> {
+        let program = visible(&self.words[0]);
         let mut group = Group::new().map_err(|error| {
             CaseFailure::new(format!("the guard of {program} cannot be started: {error}"))
         })?;
         let child = group.start(&mut self.command());
-        let mut child = child.map_err(|error| failed(format!("cannot be started: {error}")))?;
-        let names = expected.iter().map(|expected| expected.name.clone());
-        let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
-        let printed = in_background(child.stdout.take(), move |stream| {
-            read_output(stream, &names)
-        });
+        let mut child =
+            child.map_err(|error| self.failed(&format!("cannot be started: {error}")))?;
+        let printed = in_background(child.stdout.take(), read);
         let words = in_background(child.stderr.take(), read_last_words);
-        feed(&mut child, &self.input);
+        let input = self.input.clone();
+        let _ = in_background(child.stdin.take(), move |stdin| feed(stdin, &input));
         let ended = self.wait(&mut child, &group);
         group.end(&mut child);
         let ended = ended.and_then(|in_time| Ok((child.wait()?, in_time)));
@@ -75,36 +139,17 @@ impl Invocation {
             format!("; its last words: {words}")
         };
         let (status, in_time) =
-            ended.map_err(|error| failed(format!("cannot be waited for: {error}")))?;
+            ended.map_err(|error| self.failed(&format!("cannot be waited for: {error}")))?;
         if !in_time {
-            return Err(failed(format!(
+            return Err(self.failed(&format!(
                 "was stopped at its time limit of {} s{words}",
                 self.time_limit.as_secs_f64()
             )));
         }
         if !status.success() {
-            return Err(failed(format!("ended with {}{words}", ending(status))));
+            return Err(self.failed(&format!("ended with {}{words}", ending(status))));
         }
-        let held = |_| NoAnswer {
-            reason: "a process that it has started holds its standard output open".to_owned(),
-            ..NoAnswer::default()
-        };
-        let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.or_else(|nothing| {
-            object_of_lines(&nothing.numbers, expected).ok_or_else(|| CaseFailure {
-                advice: example(&nothing.last_line, expected),
-                ..failed(format!("answered nothing: {}{words}", nothing.reason))
-            })
-        })?;
-        let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
-        let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
-        let missing = || {
-            expected
-                .iter()
-                .find_map(|expected| answer.require(expected).err())
-        };
-        answer.failure = complaint.or_else(missing).map(unusable);
-        Ok(answer)
+        Ok(Ended { printed, words })
     }
 
     /// The program, as the system is asked for it.
@@ -175,21 +220,20 @@ fn has_ended_by(child: &mut Child, end: Option<Instant>) -> io::Result<bool> {
 }
 
 /// Writes the case to standard input and closes it. A program may ignore it.
-fn feed(child: &mut Child, input: &str) {
-    if let Some(mut stdin) = child.stdin.take() {
-        let _ = stdin.write_all(input.as_bytes());
-    }
+fn feed(mut stdin: ChildStdin, input: &str) {
+    let _ = stdin.write_all(input.as_bytes());
 }
 
-/// Reads a stream in a separate thread: a program that prints must not wait.
+/// Serves a stream in a separate thread: a program that prints must not wait, and one that does not
+/// read must not hold up its time limit.
 fn in_background<S: Send + 'static, T: Send + 'static>(
     stream: Option<S>,
-    read: impl FnOnce(S) -> T + Send + 'static,
+    serve: impl FnOnce(S) -> T + Send + 'static,
 ) -> Receiver<T> {
     let (send, receive) = mpsc::channel();
     if let Some(stream) = stream {
         // If the thread cannot be started, the program's pipe is closed and nothing is received.
-        let _ = thread::Builder::new().spawn(move || send.send(read(stream)));
+        let _ = thread::Builder::new().spawn(move || send.send(serve(stream)));
     }
     receive
 }

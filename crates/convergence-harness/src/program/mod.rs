@@ -153,6 +153,29 @@ impl Program {
     }
 }
 
+/// What a program prints about a text on its standard input, until it ends; none of its processes
+/// outlives the call.
+///
+/// * `words`: the program, then its arguments.
+///
+/// # Errors
+/// The program cannot be started, ended with a status other than 0, or took too long: in one line
+/// that names it.
+pub(crate) fn printed(
+    words: Vec<String>,
+    input: String,
+    time_limit: Duration,
+) -> Result<String, CaseFailure> {
+    let invocation = Invocation {
+        words,
+        directory: PathBuf::from("."),
+        variables: vec![],
+        input,
+        time_limit,
+    };
+    invocation.text()
+}
+
 impl Kind for Program {
     type Data = Resolution;
     type Found = Answer;

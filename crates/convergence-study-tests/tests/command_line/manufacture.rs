@@ -3,6 +3,11 @@
 
 use std::fs;
 use std::process::Command;
+#[cfg(unix)]
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -140,4 +145,27 @@ fn exit_status_and_output_are_those_of_every_command() {
         status == Some(2) && err.contains("expected one of c, fortran, python, ufl, octave, rust"),
         "{err}"
     );
+}
+
+/// Nothing that a program has started outlives it, and one that does not read its points, which
+/// fill the pipe, is stopped as well.
+// The program is a script of a shell.
+#[cfg(unix)]
+#[test]
+fn a_program_that_hangs_ends_with_all_that_it_has_started() {
+    let root = TempDir::new().unwrap();
+    run(&root, &["new", "manufacture", "heat"]);
+    let program = "sh -c '(sleep 3; touch not-stopped) & sleep 30'";
+    let against = ["manufacture", "heat.toml", "--against", program];
+    let more = ["--time-limit", "0.5", "--points", "20000"];
+    let started = Instant::now();
+    let (status, out, err) = run(&root, &[&against[..], &more].concat());
+    assert_eq!((status, out.as_str()), (Some(2), ""));
+    assert!(
+        err.contains("sh was stopped at its time limit of 0.5 s"),
+        "{err}"
+    );
+    let left = Duration::from_secs(4).saturating_sub(started.elapsed());
+    thread::sleep(left);
+    assert!(!root.path().join("not-stopped").exists());
 }

@@ -40,6 +40,46 @@ pub struct Comparison {
     pub sentence: String,
 }
 
+/// The points of a comparison, as another program reads them, and the right values there.
+pub struct Question<'m> {
+    text: String,
+    right: Right<'m>,
+}
+
+impl<'m> Question<'m> {
+    /// Points of the domain or, with its name, of a face.
+    pub(crate) fn new(
+        model: &'m Model,
+        face: Option<&str>,
+        sampling: &Sampling,
+    ) -> Result<Self, InputError> {
+        let questions = questions(model, face, sampling.seed, sampling.points)?;
+        let right = Right::new(model, &questions);
+        let text = questions.text;
+        Ok(Self { text, right })
+    }
+
+    /// A line of names, then a line for each point.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Compares an answer with the right values, and explains the differences.
+    ///
+    /// * `command`: whose answer it is, in messages.
+    ///
+    /// # Errors
+    /// An answer that cannot be used, with the line.
+    pub fn compare(&self, answer: &str, command: &str) -> Result<Vec<Comparison>, InputError> {
+        let right = &self.right;
+        let answers = ask::read(answer, command, &right.names(), right.points.len())?;
+        Ok(answers
+            .iter()
+            .map(|answer| causes::explain(right, answer))
+            .collect())
+    }
+}
+
 /// The points of a comparison, and the text that the other program reads about them.
 pub(crate) struct Questions {
     pub(crate) part: Part,
@@ -103,12 +143,8 @@ pub(crate) fn compare(
     sampling: &Sampling,
     limit: Duration,
 ) -> Result<Vec<Comparison>, InputError> {
-    let questions = questions(model, face, sampling.seed, sampling.points)?;
-    let right = Right::new(model, &questions);
-    let text = ask::run(&command_words(command).words, questions.text.clone(), limit)?;
-    let answers = ask::read(&text, command, &right.names(), questions.points.len())?;
-    Ok(answers
-        .iter()
-        .map(|answer| causes::explain(&right, answer))
-        .collect())
+    let question = Question::new(model, face, sampling)?;
+    let words = command_words(command).words;
+    let answer = ask::run(&words, question.text.clone(), limit)?;
+    question.compare(&answer, command)
 }

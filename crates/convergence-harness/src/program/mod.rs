@@ -161,7 +161,7 @@ impl Program {
 /// # Errors
 /// The program cannot be started, ended with a status other than 0, or took too long: in one line
 /// that names it.
-pub(crate) fn printed(
+pub fn printed(
     words: Vec<String>,
     input: String,
     time_limit: Duration,

@@ -86,6 +86,7 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
 }
 
 /// The numbers of a line that `=` or `:` separates from their names, such as `max error = 1.5e-3`.
+#[cfg(feature = "reports")]
 pub(crate) fn named_numbers(line: &str) -> Vec<(&str, f64)> {
     if !line.contains(['=', ':']) {
         return vec![];

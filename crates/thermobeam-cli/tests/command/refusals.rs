@@ -153,7 +153,7 @@ const REFUSED: [(&str, &str); 88] = [
     ),
     (
         "manufacture heat.toml --against no-such-program",
-        "no-such-program: ",
+        "no-such-program cannot be started: ",
     ),
     (
         "manufacture heat.toml --against cat --timeout 3",

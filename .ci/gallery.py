@@ -8,6 +8,7 @@ Prints a line `pass: ...`, `FAIL: ...` or `skipped: ...` for each thing that is 
 """
 
 import argparse
+import functools
 import json
 import os
 import re
@@ -28,6 +29,7 @@ PAGES = BOOK / "gallery"
 HEAD = "| --- | --- | --: | --- | --- | --- |"
 MOST_LINES, MOST_LINES_FOR_THE_HARNESS = 60, 10
 HARNESS_MARK = "For the harness:"
+APT = ["apt-get", "-o", "DPkg::Lock::Timeout=600"]
 # The language of a block of code, by the ending of the file.
 LANGUAGES = {
     **{".edp": "cpp", ".cpp": "cpp", ".cc": "cpp", ".f90": "fortran", ".m": "matlab", ".jl": "julia", ".py": "python"},
@@ -118,6 +120,12 @@ def has(code, env):
     return subprocess.run(["sh", "-c", code.needs], env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
 
 
+@functools.cache
+def update_debian():
+    """Asks for Debian's list of packages, once."""
+    subprocess.run([*APT, "update"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 def make_available(code, env, venv, wheel, install):
     """Installs what a code needs, where that is allowed. Returns what is missing, in words, or nothing."""
     pypi = [*code.pypi, *(["pytest", str(wheel)] if code.is_test and wheel else [])]
@@ -130,9 +138,8 @@ def make_available(code, env, venv, wheel, install):
     if has(code, env):
         return ""
     if install and code.debian:
-        apt = ["apt-get", "-o", "DPkg::Lock::Timeout=600"]
-        subprocess.run([*apt, "update"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        command = [*apt, "install", "-y", "--no-install-recommends", *code.debian]
+        update_debian()
+        command = [*APT, "install", "-y", "--no-install-recommends", *code.debian]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if has(code, env):
             return ""

@@ -304,7 +304,7 @@ fn page(table: &Table, sentence: &str, ended: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
+    use std::collections::{BTreeMap, BTreeSet};
 
     use convergence_harness::store::diagnosis::Fingerprints;
 
@@ -340,6 +340,8 @@ mod tests {
         assert!(kept.len() <= 100_000, "{}", kept.len());
         let kept: Fingerprints = serde_json::from_str(&kept).expect("fingerprints");
         let all = listed();
+        let by_name: BTreeMap<&str, &Regression> =
+            all.iter().map(|one| (one.name.as_str(), one)).collect();
         let mut own = BTreeSet::new();
         let mut modules = [0, 0];
         for one in &full.known {
@@ -349,12 +351,8 @@ mod tests {
             if nearest.iter().any(|like| like.mistake == one.mistake) {
                 own.insert(&one.mistake);
             }
-            let place = |name: &str| {
-                all.iter()
-                    .find(|listed| listed.name == name)
-                    .map(|listed| listed.place(&root()))
-            };
-            let listed = all.iter().find(|listed| listed.name == one.mistake);
+            let place = |name: &str| by_name.get(name).map(|listed| listed.place(&root()));
+            let listed = by_name.get(one.mistake.as_str());
             assert_eq!(
                 listed.map(|listed| listed.file.as_str()),
                 Some(one.file.as_str()),

@@ -306,10 +306,10 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
         .iter()
         .map(|folder| Manifest::require(folder))
         .collect::<Result<Vec<_>, _>>()?;
-    let place = |folder: &Path| folder.canonicalize().ok();
-    if let Some(share) = folders
-        .iter()
-        .find(|share| out.exists() && place(share) == place(out))
+    if let Ok(place) = out.canonicalize()
+        && let Some(share) = folders
+            .iter()
+            .find(|share| share.canonicalize().is_ok_and(|share| share == place))
     {
         return Err(SweepError::Other {
             folder: share.clone(),

@@ -61,7 +61,7 @@ enum Dev {
 fn main() -> ExitCode {
     let groups = [&GROUPS[..], &[("This project", &["bench", "dev"])]].concat();
     let line = command_line::<Xtask>(&PROJECT, &groups, &PAGES);
-    ended(line.clone(), |asked: Xtask| match asked.command {
+    ended(line.clone(), |program: Xtask| match program.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
         Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
         Command::Dev(Dev::References(arguments)) => references::run(&arguments),

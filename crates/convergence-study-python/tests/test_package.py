@@ -135,14 +135,14 @@ def test_a_million_levels_and_a_hundred_thousand_calls():
 
 
 def test_a_study_adds_levels_until_it_is_decided(capfd, tmp_path):
-    asked = []
+    levels = []
 
     def solve(n):
-        asked.append(n)
+        levels.append(n)
         return {"h": 2 / n, "L2": n**-2.0, "H1": n**-1.0}
 
     r = cs.study(solve, order={"L2": 2, "H1": 1})
-    assert r.verdict == "pass" and asked == [8, 16, 32, 64] and "decided after 4 levels" in r.summary
+    assert r.verdict == "pass" and levels == [8, 16, 32, 64] and "decided after 4 levels" in r.summary
     assert abs(r.rates["L2"].rate - 2) < 1e-6 and list(dict(r.table()))[:3] == ["h", "L2", "rate L2"]
     assert list(r.table()["h"]) == [0.25, 0.125, 0.0625, 0.03125]
     assert "<svg" in r._repr_html_() and "too low" in repr(cs.study(solve, [8, 16, 32], order={"H1": 2}))

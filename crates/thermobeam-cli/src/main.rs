@@ -8,7 +8,7 @@ use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 fn main() -> ExitCode {
     let project = project("thermobeam");
     let line = command_line::<Thermobeam>(&project, &GROUPS, &PAGES);
-    ended(line.clone(), |asked: Thermobeam| {
-        asked.command.run(&project, line)
+    ended(line.clone(), |program: Thermobeam| {
+        program.command.run(&project, line)
     })
 }

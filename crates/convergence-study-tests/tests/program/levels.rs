@@ -43,8 +43,8 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     // Two of three levels have a result: no interval, but the rate between them.
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8, 16]"));
     let (status, out, _) = place.study(&["--quiet"]);
-    let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
-    assert!(status == Some(1) && out.contains(told), "{out}");
+    let message = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
+    assert!(status == Some(1) && out.contains(message), "{out}");
     // A value, judged by differences.
     place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
     let (status, out, _) = place.study(&["--out", "report"]);
@@ -201,8 +201,8 @@ fn what_is_finite_beside_a_nan_is_kept() {
         "{out}"
     );
     // The pair 32, 64 is finer than the NaN.
-    let told = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: an error is NaN or infinite";
-    assert!(out.contains(told), "{out}");
+    let message = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: an error is NaN or infinite";
+    assert!(out.contains(message), "{out}");
     let rates = out.lines().find(|line| line.starts_with("H1 ")).unwrap();
     assert!(
         rates.contains("pass") && rates.contains("1-5 of 5"),
@@ -215,10 +215,10 @@ fn a_study_of_two_levels_has_the_rate_between_them() {
     let place = Place::new("ok", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
-    let told =
+    let message =
         "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
     let (status, out, _) = place.study(&["--quiet"]);
-    assert!(status == Some(1) && out.contains(told), "{out}");
+    assert!(status == Some(1) && out.contains(message), "{out}");
     let (status, out, _) = place.study(&[]);
     let rates = out
         .lines()
@@ -234,8 +234,8 @@ fn a_study_of_two_levels_has_the_rate_between_them() {
 fn steps_that_only_some_levels_answer_are_refused() {
     let (status, out, err) = Place::new("own-step", "").study(&[]);
     assert_eq!(status, Some(1), "{out}{err}");
-    let told = "expected h in the answers of all levels or of none; found it in those of n = 16, not in those of n = 4; n = 8; n = 32; n = 64";
-    assert!(out.contains(told) && !out.contains("Rates"), "{out}");
+    let message = "expected h in the answers of all levels or of none; found it in those of n = 16, not in those of n = 4; n = 8; n = 32; n = 64";
+    assert!(out.contains(message) && !out.contains("Rates"), "{out}");
 }
 
 #[test]
@@ -288,7 +288,7 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         status == Some(1) && out.contains("decided after 4 levels"),
         "{out}"
     );
-    for (written, told) in [
+    for (written, message) in [
         (
             "\"auto\"\nbudget = 0",
             "refine.budget: found 0; expected a number of seconds > 0",
@@ -313,7 +313,7 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         place.write_text(&auto.replace("\"auto\"", written));
         let (status, out, err) = place.study(&[]);
         assert!(
-            status == Some(2) && out.is_empty() && err.contains(told),
+            status == Some(2) && out.is_empty() && err.contains(message),
             "{err}"
         );
     }

@@ -234,23 +234,23 @@ mod tests {
     fn the_bisection_ends_when_it_is_told_to_and_changes_nothing_else() {
         let mesh = Mesh::uniform(8).unwrap();
         let whole = discrete_frequencies(&mesh, 1, 3).unwrap();
-        let mut asked = vec![];
+        let mut counts = vec![];
         let counted = discrete_frequencies_until(&mesh, 1, 3, |known| -> Result<(), ()> {
-            asked.push(known);
+            counts.push(known);
             Ok(())
         });
         assert_eq!(counted, Ok(Ok(whole)));
         assert!(
-            asked.is_sorted() && asked.len() > 3 * 50 && asked.last() == Some(&2),
-            "{asked:?}"
+            counts.is_sorted() && counts.len() > 3 * 50 && counts.last() == Some(&2),
+            "{counts:?}"
         );
-        for most in [0, 1, asked.len() / 2, asked.len() - 1] {
+        for most in [0, 1, counts.len() / 2, counts.len() - 1] {
             let mut calls = 0;
             let stopped = discrete_frequencies_until(&mesh, 1, 3, |known| {
                 calls += 1;
                 if calls > most { Err(known) } else { Ok(()) }
             });
-            assert_eq!(stopped, Ok(Err(asked[most])), "{most}");
+            assert_eq!(stopped, Ok(Err(counts[most])), "{most}");
             assert_eq!(calls, most + 1, "it is not asked again");
         }
     }

@@ -21,7 +21,14 @@ pub struct HelpPage {
 
 /// The pages of the harness's commands. Each example works as it is in the folder that a test of the
 /// program `convergence-study` fills.
-pub const PAGES: [HelpPage; 10] = [
+pub fn pages<'p>() -> impl Iterator<Item = &'p HelpPage> {
+    let pages = PAGES.iter();
+    #[cfg(feature = "manual")]
+    let pages = pages.chain(&super::manual::PAGES);
+    pages
+}
+
+const PAGES: [HelpPage; 10] = [
     HelpPage {
         command: "new",
         without: &["jobs"],
@@ -135,10 +142,7 @@ pub const PAGES: [HelpPage; 10] = [
 ///
 /// * `others`: the pages of the project's own commands.
 pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpPage]) -> Command {
-    let pages = PAGES.iter();
-    #[cfg(feature = "manual")]
-    let pages = pages.chain(&super::manual::PAGES);
-    for page in pages.chain(others) {
+    for page in pages().chain(others) {
         command = command.mut_subcommand(page.command, |mut command| {
             for option in page.without {
                 command = command.mut_arg(option, |option| option.hide(true));

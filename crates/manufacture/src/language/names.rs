@@ -104,7 +104,11 @@ pub const CALLEES: [(&str, Callee, usize, usize); 35] = [
 ];
 
 /// Functions that the language leaves out, with the reason.
-pub(crate) const LEFT_OUT: [(&str, &str); 9] = [
+pub(crate) const LEFT_OUT: [(&str, &str); 10] = [
+    (
+        "log",
+        "an unknown function; the natural logarithm is `ln`, that of base 10 `log10`",
+    ),
     ("jump", INTERFACES),
     ("mean", INTERFACES),
     ("erf", SPECIAL),

@@ -65,18 +65,19 @@ pub(crate) fn run_kernel<K: Kernel>(kernel: K) -> K::Output {
     if IS_FUSED {
         return kernel.run::<Fused>();
     }
-    #[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
+    #[cfg(all(target_arch = "x86_64", not(target_feature = "fma"), not(doc)))]
     if let Some(machine) = pulp::x86::V3::try_new() {
         return machine.vectorize(ForMachine(kernel));
     }
     kernel.run::<Separate>()
 }
 
-/// A kernel for the instructions that `pulp` has found.
-#[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
+/// A kernel for the instructions that `pulp` has found. (`rustdoc` may be started without the
+/// instruction set by which cargo has left `pulp` out: it does without.)
+#[cfg(all(target_arch = "x86_64", not(target_feature = "fma"), not(doc)))]
 struct ForMachine<K>(K);
 
-#[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
+#[cfg(all(target_arch = "x86_64", not(target_feature = "fma"), not(doc)))]
 impl<K: Kernel> pulp::NullaryFnOnce for ForMachine<K> {
     type Output = K::Output;
 

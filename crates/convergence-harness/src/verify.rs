@@ -14,10 +14,11 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{FULL, Findings, shared};
+use crate::report::{FULL, Findings, newest, shared};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
-    Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
+    Baseline, Change, MANIFEST, Provenance, Record, Refusal, ReportFolder, ReportSet, Works,
+    atomic,
     diagnosis::{Fingerprints, diagnose},
     json, lock, write_json,
 };
@@ -32,9 +33,13 @@ use folder::{lock_file, lock_reports, unwritable};
 ///
 /// | scope | reports |
 /// | --- | --- |
-/// | the quick tier | `reports/` |
-/// | the full tier | `reports/full/` |
-/// | a selection | `reports/local/partial/`, which git ignores |
+/// | the quick tier | `reports/`; if it does not pass, `reports/local/quick/` |
+/// | the full tier | `reports/full/`; if it does not pass, `reports/local/full/` |
+/// | a selection | `reports/local/partial/` |
+///
+/// Git ignores `reports/local/`: a run that does not pass leaves the committed report as it is. The
+/// files in `reports/` that git ignores and other programs read, such as `junit.xml`
+/// ([`NEWEST`](crate::report::NEWEST)), are always those of the newest run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Scope {
     /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims
@@ -74,6 +79,7 @@ impl Scope {
         }
     }
 
+    /// Where the report goes if the run passes or is blessed.
     fn report_folder(&self, reports: &Path) -> ReportFolder {
         let local = reports.join("local");
         let workshop = local.join("workshop").join(self.name());
@@ -83,6 +89,21 @@ impl Scope {
             Self::Selection(_) => local.join("partial"),
         };
         ReportFolder { folder, workshop }
+    }
+
+    /// Where the report of a tier goes otherwise; `None` for a selection, whose report is never
+    /// committed.
+    fn failing_folder(&self, reports: &Path) -> Option<ReportFolder> {
+        let Self::Tier(tier, _) = self else {
+            return None;
+        };
+        let local = reports.join("local");
+        Some(ReportFolder {
+            folder: local.join(tier.name()),
+            workshop: local
+                .join("workshop")
+                .join(format!("{}-failing", tier.name())),
+        })
     }
 }
 
@@ -260,7 +281,9 @@ pub fn verify(
         &record.studies,
     );
     let committed = record.clone().committed();
-    let see_also = see_also(&committed, folder);
+    let is_accepted = record.verdict == Verdict::Pass || blessing == Blessing::Taken;
+    let destination = Destination::new(&request.scope, folder, is_accepted);
+    let see_also = is_accepted.then(|| see_also(&committed, folder)).flatten();
     let findings = Findings {
         project,
         record: &committed,
@@ -276,15 +299,85 @@ pub fn verify(
             write_json(&works_file, &works)?;
         }
     }
-    let target = request.scope.report_folder(folder);
-    shared::publish(&target, files, &tiers(folder)).map_err(unwritable(folder))?;
+    destination
+        .publish(files, &tiers(folder))
+        .map_err(unwritable(folder))?;
     atomic::write(&folder.join("local").join("provenance.json"), provenance)
         .map_err(unwritable(folder))?;
     Ok(Verification {
         record,
         blessing,
-        reports: target.folder,
+        reports: destination.folder().to_owned(),
     })
+}
+
+/// Where the files of a report go.
+#[derive(Debug)]
+enum Destination {
+    /// Into one folder. The report on a failing run of the same tier, if there is one, is removed.
+    One {
+        target: ReportFolder,
+        failing: Option<ReportFolder>,
+    },
+    /// A run that does not pass: its report into `failing`, the files that git ignores also into
+    /// `committed`, whose other files stay as they are.
+    Apart {
+        failing: ReportFolder,
+        committed: ReportFolder,
+    },
+}
+
+impl Destination {
+    fn new(scope: &Scope, reports: &Path, is_accepted: bool) -> Self {
+        let target = scope.report_folder(reports);
+        match scope.failing_folder(reports) {
+            Some(failing) if !is_accepted => Self::Apart {
+                failing,
+                committed: target,
+            },
+            failing => Self::One { target, failing },
+        }
+    }
+
+    /// Where the report is.
+    fn folder(&self) -> &Path {
+        match self {
+            Self::One { target, .. } => &target.folder,
+            Self::Apart { failing, .. } => &failing.folder,
+        }
+    }
+
+    fn publish(&self, files: ReportSet, tiers: &[ReportFolder; 2]) -> io::Result<()> {
+        match self {
+            Self::One { target, failing } => {
+                shared::publish(target, files, tiers)?;
+                match failing {
+                    Some(failing) if failing.folder.join(MANIFEST).is_file() => {
+                        failing.publish(&ReportSet::default())
+                    }
+                    _ => Ok(()),
+                }
+            }
+            Self::Apart { failing, committed } => {
+                let newest = newest(&files);
+                shared::publish(failing, files, tiers)?;
+                committed.publish(&committed.renewed(newest)?)
+            }
+        }
+    }
+}
+
+/// The folder with the figures of the record in a folder: that of the failing run which wrote it,
+/// otherwise the folder itself.
+pub(crate) fn folder_of_figures(record: &Record, folder: &Path) -> PathBuf {
+    let reports = reports_around(folder);
+    scopes()
+        .into_iter()
+        .filter(|scope| scope.report_folder(&reports).folder == folder)
+        .filter(|scope| scope.name() == record.scope && record.verdict != Verdict::Pass)
+        .filter_map(|scope| scope.failing_folder(&reports))
+        .find(|failing| failing.folder.join(MANIFEST).is_file())
+        .map_or_else(|| folder.to_owned(), |failing| failing.folder)
 }
 
 /// The record of a run, with the diagnosis of one that does not pass.
@@ -400,11 +493,11 @@ pub fn publish(
         jobs,
         &record.studies,
     );
-    rebuild(project, record, Some(&here), folder)
+    rebuild(project, record, Some(&here), folder).map(drop)
 }
 
 /// Writes the report on a record, without running its studies. In a folder of reports it is the
-/// report of that record's scope.
+/// report of that record's scope. Returns where the report is.
 ///
 /// * `provenance`: where the run comes from, if known.
 pub fn rebuild(
@@ -412,7 +505,7 @@ pub fn rebuild(
     record: Record,
     provenance: Option<&Provenance>,
     folder: &Path,
-) -> Result<(), VerificationError> {
+) -> Result<PathBuf, VerificationError> {
     let record = record.committed();
     let publish = || {
         let reports = reports_around(folder);
@@ -421,17 +514,30 @@ pub fn rebuild(
             folder: folder.to_owned(),
             workshop: reports.join("local/workshop/rebuilt"),
         };
-        let own = scopes().map(|scope| scope.report_folder(&reports));
-        let target = own.into_iter().find(|own| own.folder == folder);
-        let target = target.unwrap_or(rebuilt);
-        let see_also = see_also(&record, folder);
+        let is_accepted = record.verdict == Verdict::Pass;
+        let own = scopes()
+            .into_iter()
+            .find(|scope| scope.report_folder(&reports).folder == folder);
+        let destination = own.map_or(
+            Destination::One {
+                target: rebuilt,
+                failing: None,
+            },
+            |scope| {
+                // Only a run of the tier is one that the folder of the tier waits for.
+                let is_other = scope.name() != record.scope;
+                Destination::new(&scope, &reports, is_accepted || is_other)
+            },
+        );
+        let see_also = is_accepted.then(|| see_also(&record, folder)).flatten();
         let findings = Findings {
             project,
             record: &record,
             see_also,
             provenance,
         };
-        shared::publish(&target, findings.files()?, &tiers(&reports))
+        destination.publish(findings.files()?, &tiers(&reports))?;
+        Ok(destination.folder().to_owned())
     };
     Ok(publish().map_err(unwritable(folder))?)
 }
@@ -474,6 +580,9 @@ fn remove_leftovers(request: &Request, local: &Path) -> io::Result<()> {
     atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
     for scope in scopes() {
         scope.report_folder(&request.reports).tidy()?;
+        if let Some(failing) = scope.failing_folder(&request.reports) {
+            failing.tidy()?;
+        }
     }
     Ok(())
 }

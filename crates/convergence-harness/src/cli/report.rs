@@ -13,7 +13,7 @@ use crate::project::Project;
 use crate::report::{sentence, shared};
 use crate::store::{FIGURES, MANIFEST, Provenance, Record};
 use crate::text::visible;
-use crate::verify::{rebuild, reports_around};
+use crate::verify::{folder_of_figures, rebuild, reports_around};
 
 /// Write the report on a record anew, without running anything
 ///
@@ -48,17 +48,18 @@ pub(super) fn run(
             "{path}: found outside of a report's folder; expected --out DIR for the new report"
         ))
     })?;
-    let missing = add_pictures(&mut record, beside)?;
+    let pictures = folder_of_figures(&record, beside);
+    let missing = add_pictures(&mut record, &pictures)?;
     let times = reports_around(beside).join("local/provenance.json");
     let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
     let verdict = record.verdict;
     let sentence = sentence(&record.studies, record.changes.as_deref());
-    rebuild(project, record, provenance.as_ref(), &folder)?;
+    let folder = rebuild(project, record, provenance.as_ref(), &folder)?;
     missing.iter().for_each(|file| {
         screen::tell(&format!(
             "note: no picture {}/{file}",
-            visible::path(&beside.join(FIGURES))
+            visible::path(&pictures.join(FIGURES))
         ));
     });
     let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));

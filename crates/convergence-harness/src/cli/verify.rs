@@ -392,6 +392,8 @@ fn overview(
     );
     if matches!(request.scope, Scope::Selection(_)) {
         text += "a selection leaves the committed report as it is\n";
+    } else if found.record.verdict != Verdict::Pass && found.blessing != Blessing::Taken {
+        text += "a run that does not pass leaves the committed report as it is\n";
     }
     text
 }

@@ -52,6 +52,27 @@ pub struct Findings<'f> {
 /// the quick one.
 pub const FULL: &str = "full/README.md";
 
+/// The files of a report that git ignores, and that browsers, programs and continuous integration
+/// read: they show the newest run, whether it passes or not.
+pub const NEWEST: [&str; 5] = [
+    "errors.csv",
+    "index.html",
+    "junit.xml",
+    "results.json",
+    "summary.md",
+];
+
+/// [`NEWEST`] of a report.
+pub(crate) fn newest(set: &ReportSet) -> ReportSet {
+    let mut newest = ReportSet::default();
+    for path in NEWEST {
+        if let Some(bytes) = set.get(path) {
+            newest.replace(path, bytes.clone());
+        }
+    }
+    newest
+}
+
 /// Bytes of the longest comment: GitHub takes 65536 characters.
 pub const LONGEST: usize = 65_000;
 

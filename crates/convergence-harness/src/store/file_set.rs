@@ -146,6 +146,22 @@ impl ReportFolder {
         self.complete_interrupted()
     }
 
+    /// The stored set with some files replaced or added. The caller must hold the [`lock`].
+    ///
+    /// # Errors
+    /// The error of the operating system, and a file that no set can hold.
+    pub(crate) fn renewed(&self, mut files: ReportSet) -> io::Result<ReportSet> {
+        self.tidy()?;
+        for path in self.stored()? {
+            if files.get(&path).is_none()
+                && let Some(bytes) = self.read(&path)?
+            {
+                files.add(path, bytes)?;
+            }
+        }
+        Ok(files)
+    }
+
     /// The paths that the manifest lists; none without a manifest.
     ///
     /// # Errors

@@ -397,8 +397,9 @@ fn a_changed_claim_fails_the_run_and_is_in_every_report() {
         );
         assert_ne!(found.blessing, Blessing::Taken);
         assert_eq!(fs::read(&baseline).unwrap(), before);
-        let report =
-            |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
+        let report = |name: &str| {
+            fs::read_to_string(root.path().join("reports/local/quick").join(name)).unwrap()
+        };
         assert!(report("README.md").contains(
             "\n## Claims changed\n\n- [a](#a): expect\\[0\\].tolerance 0.002, now 0.49\n"
         ));

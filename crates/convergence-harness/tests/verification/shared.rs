@@ -18,14 +18,19 @@ fn scaled(id: &str, scale: f64) -> Box<dyn Study> {
     .erased()
 }
 
+/// Blessed: only then the report is written where git holds it.
 fn quick(root: &Path, scale: f64) {
-    let request = request(root, &["a"]);
+    let request = Request {
+        bless: true,
+        ..request(root, &["a"])
+    };
     verify(&PROJECT, &[scaled("a", scale)], &request, &|_| {}).unwrap();
 }
 
 fn full(root: &Path, scale: f64) {
     let request = Request {
         scope: Scope::Tier(Tier::Full, ids(&["a", "b"])),
+        bless: true,
         ..request(root, &["a"])
     };
     let studies = [scaled("a", scale), scaled("b", 1.0)];
@@ -149,7 +154,11 @@ fn a_quick_run_that_was_killed_leaves_the_full_report_its_figures() {
 #[test]
 fn a_figure_that_is_gone_from_the_quick_report_stays_in_the_full_one() {
     let (root, reports, picture) = both(1.0);
-    let other = request(root.path(), &["c"]);
+    let other = Request {
+        bless: true,
+        reason: Some("another study".to_owned()),
+        ..request(root.path(), &["c"])
+    };
     verify(&PROJECT, &[scaled("c", 1.0)], &other, &|_| {}).unwrap();
     assert!(!reports.join("figures/a-errors.svg").exists());
     assert_eq!(
@@ -167,7 +176,12 @@ fn without_its_copy_of_a_figure_no_report_changes() {
     fs::remove_dir_all(full.join("figures")).unwrap();
     fs::write(full.join("figures"), "no folder").unwrap();
     let studies = [scaled("a", 3.0)];
-    let failed = verify(&PROJECT, &studies, &request(root.path(), &["a"]), &|_| {});
+    let bless = Request {
+        bless: true,
+        reason: Some("one study less".to_owned()),
+        ..request(root.path(), &["a"])
+    };
+    let failed = verify(&PROJECT, &studies, &bless, &|_| {});
     let message = failed.unwrap_err().to_string();
     assert!(message.contains("reports cannot be written"), "{message}");
     assert_eq!(fs::read_to_string(full.join("README.md")).unwrap(), before);

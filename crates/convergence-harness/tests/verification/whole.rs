@@ -6,6 +6,7 @@ use std::path::Path;
 
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::project::Project;
+use convergence_harness::report::NEWEST;
 use convergence_harness::study::{Study, Tier};
 use convergence_harness::verify::{Blessing, Request, Scope, Verification, verify};
 
@@ -72,10 +73,91 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
         (Verdict::Pass, Verdict::Fail)
     );
     assert!(
-        fs::read_to_string(root.path().join("reports/README.md"))
+        fs::read_to_string(root.path().join("reports/local/quick/README.md"))
             .unwrap()
             .contains("by +50 %")
     );
+}
+
+/// The files of a report that git ignores.
+fn is_ignored(path: &str) -> bool {
+    NEWEST.iter().any(|name| path.ends_with(name))
+}
+
+#[test]
+fn a_run_that_does_not_pass_leaves_what_git_holds_and_shows_itself_to_programs() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let local = reports.join("local/quick");
+    let plain = request(root.path(), &["a"]);
+    let bless = Request {
+        bless: true,
+        ..plain.clone()
+    };
+    let passing = run(vec![study("a", Does::Converge)], &bless);
+    assert_eq!(passing.reports, reports);
+    let before = committed(&reports);
+    let failing = run(vec![study("a", Does::Stay)], &plain);
+    assert_eq!(
+        (failing.record.verdict, failing.reports.as_path()),
+        (Verdict::Fail, local.as_path())
+    );
+    let after = committed(&reports);
+    let changed = |path: &&String| before.get(*path) != after.get(*path);
+    let changed: Vec<&String> = before.keys().filter(changed).collect();
+    assert!(
+        before.keys().eq(after.keys())
+            && !changed.is_empty()
+            && changed.iter().all(|path| is_ignored(path)),
+        "{changed:?}"
+    );
+    // Programs and browsers see the newest run; its whole report is in the local folder.
+    for name in NEWEST {
+        let own = fs::read(reports.join(name)).unwrap();
+        assert_eq!(own, fs::read(local.join(name)).unwrap(), "{name}");
+    }
+    for name in ["README.md", "junit.xml", "index.html"] {
+        let text = fs::read_to_string(local.join(name)).unwrap();
+        assert!(text.contains("fail"), "{name}: {text}");
+    }
+    // The next run that passes removes it.
+    let again = run(vec![study("a", Does::Converge)], &plain);
+    assert_eq!(again.record.verdict, Verdict::Pass);
+    assert!(!local.join("README.md").exists());
+    assert_eq!(committed(&reports), before);
+}
+
+#[test]
+fn a_failing_run_of_the_full_tier_leaves_both_reports() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let full = |does: Does, bless: bool| {
+        let studies = vec![study("a", does)];
+        let headers = studies.iter().map(|study| study.header().clone()).collect();
+        let request = Request {
+            scope: Scope::Tier(Tier::Full, headers),
+            bless,
+            ..request(root.path(), &["a"])
+        };
+        run(studies, &request)
+    };
+    run(
+        vec![study("a", Does::Converge)],
+        &Request {
+            bless: true,
+            ..request(root.path(), &["a"])
+        },
+    );
+    full(Does::Converge, true);
+    let kept = |folder: &Path| {
+        let mut files = committed(folder);
+        files.retain(|path, _| !is_ignored(path));
+        files
+    };
+    let before = [kept(&reports), kept(&reports.join("full"))];
+    let failing = full(Does::Stay, false);
+    assert_eq!(failing.reports, reports.join("local/full"));
+    assert_eq!([kept(&reports), kept(&reports.join("full"))], before);
 }
 
 #[test]
@@ -135,7 +217,7 @@ fn a_blessing_does_not_turn_a_failing_study_green() {
 #[test]
 fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let root = tempfile::tempdir().unwrap();
-    let reports = root.path().join("reports");
+    let reports = root.path().join("reports/local/quick");
     let studies = || {
         vec![
             study("a", Does::Converge),
@@ -153,7 +235,8 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
         run(studies(), &request);
         assert_eq!(committed(&reports), first, "{count} threads");
     }
-    let provenance = fs::read_to_string(reports.join("local/provenance.json")).unwrap();
+    let provenance = root.path().join("reports/local/provenance.json");
+    let provenance = fs::read_to_string(provenance).unwrap();
     let provenance: serde_json::Value = serde_json::from_str(&provenance).unwrap();
     assert_eq!(
         (&provenance["jobs"], &provenance["command"]),
@@ -175,10 +258,12 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
     let root = tempfile::tempdir().unwrap();
     let reports = root.path().join("reports");
     let quick = request(root.path(), &["a", "b"]);
-    run(
-        vec![study("a", Does::Converge), study("b", Does::Converge)],
-        &quick,
-    );
+    let bless = Request {
+        bless: true,
+        ..quick.clone()
+    };
+    let both = || vec![study("a", Does::Converge), study("b", Does::Converge)];
+    run(both(), &bless);
     let whole = committed(&reports);
     let words = vec!["a".to_owned(), "b*".to_owned()];
     let part = run(
@@ -198,13 +283,13 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
 
     let full = Request {
         scope: Scope::Tier(Tier::Full, ids(&["a", "b"])),
-        ..quick.clone()
+        ..bless
     };
-    run(vec![study("a", Does::Converge)], &full);
+    run(both(), &full);
     assert_eq!(committed(&reports), whole);
-    assert!(reports.join("full/figures/rates.svg").is_file());
+    assert!(reports.join("full/README.md").is_file());
     // From now on the quick report links to the full one, and does not change again.
-    run(vec![study("a", Does::Converge)], &quick);
+    run(both(), &quick);
     let page = fs::read_to_string(reports.join("README.md")).unwrap();
     assert!(
         page.contains("[the report on the full tier](full/README.md)"),

@@ -96,9 +96,9 @@ fn records_are_compared_with_0_1_or_2() {
     }
 }
 
-/// The message of the badge beside the report, which is the same in the picture.
-fn badge(root: &TempDir) -> String {
-    let read = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
+/// The message of the badge in a folder of a report, which is the same in the picture.
+fn badge(root: &TempDir, folder: &str) -> String {
+    let read = |name: &str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();
     let object: serde_json::Value = serde_json::from_str(&read("badge.json")).unwrap();
     assert_eq!(object["schemaVersion"], 1);
     assert_eq!(object["label"], "orders");
@@ -116,12 +116,12 @@ fn badge(root: &TempDir) -> String {
 fn the_badge_has_the_verdict_of_the_run() {
     let root = workspace(false);
     assert_eq!(run(&root, &["verify"]).0, Some(1));
-    assert_eq!(badge(&root), "not accepted");
+    assert_eq!(badge(&root, "reports/local/quick"), "not accepted");
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    assert_eq!(badge(&root), "1 verified");
+    assert_eq!(badge(&root, "reports"), "1 verified");
     let root = workspace(true);
     assert_eq!(run(&root, &["verify"]).0, Some(1));
-    assert_eq!(badge(&root), "1 lost");
+    assert_eq!(badge(&root, "reports/local/quick"), "1 lost");
 }
 
 /// The pages of a record equal those of the run, and come only from the record and its pictures.
@@ -145,23 +145,25 @@ fn a_report_is_made_anew_from_its_record() {
         names.iter().chain(&figures).map(read).collect::<Vec<_>>()
     };
     assert_eq!(run(&root, &["verify"]).0, Some(1));
-    let written = files("reports");
+    let written = files("reports/local/quick");
     let remove = |path: &str| fs::remove_file(root.path().join(path)).unwrap();
     [
         "studies/one.toml",
         "studies/two.toml",
-        "reports/README.md",
-        "reports/index.html",
+        "reports/local/quick/README.md",
+        "reports/local/quick/index.html",
     ]
     .iter()
     .for_each(|path| remove(path));
     let (status, out, err) = run(&root, &["report", "reports/results.json"]);
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
     assert!(
-        out.starts_with("fail: 1 of 2 fail (two)") && out.ends_with("reports/README.md\n"),
+        out.starts_with("fail: 1 of 2 fail (two)")
+            && out.ends_with("reports/local/quick/README.md\n"),
         "{out}"
     );
-    assert_eq!(files("reports"), written);
+    assert_eq!(files("reports/local/quick"), written);
+    assert!(!root.path().join("reports/README.md").exists());
     // Elsewhere a report needs a destination, and does without missing pictures.
     fs::copy(
         root.path().join("reports/results.json"),

@@ -122,7 +122,7 @@ fn the_cause_is_printed_first_and_what_passes_is_counted() {
         lines[4].starts_with("  passes     the others: 2 of 2"),
         "{out}"
     );
-    let end = &lines[lines.len() - 6..];
+    let end = &lines[lines.len() - 7..];
     assert_eq!(
         end[..2],
         [
@@ -135,7 +135,13 @@ fn the_cause_is_printed_first_and_what_passes_is_counted() {
         end[2].starts_with("too-low: The whole interval lies below the band") && end[3].is_empty(),
         "{out}"
     );
-    assert_eq!(end[5], "report: reports/index.html, reports/README.md");
+    assert_eq!(
+        end[5..],
+        [
+            "report: reports/local/quick/index.html, reports/local/quick/README.md",
+            "a run that does not pass leaves the committed report as it is"
+        ]
+    );
     let (_, out, _) = run(&root, &["verify", "--verbose"]);
     assert!(
         out.contains("\none    pass")
@@ -192,7 +198,8 @@ fn a_deleted_study_is_one_change_and_is_named() {
                 claims changed\n  three: deleted\nif that is meant: powers verify --bless --reason TEXT\n";
     assert_eq!((status, out.as_str()), (Some(1), said));
     for file in ["README.md", "summary.md"] {
-        let page = fs::read_to_string(root.path().join("reports").join(file)).unwrap();
+        let folder = root.path().join("reports/local/quick");
+        let page = fs::read_to_string(folder.join(file)).unwrap();
         assert!(page.contains("; 1 study deleted\n"), "{page}");
         assert!(
             page.contains("\n## Claims changed\n\n- three: deleted\n\n")

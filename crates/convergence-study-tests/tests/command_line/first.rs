@@ -12,7 +12,7 @@ fn a_first_run_counts_the_numbers_to_accept_and_lists_none() {
     let last = "no baseline yet: 6 numbers to accept; `powers verify --bless` accepts them\n";
     assert!(out.ends_with(last) && out.contains("one    pass"), "{out}");
     assert!(!out.contains("fail") && !out.contains("is new"), "{out}");
-    let page = fs::read_to_string(root.path().join("reports/README.md")).unwrap();
+    let page = fs::read_to_string(root.path().join("reports/local/quick/README.md")).unwrap();
     assert!(
         page.contains("no baseline yet: 6 numbers to accept\n")
             && page.contains("`powers verify --bless` accepts them.")

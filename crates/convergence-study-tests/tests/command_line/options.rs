@@ -72,7 +72,10 @@ fn short_forms_are_those_of_the_long_ones() {
     let long = run(&root, &["verify", "--jobs", "1", "--verbose", "--out", "a"]);
     let short = run(&root, &["verify", "-j", "1", "-v", "-o", "b"]);
     assert_eq!(long.0, short.0);
-    let page = |name: &str| fs::read_to_string(root.path().join(name).join("README.md")).unwrap();
+    let page = |name: &str| {
+        let folder = root.path().join(name).join("local/quick");
+        fs::read_to_string(folder.join("README.md")).unwrap()
+    };
     assert_eq!(page("a"), page("b"));
     for arguments in [["rates", "--version"], ["verify", "-V"]] {
         let (status, out, _) = run(&root, &arguments);

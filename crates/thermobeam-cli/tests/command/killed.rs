@@ -1,7 +1,7 @@
 //! `verify` killed at any moment, and several runs at the same time.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use convergence_study_tests::{finished, started};
@@ -24,12 +24,17 @@ fn undisturbed(folder: &Folder, name: &str, studies: &[(&str, String)]) -> (Set,
     let start = Instant::now();
     // Without a baseline every number is new: a fail, with reports.
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
-    (set(&root.join("reports")), start.elapsed())
+    (set(&failing(&root)), start.elapsed())
+}
+
+/// Where the report on a run that does not pass is.
+fn failing(root: &Path) -> PathBuf {
+    root.join("reports/local/quick")
 }
 
 /// Was a run killed while moving the new set to its place, which the next run completes?
 fn is_pending(root: &Path) -> bool {
-    root.join("reports/local/workshop/quick/pending/manifest.txt")
+    root.join("reports/local/workshop/quick-failing/pending/manifest.txt")
         .is_file()
 }
 
@@ -52,7 +57,7 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         sets[1].keys().collect::<Vec<_>>()
     );
     let root = workspace(&folder, "killed", &both[0]);
-    let reports = root.join("reports");
+    let reports = failing(&root);
     let mut before: Option<Set> = None;
     let (mut old, mut new, mut completed, mut mixed) = (0, 0, 0, 0);
     for kill in 0..kills {
@@ -107,7 +112,7 @@ fn what_a_killed_run_has_left_is_cleared_away_even_by_a_run_of_another_scope() {
     let folder = Folder::new();
     let root = workspace(&folder, "left", &studies(["a-1", "a-2", "a-3"]));
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
-    let before = set(&root.join("reports"));
+    let before = set(&failing(&root));
     for (name, text) in [
         ("reports/local/workshop/quick/staging/README.md", "half"),
         ("reports/local/workshop/full/staging/figures/x.svg", "half"),
@@ -120,7 +125,7 @@ fn what_a_killed_run_has_left_is_cleared_away_even_by_a_run_of_another_scope() {
         std::fs::write(path, text).expect("a file");
     }
     assert_eq!(ended(&mut verify(&root, &["a-1"])).status, Some(1));
-    assert_eq!(set(&root.join("reports")), before);
+    assert_eq!(set(&failing(&root)), before);
     let half: Vec<String> = all(&root)
         .into_iter()
         .filter(|(_, bytes)| bytes == b"half")
@@ -152,8 +157,8 @@ fn several_at_once_leave_one_whole_set() {
             String::from_utf8_lossy(&output.stderr)
         );
     }
-    assert_eq!(set(&root.join("reports")), sets[0]);
+    assert_eq!(set(&failing(&root)), sets[0]);
     with_studies(&root, &both[1]);
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
-    assert_eq!(set(&root.join("reports")), sets[1]);
+    assert_eq!(set(&failing(&root)), sets[1]);
 }

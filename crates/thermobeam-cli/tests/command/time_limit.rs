@@ -26,7 +26,8 @@ fn a_case_at_its_limit_fails_its_study_and_no_other() {
         "{}",
         ended.stdout
     );
-    let page = std::fs::read_to_string(root.join("reports/README.md")).expect("a report");
+    let page =
+        std::fs::read_to_string(root.join("reports/local/quick/README.md")).expect("a report");
     for piece in [
         "n = 8, 9000000000 steps: stopped at the time limit of 1 s, after step ",
         "| every case completes, with finite numbers | fail",
@@ -46,7 +47,7 @@ fn a_limit_that_is_not_reached_changes_no_bit() {
             &["--time-limit", "3600"]
         };
         assert_eq!(ended(&mut verify(&root, arguments)).status, Some(1));
-        set(&root.join("reports"))
+        set(&root.join("reports/local/quick"))
     });
     assert_eq!(sets[0], sets[1]);
 }

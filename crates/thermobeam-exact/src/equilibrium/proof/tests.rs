@@ -7,12 +7,12 @@ use num_rational::BigRational;
 /// `1 + N` and N to 60 digits by mpmath 1.3 (`mp.dps = 60`): the 2 x 2 system for (α, c) solved at
 /// each N with cosines of complex arguments, ‖u'‖² by quadrature of φ + c, N by a secant method.
 /// The coefficients are the doubles of the scenes, exactly.
-const BUCKLING: &str = "-0.711599560857999057569009742139844345463913516424456682971917";
+const BUCKLING: &str = include_str!("buckling.txt");
 const LIFT_OFF: &str = "0.0832592035009391630298775988684572147574490096860046020630479";
 const FOLD: &str = "-1.0216245463878471344530068081404853071567334001849";
 
 fn encloses(interval: Interval, decimals: &str) -> bool {
-    let (whole, digits) = decimals.split_once('.').unwrap();
+    let (whole, digits) = decimals.trim_end().split_once('.').unwrap();
     let power = BigInt::from(10).pow(u32::try_from(digits.len()).unwrap());
     let value = BigRational::new(format!("{whole}{digits}").parse().unwrap(), power);
     let bound = |x: f64| BigRational::from_float(x);
@@ -172,7 +172,7 @@ fn what_no_enclosure_decides_is_named() {
         "{touch:?}"
     );
 
-    let buckling: f64 = BUCKLING.parse().unwrap();
+    let buckling: f64 = BUCKLING.trim_end().parse().unwrap();
     let reasons: Vec<_> = prove(&beam(buckling, 0.0), None)
         .unwrap()
         .undecided

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use thermobeam_exact::equilibrium::{
-    Completeness, Equilibrium, EquilibriumError, completeness, equilibria,
+    Completeness, Equilibrium, EquilibriumError, Proof, equilibria, prove,
 };
+use thermobeam_exact::interval::Interval;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
@@ -38,14 +39,16 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             return Ok(Verdict::Fail);
         }
     };
+    let proof = prove(&scene.beam, scene.obstacles.as_ref())
+        .map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let flags = &arguments.flags;
     let stable = states.iter().filter(|state| state.stable).count();
     let sentence = format!("{}, {stable} of them stable", counted(states.len()));
-    let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states));
+    let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states, &proof));
     Ok(flags.show(
         "equilibria",
         Verdict::Pass,
-        &Listed::new(&scene, &states),
+        &Listed::new(&states, &proof),
         &words,
     )?)
 }
@@ -55,6 +58,18 @@ struct Listed {
     equilibria: Vec<ListedState>,
     /// Whether these are all. If not, unstable states with -1 < N < -0.9996 may be missing, or are.
     complete: bool,
+    /// Whether it is proved that these are all, each once.
+    proved: bool,
+    /// Where the proof decides nothing.
+    undecided: Vec<ListedUndecided>,
+}
+
+#[derive(Debug, Serialize)]
+struct ListedUndecided {
+    contact: &'static str,
+    n_value: [f64; 2],
+    reason: &'static str,
+    width: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -67,12 +82,23 @@ struct ListedState {
     contact_force: f64,
     /// `null` if there are infinitely many.
     unstable_directions: Option<usize>,
+    /// Whether the state is proved to exist.
+    proved: bool,
+    /// Bounds of N; `null` if the state is not proved.
+    n_enclosure: Option<[f64; 2]>,
+    /// Bounds of u(1); `null` if the state is not proved.
+    u_tip_enclosure: Option<[f64; 2]>,
+}
+
+fn bounds(interval: Interval) -> [f64; 2] {
+    [interval.lo, interval.hi]
 }
 
 impl Listed {
-    fn new(scene: &Scene, states: &[Equilibrium]) -> Self {
+    fn new(states: &[Equilibrium], proof: &Proof) -> Self {
         let mut equilibria = vec![];
         for state in states {
+            let proved = proof.of(state);
             equilibria.push(ListedState {
                 contact: phase_name(state.contact),
                 n_value: state.n_value,
@@ -81,17 +107,27 @@ impl Listed {
                 stable: state.stable,
                 contact_force: state.contact_force,
                 unstable_directions: state.unstable_directions,
+                proved: proved.is_some(),
+                n_enclosure: proved.map(|proved| bounds(proved.n_value)),
+                u_tip_enclosure: proved.map(|proved| bounds(proved.u_tip)),
+            });
+        }
+        let mut undecided = vec![];
+        for part in &proof.undecided {
+            undecided.push(ListedUndecided {
+                contact: phase_name(part.contact),
+                n_value: bounds(part.n_value),
+                reason: part.reason.words(),
+                width: part.width,
             });
         }
         Self {
             equilibria,
-            complete: known(scene) == Completeness::Complete,
+            complete: proof.completeness == Completeness::Complete,
+            proved: proof.count_of(states).is_some(),
+            undecided,
         }
     }
-}
-
-fn known(scene: &Scene) -> Completeness {
-    completeness(&scene.beam, scene.obstacles.as_ref())
 }
 
 fn counted(states: usize) -> String {
@@ -101,7 +137,7 @@ fn counted(states: usize) -> String {
     }
 }
 
-fn text(scene: &Scene, states: &[Equilibrium]) -> String {
+fn text(scene: &Scene, states: &[Equilibrium], proof: &Proof) -> String {
     let count = counted(states.len());
     let beam = &scene.beam;
     let mut text = format!(
@@ -131,7 +167,8 @@ fn text(scene: &Scene, states: &[Equilibrium]) -> String {
             state.contact_force,
         );
     }
-    text + match known(scene) {
+    text += &proof_text(states, proof);
+    text + match proof.completeness {
         Completeness::Complete => "",
         Completeness::Unknown => {
             "\nPerhaps not all: unstable states with -1 < N < -0.9996 may be missing.\nEvery stable state is listed.\n"
@@ -140,4 +177,39 @@ fn text(scene: &Scene, states: &[Equilibrium]) -> String {
             "\nNot all: infinitely many unstable states accumulate at N = -1.\nEvery stable state is listed.\n"
         }
     }
+}
+
+/// What is proved: each state with its enclosure, and whether there are others.
+fn proof_text(states: &[Equilibrium], proof: &Proof) -> String {
+    let mut text = "\n".to_owned();
+    for state in states {
+        let contact = phase_name(state.contact);
+        let _ = match proof.of(state) {
+            Some(proved) => writeln!(
+                text,
+                "  {contact:<8}proved: N in {}, u(1) in {}",
+                bounds_text(proved.n_value),
+                bounds_text(proved.u_tip)
+            ),
+            None => writeln!(text, "  {contact:<8}undecided: N = {:?}", state.n_value),
+        };
+    }
+    for part in &proof.undecided {
+        let _ = writeln!(
+            text,
+            "  Undecided, {}, N in {}: {}, given up at a width of {:.1e}.",
+            phase_name(part.contact),
+            bounds_text(part.n_value),
+            part.reason.words(),
+            part.width
+        );
+    }
+    if let Some(count) = proof.count_of(states) {
+        let _ = writeln!(text, "Proved: {}, and no other.", counted(count));
+    }
+    text
+}
+
+fn bounds_text(interval: Interval) -> String {
+    format!("[{:?}, {:?}]", interval.lo, interval.hi)
 }

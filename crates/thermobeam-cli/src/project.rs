@@ -46,7 +46,8 @@ const FRONT: Front = Front {
               heat spreads along it.",
     picture: "section-5-beam.svg",
     finding: "The paper sees evidence in an experiment that \"for beta < -1/2, there are multiple steady-state solutions\". That does not hold between -0.7116 and \
-               -1/2, where the straight beam is the only one; below -0.7116 there are several (section-5, bifurcation).",
+               -1/2, where the straight beam is the only one; below -0.7116 there are several (section-5, bifurcation). \
+               These counts are theorems: `equilibria` proves them with interval arithmetic (THEORY.md, Proven steady states).",
     plot: "theorem-3.4-space-rates.svg",
     verified: "Theorem 3.4 of Bernardi and Copetti bounds the error of their scheme by c (h + dt), for solutions that are smooth. Each order is \
                measured with solutions that are known exactly, with the other error isolated, and is judged by the interval of its rate at \

@@ -38,6 +38,7 @@ pub mod errors;
 pub mod expression;
 pub mod formulas;
 pub mod function;
+pub mod interval;
 pub mod norm;
 pub mod quadrature;
 pub mod solution;

@@ -139,3 +139,52 @@ fn a_question_without_an_answer_fails() {
         ended.stderr
     );
 }
+
+#[test]
+fn each_state_is_proved_with_an_enclosure_or_undecided_with_a_reason() {
+    let folder = Folder::new();
+    // At the lift-off of the heated beam no enclosure tells contact from none.
+    let lift_off = "[beam]\nbeta = 0.08325920350093916\ntheta_a = 20.0\n[obstacles]\n\
+                    [initial]\ntheta = \"20*(1-x)\"\n[time]\ndt = 0.1\nt_end = 1\n";
+    for (name, text, is_proved, words) in [
+        (
+            "buckled",
+            scene(-0.8),
+            true,
+            "Proved: 3 steady states, and no other.",
+        ),
+        (
+            "lift-off",
+            lift_off.to_owned(),
+            false,
+            "u(1) cannot be told from",
+        ),
+    ] {
+        let path = folder.file(&format!("{name}.toml"), &text);
+        let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+        assert!(text.contains(words), "{text}");
+        let json = ended(
+            thermobeam()
+                .arg("equilibria")
+                .arg(&path)
+                .args(["--format", "json"]),
+        )
+        .stdout;
+        let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!(value["proved"], is_proved, "{json}");
+        let undecided = value["undecided"].as_array().expect("a list");
+        assert_eq!(undecided.is_empty(), is_proved, "{json}");
+        for state in value["equilibria"].as_array().expect("a list") {
+            let n = state["n_value"].as_f64().expect("a number");
+            let Some(bounds) = state["n_enclosure"].as_array() else {
+                assert_eq!((is_proved, &state["proved"]), (false, &false.into()));
+                continue;
+            };
+            let [lo, hi] = [0, 1].map(|k| bounds[k].as_f64().expect("a number"));
+            assert!(
+                lo - 1e-12 <= n && n <= hi + 1e-12 && hi - lo < 1e-12,
+                "{state}"
+            );
+        }
+    }
+}

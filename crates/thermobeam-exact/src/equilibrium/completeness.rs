@@ -21,8 +21,10 @@
 //! least G² times that: it grows like (g + D)²/(2s) for s → 0, and the number of states is finite
 //! unless g = -D.
 
-use super::law::{Law, Support, free_buckling};
+use super::law::{Law, Support};
+use super::proof::free_pole;
 use super::{BUCKLING_VALUES, laws};
+use crate::interval::Interval;
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -42,21 +44,21 @@ pub enum Completeness {
 /// [`Completeness::Complete`] and [`Completeness::Infinite`] are proven; the list is complete for
 /// every β > -0.9996.
 pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness {
-    let last = free_buckling(BUCKLING_VALUES + 1);
-    let moment = beam.a * beam.theta_a;
-    let (rest, rho) = (1.0 + beam.beta, beam.rho);
+    let last = last_value();
+    let moment = Interval::from(beam.a) * beam.theta_a;
+    let (rest, rho) = (Interval::from(1.0) + beam.beta, beam.rho);
     let has_none = |(contact, law): &(Phase, Law)| {
         let is_excluded = *contact == Phase::Free
-            && obstacles.is_some_and(|obstacles| law.misses(obstacles, last));
-        rest + rho * law.least_slope_squared(last) >= last || is_excluded
+            && obstacles.is_some_and(|obstacles| law.misses(moment, obstacles));
+        (rest + law.least_slope_squared(moment) * rho).lo >= last.hi || is_excluded
     };
     let is_admitted =
-        obstacles.is_none_or(|Obstacles { g1, g2, .. }| *g1 < -moment && -moment < *g2);
+        obstacles.is_none_or(|Obstacles { g1, g2, .. }| *g1 < -moment.hi && -moment.lo < *g2);
     // For ρ = 0 there is one N.
     if rho == 0.0 || laws(beam, obstacles).iter().all(has_none) {
         Completeness::Complete
-    } else if moment == 0.0 && rest <= 0.0
-        || rest + 1.5 * rho * moment * moment < 0.0 && is_admitted
+    } else if beam.a * beam.theta_a == 0.0 && beam.beta <= -1.0
+        || (rest + moment.square() * (1.5 * rho).next_up()).is_negative() && is_admitted
     {
         Completeness::Infinite
     } else {
@@ -64,38 +66,51 @@ pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness 
     }
 }
 
+/// s*, the last free buckling value searched.
+fn last_value() -> Interval {
+    free_pole(BUCKLING_VALUES + 1)
+}
+
 impl Law {
-    /// A lower bound of S for all 0 < 1 + N < `last`.
-    fn least_slope_squared(&self, last: f64) -> f64 {
+    /// A lower bound of S for all 0 < 1 + N < s*.
+    fn least_slope_squared(&self, moment: Interval) -> Interval {
+        let last = last_value();
         let Some(Support { epsilon, position }) = self.support else {
-            return 1.5 * self.moment * self.moment;
+            return moment.square() * 1.5;
         };
         // G is linear in s.
-        let [start, end] = [0.0, last].map(|s| position + self.moment * (1.0 + epsilon * s));
-        let load = if start * end <= 0.0 {
-            0.0
+        let start = moment + position;
+        let end = moment * (last * epsilon + 1.0) + position;
+        let load = if start.is_positive() && end.is_positive()
+            || start.is_negative() && end.is_negative()
+        {
+            let least = start.square().lo.min(end.square().lo);
+            Interval::from(least)
         } else {
-            start.abs().min(end.abs())
+            return Interval::from(0.0);
         };
         // |b| <= s max(1, ε), and k² < 1/s.
-        let widest = epsilon.max(1.0);
-        let variance = 0.5 + 0.5 * last * widest + 0.5 * last * widest * widest;
-        load * load * (1.0 / last - 1.0 - 2.25) / (4.0 * variance)
+        let widest = Interval::from(epsilon.max(1.0));
+        let variance = last * widest * 0.5 + last * widest.square() * 0.5 + 0.5;
+        load * (Interval::from(1.0) / last - 3.25) / (variance * 4.0)
     }
 
-    /// Whether every free state with 0 < 1 + N < `last` would cross an obstacle.
-    fn misses(&self, obstacles: &Obstacles, last: f64) -> bool {
-        let moment = self.moment.abs();
-        if moment == 0.0 {
+    /// Whether every free state with 0 < 1 + N < s* would cross an obstacle.
+    fn misses(&self, moment: Interval, obstacles: &Obstacles) -> bool {
+        if self.moment == 0.0 {
             return false;
         }
-        // A² V = S - u(1)² <= S < (last - (1 + β))/ρ bounds V, and thus τ.
-        let curvature = 0.5 * (1.0 / last - 1.0) - 1.0;
-        let variance = (last - (1.0 + self.beta)) / (self.rho * moment * moment);
-        let tangent =
-            (0.5 + (0.25 + 4.0 * curvature * (variance - 0.5).max(0.0)).sqrt()) / (2.0 * curvature);
+        let last = last_value();
+        let squared = moment.square();
+        // A² V = S - u(1)² <= S < (s* - (1 + β))/ρ bounds V, and thus τ.
+        let curvature = (Interval::from(1.0) / last - 1.0) * 0.5 - 1.0;
+        let rest = Interval::from(1.0) + self.beta;
+        let variance = (last - rest) / (squared * self.rho);
+        let excess = (variance - 0.5).hi.max(0.0);
+        let root = (curvature * 4.0 * excess + 0.25).sqrt();
+        let tangent = (root + 0.5) / (curvature * 2.0);
         // u(1) + D = D (τ - s)/(1 - s).
-        let spread = moment * (tangent + last) / (1.0 - last);
-        -self.moment - spread > obstacles.g2 || -self.moment + spread < obstacles.g1
+        let spread = squared.sqrt() * (tangent + last) / (Interval::from(1.0) - last);
+        (-moment - spread.hi).lo > obstacles.g2 || (-moment + spread.hi).hi < obstacles.g1
     }
 }

@@ -84,6 +84,7 @@ mod completeness;
 mod law;
 mod maximum;
 mod polish;
+mod proof;
 mod scan;
 mod shape;
 
@@ -93,6 +94,7 @@ use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thiserror::Error;
 
 pub use completeness::{Completeness, completeness};
+pub use proof::{Proof, ProvedState, Reason, Undecided, enclose_change, prove};
 pub use shape::Shape;
 pub use thermobeam::contact::Phase;
 

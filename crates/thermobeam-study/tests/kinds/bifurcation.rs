@@ -74,6 +74,14 @@ fn each_claim_can_fail() {
             "branches, θ_A = 20",
             diagram(|diagram| diagram.counts.clear()),
         ),
+        (
+            "branches, θ_A = 0",
+            diagram(|diagram| diagram.proved = [f64::NAN; 2]),
+        ),
+        (
+            "branches, θ_A = 20",
+            diagram(|diagram| diagram.proved = [0.2, 0.2]),
+        ),
         ("buckling force, n = 64", force(0.7116)),
         ("buckling force, n = 128", force(0.711606)),
         ("buckling force, n = 8", force(f64::NAN)),

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use thermobeam_exact::equilibrium::{EquilibriumError, Proof, enclose_change};
+
 use crate::kinds::prelude::*;
 use crate::kinds::runs::steady::exact_states;
 
@@ -166,6 +168,8 @@ pub struct Diagram {
     /// Bracket of the β at which the beam buckles or lifts off; NaN if it does neither, or more
     /// than once.
     pub event: [f64; 2],
+    /// Bounds between which the event is proved to be; NaN if it is not proved.
+    pub proved: [f64; 2],
 }
 
 impl Diagram {
@@ -183,7 +187,9 @@ impl Diagram {
             }
             grid.sort_by(f64::total_cmp);
         }
-        Ok(Self::trace(&sample(scene, &grid, HALVINGS)?, event))
+        let mut diagram = Self::trace(&sample(scene, &grid, HALVINGS)?, event);
+        diagram.proved = proved(scene, event)?;
+        Ok(diagram)
     }
 
     /// Traces all branches.
@@ -193,6 +199,7 @@ impl Diagram {
             counts: vec![],
             ambiguous: 0,
             event,
+            proved: [f64::NAN; 2],
         };
         let mut open: Vec<SteadyBranch> = vec![];
         for StatesAt { beta, states } in samples {
@@ -249,4 +256,30 @@ fn bracket(scene: &Scene, samples: &[StatesAt]) -> Result<[f64; 2], CaseFailure>
         }
     }
     Ok([low, high])
+}
+
+/// Half the width in which the event is enclosed: the answers at its ends are proved.
+const AROUND: f64 = 1e-6;
+
+/// Encloses the event by proofs of the steady states on both sides of it.
+///
+/// # Errors
+/// A coefficient out of range.
+fn proved(scene: &Scene, [low, high]: [f64; 2]) -> Result<[f64; 2], CaseFailure> {
+    let is_before = |proof: &Proof| {
+        let count = proof.count()?;
+        Some(if buckles(scene) {
+            count > 1
+        } else {
+            let mut contacts = proof.states.iter().map(|state| state.contact);
+            contacts.any(|contact| contact == Phase::Upper)
+        })
+    };
+    if low.is_nan() {
+        return Ok([f64::NAN; 2]);
+    }
+    let ends = [low - AROUND, high + AROUND];
+    let change = enclose_change(&scene.beam, scene.obstacles.as_ref(), ends, is_before)
+        .map_err(EquilibriumError::from)?;
+    Ok(change.map_or([f64::NAN; 2], |change| [change.lo, change.hi]))
 }

@@ -13,6 +13,9 @@ const STRAIGHT: f64 = 1e-6;
 /// Allowed error of the extrapolated buckling force of P1 elements.
 const LIMIT: f64 = 1e-8;
 
+/// Width to which an event is enclosed by proofs.
+const PROVED: f64 = 1e-12;
+
 /// The order of the discrete buckling force.
 const ORDER: f64 = 2.0;
 
@@ -80,6 +83,7 @@ impl<'r> OfScene<'r> {
             } else {
                 [lifts_off(diagram), self.one_state(diagram)]
             });
+            checks.push(self.is_proved(diagram));
         }
         checks
     }
@@ -153,6 +157,19 @@ impl<'r> OfScene<'r> {
             ),
         )
         .about(self.subject("event"))
+    }
+
+    /// Proofs on both sides enclose the event that counting brackets.
+    fn is_proved(&self, diagram: &Diagram) -> Check {
+        let [low, high] = diagram.proved;
+        let [from, to] = diagram.event;
+        let holds = high - low <= PROVED && low <= to && from <= high;
+        Check::that(
+            holds,
+            "the β at which the steady states change is enclosed, by proofs on both sides",
+            format!("between {low:?} and {high:?}"),
+        )
+        .about(self.subject("event, proved"))
     }
 
     fn one_state(&self, diagram: &Diagram) -> Check {

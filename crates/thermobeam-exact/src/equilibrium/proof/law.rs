@@ -1,0 +1,202 @@
+//! f, f', u(1) and the stress of one law in intervals, by formulas with one transcendental
+//! function.
+//!
+//! With `x = 1/s - 1`, `τ = tan √x/√x` and `D = aθ_A`, the solution is `u' = A (cos √x y/cos √x - s) -
+//! D`, see `completeness`. There `A = P/x`, and with `σ = (τ - 1)/x`, `R = σ' - σ² = V(τ)/x²`,
+//!
+//! ```text
+//! S = u(1)² + P² R,
+//! free:       P = D/s,                      u(1) = Dσ/s,
+//! support:    P = (g + D + Dεs)/h,          u(1) = g - εc,     c = s (gs - Dσ)/h,
+//!             h = s + σ + εs².
+//! ```
+//!
+//! They hold for all s ≠ 0: below 0, and above 1, τ = tanh κ/κ with κ² = -x. σ and R have no pole at
+//! x = 0, where N = 0. For |x| <= 1 they are quotients of Stumpff functions, and beyond they follow
+//! from τ by `2xτ' = 1 + xτ² - τ`.
+
+use super::super::law::{Law, Support};
+use crate::interval::{Interval, sin_cos, stumpff, tanh};
+
+/// A law in intervals.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct IntervalLaw {
+    /// aθ_A.
+    pub(super) moment: Interval,
+    /// 1 + β.
+    pub(super) rest: Interval,
+    pub(super) rho: f64,
+    pub(super) support: Option<Support>,
+}
+
+/// σ and R with their derivatives by s.
+struct Flexure {
+    sigma: Interval,
+    sigma_s: Interval,
+    r: Interval,
+    r_s: Interval,
+}
+
+/// What a law gives at s = 1 + N.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Solution {
+    /// `f = s - (1 + β) - ρS`.
+    pub(super) f: Interval,
+    /// f'.
+    pub(super) slope: Interval,
+    /// u(1).
+    pub(super) u_tip: Interval,
+    /// The stress c.
+    pub(super) stress: Interval,
+}
+
+impl IntervalLaw {
+    /// The law of the solver's numbers; aθ_A is the exact product of the two doubles.
+    pub(super) fn new(law: &Law, moment: Interval) -> Self {
+        Self {
+            moment,
+            rest: Interval::from(1.0) + law.beta,
+            rho: law.rho,
+            support: law.support,
+        }
+    }
+
+    /// f, f', u(1) and c; all real numbers where s may be a pole.
+    pub(super) fn at(&self, s: Interval) -> Solution {
+        let Flexure {
+            sigma,
+            sigma_s,
+            r,
+            r_s,
+        } = Flexure::at(s);
+        let d = self.moment;
+        let (p, p_s, u, u_s, stress);
+        match self.support {
+            None => {
+                p = d / s;
+                p_s = -p / s;
+                u = d * sigma / s;
+                u_s = d * (sigma_s - sigma / s) / s;
+                stress = Interval::from(0.0);
+            }
+            Some(Support { epsilon, position }) => {
+                let h = s + sigma + s.square() * epsilon;
+                let h_s = sigma_s + 1.0 + s * (2.0 * epsilon);
+                p = self.load(s) / h;
+                p_s = (d * epsilon - p * h_s) / h;
+                let n = s * position - d * sigma;
+                let n_s = -d * sigma_s + position;
+                stress = s * n / h;
+                u = Interval::from(position) - stress * epsilon;
+                u_s = -(n + s * n_s - stress * h_s) / h * epsilon;
+            }
+        }
+        let squared = u.square() + p.square() * r;
+        let squared_s = (u * u_s + p * p_s * r) * 2.0 + p.square() * r_s;
+        Solution {
+            f: s - self.rest - squared * self.rho,
+            slope: -squared_s * self.rho + 1.0,
+            u_tip: u,
+            stress,
+        }
+    }
+
+    /// `G = g + D (1 + εs)`, which a mode of the supported beam feels: at a pole it is not 0.
+    pub(super) fn load(&self, s: Interval) -> Interval {
+        self.support.map_or(self.moment, |support| {
+            self.moment * (s * support.epsilon + 1.0) + support.position
+        })
+    }
+
+    /// A positive multiple of the determinant at s: `cos √x`, times h with a support.
+    pub(super) fn determinant(&self, s: Interval) -> Interval {
+        let x = s_to_x(s);
+        let cosine = if x.lo > 0.0 {
+            sin_cos(x.sqrt())[1]
+        } else {
+            Interval::from(1.0)
+        };
+        match self.support {
+            None => cosine,
+            Some(support) => cosine * pole_function(support.epsilon, s),
+        }
+    }
+
+    /// u(1)² of the mode at a pole of a supported beam with this ‖u'‖²: there h = 0, so that
+    /// `u(1) = P (s + σ) = -P εs²`.
+    pub(super) fn squared_tip_of_mode(epsilon: f64, s: Interval, squared: Interval) -> Interval {
+        let reach = (s.square() * epsilon).square();
+        squared * reach / (reach + Flexure::at(s).r)
+    }
+}
+
+/// h: its zeros are the poles of a supported beam.
+pub(super) fn pole_function(epsilon: f64, s: Interval) -> Interval {
+    s + Flexure::at(s).sigma + s.square() * epsilon
+}
+
+fn s_to_x(s: Interval) -> Interval {
+    Interval::from(1.0) / s - 1.0
+}
+
+impl Flexure {
+    fn at(s: Interval) -> Self {
+        let x = s_to_x(s);
+        let [sigma, sigma_x, r, r_x] = if x.lo >= -1.0 && x.hi <= 1.0 {
+            by_series(x)
+        } else if x.lo > 0.0 || x.hi < 0.0 {
+            by_tangent(x)
+        } else {
+            [Interval::ENTIRE; 4]
+        };
+        let x_s = -Interval::from(1.0) / s.square();
+        Self {
+            sigma,
+            sigma_s: sigma_x * x_s,
+            r,
+            r_s: r_x * x_s,
+        }
+    }
+}
+
+/// σ, σ', R and R' at |x| <= 1: `σ = (c_2 - c_3)/c_0`, and `c_k' = (k c_{k+2} - c_{k+1})/2`.
+fn by_series(x: Interval) -> [Interval; 4] {
+    let [c0, c1, c2, c3, c4, c5, c6, c7] = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| stumpff(k, x));
+    let cosine_x = c1 * -0.5;
+    let cosine_xx = (c2 - c3) * 0.25;
+    let top_x = (c4 * 3.0 - c3 - c5 * 3.0) * 0.5;
+    let top_xx = (c4 + c6 * 15.0 - c5 * 6.0 - c7 * 15.0) * 0.25;
+    let sigma = (c2 - c3) / c0;
+    let sigma_x = (top_x - sigma * cosine_x) / c0;
+    let sigma_xx = (top_xx - sigma_x * cosine_x * 2.0 - sigma * cosine_xx) / c0;
+    [
+        sigma,
+        sigma_x,
+        sigma_x - sigma.square(),
+        sigma_xx - sigma * sigma_x * 2.0,
+    ]
+}
+
+/// The same away from x = 0, by τ and `V = (1 + xτ²)/2 + τ/2 - τ²`.
+fn by_tangent(x: Interval) -> [Interval; 4] {
+    let tau = if x.lo > 0.0 {
+        let k = x.sqrt();
+        let [sin, cos] = sin_cos(k);
+        sin / (k * cos)
+    } else {
+        let kappa = (-x).sqrt();
+        tanh(kappa) / kappa
+    };
+    let square = tau.square();
+    let secant = x * square + 1.0;
+    let tau_x = (secant - tau) / (x * 2.0);
+    let sigma = (tau - 1.0) / x;
+    let v = (secant + tau) * 0.5 - square;
+    let v_x = (tau_x + square) * 0.5 + (x - 2.0) * tau * tau_x;
+    [
+        sigma,
+        (tau_x - sigma) / x,
+        v / x.square(),
+        (v_x - v * 2.0 / x) / x.square(),
+    ]
+}

@@ -1,6 +1,7 @@
 //! Several tables in one text, each under its heading.
 
 use super::number::number;
+use crate::input::{Complaint, InputError, failed};
 
 /// A part of a text that may be a table.
 pub(super) struct Block<'t> {
@@ -42,6 +43,23 @@ pub(super) fn split(text: &str) -> Vec<Block<'_>> {
             text: part,
         })
         .collect()
+}
+
+/// Whether there are several parts, and not one for each row: `Cycle 3` above each row parts nothing.
+pub(super) fn are_tables(blocks: &[Block<'_>]) -> bool {
+    let rows = |block: &Block<'_>| block.text.lines().filter(|line| is_row(line)).count();
+    blocks.len() > 1 && blocks.iter().any(|block| rows(block) > 1)
+}
+
+/// The refusal of a text whose parts cannot be read one by one.
+pub(super) fn refusal(file_name: &str) -> InputError {
+    let complaint = Complaint::Table {
+        expected:
+            "one table, or several that can each be read: take out lines between rows of one table"
+                .into(),
+        found: "lines of words between some of the rows".to_owned(),
+    };
+    failed(file_name, complaint)
 }
 
 /// Whether a line begins with a number.

@@ -147,37 +147,22 @@ impl Cells<'_> {
         !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row])
     }
 
-    /// Whether a column of unknown name falls, tends to a limit, or does neither.
-    pub(super) fn trend(&self, step: &Self) -> Trend {
+    /// What a column of unknown name may hold but an error.
+    pub(super) fn trend(&self) -> Trend {
         let numbers: Vec<f64> = self
             .values
             .iter()
             .copied()
             .filter(|value| !value.is_nan())
             .collect();
-        let first = numbers[0];
-        let last = numbers[numbers.len() - 1];
-        let falls = 2 * numbers.windows(2).filter(|two| two[1] < two[0]).count()
-            >= numbers.len() - 1
-            && last < first;
-        if self.is_constant() {
-            return Trend::Doubtful("the same in each row");
-        }
         let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
         if is_whole && numbers.windows(2).all(|two| two[0] < two[1]) {
             return Trend::Grows;
         }
-        if is_whole && !falls {
-            return Trend::Doubtful("whole numbers that do not fall");
+        if is_whole {
+            return Trend::Error;
         }
-        if step.is_in_proportion(self) {
-            return Trend::Doubtful("in proportion to the step");
-        }
-        match limit(&numbers).filter(|_| !is_whole) {
-            Some(limit) => Trend::Limit(limit),
-            None if falls => Trend::Falls,
-            None => Trend::Doubtful("growing or standing still where the step falls"),
-        }
+        limit(&numbers).map_or(Trend::Error, Trend::Limit)
     }
 }
 
@@ -239,13 +224,14 @@ impl Derived {
     }
 }
 
-/// How the numbers of a column go on as the step falls.
+/// What a column of unknown name may hold.
 pub(super) enum Trend {
-    Falls,
-    /// In whole numbers, like a count.
+    /// An error, whether it falls or not.
+    Error,
+    /// A count: whole numbers that grow.
     Grows,
+    /// A value with this limit, or an error that no longer falls.
     Limit(f64),
-    Doubtful(&'static str),
 }
 
 /// The limit of numbers, if it is near the last of them and not zero.

@@ -136,8 +136,9 @@ impl RateTable {
 
     /// Reads all tables of `text`; messages name `file_name`.
     ///
-    /// A text that can be read as one table is one. Otherwise lines of words part it, and it has
-    /// several tables if each part can be read.
+    /// Lines of words and blank lines between some rows, but not between all, part a text, and each
+    /// part is a table: two tables that are read as one could pass where one of them fails. Other
+    /// texts are one table if they can be read so, or else the tables between lines of words.
     ///
     /// # Errors
     /// As [`RateTable::parse_with`], about the whole text.
@@ -147,11 +148,13 @@ impl RateTable {
         choice: &Choice,
     ) -> Result<Vec<(String, Self)>, InputError> {
         let text = cleaned::plain(text);
+        let blocks = blocks::split(&text);
+        let is_parted = pairs::read(&text, true).is_none() && blocks::are_tables(&blocks);
         let error = match roles::read(Original::of_text(&text, file_name), choice) {
-            Ok(table) => return Ok(vec![(String::new(), table)]),
+            Ok(table) if !is_parted => return Ok(vec![(String::new(), table)]),
+            Ok(_) => blocks::refusal(file_name),
             Err(error) => error,
         };
-        let blocks = blocks::split(&text);
         let tables: Result<Vec<_>, InputError> = blocks
             .into_iter()
             .map(|block| {

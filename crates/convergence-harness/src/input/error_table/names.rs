@@ -43,7 +43,7 @@ const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals t
     mdofs finiteelementunknowns";
 const RATE_WORDS: &str =
     "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
-const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters its nit mem memory nnz cond \
+const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters niter its nit gflops mem memory nnz cond \
     cfl row index cycle level lvl refinement i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
     displacement temperature stress flux solution gradient";

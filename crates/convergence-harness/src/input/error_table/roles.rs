@@ -21,8 +21,6 @@ enum Content {
     Error,
     Value(String),
     Other(String),
-    /// Possibly an error that does not fall.
-    Doubtful(String),
 }
 
 impl Content {
@@ -221,8 +219,8 @@ impl TableReader<'_> {
     }
 
     /// The columns of errors; the others are left out, each with the reason. Refuses to judge
-    /// without errors, or if a column may be an error but does not fall and no name says which
-    /// columns are errors.
+    /// without errors, or if a column tends to a limit. Nothing is left out because it does not
+    /// fall: a lost order looks like that.
     fn error_columns(
         &mut self,
         step: &Step,
@@ -231,7 +229,6 @@ impl TableReader<'_> {
     ) -> Result<Vec<usize>, InputError> {
         let mut errors = vec![];
         let mut limits = vec![];
-        let mut doubtful = vec![];
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
             let reason = match self.content(k, step.column, steps)? {
                 Content::Error => {
@@ -242,66 +239,59 @@ impl TableReader<'_> {
                     limits.push(k);
                     reason
                 }
-                Content::Doubtful(reason) => {
-                    doubtful.push(k);
-                    reason
-                }
                 Content::Other(reason) => reason,
             };
             let name = self.columns[k].name.clone();
             self.left_out.push(LeftOut { name, reason });
         }
-        if !values.is_empty() {
+        if errors.is_empty() && values.is_empty() {
+            return Err(self.refuse_without_errors(&limits)?);
+        }
+        if limits.is_empty() {
             return Ok(errors);
         }
-        if errors.is_empty() {
-            return Err(self.refuse_without_errors(&limits, &doubtful)?);
-        }
-        let is_sure =
-            |k: &usize| self.columns[*k].word == Word::Error || self.columns[*k].is_claimed;
-        if doubtful.is_empty() || errors.iter().any(is_sure) {
-            return Ok(errors);
-        }
-        Err(self.refuse_doubtful(&errors, &doubtful))
+        Err(self.refuse_limits(&errors, values, &limits))
     }
 
     /// The refusal of a table without errors and without chosen values: it offers the columns with
-    /// a limit as values, or else the first doubtful column as errors.
-    fn refuse_without_errors(
-        &self,
-        limits: &[usize],
-        doubtful: &[usize],
-    ) -> Result<InputError, InputError> {
+    /// a limit as values.
+    fn refuse_without_errors(&self, limits: &[usize]) -> Result<InputError, InputError> {
         let mut columns = self.columns.iter();
         let unknown =
             columns.position(|column| column.word.noun().is_none() && !column.is_number[0]);
         if let Some(k) = unknown {
             self.must(0, k)?;
         }
-        let offer = if limits.is_empty() {
-            doubtful.first().map(|first| self.with_columns(&[*first]))
-        } else {
-            Some(self.offer(|choice| choice.values = self.names(limits)))
-        };
+        let offer =
+            (!limits.is_empty()).then(|| self.offer(|choice| choice.values = self.names(limits)));
         let expected = Text::from("a column of errors, or ") + Argument::Columns.with_placeholder();
         Ok(self
             .refuse(expected, &reasons(&self.left_out))
             .offering(offer))
     }
 
-    /// The refusal of a table with columns that may be errors but do not fall, where no name says
-    /// which columns are errors.
-    fn refuse_doubtful(&self, errors: &[usize], doubtful: &[usize]) -> InputError {
-        let name = &self.columns[doubtful[0]].name;
-        let mut others = self.left_out.iter();
-        let reason = others
-            .find(|other| other.name == *name)
-            .map_or("", |other| &other.reason);
-        let found = format!("`{name}`, which is {reason}");
-        let expected = Argument::Columns.with_placeholder() + " to say which columns are errors";
-        let all = [errors, doubtful].concat();
+    /// The refusal of columns that may be values, for they tend to a limit, or errors that no longer
+    /// fall: only the user can tell. Left out, a lost order would pass.
+    fn refuse_limits(&self, errors: &[usize], values: &[usize], limits: &[usize]) -> InputError {
+        let found = format!(
+            "{}, which tends to a limit: a value, or an error that no longer falls",
+            self.quoted(&limits[..1])
+        );
+        let expected = Argument::Values.with_placeholder()
+            + " or "
+            + Argument::Columns.with_placeholder()
+            + " to say what each column holds";
+        let all_values = self.names(&[values, limits].concat());
+        let as_values = Offer {
+            comment: "if it is a value",
+            ..self.offer(|choice| choice.values = all_values)
+        };
+        let as_errors = Offer {
+            comment: "if it is an error",
+            ..self.with_columns(&[errors, limits].concat())
+        };
         self.refuse(expected, &found)
-            .offering([self.with_columns(errors), self.with_columns(&all)])
+            .offering([as_values, as_errors])
     }
 
     /// The command with these columns as errors.
@@ -356,14 +346,13 @@ impl TableReader<'_> {
             {
                 Ok(Content::Error)
             }
-            (None, None) => Ok(match column.trend(&self.columns[step]) {
-                Trend::Falls => Content::Error,
+            (None, None) => Ok(match column.trend() {
+                Trend::Error => Content::Error,
                 Trend::Grows => Content::other("whole numbers that do not fall"),
                 Trend::Limit(limit) => Content::Value(format!(
                     "tends to {}: a value, not an error",
                     plain_text(limit)
                 )),
-                Trend::Doubtful(reason) => Content::Doubtful(reason.to_owned()),
             }),
         }
     }

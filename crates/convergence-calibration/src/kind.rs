@@ -377,7 +377,7 @@ fn figures(sheets: &[Sheet]) -> Vec<Figure> {
     if let Some(sheet) = sheets.iter().find(|sheet| sheet.key == "hidden-8") {
         figures.push(figure(
             sheet,
-            "The rule seldom passes a table that hides a lower order",
+            "How often a table passes that hides a lower order",
             "How often a term of lower order goes unnoticed, by its share of the finest error.",
             [
                 Axis::linear("share of the finest error (%)"),

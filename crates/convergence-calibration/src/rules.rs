@@ -5,6 +5,7 @@ use convergence_harness::judge::fit::{Level, fit_line, pairwise_rates};
 use convergence_harness::judge::verdict::{
     DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading, Verdict,
 };
+use convergence_harness::study::until_decided::is_settled;
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};
@@ -27,7 +28,7 @@ const FIRST_LOOK: usize = 4;
 pub enum Rule {
     /// The rule of `convergence-judge` on all levels.
     Ours,
-    /// The same with finer levels added, from four on, while it is inconclusive.
+    /// The same with finer levels added, from four on, until the verdict is settled.
     LevelsAdded,
     /// The slope of a straight line.
     LeastSquares,
@@ -104,18 +105,19 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The verdict when levels are added while it is inconclusive, and how many were added.
+    /// The verdict when levels are added until one is settled, and how many were added.
     fn added(&self, judge: &Judge, order: f64) -> (Verdict, usize) {
-        let mut looks = self
-            .looks
-            .iter()
-            .map(|look| judge.decide(look, order))
-            .enumerate();
-        let decided = looks.find(|(_, verdict)| *verdict != Verdict::Inconclusive);
-        decided.map_or(
-            (Verdict::Inconclusive, self.looks.len() - 1),
-            |(added, verdict)| (verdict, added),
-        )
+        let mut before = None;
+        let mut added = 0;
+        for look in &self.looks[..self.looks.len() - 1] {
+            let now = judge.decide(look, order);
+            if is_settled(now, before) {
+                return (now, added);
+            }
+            before = Some(now);
+            added += 1;
+        }
+        (judge.decide(self.all(), order), added)
     }
 }
 

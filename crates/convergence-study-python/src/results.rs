@@ -1,7 +1,7 @@
 //! What a study is made of, and how it is judged.
 
 use convergence_harness::study::over_levels::Levels;
-use convergence_harness::study::until_decided::{self, Next};
+use convergence_harness::study::until_decided::{self, Looks, Next};
 use convergence_harness::study::{
     Axis, Claim, ErrorsOverLevels, Header, NamedErrors, STEPS, header::is_name, levels,
     run_cases_here,
@@ -138,7 +138,8 @@ impl Results {
 
     /// Whether levels are added, and why not.
     pub(crate) fn next(&self, seconds: &[f64]) -> Next {
-        until_decided::next_by_time(&self.levels().judge(), seconds, self.options.budget)
+        let looks = Looks::of(&self.levels());
+        until_decided::next_by_time(&looks, seconds, self.options.budget)
     }
 
     /// The judged study.

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use convergence_harness::cli::{COMMANDS, help::PAGES};
+use convergence_harness::cli::{COMMANDS, help::pages};
 use tempfile::TempDir;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_convergence-study");
@@ -74,7 +74,7 @@ fn examples(help: &str) -> Vec<&str> {
 
 #[test]
 fn every_example_of_every_help_text_ends_well() {
-    let named: Vec<&str> = PAGES.iter().map(|page| page.command).collect();
+    let named: Vec<&str> = pages().map(|page| page.command).collect();
     assert!(
         COMMANDS.iter().all(|name| named.contains(name)),
         "{named:?}"

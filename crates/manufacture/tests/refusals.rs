@@ -227,3 +227,12 @@ fn a_graph_that_grows_too_large_is_refused_with_its_term() {
         "{message}"
     );
 }
+
+#[test]
+fn the_logarithm_of_other_languages_is_named() {
+    let message = refusal(&plane("u = \"log(x)\"", "", "a = \"u\""));
+    assert!(
+        message.contains("`log`: an unknown function") && message.contains("`ln`"),
+        "{message}"
+    );
+}

@@ -46,8 +46,15 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ("Records of runs", &["compare", "report"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep", "merge"]),
-    ("Everything else", &["schema", "completions", "man"]),
+    ("Everything else", OTHERS),
 ];
+
+/// The commands of no other group.
+const OTHERS: &[&str] = if cfg!(feature = "manual") {
+    &["schema", "completions", "man"]
+} else {
+    &["schema"]
+};
 
 /// The pages of the beam's commands. Each example works as it is in the folder that a test fills.
 pub const PAGES: [HelpPage; 4] = [

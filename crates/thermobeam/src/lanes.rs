@@ -65,7 +65,7 @@ pub(crate) fn run_kernel<K: Kernel>(kernel: K) -> K::Output {
     if IS_FUSED {
         return kernel.run::<Fused>();
     }
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
     if let Some(machine) = pulp::x86::V3::try_new() {
         return machine.vectorize(ForMachine(kernel));
     }
@@ -73,10 +73,10 @@ pub(crate) fn run_kernel<K: Kernel>(kernel: K) -> K::Output {
 }
 
 /// A kernel for the instructions that `pulp` has found.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
 struct ForMachine<K>(K);
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(target_feature = "fma")))]
 impl<K: Kernel> pulp::NullaryFnOnce for ForMachine<K> {
     type Output = K::Output;
 

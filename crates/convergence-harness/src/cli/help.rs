@@ -21,7 +21,14 @@ pub struct HelpPage {
 
 /// The pages of the harness's commands. Each example works as it is in the folder that a test of the
 /// program `convergence-study` fills.
-pub const PAGES: [HelpPage; 12] = [
+pub fn pages<'p>() -> impl Iterator<Item = &'p HelpPage> {
+    let pages = PAGES.iter();
+    #[cfg(feature = "manual")]
+    let pages = pages.chain(&super::manual::PAGES);
+    pages
+}
+
+const PAGES: [HelpPage; 10] = [
     HelpPage {
         command: "new",
         without: &["jobs"],
@@ -128,22 +135,6 @@ pub const PAGES: [HelpPage; 12] = [
             ),
         ],
     },
-    HelpPage {
-        command: "completions",
-        without: &[],
-        examples: &[
-            ("For bash", "PROGRAM completions bash > completions.bash"),
-            ("For fish", "PROGRAM completions fish > completions.fish"),
-        ],
-    },
-    HelpPage {
-        command: "man",
-        without: &[],
-        examples: &[
-            ("The page of the program", "PROGRAM man > program.1"),
-            ("The page of a command", "PROGRAM man rates > rates.1"),
-        ],
-    },
 ];
 
 /// The command line with examples, `--color` and `--version` for every command, and without options
@@ -151,7 +142,7 @@ pub const PAGES: [HelpPage; 12] = [
 ///
 /// * `others`: the pages of the project's own commands.
 pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpPage]) -> Command {
-    for page in PAGES.iter().chain(others) {
+    for page in pages().chain(others) {
         command = command.mut_subcommand(page.command, |mut command| {
             for option in page.without {
                 command = command.mut_arg(option, |option| option.hide(true));

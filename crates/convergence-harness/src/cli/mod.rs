@@ -12,6 +12,8 @@ pub mod flags;
 mod github;
 pub mod help;
 mod list;
+#[cfg(feature = "manual")]
+mod manual;
 mod manufacture;
 mod new;
 pub mod rates;
@@ -30,7 +32,6 @@ use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
-use clap_complete::{Shell, generate};
 
 use crate::judge::verdict::Verdict;
 use crate::program::guard;
@@ -50,21 +51,9 @@ pub enum Command {
     Schema(schema::Arguments),
     New(new::Arguments),
     Manufacture(manufacture::Arguments),
-    /// Print completions for a shell
-    ///
-    /// A shell completes a program of that name on the PATH, not an alias such as cargo's. What is
-    /// printed belongs where the shell looks for completions; for one session, bash reads it by
-    /// `source FILE`.
-    Completions {
-        /// The shell
-        #[arg(value_enum)]
-        shell: Shell,
-    },
-    /// Print a man page
-    Man {
-        /// The command; without it the page of the program
-        command: Option<String>,
-    },
+    #[cfg(feature = "manual")]
+    #[command(flatten)]
+    Manual(manual::Command),
     /// End a process group when standard input ends (the harness starts this itself)
     #[command(hide = true)]
     Guard {
@@ -74,7 +63,7 @@ pub enum Command {
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: [&str; 12] = [
+pub const COMMANDS: &[&str] = &[
     "new",
     "manufacture",
     "verify",
@@ -85,15 +74,18 @@ pub const COMMANDS: [&str; 12] = [
     "compare",
     "report",
     "schema",
+    #[cfg(feature = "manual")]
     "completions",
+    #[cfg(feature = "manual")]
     "man",
 ];
 
 impl Command {
-    /// Runs the command for a project; `whole` is the whole command line, for completions.
+    /// Runs the command for a project; `whole` is the whole command line, for the manual.
     ///
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
+    #[cfg_attr(not(feature = "manual"), expect(unused_variables))]
     pub fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
         guard::enable();
         match self {
@@ -107,51 +99,11 @@ impl Command {
             Self::Schema(arguments) => schema::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
             Self::Manufacture(arguments) => manufacture::run(arguments),
-            Self::Completions { shell } => complete(whole, project, *shell),
-            Self::Man { command } => man(whole, command.as_deref()),
+            #[cfg(feature = "manual")]
+            Self::Manual(command) => command.run(project, whole),
             Self::Guard { mark } => serve(mark),
         }
     }
-}
-
-/// Prints what a shell needs to complete the commands of that command line.
-fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outcome {
-    // `cargo` cannot complete its aliases: the name is `xtask` for `cargo xtask`.
-    let name = project
-        .command
-        .rsplit(' ')
-        .next()
-        .unwrap_or(project.command)
-        .to_owned();
-    let mut script = vec![];
-    generate(shell, &mut whole.bin_name(&name), &name, &mut script);
-    screen::print(&String::from_utf8_lossy(&script))?;
-    Ok(Verdict::Pass)
-}
-
-/// Prints the man page of the program, or of one of its commands.
-///
-/// # Errors
-/// An unknown command.
-fn man(mut whole: clap::Command, name: Option<&str>) -> exit::Outcome {
-    whole.build();
-    let known = visible_commands(&whole);
-    let page = match name {
-        None => whole.clone(),
-        Some(name) if known.contains(&name) => {
-            let command = whole.get_subcommands().find(|one| one.get_name() == name);
-            command.unwrap_or(&whole).clone()
-        }
-        Some(name) => {
-            let known = known.join(", ");
-            let message = format!("man: found `{name}`; expected one of {known}");
-            return Err(exit::Unusable::because(&message));
-        }
-    };
-    let mut text = vec![];
-    clap_mangen::Man::new(page).render(&mut text)?;
-    screen::print(&String::from_utf8_lossy(&text))?;
-    Ok(Verdict::Pass)
 }
 
 /// The names of the commands for users.
@@ -277,7 +229,7 @@ struct CommandLine {
 
 /// The command line of a project that adds no commands of its own.
 pub fn program(project: &Project) -> clap::Command {
-    command_line::<CommandLine>(project, &[("Commands", &COMMANDS)], &[])
+    command_line::<CommandLine>(project, &[("Commands", COMMANDS)], &[])
 }
 
 /// The whole `main` of a project that adds no commands of its own.

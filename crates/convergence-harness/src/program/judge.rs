@@ -9,8 +9,8 @@ use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::outcome::joined;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
-use crate::study::until_decided::{self, Next};
-use crate::study::{Axis, Case, Check, Figure, LevelErrors, Outcome, Ran, Subject};
+use crate::study::until_decided::{self, Looks, Next};
+use crate::study::{Axis, Case, Check, Figure, LevelErrors, NamedRate, Outcome, Ran, Subject};
 use crate::text::number::{error_text, plain_text};
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
@@ -80,13 +80,15 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
         .iter()
         .map(|ran| Some(ran.ok()?.seconds))
         .collect::<Option<_>>()?;
+    let looks = Looks::new(ran.len(), |count| rates(study, &ran[..count]));
+    Some(until_decided::next_by_time(&looks, &seconds, budget))
+}
+
+/// The rates of errors and of values over these levels.
+fn rates(study: &Program, ran: &[Run]) -> Vec<NamedRate> {
     let levels = levels(study, ran);
-    let rates = [
-        levels.judge(),
-        values::judge(study, ran, &levels.refinements).rates,
-    ]
-    .concat();
-    Some(until_decided::next_by_time(&rates, &seconds, budget))
+    let values = values::judge(study, ran, &levels.refinements);
+    [levels.judge(), values.rates].concat()
 }
 
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {

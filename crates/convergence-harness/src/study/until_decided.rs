@@ -1,9 +1,14 @@
 //! Levels until there is a decision: a study begins with four and adds the next finer one while its
 //! rates decide nothing, another level can help, and its cost fits the budget.
 //!
+//! A pass decides at the first look that shows it. A failure decides when two looks in a row show
+//! it: at each look a true claim fails by chance, and a study that ended at the first failure would
+//! collect these chances. Where no level can follow, the last look decides. The verdict is always
+//! that of the rule on the levels with which the study ends.
+//!
 //! Looking again causes few wrong passes: the rule stands by its interval at every look, and a
-//! wrong claim fails at one of them. `rule-calibration` has a row that measures this. A limit on
-//! the number of levels keeps it so.
+//! wrong claim fails at two of them. `rule-calibration` has rows that measure this. A limit on the
+//! number of levels keeps it so.
 
 #[cfg(feature = "files")]
 use crate::input::{Field, InputError, Section};
@@ -22,7 +27,7 @@ pub const MOST_LEVELS: usize = 8;
 pub enum Next {
     /// It computes another level.
     Another,
-    /// It ends: every rate has passed or failed.
+    /// It ends: every rate has passed, or has failed at two looks.
     Decided,
     /// It ends: no finer level can resolve this reason.
     Beyond(Reason),
@@ -32,18 +37,75 @@ pub enum Next {
     TooDear(f64),
 }
 
-/// * `rates`: those of the levels so far.
+/// The rates of the levels so far, and what they were with one level fewer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Looks {
+    /// The rates of all levels so far.
+    pub now: Vec<NamedRate>,
+    /// The same names without the finest level; empty at the first look.
+    pub before: Vec<NamedRate>,
+}
+
+impl Looks {
+    /// * `levels`: how many there are so far.
+    /// * `judge`: the rates of that many levels, the coarsest first.
+    pub fn new(levels: usize, judge: impl Fn(usize) -> Vec<NamedRate>) -> Self {
+        let before = if levels > FIRST.len() {
+            judge(levels - 1)
+        } else {
+            vec![]
+        };
+        Self {
+            now: judge(levels),
+            before,
+        }
+    }
+
+    /// The two looks at errors over levels.
+    pub fn of(levels: &Levels) -> Self {
+        Self::new(levels.refinements.len(), |count| {
+            levels.coarsest(count).judge()
+        })
+    }
+
+    /// The reasons of the rates that are not decided yet.
+    fn open(&self) -> Vec<Reason> {
+        let earlier = |name: &str| {
+            let named = self.before.iter().find(|named| named.name == name);
+            named.map(|named| named.rate.verdict)
+        };
+        self.now
+            .iter()
+            .filter(|now| {
+                let kind = now.rate.kind;
+                !kind.is_final() && !is_settled(kind.verdict(), earlier(&now.name))
+            })
+            .map(|now| now.rate.kind)
+            .collect()
+    }
+}
+
+/// Whether a verdict stands without a finer level: a pass does, a failure if the look before has
+/// failed as well.
+///
+/// * `before`: the verdict with one level fewer; `None` at the first look.
+pub fn is_settled(now: Verdict, before: Option<Verdict>) -> bool {
+    match now {
+        Verdict::Pass => true,
+        Verdict::Fail => before == Some(Verdict::Fail),
+        Verdict::Inconclusive => false,
+    }
+}
+
+/// * `levels`: how many there are so far.
 /// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
-pub fn next(rates: &[NamedRate], levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
-    let open: Vec<Reason> = rates
-        .iter()
-        .map(|named| named.rate.kind)
-        .filter(|kind| kind.verdict() == Verdict::Inconclusive)
-        .collect();
+pub fn next(looks: &Looks, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
+    let open = looks.open();
     let Some(&first) = open.first() else {
         return Next::Decided;
     };
-    if !open.iter().any(|reason| reason.wants_a_level()) {
+    let can_change = |reason: &Reason| reason.verdict() == Verdict::Fail || reason.wants_a_level();
+    if !open.iter().any(can_change) {
         return Next::Beyond(first);
     }
     if levels >= MOST_LEVELS {
@@ -60,12 +122,12 @@ pub fn next(rates: &[NamedRate], levels: usize, cost: f64, spent: f64, budget: f
 /// and by at least two.
 ///
 /// * `seconds`: time of each level; at least two.
-pub fn next_by_time(rates: &[NamedRate], seconds: &[f64], budget: f64) -> Next {
+pub fn next_by_time(looks: &Looks, seconds: &[f64], budget: f64) -> Next {
     let [.., before, last] = seconds else {
         return Next::Another;
     };
     next(
-        rates,
+        looks,
         seconds.len(),
         last * (last / before).max(2.0),
         seconds.iter().sum(),
@@ -102,7 +164,12 @@ pub fn conclude(
 /// * `unit`: of costs and budget, such as `s`.
 fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit: &str) -> String {
     let count = levels.refinements.len();
-    let undecided = format!("undecided after {count} levels");
+    let is_open = |named: &NamedRate| named.rate.verdict == Verdict::Inconclusive;
+    let undecided = if rates.iter().any(is_open) {
+        format!("undecided after {count} levels")
+    } else {
+        format!("a failure at the last look only, after {count} levels")
+    };
     match next {
         Next::Another | Next::Decided => {
             let mut words = format!("decided after {count} levels");
@@ -123,7 +190,7 @@ fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit:
     }
 }
 
-/// Errors whose verdict has not changed since fewer levels, each with that number of levels.
+/// Errors that were decided with fewer levels, each with that number of levels.
 fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(&'r str, usize)> {
     let all = levels.refinements.len();
     let mut enough = vec![all; rates.len()];
@@ -133,6 +200,12 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
             if *enough == count + 1 && earlier.rate.verdict == last.rate.verdict {
                 *enough = count;
             }
+        }
+    }
+    for (enough, last) in enough.iter_mut().zip(rates) {
+        let kind = last.rate.kind;
+        if kind.verdict() == Verdict::Fail && !kind.is_final() {
+            *enough += 1;
         }
     }
     let names = rates.iter().map(|rate| rate.name.as_str());
@@ -191,4 +264,79 @@ pub fn budget(
             field.number_where(allowed, |budget| budget > 0.0)
         })
         .map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::verdict::judge_pairs;
+
+    /// Rates of two errors from their levels.
+    fn looks(levels: usize, errors: &[fn(f64) -> f64]) -> Looks {
+        Looks::new(levels, |count| {
+            errors
+                .iter()
+                .enumerate()
+                .map(|(index, error)| {
+                    let pairs = (0..count as i32).map(|k| {
+                        let h = 0.125 * 0.5_f64.powi(k);
+                        (h, error(h))
+                    });
+                    let rate = judge_pairs(pairs.collect::<Vec<_>>(), 2.0, 0.25);
+                    NamedRate::new(format!("e{index}"), rate)
+                })
+                .collect()
+        })
+    }
+
+    fn after(levels: usize, errors: &[fn(f64) -> f64]) -> Next {
+        next(&looks(levels, errors), levels, 1.0, 1.0, 100.0)
+    }
+
+    fn second(h: f64) -> f64 {
+        h * h
+    }
+
+    fn first(h: f64) -> f64 {
+        h
+    }
+
+    fn not_a_number(_: f64) -> f64 {
+        f64::NAN
+    }
+
+    /// Of first order on the four coarsest levels, of second order below them.
+    fn late(h: f64) -> f64 {
+        if h > 0.01 { 1e-4 * h } else { 0.01 * h * h }
+    }
+
+    #[test]
+    fn a_pass_decides_at_once_and_a_failure_at_the_second_look() {
+        assert_eq!(after(4, &[second]), Next::Decided);
+        assert_eq!(looks(4, &[first]).now[0].rate.verdict, Verdict::Fail);
+        assert_eq!(after(4, &[first]), Next::Another);
+        assert_eq!(after(5, &[first]), Next::Decided);
+        assert_eq!(after(4, &[second, first]), Next::Another);
+    }
+
+    #[test]
+    fn what_no_level_mends_fails_at_once() {
+        assert_eq!(after(4, &[not_a_number]), Next::Decided);
+    }
+
+    #[test]
+    fn a_failure_that_a_finer_level_takes_back_does_not_decide() {
+        assert_eq!(looks(4, &[late]).now[0].rate.verdict, Verdict::Fail);
+        let five = looks(5, &[late]).now[0].rate.verdict;
+        assert_ne!(five, Verdict::Fail);
+        assert_eq!(after(5, &[late]), Next::Another);
+    }
+
+    #[test]
+    fn the_last_look_decides_where_no_level_can_follow() {
+        let four = looks(4, &[first]);
+        assert_eq!(next(&four, 4, 9.0, 1.0, 5.0), Next::TooDear(9.0));
+        assert!(!is_settled(Verdict::Fail, Some(Verdict::Inconclusive)));
+        assert!(is_settled(Verdict::Fail, Some(Verdict::Fail)));
+    }
 }

@@ -272,7 +272,7 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         place.study(&["--format", "json"])
     };
     assert_eq!((listed(levels).0, listed(levels - 1).0), (Some(0), Some(1)));
-    // A budget too small for another level, a claim that fails at once.
+    // A budget too small for another level, a claim that fails at two looks.
     place.write_text(&auto.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
     let (status, out, _) = place.study(&["--quiet"]);
     assert!(status == Some(1), "{out}");
@@ -282,10 +282,17 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
             && out.contains("0.001 s"),
         "{out}"
     );
-    place.write_text(&auto.replace("order = 2.0", "order = 1.0"));
+    let wrong = auto.replace("order = 2.0", "order = 1.0");
+    place.write_text(&wrong);
     let (status, out, _) = place.study(&[]);
     assert!(
-        status == Some(1) && out.contains("decided after 4 levels"),
+        status == Some(1) && out.contains("decided after 5 levels"),
+        "{out}"
+    );
+    place.write_text(&wrong.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
+    let (status, out, _) = place.study(&[]);
+    assert!(
+        status == Some(1) && out.contains("a failure at the last look only, after 4 levels: the"),
         "{out}"
     );
     for (written, message) in [

@@ -291,11 +291,6 @@ impl Graph {
                 let half = self.number(0.5);
                 self.binary(Binary::Divide, &half, &of)
             }
-            Function::Abs
-            | Function::Min
-            | Function::Max
-            | Function::Heaviside
-            | Function::Where => self.number(f64::NAN),
         }
     }
 }
@@ -327,10 +322,6 @@ pub(crate) fn apply(function: Function, x: f64) -> f64 {
         Function::Ln => x.ln(),
         Function::Log10 => x.log10(),
         Function::Sqrt => x.sqrt(),
-        // These are made of choices.
-        Function::Abs | Function::Min | Function::Max | Function::Heaviside | Function::Where => {
-            f64::NAN
-        }
     }
 }
 

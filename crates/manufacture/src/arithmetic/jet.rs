@@ -292,9 +292,6 @@ fn taylor(function: Function, x: f64, order: usize) -> Vec<f64> {
                 primitive(x.acos(), &slope, -1.0)
             }
         }
-        Function::Abs | Function::Min | Function::Max | Function::Heaviside | Function::Where => {
-            vec![f64::NAN; order + 1]
-        }
     }
 }
 

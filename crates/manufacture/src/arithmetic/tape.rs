@@ -228,7 +228,6 @@ fn call(function: Function, argument: Measured) -> Measured {
         Function::Exp => value,
         Function::Ln | Function::Log10 => 1.0 / x,
         Function::Sqrt => 0.5 / value,
-        _ => 0.0,
     };
     Measured {
         value,

@@ -7,7 +7,7 @@ use super::space::Space;
 use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::MAX_DEPTH;
-use crate::language::names::{CONSTANTS, Callee, Function, Operator, did_you_mean};
+use crate::language::names::{CONSTANTS, Callee, Operator, Piecewise, did_you_mean};
 use crate::language::tree::{Binary, Comparison, Kind, Tree, callee_name};
 use crate::problem::{Expression, InputError, Problem, Value};
 
@@ -273,20 +273,24 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         within: &Expression,
     ) -> Elaborated<A> {
         match callee {
-            Callee::Function(function) => self.function(function, parts, tree, within),
+            Callee::Function(function) => {
+                let argument = self.scalar(&parts[0], within)?;
+                Ok(Tensor::scalar(self.algebra.call(function, &argument)))
+            }
+            Callee::Piecewise(function) => self.piecewise(function, parts, tree, within),
             Callee::Operator(operator) => self.operator(operator, parts, tree, within),
         }
     }
 
-    fn function(
+    fn piecewise(
         &mut self,
-        function: Function,
+        function: Piecewise,
         parts: &[Tree],
         tree: &Tree,
         within: &Expression,
     ) -> Elaborated<A> {
-        if function == Function::Where {
-            return self.piecewise(parts, tree, within);
+        if function == Piecewise::Where {
+            return self.chosen(parts, tree, within);
         }
         let mut numbers = vec![];
         for part in parts {
@@ -295,18 +299,23 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         let zero = self.algebra.number(0.0);
         let algebra = &mut self.algebra;
         let value = match (function, numbers.as_slice()) {
-            (Function::Abs, [a]) => {
+            (Piecewise::Abs, [a]) => {
                 let opposite = algebra.negate(a);
                 algebra.choose(Comparison::Less, [a, &zero], &opposite, a)
             }
-            (Function::Min, [a, b]) => algebra.choose(Comparison::LessOrEqual, [a, b], a, b),
-            (Function::Max, [a, b]) => algebra.choose(Comparison::GreaterOrEqual, [a, b], a, b),
-            (Function::Heaviside, [a]) => {
+            (Piecewise::Min, [a, b]) => algebra.choose(Comparison::LessOrEqual, [a, b], a, b),
+            (Piecewise::Max, [a, b]) => algebra.choose(Comparison::GreaterOrEqual, [a, b], a, b),
+            (Piecewise::Heaviside, [a]) => {
                 let one = algebra.number(1.0);
                 algebra.choose(Comparison::GreaterOrEqual, [a, &zero], &one, &zero)
             }
-            (_, [a, ..]) => algebra.call(function, a),
-            (_, []) => zero,
+            _ => {
+                return Err(refused(
+                    within,
+                    tree,
+                    "expected another number of arguments",
+                ));
+            }
         };
         Ok(Tensor::scalar(value))
     }
@@ -323,7 +332,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         }
     }
 
-    fn piecewise(&mut self, parts: &[Tree], tree: &Tree, within: &Expression) -> Elaborated<A> {
+    fn chosen(&mut self, parts: &[Tree], tree: &Tree, within: &Expression) -> Elaborated<A> {
         let [condition, then, otherwise] = parts else {
             return Err(refused(within, tree, "expected three arguments"));
         };

@@ -85,15 +85,6 @@ impl Language {
             (_, Function::Exp) => "exp",
             (_, Function::Log10) => "log10",
             (_, Function::Sqrt) => "sqrt",
-            // These are made of choices before anything is emitted.
-            (
-                _,
-                Function::Abs
-                | Function::Min
-                | Function::Max
-                | Function::Heaviside
-                | Function::Where,
-            ) => "",
         };
         let prefix = match self {
             Language::Python => "np.",

@@ -2,7 +2,7 @@
 
 use strsim::osa_distance;
 
-/// A function of numbers.
+/// A smooth function of one number, which every language has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Function {
@@ -19,6 +19,12 @@ pub enum Function {
     Ln,
     Log10,
     Sqrt,
+}
+
+/// A function that is made of choices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Piecewise {
     Abs,
     Min,
     Max,
@@ -54,6 +60,7 @@ pub enum Operator {
 #[allow(missing_docs)]
 pub enum Callee {
     Function(Function),
+    Piecewise(Piecewise),
     Operator(Operator),
 }
 
@@ -72,11 +79,11 @@ pub const CALLEES: [(&str, Callee, usize, usize); 35] = [
     ("ln", Callee::Function(Function::Ln), 1, 1),
     ("log10", Callee::Function(Function::Log10), 1, 1),
     ("sqrt", Callee::Function(Function::Sqrt), 1, 1),
-    ("abs", Callee::Function(Function::Abs), 1, 1),
-    ("min", Callee::Function(Function::Min), 2, 2),
-    ("max", Callee::Function(Function::Max), 2, 2),
-    ("heaviside", Callee::Function(Function::Heaviside), 1, 1),
-    ("where", Callee::Function(Function::Where), 3, 3),
+    ("abs", Callee::Piecewise(Piecewise::Abs), 1, 1),
+    ("min", Callee::Piecewise(Piecewise::Min), 2, 2),
+    ("max", Callee::Piecewise(Piecewise::Max), 2, 2),
+    ("heaviside", Callee::Piecewise(Piecewise::Heaviside), 1, 1),
+    ("where", Callee::Piecewise(Piecewise::Where), 3, 3),
     ("d", Callee::Operator(Operator::Derivative), 2, 9),
     ("dt", Callee::Operator(Operator::TimeDerivative), 1, 1),
     ("grad", Callee::Operator(Operator::Gradient), 1, 1),
@@ -97,7 +104,11 @@ pub const CALLEES: [(&str, Callee, usize, usize); 35] = [
 ];
 
 /// Functions that the language leaves out, with the reason.
-pub(crate) const LEFT_OUT: [(&str, &str); 9] = [
+pub(crate) const LEFT_OUT: [(&str, &str); 10] = [
+    (
+        "log",
+        "an unknown function; the natural logarithm is `ln`, that of base 10 `log10`",
+    ),
     ("jump", INTERFACES),
     ("mean", INTERFACES),
     ("erf", SPECIAL),

@@ -1,7 +1,7 @@
 //! Parser from text to syntax tree, by precedence climbing.
 
 use super::error::SyntaxError;
-use super::names::{CALLEES, Callee, Function, LEFT_OUT, nearest};
+use super::names::{CALLEES, Callee, LEFT_OUT, Piecewise, nearest};
 use super::token::{Token, TokenKind, next_token};
 use super::tree::{Binary, Comparison, Kind, Tree};
 
@@ -167,7 +167,7 @@ impl Parser<'_> {
             return Err(self.unexpected(&format!("`(` after the function `{name}`")));
         }
         let opened = self.advance().start;
-        let has_condition = callee == Callee::Function(Function::Where);
+        let has_condition = callee == Callee::Piecewise(Piecewise::Where);
         let parts = self.parts(opened, ')', has_condition)?;
         let count = parts.trees.len();
         if !(least..=most).contains(&count) {

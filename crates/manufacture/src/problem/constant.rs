@@ -2,7 +2,7 @@
 
 use super::{Expression, InputError};
 use crate::arithmetic::graph::{apply, operate};
-use crate::language::names::{CONSTANTS, Callee, Function, did_you_mean};
+use crate::language::names::{CONSTANTS, Callee, Piecewise, did_you_mean};
 use crate::language::tree::{Kind, Tree};
 
 /// The value of an expression of numbers and these names.
@@ -47,12 +47,12 @@ fn evaluate(
             value(&operands[0])?,
             value(&operands[1])?,
         )),
-        Kind::Call(Callee::Function(function), parts) => match (function, parts.as_slice()) {
-            (Function::Min, [a, b]) => Ok(value(a)?.min(value(b)?)),
-            (Function::Max, [a, b]) => Ok(value(a)?.max(value(b)?)),
-            (Function::Abs, [a]) => Ok(value(a)?.abs()),
-            (_, [a]) => Ok(apply(*function, value(a)?)),
-            _ => refused("expected numbers, parameters and functions of one number".to_owned()),
+        Kind::Call(callee, parts) => match (callee, parts.as_slice()) {
+            (Callee::Piecewise(Piecewise::Min), [a, b]) => Ok(value(a)?.min(value(b)?)),
+            (Callee::Piecewise(Piecewise::Max), [a, b]) => Ok(value(a)?.max(value(b)?)),
+            (Callee::Piecewise(Piecewise::Abs), [a]) => Ok(value(a)?.abs()),
+            (Callee::Function(function), [a]) => Ok(apply(*function, value(a)?)),
+            _ => refused("expected numbers, parameters and functions of them".to_owned()),
         },
         _ => refused("expected an expression of numbers and parameters".to_owned()),
     }

@@ -163,6 +163,15 @@ impl Reason {
         )
     }
 
+    /// Whether a failure for this reason is none of the rule's estimates, so that no finer level can
+    /// take it back.
+    pub fn is_final(self) -> bool {
+        matches!(
+            self,
+            Self::NoResult | Self::NonFiniteError | Self::NegativeError
+        )
+    }
+
     /// The short code for looking up the reason: the same in every output.
     pub fn code(self) -> &'static str {
         self.words()[0]

@@ -17,7 +17,7 @@ use std::ops::{Deref, DerefMut};
 use convergence_harness::study::LevelErrors;
 use convergence_harness::study::grid::Grid;
 use convergence_harness::study::over_levels::rate_table;
-use convergence_harness::study::until_decided::{self, Next};
+use convergence_harness::study::until_decided::{self, Looks, Next};
 
 use super::prelude::*;
 
@@ -253,7 +253,8 @@ impl<S: Source> Orders<S> {
 impl<D> Finer<D> {
     fn next(&self, series: &Series) -> Next {
         let levels = series.levels.refinements.len();
-        until_decided::next(series.rates(), levels, self.cost, self.spent, self.budget)
+        let looks = Looks::of(&series.levels);
+        until_decided::next(&looks, levels, self.cost, self.spent, self.budget)
     }
 }
 

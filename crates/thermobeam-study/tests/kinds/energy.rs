@@ -7,6 +7,7 @@ use thermobeam_study::kinds::runs::energy::one_by_one::{self, Found};
 use thermobeam_study::kinds::runs::energy::random::{self, Batch};
 
 use super::file;
+use super::planted::verdict_with;
 use super::refused::refusal;
 use super::typed::{changed, counted, leaves_one_out, passes_but_not_without_each_case};
 
@@ -147,14 +148,33 @@ fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
     let study = runs("corollary-3.2.toml");
     let sound = passes_but_not_without_each_case(&study);
     for wrong in [1.01, f64::NAN] {
-        let runs = changed::<EnergyRuns>(&sound, |index, found| {
-            if index == 1 {
-                found.of_bound = Some(wrong);
-            }
-        });
-        assert_eq!(study.judge(&runs).verdict, Verdict::Fail, "{wrong}");
+        for index in [1, sound.len() - 1] {
+            let above = verdict_with(&study, &sound, index, |found| found.of_bound = Some(wrong));
+            assert_eq!(above, Verdict::Fail, "{wrong} of the bound in case {index}");
+            let lost = verdict_with(&study, &sound, index, |found| found.lost = Some(wrong));
+            assert_eq!(
+                lost,
+                Verdict::Fail,
+                "{wrong} of the energy lost in case {index}"
+            );
+        }
     }
-    let beams = sound.len() / 4;
+    for what in ["of_bound", "lost"] {
+        let missing = verdict_with(&study, &sound, 0, |found| match what {
+            "of_bound" => found.of_bound = None,
+            _ => found.lost = None,
+        });
+        assert_eq!(missing, Verdict::Fail, "{what}");
+    }
+    // Losses that count twice would exceed the energy of every unheated case.
+    let twice = verdict_with(&study, &sound, 0, |found| {
+        found.lost = found.lost.map(|lost| 2.0 * lost);
+    });
+    assert_eq!(twice, Verdict::Fail);
+    // Each beam without heating on two meshes by two steps, then the heated ones on a coarse and on
+    // a fine pair.
+    let heated = sound.len() - 4;
+    let beams = heated / 4;
     let share = |index: usize| {
         sound[index]
             .found
@@ -164,7 +184,12 @@ fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
             .expect("a share")
     };
     for index in beams..sound.len() {
-        let (coarse, here) = (share(index % beams), share(index));
+        let first = if index < heated {
+            index % beams
+        } else {
+            index - index % 2
+        };
+        let (coarse, here) = (share(first), share(index));
         assert!(
             (here / coarse - 1.0).abs() < 0.05,
             "{}: {here}, {coarse}",

@@ -78,6 +78,24 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
     assert_eq!(counted(&outcome, "scenes against an answer").judged, 8);
 }
 
+#[test]
+fn a_run_of_two_iterations_is_told_from_one_of_three() {
+    let two = text(STUDY);
+    assert!(two.contains("iterations = 2"));
+    for other in ["iterations = 3", "iterations = 1", "tolerance = 1e-6"] {
+        let study = parsed(&two.replace("iterations = 2", other));
+        let study = study.unwrap_or_else(|error| panic!("{error}"));
+        let outcome = run_one(&study);
+        let failed: Vec<_> = outcome
+            .checks
+            .iter()
+            .filter(|check| check.verdict == Verdict::Fail)
+            .filter_map(|check| check.subject.case.as_deref())
+            .collect();
+        assert_eq!(failed, ["fixed-point-twice"], "{other}");
+    }
+}
+
 /// The keys known to the readers of scenes, table by table: their messages about other keys list
 /// them.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {

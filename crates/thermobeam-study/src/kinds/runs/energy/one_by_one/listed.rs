@@ -4,7 +4,7 @@ use super::EnergyRun;
 use crate::kinds::prelude::*;
 use crate::kinds::runs::cases::{ClaimedScene, ENDS, End, NAMED};
 use crate::kinds::runs::energy::beams::smooth;
-use crate::kinds::runs::energy::bound::stability;
+use crate::kinds::runs::energy::bound::Stability;
 use crate::kinds::runs::watch::SOLVED;
 use crate::kinds::tables::{Layout, MAP};
 use crate::scene;
@@ -169,8 +169,8 @@ pub(super) fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, Inp
     let is_bounded = section
         .get("stability")
         .map_or(Ok(false), |field| field.boolean())?;
-    if is_bounded && stability(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
-        let allowed = "theta_a = 0, and rho > 0 or beta > -0.7116";
+    if is_bounded && Stability::of(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
+        let allowed = "rho > 0 or beta > -0.7116";
         return Err(section.refuse(
             "stability",
             "a beam for which Corollary 3.2 states nothing",

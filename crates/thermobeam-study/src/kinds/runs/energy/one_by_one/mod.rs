@@ -20,7 +20,7 @@
 //! ends = "answer"              # or "indefinite", "iteration-limit", "not-finite": the failure
 //! # optional: bound of the sum of all residuals, in units of the energy
 //! drift = 1e-10
-//! # optional: every level keeps the bound of Corollary 3.2; needs theta_a = 0
+//! # optional: every level keeps the bound of Corollary 3.2, and all losses that of (2.9)
 //! stability = true
 //! # and the tables of a scene
 //! [case.time]
@@ -33,7 +33,7 @@ mod listed;
 
 use thermobeam::energy::Energy;
 
-use super::bound::{left_side, stability};
+use super::bound::{Stability, left_side};
 use crate::kinds::prelude::*;
 use crate::kinds::runs::cases::{End, named_cases};
 use crate::kinds::runs::checks::{Condition, all, at_most, ended};
@@ -96,6 +96,9 @@ pub struct Found {
     /// Largest left side of (3.12) over all levels, in units of its bound; where Corollary 3.2 is
     /// claimed.
     pub of_bound: Option<f64>,
+    /// Viscous and thermal losses of all steps, in units of the energy that is available for them;
+    /// where Corollary 3.2 is claimed.
+    pub lost: Option<f64>,
     /// The term of the balance that does not close, and the factor of it that is left over.
     pub open_term: Option<(&'static str, f64)>,
     /// Samples for the figures.
@@ -215,6 +218,9 @@ impl Runs for EnergyRuns {
         if let Some(share) = found.of_bound {
             numbers.push(Reading::new("of the bound (3.12)", share).fixed(3));
         }
+        if let Some(lost) = found.lost {
+            numbers.push(Reading::new("lost of the energy (2.9)", lost).fixed(3));
+        }
         numbers
     }
 
@@ -283,7 +289,7 @@ impl Runs for EnergyRuns {
 struct Recorder<'r> {
     run: &'r EnergyRun,
     /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
-    bound: Option<f64>,
+    bound: Option<Stability>,
     watch: EnergyWatch,
     /// Largest residual of a step so far, in units of the initial energy.
     residual: f64,
@@ -310,7 +316,7 @@ impl<'r> Recorder<'r> {
         } = &run.problem;
         let bound = run
             .is_bounded
-            .then(|| stability(beam, obstacles.as_ref(), energy.total()));
+            .then(|| Stability::of(beam, obstacles.as_ref(), energy.total()));
         let mut recorder = Self {
             run,
             bound: bound.flatten(),
@@ -354,6 +360,10 @@ impl<'r> Recorder<'r> {
         let residual = balance.residual.abs() / found.initial_energy;
         self.residual = max_or_nan(self.residual, residual);
         self.add_share(driver);
+        if let Some(bound) = self.bound {
+            let lost = (balance.viscous + balance.thermal) / bound.available;
+            self.found.lost = Some(self.found.lost.unwrap_or(0.0) + lost);
+        }
         let steps = self.run.steps;
         if step.is_multiple_of(steps.div_ceil(SAMPLES)) || step == steps {
             self.sample(driver);
@@ -367,7 +377,7 @@ impl<'r> Recorder<'r> {
         let level = driver.level();
         let obstacles = self.run.problem.obstacles.as_ref();
         let energy = simulation.energy(level);
-        let share = left_side(obstacles, simulation.lengths(), level, &energy) / bound;
+        let share = left_side(obstacles, simulation.lengths(), level, &energy) / bound.constant;
         let largest = self.found.of_bound;
         self.found.of_bound = Some(largest.map_or(share, |largest| max_or_nan(largest, share)));
     }
@@ -403,6 +413,13 @@ impl EnergyRun {
             }
             None => Condition::or(!self.is_bounded, "the bound of (3.12) is not known"),
         };
+        let lost = match found.lost {
+            Some(lost) => {
+                let evidence = format!("losses at most {lost:.3} of the energy, (2.9)");
+                at_most(lost, 1.0, evidence)
+            }
+            None => Condition::or(!self.is_bounded, "the losses are not known"),
+        };
         let subject = Subject::of("energy and balance")
             .in_case(&self.name)
             .by(ItemMethod::of_scheme(&self.stepping.scheme));
@@ -415,6 +432,7 @@ impl EnergyRun {
                 self.closes(found),
                 self.drifts(found),
                 bound,
+                lost,
             ],
         )
     }

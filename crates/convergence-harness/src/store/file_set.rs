@@ -127,10 +127,27 @@ impl ReportFolder {
     /// # Errors
     /// The error of the operating system; the next replacement completes an interrupted one.
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
-        let _writing = atomic::begin_write();
         self.tidy()?;
+        self.replace(set, &set.manifest())
+    }
+
+    /// Replaces these files of the previous set, or adds them; the others stay. The caller must
+    /// hold the [`lock`].
+    ///
+    /// # Errors
+    /// As [`publish`](Self::publish).
+    pub(crate) fn renew(&self, files: &ReportSet) -> io::Result<()> {
+        self.tidy()?;
+        let mut listed = self.stored()?;
+        listed.extend(files.files.keys().cloned());
+        self.replace(files, &manifest(&listed))
+    }
+
+    /// Puts files in their places as one step, and removes those of the previous set that the new
+    /// manifest does not list.
+    fn replace(&self, set: &ReportSet, manifest: &str) -> io::Result<()> {
+        let _writing = atomic::begin_write();
         let staging = self.staging();
-        let manifest = set.manifest();
         let changed: Vec<_> = set
             .files()
             .filter(|(path, bytes)| !self.holds(path, bytes))
@@ -144,22 +161,6 @@ impl ReportFolder {
         write_new(&staging.join(MANIFEST), manifest.as_bytes())?;
         fs::rename(&staging, self.pending())?;
         self.complete_interrupted()
-    }
-
-    /// The stored set with some files replaced or added. The caller must hold the [`lock`].
-    ///
-    /// # Errors
-    /// The error of the operating system, and a file that no set can hold.
-    pub(crate) fn renewed(&self, mut files: ReportSet) -> io::Result<ReportSet> {
-        self.tidy()?;
-        for path in self.stored()? {
-            if files.get(&path).is_none()
-                && let Some(bytes) = self.read(&path)?
-            {
-                files.add(path, bytes)?;
-            }
-        }
-        Ok(files)
     }
 
     /// The paths that the manifest lists; none without a manifest.

@@ -211,7 +211,7 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     );
     // A report of `verify` goes where `--out` says, and each of its studies can be run by its id.
     assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
-    let page = fs::read_to_string(root.path().join("elsewhere/README.md")).unwrap();
+    let page = fs::read_to_string(root.path().join("elsewhere/local/quick/README.md")).unwrap();
     assert!(
         page.contains("Again: `powers verify two` (tier quick")
             && !root.path().join("reports").exists(),

@@ -238,6 +238,58 @@ fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
     }
 }
 
+/// Number of unlike cases.
+const UNLIKE: usize = 5;
+
+/// A case that differs from the others in more than numbers: no heat in contact, heat and coupling,
+/// heat without coupling, no obstacles, no heat and no initial data.
+fn unlike(k: usize) -> Problem {
+    let mut problem = problem([0, 1, 2, 3, 0][k]);
+    if matches!(k, 0 | 2 | 4) {
+        problem.beam.a = 0.0;
+    }
+    if matches!(k, 0 | 4) {
+        problem.beam.theta_a = 0.0;
+        problem.initial.theta.fill(0.0);
+    }
+    if k == 4 {
+        problem.initial = InitialValues::at_rest(&problem.mesh, 0.0);
+    }
+    problem
+}
+
+/// Each case is once the first of its group, since a group must not take a property from one case.
+#[test]
+fn unlike_cases_of_one_group_agree_bitwise_with_single_runs() {
+    let dt = |k: usize| [1e-3, 1e-4, 1e-2, 1e-3, 0.1][k];
+    let settings = Settings::default();
+    for scheme in SCHEMES {
+        for first in 0..UNLIKE {
+            let members = [0, 1, 2, 3].map(|place| (first + place) % UNLIKE);
+            let problems = members.map(unlike).to_vec();
+            let mut ensemble = Ensemble::new(problems, &members.map(dt), scheme, settings).unwrap();
+            (0..50).for_each(|_| ensemble.step_once());
+            for (lane, &k) in members.iter().enumerate() {
+                let stepping = Stepping {
+                    scheme,
+                    settings,
+                    dt: dt(k),
+                    loaded: false,
+                };
+                let mut alone = OneStep::new(unlike(k), stepping).unwrap();
+                assert_eq!(alone.is_heated(), matches!(k, 1..=3));
+                for _ in 0..50 {
+                    alone.step_once().unwrap();
+                }
+                let mut level = alone.level();
+                level.u.fill(f64::NAN);
+                ensemble.observe(lane, &mut level);
+                assert_eq!(level, alone.level(), "{}: {members:?}: {k}", scheme.name);
+            }
+        }
+    }
+}
+
 #[test]
 fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
     let new = |problems, dt: &[f64]| {

@@ -369,6 +369,7 @@ impl Destination {
 
 /// The folder with the figures of the record in a folder: that of the failing run which wrote it,
 /// otherwise the folder itself.
+#[cfg(feature = "command-line")]
 pub(crate) fn folder_of_figures(record: &Record, folder: &Path) -> PathBuf {
     let reports = reports_around(folder);
     scopes()

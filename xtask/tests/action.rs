@@ -84,12 +84,13 @@ impl Ran {
 
 #[test]
 fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
-    for (tier, ids, place) in [
-        ("quick", "", "reports"),
-        ("full", "", "reports/full"),
-        ("quick", "a-space  b-*", "reports/local/partial"),
+    let partial = "reports/local/partial";
+    for (tier, ids, passing, failing) in [
+        ("quick", "", "reports", "reports/local/quick"),
+        ("full", "", "reports/full", "reports/local/full"),
+        ("quick", "a-space  b-*", partial, partial),
     ] {
-        for status in [0, 1] {
+        for (status, place) in [(0, passing), (1, failing)] {
             let ran = run(tier, ids, status, place);
             assert_eq!(ran.status, Some(status));
             assert!(
@@ -102,7 +103,7 @@ fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
             // The full report's pictures of the quick tier are in the copy.
             let readme = fs::read_to_string(report.join("README.md")).unwrap();
             let picture = fs::read_to_string(report.join("figures/c.svg")).ok();
-            if tier == "full" {
+            if place == "reports/full" {
                 assert_eq!(readme, "![c](figures/c.svg)\n");
                 assert_eq!(picture.as_deref(), Some("above\n"));
             } else {

@@ -16,6 +16,7 @@
 
 mod law;
 mod roots;
+mod undecided;
 
 use super::law::{Law, Support};
 use super::{BUCKLING_VALUES, Completeness, Equilibrium, completeness, laws};
@@ -25,6 +26,7 @@ pub(super) use roots::free_pole;
 use roots::{free_kappa, poles_above, supported_pole};
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
+pub use undecided::{Reason, Undecided};
 
 /// A listed state belongs to a proved one if their N and u(1) agree to this, relative to one plus
 /// their size.
@@ -39,59 +41,6 @@ pub struct ProvedState {
     pub n_value: Interval,
     /// Encloses u(1).
     pub u_tip: Interval,
-}
-
-/// Why a number of states is not decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reason {
-    /// The maximum of f between two poles cannot be told from 0.
-    Fold,
-    /// u(1) of a state cannot be told from the position of an obstacle.
-    Touch,
-    /// A root cannot be told from a buckling value, or the load of its mode from 0.
-    Pole,
-    /// A state at N = -1 is neither proved nor excluded.
-    MinusOne,
-    /// β cannot be told from a buckling value.
-    Bifurcation,
-}
-
-impl Reason {
-    /// The reason in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Fold => "two states cannot be told from one or none (a fold)",
-            Self::Touch => "u(1) cannot be told from the position of an obstacle",
-            Self::Pole => "a state cannot be told from a buckling value",
-            Self::MinusOne => "a state at N = -1 cannot be told from none",
-            Self::Bifurcation => "beta cannot be told from a buckling value",
-        }
-    }
-}
-
-/// Axial forces between which states are not decided.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Undecided {
-    /// The state of contact.
-    pub contact: Phase,
-    /// Encloses N of the states.
-    pub n_value: Interval,
-    /// Why.
-    pub reason: Reason,
-    /// The width of the enclosure at which it was given up.
-    pub width: f64,
-}
-
-impl Undecided {
-    fn new(reason: Reason, s: Interval, width: f64) -> Self {
-        Self {
-            // The prover of a law does not know its contact: `prove` sets it.
-            contact: Phase::Free,
-            n_value: s - 1.0,
-            reason,
-            width,
-        }
-    }
 }
 
 /// What is proved about the steady states of a beam.

@@ -2,7 +2,7 @@
 //! [`verdict`](crate::judge::verdict).
 //!
 //! ```text
-//! # comments and blank lines are skipped
+//! # comments above the table are skipped
 //! h,     L2,      H1
 //! 0.1,   1.01e-3, 2.12e-2
 //! 0.05,  2.51e-4, 1.03e-2
@@ -10,10 +10,11 @@
 //! ```
 //!
 //! Any text with such numbers can be read: rows of cells, names before numbers, lists; `reading-tables.md`
-//! shows which. The numbers decide what a column is, and its name if they do not: the step falls,
-//! or grows if it is a count, by regular ratios; errors are positive and fall; rates are those of
-//! another column; values tend to a limit. [`RateTable::reading`] says in a line how the table was
-//! read. Ambiguous tables are refused, with the choices that work. `NaN` and `inf` are errors; a
+//! shows which. The step falls, or grows if it is a count, by regular ratios; rates are those of
+//! another column. All else is an error, unless its name says otherwise: a column that grows, stands
+//! still or falls like the step is judged. One that tends to a limit, and so may be a value, is
+//! refused with the choices that work. Words between some of the rows part a text into tables.
+//! [`RateTable::reading`] says in a line how the table was read. `NaN` and `inf` are errors; a
 //! column with one of them fails.
 
 mod blocks;

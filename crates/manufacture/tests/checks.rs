@@ -187,6 +187,45 @@ fn slips_that_cannot_be_seen_are_noted() {
     );
 }
 
+/// A gradient transposed inside a symmetric form changes nothing for any solution, nor does the
+/// missing transpose where viscosity is constant and the velocity has no divergence.
+#[test]
+fn elasticity_and_stokes_flow_pass_strictly() {
+    let strict = |fields: &str, define: &str, equations: &str| {
+        let sampling = Sampling {
+            points: 100,
+            is_strict: true,
+            ..Sampling::default()
+        };
+        let check = read(&plane(fields, define, equations))
+            .check(&sampling)
+            .unwrap();
+        assert_eq!(check.findings, [], "{equations}");
+        assert_eq!(check.verdict, "pass");
+    };
+    strict(
+        "u = [\"sin(x + 2*y)\", \"exp(x)*cos(y)\"]",
+        "sigma = \"2*sym(grad(u)) + 3*div(u)*identity\"",
+        "balance = \"-div(sigma)\"",
+    );
+    strict(
+        "v = [\"sin(x)*exp(2*y)*2\", \"-cos(x)*exp(2*y)\"]\np = \"sin(x)*exp(y)\"",
+        "tau = \"2*1.3*sym(grad(v)) - p*identity\"",
+        "momentum = \"-div(tau)\"",
+    );
+    // With a viscosity that varies the missing transpose can be seen, but not by a gradient field.
+    finds(
+        &plane(
+            "v = [\"y*cos(x*y)\", \"x*cos(x*y)\"]",
+            "",
+            "momentum = \"-div((1 + x)*sym(grad(v)))\"",
+        ),
+        "slip-invisible",
+        "equations.momentum",
+        false,
+    );
+}
+
 #[test]
 fn data_that_are_zero_are_noted() {
     let file = |datum: &str| {

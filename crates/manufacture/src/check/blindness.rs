@@ -1,11 +1,12 @@
 //! What a test with this solution would not notice, apart from terms and symmetries.
 
+use super::general::General;
 use super::{Finding, Sampled, finding, is_same, is_zero};
 use std::collections::HashMap;
 
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
-use crate::derive::{Part, Role, Slip};
+use crate::derive::{Part, Role};
 use crate::language::tree::Binary;
 use crate::model::{Model, Rows};
 use crate::problem::InputError;
@@ -57,9 +58,12 @@ fn kink(model: &Model, sampled: &Sampled<'_>, index: usize) -> Option<Finding> {
     (inside > 0).then(|| finding("kink", &quantity.key, text, Some(inside as f64)))
 }
 
-/// Slips that change an expression but not its value.
+/// Slips that change an expression but not its value, although they change it for other fields: a
+/// slip that changes nothing for any fields, as a gradient transposed inside a symmetric form, is no
+/// mistake.
 fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings: Vec<Finding> = vec![];
+    let mut general: Option<General> = None;
     for (slip, sources) in &model.slips {
         let rows = Rows::new(&model.graph, sources.iter().map(|source| &source.tensor));
         let values: Vec<_> = sampled
@@ -80,7 +84,11 @@ fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
             let is_invisible = right.zip(&values).all(|(right, values)| {
                 right.iter().zip(&values[place]).all(|(a, b)| is_same(a, b))
             });
-            if is_invisible && *slip != Slip::None {
+            if is_invisible
+                && general
+                    .get_or_insert_with(|| General::of(sampled, model))
+                    .sees(*slip, &source.name)
+            {
                 let text = format!("{}: the source {} is the same", slip.cause(), slip.words());
                 findings.push(finding("slip-invisible", &source.key, text, None));
             }

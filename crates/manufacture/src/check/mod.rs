@@ -2,6 +2,7 @@
 
 mod blindness;
 pub(crate) mod emitted;
+mod general;
 mod second_way;
 mod symmetry;
 mod terms;

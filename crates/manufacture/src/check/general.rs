@@ -1,0 +1,147 @@
+//! The same equations with other fields: what a slip changes for any solution.
+
+use super::{Sampled, is_same, is_zero};
+use crate::arithmetic::tape::Measured;
+use crate::derive::{Role, Slip};
+use crate::language::parse;
+use crate::model::{Model, Rows};
+use crate::problem::{Expression, Value};
+
+/// Points at which the fields are compared.
+const POINTS: usize = 20;
+
+/// A file with general fields for its exact solution, which cannot be made the same by chance.
+pub(super) struct General {
+    /// `None` if the equations have no values for such fields.
+    model: Option<Model>,
+    points: Vec<Vec<f64>>,
+}
+
+impl General {
+    /// A field without divergence remains one: an equation may say so.
+    pub(super) fn of(sampled: &Sampled<'_>, model: &Model) -> Self {
+        let points: Vec<Vec<f64>> = sampled.points.iter().take(POINTS).cloned().collect();
+        let mut problem = model.problem.clone();
+        let names: Vec<String> = problem.definitions.keys().cloned().collect();
+        for (number, name) in names.iter().enumerate() {
+            let is_solenoidal = is_solenoidal(model, name, &points);
+            let variables = problem.variables().join(" + 1.7*");
+            let components = problem.axes().len();
+            if let Some(definition) = problem.definitions.get_mut(name)
+                && definition.is_exact
+            {
+                let mut fields = Fields {
+                    variables,
+                    number: 10 * number,
+                };
+                let potential = is_solenoidal
+                    .then(|| fields.potential(components))
+                    .flatten();
+                definition.value = match potential {
+                    Some(potential) => field(&definition.value, &potential),
+                    None => fields.value(&definition.value),
+                };
+            }
+        }
+        Self {
+            model: Model::new(problem).ok(),
+            points,
+        }
+    }
+
+    /// Whether the slip changes a source for these fields. Without values nothing is known, and the
+    /// slip counts.
+    pub(super) fn sees(&self, slip: Slip, source: &str) -> bool {
+        let Some(model) = &self.model else {
+            return true;
+        };
+        let slipped = model.slips.iter().find(|entry| entry.0 == slip);
+        let slipped = slipped.and_then(|entry| entry.1.iter().find(|q| q.name == source));
+        let mut sources = model.of_role(Role::Source);
+        let right = sources.find(|q| q.name == source);
+        let (Some(slipped), Some(right)) = (slipped, right) else {
+            return true;
+        };
+        let rows = Rows::new(&model.graph, [&right.tensor, &slipped.tensor].into_iter());
+        !self.points.iter().all(|point| {
+            let values = rows.at(point).tensors;
+            values[0].iter().zip(&values[1]).all(|(a, b)| is_same(a, b))
+        })
+    }
+}
+
+/// Whether a vector has no divergence at the points: the trace of its gradient.
+fn is_solenoidal(model: &Model, name: &str, points: &[Vec<f64>]) -> bool {
+    let mut gradients = model.of_role(Role::Gradient);
+    let Some(gradient) = gradients.find(|q| q.name == name) else {
+        return false;
+    };
+    let Some(rows) = gradient.tensor.square() else {
+        return false;
+    };
+    let values = Rows::new(&model.graph, std::iter::once(&gradient.tensor));
+    points.iter().all(|point| {
+        let parts = values.at(point).tensors.remove(0);
+        let diagonal = (0..rows).map(|row| parts[row * (rows + 1)]);
+        let trace = diagonal.fold([0.0, 0.0], |[value, size], part| {
+            [value + part.value, size + part.size]
+        });
+        let [value, size] = trace;
+        is_zero(&[Measured { value, size }])
+    })
+}
+
+/// Functions of all variables, each another one.
+struct Fields {
+    /// A sum of all variables.
+    variables: String,
+    number: usize,
+}
+
+impl Fields {
+    /// Of no symmetry and no constant ratio to another, between 1 and 2.
+    fn function(&mut self) -> String {
+        self.number += 1;
+        let number = self.number;
+        let wave = &self.variables;
+        let first = self.variables.split(' ').next().unwrap_or("1");
+        format!(
+            "1.5 + 0.3*sin(0.{number}1*({wave}) + 0.4*{first}^2 + {number}) + 0.2*cos({wave} + 0.1*({wave})^2 - 1.{number}*{first})"
+        )
+    }
+
+    /// A field without divergence: the curl of another; `None` in one dimension.
+    fn potential(&mut self, components: usize) -> Option<String> {
+        match components {
+            2 => Some(format!("curl({})", self.function())),
+            3 => {
+                let parts: Vec<String> = (0..3).map(|_| self.function()).collect();
+                Some(format!("curl([{}])", parts.join(", ")))
+            }
+            _ => None,
+        }
+    }
+
+    /// Of the same rank and length, where these are written out.
+    fn value(&mut self, value: &Value) -> Value {
+        match value {
+            Value::One(_) => field(value, &self.function()),
+            Value::List(place, parts) => {
+                let parts = parts.iter().map(|part| self.value(part)).collect();
+                Value::List(place.clone(), parts)
+            }
+        }
+    }
+}
+
+/// A text in the place of a value.
+fn field(value: &Value, text: &str) -> Value {
+    match parse(text) {
+        Ok(tree) => Value::One(Expression {
+            place: value.place().clone(),
+            text: text.to_owned(),
+            tree,
+        }),
+        Err(_) => value.clone(),
+    }
+}

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use manufacture::{Comparison, Sampling};
 
-use crate::files::{LIMIT, read};
+use crate::files::{LIMIT, against, read};
 
 /// Reaction and diffusion with a coefficient that varies.
 const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\ny = [0, 1]\nt = [0, 1]\n\
@@ -207,6 +207,29 @@ fn values_with_few_digits_are_right_within_them() {
     )
     .remove(0);
     assert_ne!(comparison.cause, "equal");
+}
+
+/// An energy equation whose terms are some 1e8: a difference of 0.2 is 1e-9 of their sum.
+const ENERGY: &str = "[manufacture]\nname = \"energy\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n[exact]\nu = \"sin(x)\"\n\
+[equations.e]\nflow = \"2e8*u\"\nwork = \"0.2*u^2\"\n";
+
+#[test]
+fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
+    let said = |statement: &str| against(ENERGY, None, "x,", "e", statement);
+    let right = said("f = 2e8*sin(x) + 0.2*sin(x)**2");
+    assert_eq!(right.cause, "equal");
+    assert!(right.sentence.contains("right"), "{}", right.sentence);
+    let lacking = said("f = 2e8*sin(x)");
+    assert_eq!(lacking.cause, "missing-term", "{}", lacking.sentence);
+    assert_eq!(lacking.terms, ["work"]);
+    // Within the rounding of another order of operations, which is said.
+    let rounded = said("f = (2e8*sin(x) + 0.2*sin(x)**2)*(1 + 1e-14)");
+    assert_eq!(rounded.cause, "equal", "{}", rounded.sentence);
+    assert!(
+        rounded.sentence.contains("the largest difference, ") && rounded.difference > 0.0,
+        "{}",
+        rounded.sentence
+    );
 }
 
 /// The message about a program whose answer about five points cannot be used.

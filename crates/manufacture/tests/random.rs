@@ -279,8 +279,7 @@ fn setting(name: &str, default: u64) -> u64 {
         .unwrap_or(default)
 }
 
-/// The tolerance of `emitted` is smaller than that of a comparison: a difference that a comparison
-/// finds, `emitted` finds.
+/// A comparison allows 1000 spreads of the two evaluations, `emitted` a share of the size.
 #[test]
 fn no_right_source_is_called_wrong_and_no_slip_is_missed() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,8 +7,15 @@ use super::{Comparison, sentence};
 use crate::derive::{Part, Slip};
 use crate::fit::{self, Column};
 
-/// A value explains another within this share of its size, or within the digits printed.
-const CLOSE: f64 = 1e-9;
+/// A value explains another within this many spreads of the file's own two evaluations, or within
+/// the digits printed.
+///
+/// Another program sums in another order, and may expand products: its rounding is larger than the
+/// spread, but of its kind.
+pub(super) const SPREADS: f64 = 1000.0;
+
+/// A term depends on others if less than this share of it is left.
+const DEPENDENT: f64 = 1e-9;
 
 /// A cause, and what it is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,16 +54,19 @@ struct Case<'a, 'm> {
 }
 
 /// Explains what another program answers.
-pub(super) fn explain(right: &Right<'_>, answer: &Answer) -> Comparison {
+///
+/// * `spreads`: those of [`Right::spreads`].
+pub(super) fn explain(right: &Right<'_>, spreads: &[Vec<f64>], answer: &Answer) -> Comparison {
     let place = right.place_of(answer).unwrap_or(Place {
         quantity: 0,
         component: 0,
     });
     let values = right.values(place);
+    let spread = spreads[place.quantity][place.component];
     let allowed = values
         .iter()
         .zip(&answer.units)
-        .map(|(v, unit)| CLOSE * v.size + unit);
+        .map(|(v, unit)| SPREADS * spread * v.size + unit);
     let quantity = right.quantities[place.quantity].quantity;
     let case = Case {
         right,
@@ -162,11 +172,13 @@ impl Case<'_, '_> {
             if fit::norm(column) == 0.0 {
                 continue;
             }
-            let factor = simple(1.0 + fit::least_squares(&[column], &difference).factors[0]);
-            let changed = self.combined(&[&self.source, column], &[1.0, factor - 1.0]);
-            if self.fits(&changed) {
-                fitting.push((term, factor));
-            }
+            let fitted = 1.0 + fit::least_squares(&[column], &difference).factors[0];
+            // Rounding of large other terms limits how exactly the factor of a small one is found.
+            let factors = SIMPLE.into_iter().chain([simple(fitted), fitted]);
+            let factor = { factors }.find(|factor| {
+                self.fits(&self.combined(&[&self.source, column], &[1.0, factor - 1.0]))
+            });
+            fitting.extend(factor.map(|factor| (term, factor)));
         }
         fitting.sort_by(|a, b| complexity(a.1).total_cmp(&complexity(b.1)));
         let (term, factor) = *fitting.first()?;
@@ -185,7 +197,7 @@ impl Case<'_, '_> {
         for (term, column) in self.terms.iter().enumerate() {
             let others: Vec<&Column> = independent.iter().map(|i| &self.terms[*i]).collect();
             let rest = fit::least_squares(&others, column).residual;
-            if rest > CLOSE * fit::norm(column) {
+            if rest > DEPENDENT * fit::norm(column) {
                 independent.push(term);
             }
         }
@@ -342,10 +354,12 @@ fn simple(number: f64) -> f64 {
     number
 }
 
-/// How far-fetched a factor is: -1, 0, 2, 1/2, ...
+/// The factors that mistakes have most often.
+const SIMPLE: [f64; 4] = [-1.0, 0.0, 2.0, 0.5];
+
+/// How far-fetched a factor is: those of [`SIMPLE`] in their order, then by size.
 fn complexity(factor: f64) -> f64 {
-    let simple = [-1.0, 0.0, 2.0, 0.5];
-    match simple.iter().position(|entry| *entry == factor) {
+    match SIMPLE.iter().position(|entry| *entry == factor) {
         Some(place) => place as f64,
         None => 10.0 + factor.abs().max(1.0 / factor.abs()),
     }

@@ -73,9 +73,10 @@ impl<'m> Question<'m> {
     pub fn compare(&self, answer: &str, command: &str) -> Result<Vec<Comparison>, InputError> {
         let right = &self.right;
         let answers = ask::read(answer, command, &right.names(), right.points.len())?;
+        let spreads = right.spreads()?;
         Ok(answers
             .iter()
-            .map(|answer| causes::explain(right, answer))
+            .map(|answer| causes::explain(right, &spreads, answer))
             .collect())
     }
 }

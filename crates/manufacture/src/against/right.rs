@@ -3,10 +3,15 @@
 use super::Questions;
 use super::ask::Answer;
 use crate::arithmetic::NodeId;
+use crate::arithmetic::jet::Jet;
 use crate::arithmetic::tape::Measured;
 use crate::derive::{Part, Quantity, Role, Slip, Tensor, components};
 use crate::fit::Column;
 use crate::model::{Model, Rows};
+use crate::problem::InputError;
+
+/// Points where the file is evaluated in both ways.
+const SPREAD_POINTS: usize = 50;
 
 /// A source or a datum at all points.
 pub(crate) struct RightQuantity<'m> {
@@ -58,6 +63,38 @@ impl<'m> Right<'m> {
             model,
             points,
         }
+    }
+
+    /// The largest difference between the two evaluations of the file, by rules of derivatives and
+    /// by Taylor series, as a share of the size: for each quantity, for each component. At least
+    /// one rounding.
+    ///
+    /// # Errors
+    /// An integral without accurate values.
+    pub(crate) fn spreads(&self) -> Result<Vec<Vec<f64>>, InputError> {
+        let jets = self.model.jets();
+        let rounding = |right: &RightQuantity<'_>| vec![f64::EPSILON; right.components.len()];
+        let mut spreads: Vec<Vec<f64>> = self.quantities.iter().map(rounding).collect();
+        for (index, point) in self.points.iter().enumerate().take(SPREAD_POINTS) {
+            let second = jets.at(self.part, point)?;
+            for (right, spreads) in self.quantities.iter().zip(&mut spreads) {
+                let same = |q: &&Quantity<Jet>| {
+                    q.role == right.quantity.role && q.name == right.quantity.name
+                };
+                let Some(second) = second.iter().find(same) else {
+                    continue;
+                };
+                let pairs = right.values[index].iter().zip(&second.tensor.parts);
+                for ((first, second), spread) in pairs.zip(spreads) {
+                    let share = (first.value - second.value()).abs() / first.size;
+                    // A size of zero has no share.
+                    if share.is_finite() {
+                        *spread = spread.max(share);
+                    }
+                }
+            }
+        }
+        Ok(spreads)
     }
 
     /// The names of all components.

@@ -1,6 +1,6 @@
 //! What a colleague would say.
 
-use super::causes::Cause;
+use super::causes::{Cause, SPREADS};
 use super::right::Right;
 use crate::check::place;
 
@@ -39,7 +39,7 @@ pub(super) fn sentence(
     let others = others(labels, terms);
     let quoted = quoted(terms);
     let what = match *name {
-        "equal" => "your values are right".to_owned(),
+        "equal" => right_values(differences),
         "sign-of-source" => {
             "your source has the opposite sign: the equation was written on the other side"
                 .to_owned()
@@ -72,6 +72,18 @@ pub(super) fn sentence(
         format!(" (this fits as well: {})", alternatives.join(", "))
     };
     format!("{quantity}: {what}{also}")
+}
+
+/// Equal values, and the largest difference that was taken for rounding.
+fn right_values(differences: &[f64]) -> String {
+    let largest = differences.iter().copied().fold(0.0, f64::max);
+    if largest == 0.0 {
+        return "your values are right, to the last digit".to_owned();
+    }
+    format!(
+        "your values are right: the largest difference, {largest:.1e}, is within {SPREADS} times the spread \
+         of the two evaluations of the file, or within the digits printed"
+    )
 }
 
 /// No explanation: where the difference is largest and where it is smallest.

@@ -1,8 +1,20 @@
+use std::path::Path;
+
 use super::{Folder, ended, keys, thermobeam};
 
 /// The paper's beam between its obstacles at β, with the `[time]` table that a scene must have.
 fn scene(beta: f64) -> String {
     format!("[beam]\nbeta = {beta:?}\n[obstacles]\n[time]\ndt = 0.1\nt_end = 1\n")
+}
+
+/// What the command answers about a scene: the text, and the object of JSON.
+fn answers(path: &Path) -> (String, serde_json::Value) {
+    let answer = |arguments: &[&str]| {
+        let mut command = thermobeam();
+        ended(command.arg("equilibria").arg(path).args(arguments)).stdout
+    };
+    let json = answer(&["--format", "json"]);
+    (answer(&[]), serde_json::from_str(&json).expect("JSON"))
 }
 
 #[test]
@@ -87,17 +99,9 @@ fn a_list_is_called_complete_where_it_is() {
         ),
     ] {
         let path = folder.file(&format!("{name}.toml"), &scene);
-        let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+        let (text, value) = answers(&path);
         assert_eq!(text.contains("ot all"), !complete, "{name}: {text}");
         assert!(text.contains(said), "{name}: {text}");
-        let json = ended(
-            thermobeam()
-                .arg("equilibria")
-                .arg(&path)
-                .args(["--format", "json"]),
-        )
-        .stdout;
-        let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
         assert_eq!(value["complete"], complete, "{name}");
         let count = value["equilibria"].as_array().expect("a list").len();
         assert_eq!(count, states.unwrap_or(count), "{name}");
@@ -108,16 +112,8 @@ fn a_list_is_called_complete_where_it_is() {
 fn a_list_that_is_not_complete_says_so() {
     let folder = Folder::new();
     let path = folder.file("crushed.toml", &scene(-1.5));
-    let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+    let (text, value) = answers(&path);
     assert!(text.contains("Not all"), "{text}");
-    let json = ended(
-        thermobeam()
-            .arg("equilibria")
-            .arg(&path)
-            .args(["--format", "json"]),
-    )
-    .stdout;
-    let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(value["complete"], false);
 }
 
@@ -161,19 +157,11 @@ fn each_state_is_proved_with_an_enclosure_or_undecided_with_a_reason() {
         ),
     ] {
         let path = folder.file(&format!("{name}.toml"), &text);
-        let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
+        let (text, value) = answers(&path);
         assert!(text.contains(words), "{text}");
-        let json = ended(
-            thermobeam()
-                .arg("equilibria")
-                .arg(&path)
-                .args(["--format", "json"]),
-        )
-        .stdout;
-        let value: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-        assert_eq!(value["proved"], is_proved, "{json}");
+        assert_eq!(value["proved"], is_proved, "{value}");
         let undecided = value["undecided"].as_array().expect("a list");
-        assert_eq!(undecided.is_empty(), is_proved, "{json}");
+        assert_eq!(undecided.is_empty(), is_proved, "{value}");
         for state in value["equilibria"].as_array().expect("a list") {
             let n = state["n_value"].as_f64().expect("a number");
             let Some(bounds) = state["n_enclosure"].as_array() else {

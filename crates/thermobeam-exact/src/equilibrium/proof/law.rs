@@ -70,7 +70,11 @@ impl IntervalLaw {
             r_s,
         } = Flexure::at(s);
         let d = self.moment;
-        let (p, p_s, u, u_s, stress);
+        let p;
+        let p_s;
+        let u;
+        let u_s;
+        let stress;
         match self.support {
             None => {
                 p = d / s;

@@ -196,21 +196,21 @@ impl ProvedBranch<'_> {
             let s = self.intervals.rest;
             return self.give_up(Undecided::new(Reason::Pole, s, s.width()));
         }
-        let mut high = f64::INFINITY;
+        let mut upper: Option<Interval> = None;
         for (above, pole) in poles.into_iter().enumerate() {
             if self.intervals.load(pole).contains(0.0) {
                 return self.give_up(Undecided::new(Reason::Pole, pole, pole.width()));
             }
-            let roots = if above == 0 {
-                self.intervals.root_above(pole.hi)
-            } else {
-                self.intervals.roots_between(pole.hi, high)
+            let high = upper.map_or(f64::INFINITY, |upper| upper.lo);
+            let roots = match upper {
+                None => self.intervals.root_above(pole.hi),
+                Some(upper) => self.intervals.roots_between(pole, upper),
             };
             if !self.has_parity(above, pole.hi, high) {
                 return self.give_up(Undecided::new(Reason::Pole, pole, high - pole.hi));
             }
             self.take(roots);
-            high = pole.lo;
+            upper = Some(pole);
         }
     }
 
@@ -256,12 +256,11 @@ impl ProvedBranch<'_> {
             return self.give_up(Undecided::new(Reason::Pole, pole, pole.width()));
         }
         if rest.lo <= pole.hi {
-            let roots = self
-                .intervals
-                .roots_between(left.min(2.0 * pole.lo), pole.lo);
+            let far = left.min(2.0 * pole.lo);
+            let roots = self.intervals.roots_between(far, pole);
             self.take(roots);
         }
-        let roots = self.intervals.roots_between(pole.hi, 0.0);
+        let roots = self.intervals.roots_between(pole, 0.0);
         self.take(roots);
     }
 

@@ -66,34 +66,38 @@ impl IntervalLaw {
         self.crossing(low, high).map(|root| vec![root])
     }
 
-    /// The roots between two points between which f is concave: none, or two.
+    /// The roots between two ends between which f is concave: none, or two.
     ///
     /// Proof of none: a concave function lies below each of its tangents. Of two: f is negative,
     /// positive and negative again at three points.
-    pub(super) fn roots_between(&self, a: f64, b: f64) -> Roots {
-        let top = self.top(a, b);
+    ///
+    /// * `left`, `right`: each encloses an end, such as a pole. The tangent is negative on all of
+    ///   them, so that no root hides next to a pole.
+    pub(super) fn roots_between(
+        &self,
+        left: impl Into<Interval>,
+        right: impl Into<Interval>,
+    ) -> Roots {
+        let (left, right) = (left.into(), right.into());
+        let top = self.top(left.hi, right.lo);
         let solution = self.at(Interval::from(top));
-        let (f, slope) = (solution.f, solution.slope);
-        if f.is_positive() {
-            let ends = [a, b].map(|end| self.negative_towards(top, end));
-            let [Some(left), Some(right)] = ends else {
-                return Err(self.undecided(Reason::Pole, a, b));
+        if solution.f.is_positive() {
+            let before = self.negative_towards(top, left.hi);
+            let after = self.negative_towards(top, right.lo);
+            let (Some(before), Some(after)) = (before, after) else {
+                return Err(self.undecided(Reason::Pole, left.lo, right.hi));
             };
-            return Ok(vec![self.crossing(left, top)?, self.crossing(right, top)?]);
+            return Ok(vec![
+                self.crossing(before, top)?,
+                self.crossing(after, top)?,
+            ]);
         }
-        if self.is_below_tangent(f, slope, [a, top, b]) {
+        let is_below = |end: Interval| (solution.f + solution.slope * (end - top)).is_negative();
+        if is_below(left) && is_below(right) {
             Ok(vec![])
         } else {
-            Err(self.undecided_by(Reason::Fold, a, b, f.width()))
+            Err(self.undecided_by(Reason::Fold, left.lo, right.hi, solution.f.width()))
         }
-    }
-
-    /// Whether the tangent at `top` is negative between a and b.
-    fn is_below_tangent(&self, f: Interval, slope: Interval, [a, top, b]: [f64; 3]) -> bool {
-        [a, b].into_iter().all(|end| {
-            let tangent = f + slope * (Interval::from(end) - top);
-            tangent.is_negative()
-        })
     }
 
     /// The only root in (-∞, 0) of the free beam if f(0⁻) > 0: f is concave there, and negative at

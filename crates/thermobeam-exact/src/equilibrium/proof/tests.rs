@@ -42,6 +42,12 @@ fn paper() -> Option<Obstacles> {
     Some(Obstacles::default())
 }
 
+/// What is undecided about a beam without obstacles.
+fn reasons(beam: &Beam) -> Vec<Reason> {
+    let undecided = prove(beam, None).unwrap().undecided;
+    undecided.iter().map(|undecided| undecided.reason).collect()
+}
+
 /// N and u(1) of states of the paper's scenes.
 const STATES: [(f64, f64, Phase, &str, &str); 5] = [
     (
@@ -173,22 +179,10 @@ fn what_no_enclosure_decides_is_named() {
     );
 
     let buckling: f64 = BUCKLING.trim_end().parse().unwrap();
-    let reasons: Vec<_> = prove(&beam(buckling, 0.0), None)
-        .unwrap()
-        .undecided
-        .iter()
-        .map(|undecided| undecided.reason)
-        .collect();
-    assert_eq!(reasons, [Reason::Bifurcation]);
+    assert_eq!(reasons(&beam(buckling, 0.0)), [Reason::Bifurcation]);
 
     // ρ(aθ_A)² = -1 - β: the free state at N = -1.
-    let reasons: Vec<_> = prove(&loaded(-2.0, 1.0, 1.0), None)
-        .unwrap()
-        .undecided
-        .iter()
-        .map(|undecided| undecided.reason)
-        .collect();
-    assert_eq!(reasons, [Reason::MinusOne]);
+    assert_eq!(reasons(&loaded(-2.0, 1.0, 1.0)), [Reason::MinusOne]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Verification, without command line and terminal: run, judge, compare with the baseline, bless,
 //! write the report.
 
+mod destination;
 mod folder;
 
 use std::fs::File;
@@ -14,18 +15,21 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{FULL, Findings, newest, shared};
+use crate::report::Findings;
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
-    Baseline, Change, MANIFEST, Provenance, Record, Refusal, ReportFolder, ReportSet, Works,
-    atomic,
+    Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
     diagnosis::{Fingerprints, diagnose},
     json, lock, write_json,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 
+#[cfg(feature = "command-line")]
+pub(crate) use destination::folder_of_figures;
 pub(crate) use folder::reports_around;
+
+use destination::{Destination, scopes, tiers};
 use folder::{lock_file, lock_reports, unwritable};
 
 /// Which studies to run. This decides where the report goes: a report on a selection never replaces
@@ -78,37 +82,7 @@ impl Scope {
             Self::Selection(_) => None,
         }
     }
-
-    /// Where the report goes if the run passes or is blessed.
-    fn report_folder(&self, reports: &Path) -> ReportFolder {
-        let local = reports.join("local");
-        let workshop = local.join("workshop").join(self.name());
-        let folder = match self {
-            Self::Tier(Tier::Quick, _) => reports.to_owned(),
-            Self::Tier(Tier::Full, _) => reports.join(FULL_FOLDER),
-            Self::Selection(_) => local.join("partial"),
-        };
-        ReportFolder { folder, workshop }
-    }
-
-    /// Where the report of a tier goes otherwise; `None` for a selection, whose report is never
-    /// committed.
-    fn failing_folder(&self, reports: &Path) -> Option<ReportFolder> {
-        let Self::Tier(tier, _) = self else {
-            return None;
-        };
-        let local = reports.join("local");
-        Some(ReportFolder {
-            folder: local.join(tier.name()),
-            workshop: local
-                .join("workshop")
-                .join(format!("{}-failing", tier.name())),
-        })
-    }
 }
-
-/// The folder of the report on the full tier, in that of the report on the quick tier.
-const FULL_FOLDER: &str = "full";
 
 /// A verification to be done.
 #[derive(Debug, Clone)]
@@ -283,7 +257,7 @@ pub fn verify(
     let committed = record.clone().committed();
     let is_accepted = record.verdict == Verdict::Pass || blessing == Blessing::Taken;
     let destination = Destination::new(&request.scope, folder, is_accepted);
-    let see_also = is_accepted.then(|| see_also(&committed, folder)).flatten();
+    let see_also = destination.see_also(&committed);
     let findings = Findings {
         project,
         record: &committed,
@@ -309,76 +283,6 @@ pub fn verify(
         blessing,
         reports: destination.folder().to_owned(),
     })
-}
-
-/// Where the files of a report go.
-#[derive(Debug)]
-enum Destination {
-    /// Into one folder. The report on a failing run of the same tier, if there is one, is removed.
-    One {
-        target: ReportFolder,
-        failing: Option<ReportFolder>,
-    },
-    /// A run that does not pass: its report into `failing`, the files that git ignores also into
-    /// `committed`, whose other files stay as they are.
-    Apart {
-        failing: ReportFolder,
-        committed: ReportFolder,
-    },
-}
-
-impl Destination {
-    fn new(scope: &Scope, reports: &Path, is_accepted: bool) -> Self {
-        let target = scope.report_folder(reports);
-        match scope.failing_folder(reports) {
-            Some(failing) if !is_accepted => Self::Apart {
-                failing,
-                committed: target,
-            },
-            failing => Self::One { target, failing },
-        }
-    }
-
-    /// Where the report is.
-    fn folder(&self) -> &Path {
-        match self {
-            Self::One { target, .. } => &target.folder,
-            Self::Apart { failing, .. } => &failing.folder,
-        }
-    }
-
-    fn publish(&self, files: ReportSet, tiers: &[ReportFolder; 2]) -> io::Result<()> {
-        match self {
-            Self::One { target, failing } => {
-                shared::publish(target, files, tiers)?;
-                match failing {
-                    Some(failing) if failing.folder.join(MANIFEST).is_file() => {
-                        failing.publish(&ReportSet::default())
-                    }
-                    _ => Ok(()),
-                }
-            }
-            Self::Apart { failing, committed } => {
-                let newest = newest(&files);
-                shared::publish(failing, files, tiers)?;
-                committed.renew(&newest)
-            }
-        }
-    }
-}
-
-/// The folder with the figures of the record in a folder: that of the failing run which wrote it,
-/// otherwise the folder itself.
-#[cfg(feature = "command-line")]
-pub(crate) fn folder_of_figures(record: &Record, folder: &Path) -> PathBuf {
-    let reports = reports_around(folder);
-    scopes()
-        .into_iter()
-        .filter(|scope| scope.report_folder(&reports).folder == folder)
-        .filter(|scope| scope.name() == record.scope && record.verdict != Verdict::Pass)
-        .filter_map(|scope| scope.failing_folder(&reports))
-        .find(|failing| failing.folder.join(MANIFEST).is_file())
-        .map_or_else(|| folder.to_owned(), |failing| failing.folder)
 }
 
 /// The record of a run, with the diagnosis of one that does not pass.
@@ -530,7 +434,7 @@ pub fn rebuild(
                 Destination::new(&scope, &reports, is_accepted || is_other)
             },
         );
-        let see_also = is_accepted.then(|| see_also(&record, folder)).flatten();
+        let see_also = destination.see_also(&record);
         let findings = Findings {
             project,
             record: &record,
@@ -541,21 +445,6 @@ pub fn rebuild(
         Ok(destination.folder().to_owned())
     };
     Ok(publish().map_err(unwritable(folder))?)
-}
-
-/// The folders of the reports on both tiers, the quick one first.
-fn tiers(reports: &Path) -> [ReportFolder; 2] {
-    let [quick, full, _] = scopes().map(|scope| scope.report_folder(reports));
-    [quick, full]
-}
-
-/// One of each kind: the quick tier, the full one, a selection.
-fn scopes() -> [Scope; 3] {
-    [
-        Scope::Tier(Tier::Quick, vec![]),
-        Scope::Tier(Tier::Full, vec![]),
-        Scope::Selection(vec![]),
-    ]
 }
 
 /// Completes or removes what killed runs of any scope have left.
@@ -595,16 +484,5 @@ fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
         own
     } else {
         Verdict::Fail
-    }
-}
-
-/// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh
-/// checkout has only its Markdown.
-fn see_also(record: &Record, folder: &Path) -> Option<&'static str> {
-    let has = |file: &&str| folder.join(file).is_file();
-    if record.scope == Tier::Quick.name() && has(&FULL) {
-        ["full/index.html", FULL].into_iter().find(has)
-    } else {
-        None
     }
 }

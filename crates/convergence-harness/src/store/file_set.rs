@@ -127,6 +127,7 @@ impl ReportFolder {
     /// # Errors
     /// The error of the operating system; the next replacement completes an interrupted one.
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
+        let _writing = atomic::begin_write();
         self.tidy()?;
         self.replace(set, &set.manifest())
     }
@@ -137,6 +138,7 @@ impl ReportFolder {
     /// # Errors
     /// As [`publish`](Self::publish).
     pub(crate) fn renew(&self, files: &ReportSet) -> io::Result<()> {
+        let _writing = atomic::begin_write();
         self.tidy()?;
         let mut listed = self.stored()?;
         listed.extend(files.files.keys().cloned());
@@ -146,7 +148,6 @@ impl ReportFolder {
     /// Puts files in their places as one step, and removes those of the previous set that the new
     /// manifest does not list.
     fn replace(&self, set: &ReportSet, manifest: &str) -> io::Result<()> {
-        let _writing = atomic::begin_write();
         let staging = self.staging();
         let changed: Vec<_> = set
             .files()

@@ -7,9 +7,9 @@
 //!
 //! * *rules*: every table is judged against its order, and against claims that are too high or too
 //!   low by twice the tolerance. Five rules judge: this rule; this rule with finer levels added,
-//!   from four on, until a look passes or two in a row fail; and what people use: the slope of a straight line, the
-//!   finest pairwise rate, and the defaults of physverify 0.6, which passes if the slope of the
-//!   four finest levels lies between 0.3 below and 1 above the order and the last refinement
+//!   from four on, until a look passes or two in a row fail; and what people use: the slope of a
+//!   straight line, the finest pairwise rate, and the defaults of physverify 0.6, which passes if
+//!   the slope of the four finest levels lies between 0.3 below and 1 above the order and the last refinement
 //!   reduces the error by a factor of 1.2. Only our rule has a third answer. Where the errors have
 //!   no order, the wrong claims lie around the p that they show.
 //! * *levels*: the same at the default tolerance with steps halved, by number of levels. A claim is

@@ -138,7 +138,9 @@ impl Results {
 
     /// Whether levels are added, and why not.
     pub(crate) fn next(&self, seconds: &[f64]) -> Next {
-        let looks = Looks::of(&self.levels());
+        let levels = self.levels();
+        let rates = levels.judge();
+        let looks = Looks::of(&levels, &rates);
         until_decided::next_by_time(&looks, seconds, self.options.budget)
     }
 

@@ -80,7 +80,8 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
         .iter()
         .map(|ran| Some(ran.ok()?.seconds))
         .collect::<Option<_>>()?;
-    let looks = Looks::new(ran.len(), |count| rates(study, &ran[..count]));
+    let now = rates(study, ran);
+    let looks = Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]));
     Some(until_decided::next_by_time(&looks, &seconds, budget))
 }
 

@@ -39,31 +39,34 @@ pub enum Next {
 
 /// The rates of the levels so far, and what they were with one level fewer.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Looks {
+pub struct Looks<'r> {
     /// The rates of all levels so far.
-    pub now: Vec<NamedRate>,
+    pub now: &'r [NamedRate],
     /// The same names without the finest level; empty at the first look.
     pub before: Vec<NamedRate>,
 }
 
-impl Looks {
-    /// * `levels`: how many there are so far.
-    /// * `judge`: the rates of that many levels, the coarsest first.
-    pub fn new(levels: usize, judge: impl Fn(usize) -> Vec<NamedRate>) -> Self {
+impl<'r> Looks<'r> {
+    /// * `now`: the rates of all levels so far, `levels` in number.
+    /// * `judge`: the rates of that many of them, the coarsest first.
+    pub fn new(
+        now: &'r [NamedRate],
+        levels: usize,
+        judge: impl FnOnce(usize) -> Vec<NamedRate>,
+    ) -> Self {
         let before = if levels > FIRST.len() {
             judge(levels - 1)
         } else {
             vec![]
         };
-        Self {
-            now: judge(levels),
-            before,
-        }
+        Self { now, before }
     }
 
     /// The two looks at errors over levels.
-    pub fn of(levels: &Levels) -> Self {
-        Self::new(levels.refinements.len(), |count| {
+    ///
+    /// * `now`: the rates of these levels.
+    pub fn of(levels: &Levels, now: &'r [NamedRate]) -> Self {
+        Self::new(now, levels.refinements.len(), |count| {
             levels.coarsest(count).judge()
         })
     }
@@ -97,15 +100,19 @@ pub fn is_settled(now: Verdict, before: Option<Verdict>) -> bool {
     }
 }
 
+/// Whether a finer level may settle a rate that is open for this reason.
+fn can_change(reason: Reason) -> bool {
+    reason.verdict() == Verdict::Fail || reason.wants_a_level()
+}
+
 /// * `levels`: how many there are so far.
 /// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
-pub fn next(looks: &Looks, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
+pub fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
     let open = looks.open();
     let Some(&first) = open.first() else {
         return Next::Decided;
     };
-    let can_change = |reason: &Reason| reason.verdict() == Verdict::Fail || reason.wants_a_level();
-    if !open.iter().any(can_change) {
+    if !open.iter().copied().any(can_change) {
         return Next::Beyond(first);
     }
     if levels >= MOST_LEVELS {
@@ -122,7 +129,7 @@ pub fn next(looks: &Looks, levels: usize, cost: f64, spent: f64, budget: f64) ->
 /// and by at least two.
 ///
 /// * `seconds`: time of each level; at least two.
-pub fn next_by_time(looks: &Looks, seconds: &[f64], budget: f64) -> Next {
+pub fn next_by_time(looks: &Looks<'_>, seconds: &[f64], budget: f64) -> Next {
     let [.., before, last] = seconds else {
         return Next::Another;
     };
@@ -271,26 +278,29 @@ mod tests {
     use super::*;
     use crate::judge::verdict::judge_pairs;
 
-    /// Rates of two errors from their levels.
-    fn looks(levels: usize, errors: &[fn(f64) -> f64]) -> Looks {
-        Looks::new(levels, |count| {
-            errors
-                .iter()
-                .enumerate()
-                .map(|(index, error)| {
-                    let pairs = (0..count as i32).map(|k| {
-                        let h = 0.125 * 0.5_f64.powi(k);
-                        (h, error(h))
-                    });
-                    let rate = judge_pairs(pairs.collect::<Vec<_>>(), 2.0, 0.25);
-                    NamedRate::new(format!("e{index}"), rate)
-                })
-                .collect()
-        })
+    /// The rates of errors on so many levels, each claimed to be of second order.
+    fn rates(levels: usize, errors: &[fn(f64) -> f64]) -> Vec<NamedRate> {
+        let steps: Vec<f64> = (3..levels as i32 + 3).map(|k| 0.5_f64.powi(k)).collect();
+        let judged = |error: &fn(f64) -> f64| {
+            let pairs: Vec<(f64, f64)> = steps.iter().map(|&h| (h, error(h))).collect();
+            judge_pairs(pairs, 2.0, 0.25)
+        };
+        errors
+            .iter()
+            .enumerate()
+            .map(|(index, error)| NamedRate::new(format!("e{index}"), judged(error)))
+            .collect()
     }
 
-    fn after(levels: usize, errors: &[fn(f64) -> f64]) -> Next {
-        next(&looks(levels, errors), levels, 1.0, 1.0, 100.0)
+    fn verdict(levels: usize, error: fn(f64) -> f64) -> Verdict {
+        rates(levels, &[error])[0].rate.verdict
+    }
+
+    /// What comes after so many levels, the next of which costs so much.
+    fn after(levels: usize, errors: &[fn(f64) -> f64], cost: f64) -> Next {
+        let now = rates(levels, errors);
+        let looks = Looks::new(&now, levels, |count| rates(count, errors));
+        next(&looks, levels, cost, 1.0, 5.0)
     }
 
     fn second(h: f64) -> f64 {
@@ -312,30 +322,28 @@ mod tests {
 
     #[test]
     fn a_pass_decides_at_once_and_a_failure_at_the_second_look() {
-        assert_eq!(after(4, &[second]), Next::Decided);
-        assert_eq!(looks(4, &[first]).now[0].rate.verdict, Verdict::Fail);
-        assert_eq!(after(4, &[first]), Next::Another);
-        assert_eq!(after(5, &[first]), Next::Decided);
-        assert_eq!(after(4, &[second, first]), Next::Another);
+        assert_eq!(after(4, &[second], 1.0), Next::Decided);
+        assert_eq!(verdict(4, first), Verdict::Fail);
+        assert_eq!(after(4, &[first], 1.0), Next::Another);
+        assert_eq!(after(5, &[first], 1.0), Next::Decided);
+        assert_eq!(after(4, &[second, first], 1.0), Next::Another);
     }
 
     #[test]
     fn what_no_level_mends_fails_at_once() {
-        assert_eq!(after(4, &[not_a_number]), Next::Decided);
+        assert_eq!(after(4, &[not_a_number], 1.0), Next::Decided);
     }
 
     #[test]
     fn a_failure_that_a_finer_level_takes_back_does_not_decide() {
-        assert_eq!(looks(4, &[late]).now[0].rate.verdict, Verdict::Fail);
-        let five = looks(5, &[late]).now[0].rate.verdict;
-        assert_ne!(five, Verdict::Fail);
-        assert_eq!(after(5, &[late]), Next::Another);
+        assert_eq!(verdict(4, late), Verdict::Fail);
+        assert_ne!(verdict(5, late), Verdict::Fail);
+        assert_eq!(after(5, &[late], 1.0), Next::Another);
     }
 
     #[test]
     fn the_last_look_decides_where_no_level_can_follow() {
-        let four = looks(4, &[first]);
-        assert_eq!(next(&four, 4, 9.0, 1.0, 5.0), Next::TooDear(9.0));
+        assert_eq!(after(4, &[first], 9.0), Next::TooDear(9.0));
         assert!(!is_settled(Verdict::Fail, Some(Verdict::Inconclusive)));
         assert!(is_settled(Verdict::Fail, Some(Verdict::Fail)));
     }

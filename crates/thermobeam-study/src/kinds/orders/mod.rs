@@ -253,7 +253,7 @@ impl<S: Source> Orders<S> {
 impl<D> Finer<D> {
     fn next(&self, series: &Series) -> Next {
         let levels = series.levels.refinements.len();
-        let looks = Looks::of(&series.levels);
+        let looks = Looks::of(&series.levels, series.rates());
         until_decided::next(&looks, levels, self.cost, self.spent, self.budget)
     }
 }

@@ -174,8 +174,8 @@ impl Case<'_, '_> {
             }
             let fitted = 1.0 + fit::least_squares(&[column], &difference).factors[0];
             // Rounding of large other terms limits how exactly the factor of a small one is found.
-            let factors = SIMPLE.into_iter().chain([simple(fitted), fitted]);
-            let factor = { factors }.find(|factor| {
+            let mut factors = SIMPLE.into_iter().chain([simple(fitted), fitted]);
+            let factor = factors.find(|factor| {
                 self.fits(&self.combined(&[&self.source, column], &[1.0, factor - 1.0]))
             });
             fitting.extend(factor.map(|factor| (term, factor)));

@@ -21,24 +21,29 @@
 //!
 //! `default-features = false` leaves [`text`], [`judge`], [`study`] and [`run`]: verdicts, and
 //! studies on all threads, whose outcomes have no figures. The feature `files` adds [`input`] and
-//! studies described by files, `reports` all but the command line, `command-line` that.
+//! studies described by files, `tables` [`rates`]: tables judged, with figures, without files,
+//! threads or clocks. `reports` adds all but the command line, `command-line` that.
 //!
-//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `study`, `run`,
-//! `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. The first two
-//! are the crate `convergence-judge`, with `run::time_limit`.
+//! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `exchange`,
+//! `rates`, `study`, `run`, `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. The
+//! first two are the crate `convergence-judge`, with `run::time_limit`.
 
 #[cfg(feature = "command-line")]
 pub mod cli;
 #[cfg(feature = "reports")]
 pub mod compare;
+#[cfg(feature = "tables")]
+mod exchange;
 #[cfg(feature = "files")]
 pub mod input;
-#[cfg(feature = "reports")]
+#[cfg(feature = "tables")]
 pub mod plots;
 #[cfg(feature = "reports")]
 pub mod program;
 #[cfg(feature = "reports")]
 pub mod project;
+#[cfg(feature = "tables")]
+pub mod rates;
 #[cfg(feature = "reports")]
 pub mod report;
 pub mod run;

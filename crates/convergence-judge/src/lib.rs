@@ -25,6 +25,7 @@ pub mod text {
     #[cfg(feature = "names")]
     pub mod names;
     pub mod number;
+    pub mod section;
     pub mod visible;
 }
 

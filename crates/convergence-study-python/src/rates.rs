@@ -1,6 +1,6 @@
 //! Tables of files and texts, judged by the command `rates`.
 
-use convergence_harness::cli::rates::{Claimed, Request, Tables, object};
+use convergence_harness::rates::{Claimed, Request, Tables, object};
 use convergence_harness::input::advice::Argument;
 use convergence_harness::program::PROJECT;
 use convergence_harness::study::Claim;
@@ -41,7 +41,7 @@ pub(crate) fn rates(
         (Tables::File(source), literal(py, source))
     };
     let call = Call::new(py, "rates", &first, order, &Argument::ALL)?;
-    let found = py.detach(|| object(&PROJECT, tables, &request));
+    let found = py.detach(|| object(PROJECT.command, tables, &request));
     let found = found.map_err(|refusal| refuse(refusal.words(&call)))?;
     Ok(found.to_string())
 }

@@ -1,6 +1,5 @@
 //! `explain NAME`: what a study, a term, a reason for a verdict or a kind of study means.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -14,6 +13,7 @@ use crate::project::Project;
 use crate::study::{KindRow, Study, StudyFile};
 use crate::text::lists::grouped;
 use crate::text::names::nearest;
+use crate::text::section::section;
 use crate::text::visible::{self, visible};
 
 /// Explain what a study claims, why it should hold, how it is judged, what failing means
@@ -235,20 +235,4 @@ fn page(head: &str, parts: &[(&str, &str)]) -> String {
         .iter()
         .for_each(|(title, paragraph)| section(&mut text, title, paragraph));
     text
-}
-
-/// A title, and a paragraph with lines of at most 100 characters.
-pub(crate) fn section(text: &mut String, title: &str, paragraph: &str) {
-    const WIDTH: usize = 100;
-    let _ = write!(text, "\n{title}\n ");
-    let mut column = 1;
-    for word in paragraph.split_whitespace() {
-        if column + 1 + word.chars().count() > WIDTH {
-            text.push_str("\n ");
-            column = 1;
-        }
-        let _ = write!(text, " {word}");
-        column += 1 + word.chars().count();
-    }
-    text.push('\n');
 }

@@ -8,16 +8,13 @@ use std::time::Duration;
 
 use clap::Args;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::screen::{self, Format, formats};
+use crate::exchange::{self, Printed};
 use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort};
 use crate::store::{self, atomic};
-
-/// Version of the format of [`Printed`]: increased when a key of any command changes its meaning or
-/// disappears.
-const SCHEMA: u32 = 2;
 
 /// The flags that every command accepts.
 #[derive(Debug, Clone, Args)]
@@ -55,34 +52,6 @@ pub(super) fn at_least(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clo
     }
 }
 
-/// The JSON object of a command: its verdict, then what it found.
-#[derive(Serialize)]
-struct Printed<'a, T> {
-    schema: u32,
-    verdict: &'static str,
-    #[serde(flatten)]
-    found: &'a T,
-}
-
-impl<'a, T: Serialize> Printed<'a, T> {
-    fn new(verdict: Verdict, found: &'a T) -> Self {
-        Self {
-            schema: SCHEMA,
-            verdict: verdict.name(),
-            found,
-        }
-    }
-}
-
-fn text(verdict: Verdict, found: &impl Serialize) -> io::Result<String> {
-    store::json(&Printed::new(verdict, found))
-}
-
-/// The JSON object of a command.
-pub(super) fn object(verdict: Verdict, found: &Value) -> Value {
-    json!(Printed::new(verdict, found))
-}
-
 impl Flags {
     /// Threads and time of a run; without a number, all threads of the machine.
     pub fn effort(&self, time_limit: Option<Duration>) -> Effort {
@@ -118,7 +87,7 @@ impl Flags {
         words: &str,
     ) -> io::Result<Verdict> {
         if self.format == Format::Json {
-            screen::print(&text(verdict, found)?)?;
+            screen::print(&store::json(&Printed::new(verdict, found))?)?;
         } else {
             screen::print(words)?;
         }
@@ -130,8 +99,7 @@ impl Flags {
         if self.format != Format::Json {
             return Ok(());
         }
-        let object = json!({"schema": SCHEMA, "refused": refusal});
-        screen::print(&store::json(&object)?)
+        screen::print(&store::json(&exchange::refused(refusal))?)
     }
 
     /// The same; also writes the object as `COMMAND.json` to the folder given.
@@ -146,7 +114,7 @@ impl Flags {
             atomic::prepare_folder(folder)?;
             atomic::write(
                 &folder.join(command).with_extension("json"),
-                text(verdict, found)?,
+                store::json(&Printed::new(verdict, found))?,
             )?;
         }
         self.print(verdict, found, words)

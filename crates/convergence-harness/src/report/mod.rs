@@ -19,6 +19,7 @@ mod words;
 
 use std::io;
 
+use crate::exchange::csv_field;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
@@ -303,14 +304,5 @@ impl Findings<'_> {
             }
         }
         csv
-    }
-}
-
-/// A field of a CSV line, in quotes if needed (RFC 4180).
-pub(crate) fn csv_field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }

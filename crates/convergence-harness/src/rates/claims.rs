@@ -20,7 +20,10 @@ pub struct Claimed {
 }
 
 /// A value of `--order`.
-pub(super) fn claimed(text: &str) -> Result<Claimed, String> {
+///
+/// # Errors
+/// What was expected.
+pub fn claimed(text: &str) -> Result<Claimed, String> {
     let at = text
         .rfind(">=")
         .or_else(|| text.rfind('=').map(|at| at + 1));

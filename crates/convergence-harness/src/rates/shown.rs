@@ -1,7 +1,6 @@
 //! The result in words, for people.
 
 use super::{JudgedColumn, Judgement};
-use crate::cli::explain::section;
 use crate::input::error_table::limit;
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
@@ -10,6 +9,7 @@ use crate::judge::verdict::{RateVerdict, Reason, Verdict, judged_in_words};
 use crate::text::number::{
     committed_rate, counted, error_text, order_text, pair_text, plain_text, short_text,
 };
+use crate::text::section::section;
 use crate::text::visible::visible;
 
 /// Largest difference between two steady rates.
@@ -74,7 +74,7 @@ impl JudgedColumn<'_> {
 /// What is found in all tables: each under its name if there are several, then the verdict on all.
 ///
 /// * `shown`: a verdict as it is printed, perhaps in its colour.
-pub(super) fn text_of_all(
+pub(crate) fn text_of_all(
     findings: &[Judgement<'_>],
     verdict: Verdict,
     quiet: bool,
@@ -100,7 +100,7 @@ pub(super) fn text_of_all(
 }
 
 /// How many tables agree, or what the only one says.
-pub(super) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
+pub(crate) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
     if let [alone] = findings {
         return sentence(alone);
     }
@@ -158,26 +158,31 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
     text.extend(columns.iter().map(line));
     // Words common to several columns appear once.
     let mut said = vec![];
-    for judged in columns
-        .iter()
-        .filter(|judged| judged.is_claimed() && !is_pass(judged))
-    {
-        let words = (judged.rate.kind.code(), advice(judged, findings));
+    for judged in columns {
+        let Some(advice) = advice_of_claim(judged, findings) else {
+            continue;
+        };
+        let words = (judged.rate.kind.code(), advice);
         if !said.contains(&words) {
             section(&mut text, words.0, &words.1);
             said.push(words);
         }
     }
     if !columns.iter().all(JudgedColumn::is_claimed) {
-        let command = format!(
-            "{} rates {}",
-            findings.project.command, findings.source.file
-        );
+        let command = format!("{} rates {}", findings.command, findings.source.file);
         text += &format!(
             "\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n"
         );
     }
     text + "\n" + &last
+}
+
+/// What the reason means for a column with a claim, and what to do; nothing of a pass.
+pub(super) fn advice_of_claim(
+    judged: &JudgedColumn<'_>,
+    findings: &Judgement<'_>,
+) -> Option<String> {
+    (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged, findings))
 }
 
 /// What the reason means for a column, and what to do, using its numbers if they show more than the
@@ -310,7 +315,7 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
 }
 
 /// The overall verdict in words.
-pub(super) fn sentence(findings: &Judgement<'_>) -> String {
+pub(crate) fn sentence(findings: &Judgement<'_>) -> String {
     let deciding = || findings.columns.iter().filter(|column| column.decides);
     let passed = deciding()
         .filter(|column| column.rate.verdict == Verdict::Pass)

@@ -1,29 +1,24 @@
 //! `rates FILE...`: errors of any code, judged by the rule of the studies.
 
-mod claims;
-mod files;
-mod refusal;
-mod shown;
-
 use std::io::{self, IsTerminal};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::Value;
 
 use super::exit::{Outcome, Unusable};
-use super::flags::{self, Flags, number};
+use super::flags::{Flags, number};
+use super::github;
 use super::screen::{self, Format};
 use crate::input::advice::CommandLine;
-use crate::input::error_table::{Choice, Column, RateTable};
-use crate::judge::claims::Claim;
-use crate::judge::richardson::{Estimate, Estimator};
-use crate::judge::verdict::{self, Judge, RateVerdict, Verdict};
+use crate::input::error_table::Choice;
+use crate::judge::verdict::{self, Verdict};
 use crate::project::Project;
+use crate::rates::{
+    self, Claimed, Judgement, Refusal, Request, Rule, Tables, cases, claimed, figure, markdown,
+    verdict_in_markdown,
+};
+use crate::store::{JudgedSuite, atomic, junit_of};
 use crate::text::names::quoted;
-pub use claims::Claimed;
-use claims::claimed;
-pub use refusal::Refusal;
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
@@ -101,99 +96,6 @@ fn ratio(text: &str) -> Result<f64, String> {
     ratio.ok_or_else(|| "expected a number > 1".to_owned())
 }
 
-/// A column, judged.
-struct JudgedColumn<'t> {
-    column: &'t Column,
-    /// Its order is NaN without a claim.
-    claim: Claim,
-    rate: RateVerdict,
-    /// Only of a column of values.
-    estimate: Option<Estimate>,
-    /// Whether its verdict counts.
-    decides: bool,
-}
-
-impl JudgedColumn<'_> {
-    fn is_claimed(&self) -> bool {
-        !self.rate.order.is_nan()
-    }
-}
-
-/// A table that was read.
-struct Source {
-    /// As the command line names it.
-    file: String,
-    /// The file, and the heading of the table if the file has several.
-    name: String,
-    table: RateTable,
-}
-
-impl Source {
-    /// * `heading`: of the table, if its file has several; otherwise empty.
-    fn new(file: &str, heading: &str, table: RateTable) -> Self {
-        let name = if heading.is_empty() {
-            file.to_owned()
-        } else {
-            format!("{file}: {heading}")
-        };
-        Self {
-            file: file.to_owned(),
-            name,
-            table,
-        }
-    }
-}
-
-/// Everything that is printed and written about a table.
-struct Judgement<'t> {
-    project: &'t Project,
-    source: &'t Source,
-    columns: Vec<JudgedColumn<'t>>,
-    judge: &'t Judge,
-    verdict: Verdict,
-}
-
-/// What is judged, and how.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Request {
-    /// The orders that theory claims; without one nothing passes.
-    pub claims: Vec<Claimed>,
-    /// Allowed deviation of a rate from its order, above or below.
-    pub tolerance: f64,
-    /// Round-off, in the unit of the errors.
-    pub floor: f64,
-    /// How the tables are read; the columns with a claim need not be named again.
-    pub choice: Choice,
-    /// Whether columns without a claim count, too.
-    pub all: bool,
-}
-
-/// Where tables come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tables<'t> {
-    /// A file; `-` is standard input.
-    File(&'t str),
-    /// A text.
-    Text(&'t str),
-}
-
-/// The name of a text in messages.
-const TEXT: &str = "text";
-
-/// The object that `rates --format json` prints.
-///
-/// # Errors
-/// [`Refusal`], if the tables cannot be read or the claims are about other columns.
-pub fn object(project: &Project, tables: Tables<'_>, request: &Request) -> Result<Value, Refusal> {
-    let rule = Rule::new(request)?;
-    let sources = read(tables, &request.choice())?;
-    let findings = judge(project, &sources, &rule, request)?;
-    Ok(flags::object(
-        verdict_of(&findings),
-        &files::object_of_all(&findings),
-    ))
-}
-
 /// Judges the tables, prints rates and verdicts, and writes the files requested.
 ///
 /// # Errors
@@ -205,22 +107,23 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let rule = Rule::new(&request).map_err(refused)?;
     let mut sources = vec![];
     for file in &files {
-        sources.extend(read(Tables::File(file), &request.choice()).map_err(refused)?);
+        sources.extend(rates::read(Tables::File(file), &request.choice()).map_err(refused)?);
     }
-    let findings = judge(project, &sources, &rule, &request).map_err(refused)?;
-    let verdict = verdict_of(&findings);
+    let findings =
+        rates::judgements(project.command, &sources, &rule, &request).map_err(refused)?;
+    let verdict = rates::verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
-        files::write(&findings, verdict, folder)?;
+        write(project, &findings, verdict, folder)?;
     }
     let words = match flags.format {
-        Format::Csv => files::csv(&findings),
-        Format::Md => files::rows_in_markdown(&findings),
+        Format::Csv => rates::csv(&findings),
+        Format::Md => rates::rows_in_markdown(&findings),
         Format::Text | Format::Json => {
-            shown::text_of_all(&findings, verdict, flags.quiet, screen::verdict)
+            rates::text_of_all(&findings, verdict, flags.quiet, screen::verdict)
         }
     };
-    Ok(flags.show("rates", verdict, &files::object_of_all(&findings), &words)?)
+    Ok(flags.show("rates", verdict, &rates::object_of_all(&findings), &words)?)
 }
 
 /// The refusal in the words of the command line; with `--format json` it is printed as an object,
@@ -285,108 +188,43 @@ impl Arguments {
     }
 }
 
-impl Request {
-    /// How the tables are read.
-    fn choice(&self) -> Choice {
-        let claims = self.claims.iter();
-        Choice {
-            claimed: claims.filter_map(|claimed| claimed.name.clone()).collect(),
-            ..self.choice.clone()
-        }
-    }
-}
-
-/// The rule for errors and the rule for values.
-struct Rule {
-    judge: Judge,
-    estimator: Estimator,
-}
-
-impl Rule {
-    fn new(request: &Request) -> Result<Self, Refusal> {
-        Ok(Self {
-            judge: Judge::new(request.tolerance)?.with_floor(request.floor)?,
-            estimator: Estimator::new(request.tolerance)?,
-        })
-    }
-}
-
-/// Reads all tables of a file or a text.
-fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<Source>, Refusal> {
-    let (file, tables) = match tables {
-        Tables::File(file) => (file, RateTable::read_all_with(file, choice)),
-        Tables::Text(text) => (TEXT, RateTable::parse_all_with(text, TEXT, choice)),
-    };
-    let tables = tables.map_err(|error| Refusal::Table {
-        file: file.to_owned(),
-        error: Box::new(error),
-    })?;
-    let tables = tables.into_iter();
-    Ok(tables
-        .map(|(heading, table)| Source::new(file, &heading, table))
-        .collect())
-}
-
-/// The judgements of all tables.
-fn judge<'t>(
-    project: &'t Project,
-    sources: &'t [Source],
-    rule: &'t Rule,
-    request: &Request,
-) -> Result<Vec<Judgement<'t>>, Refusal> {
-    let claims = claims::claims(request, sources)?;
-    let judged = |(source, claims): (&'t Source, Vec<Claim>)| {
-        let columns = judged_columns(source, &claims, rule, request.all);
-        let deciding = columns.iter().filter(|column| column.decides);
-        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
-        Judgement {
-            project,
-            source,
-            columns,
-            judge: &rule.judge,
-            verdict,
-        }
-    };
-    Ok(sources.iter().zip(claims).map(judged).collect())
-}
-
-/// The verdict on all tables.
-fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
-    Verdict::worst(findings.iter().map(|judgement| judgement.verdict))
-}
-
-/// The columns of a table with their judgements.
+/// Writes figures, Markdown and JUnit XML, each atomically, and appends to the job summary of
+/// GitHub. The figure of an only table is `rates.svg`, those of several are `rates-1.svg`, ...
 ///
-/// * `claims`: one for each column, errors first.
-/// * `all`: whether columns without a claim count, too.
-fn judged_columns<'t>(
-    source: &'t Source,
-    claims: &[Claim],
-    rule: &Rule,
-    all: bool,
-) -> Vec<JudgedColumn<'t>> {
-    let errors = source.table.columns.len();
-    let judged = |(k, (column, claim)): (usize, (&'t Column, &Claim))| {
-        let estimate = (k >= errors).then(|| column.estimate(&rule.estimator, claim.order));
-        let rate = estimate.as_ref().map_or_else(
-            || column.judge(&rule.judge, claim),
-            |estimate| estimate.judged.clone(),
-        );
-        JudgedColumn {
-            column,
-            claim: *claim,
-            rate,
-            estimate,
-            decides: all || !claim.order.is_nan(),
-        }
+/// # Errors
+/// The error of the operating system, with the name of the file.
+fn write(
+    project: &Project,
+    findings: &[Judgement<'_>],
+    verdict: Verdict,
+    folder: &Path,
+) -> io::Result<()> {
+    atomic::prepare_folder(folder)?;
+    let mut pages = vec![];
+    for (k, judgement) in findings.iter().enumerate() {
+        let name = if findings.len() == 1 {
+            "rates.svg".to_owned()
+        } else {
+            format!("rates-{}.svg", k + 1)
+        };
+        atomic::write(&folder.join(&name), figure(judgement))?;
+        let picture = format!("![Errors over steps]({name})\n\n");
+        pages.push(markdown(judgement, &picture));
+    }
+    pages.extend(verdict_in_markdown(findings, verdict));
+    atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
+    let suite = |judgement: &Judgement<'_>| JudgedSuite {
+        name: judgement.name().to_owned(),
+        cases: cases(judgement),
     };
-    let columns = columns(&source.table).zip(claims).enumerate();
-    columns.map(judged).collect()
-}
-
-/// The columns to judge: errors, then values.
-fn columns(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
-    table.columns.iter().chain(&table.values)
+    let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
+    let junit = junit_of(project.name, &suites).map_err(io::Error::other)?;
+    atomic::write(&folder.join("junit.xml"), junit)?;
+    // A picture would need an address on the web.
+    for judgement in findings {
+        github::summarise(&markdown(judgement, ""));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

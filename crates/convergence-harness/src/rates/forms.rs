@@ -1,20 +1,17 @@
-//! The result for programs, in tables of other formats, and in files.
-
-use std::io;
-use std::path::Path;
+//! The result for programs, in tables of other formats, as a figure and as a page.
 
 use serde_json::{Value, json};
 
-use super::shown::{sentence, sentence_of_all, text};
+use super::shown::{sentence, text};
 use super::{JudgedColumn, Judgement};
-use crate::cli::github;
+#[cfg(feature = "command-line")]
+use crate::exchange::csv_field;
 use crate::judge::fit::Level;
+#[cfg(feature = "command-line")]
 use crate::judge::shown;
 use crate::judge::verdict::{Aside, SetAside, Verdict};
 use crate::plots::xy::Xy;
 use crate::plots::{ErrorSeries, Guide, convergence};
-use crate::report::csv_field;
-use crate::store::{JudgedSuite, atomic, junit_of};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would repeat the colours.
@@ -22,7 +19,8 @@ const DRAWN: usize = 8;
 
 /// The rows of each table, separated by commas, without marks; a line with its name before each of
 /// several.
-pub(super) fn csv(findings: &[Judgement<'_>]) -> String {
+#[cfg(feature = "command-line")]
+pub(crate) fn csv(findings: &[Judgement<'_>]) -> String {
     let cell = |cell: &String| csv_field(cell.trim_end_matches([' ', '_', '~', '\'']).trim());
     let line = |row: &Vec<String>| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
     let table = |judgement: &Judgement<'_>| {
@@ -42,7 +40,8 @@ pub(super) fn csv(findings: &[Judgement<'_>]) -> String {
 
 /// The rows of each table in Markdown, with the meaning of their marks; each of several under its
 /// name.
-pub(super) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
+#[cfg(feature = "command-line")]
+pub(crate) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
     let line = |row: &Vec<String>| {
         let cells: Vec<String> = row.iter().map(|cell| escaped(cell.trim())).collect();
         format!("| {} |\n", cells.join(" | "))
@@ -80,7 +79,7 @@ fn escaped(text: &str) -> String {
 
 /// What `rates --format json` prints in addition to the verdict: the object of a table, or a list of
 /// several, each with its name and verdict.
-pub(super) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
+pub(crate) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
     if let [alone] = findings {
         return object(alone);
     }
@@ -129,71 +128,8 @@ fn object(findings: &Judgement<'_>) -> Value {
     })
 }
 
-/// Writes figures, Markdown and JUnit XML, each atomically, and appends to the job summary of
-/// GitHub. The figure of an only table is `rates.svg`, those of several are `rates-1.svg`, ...
-///
-/// # Errors
-/// The error of the operating system, with the name of the file.
-pub(super) fn write(findings: &[Judgement<'_>], verdict: Verdict, folder: &Path) -> io::Result<()> {
-    atomic::prepare_folder(folder)?;
-    let mut pages = vec![];
-    for (k, judgement) in findings.iter().enumerate() {
-        let name = if findings.len() == 1 {
-            "rates.svg".to_owned()
-        } else {
-            format!("rates-{}.svg", k + 1)
-        };
-        atomic::write(&folder.join(&name), figure(judgement))?;
-        let picture = format!("![Errors over steps]({name})\n\n");
-        pages.push(markdown(judgement, &picture));
-    }
-    if findings.len() > 1 {
-        pages.push(format!("**{verdict}**: {}\n", sentence_of_all(findings)));
-    }
-    atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
-    let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
-    let project = findings.first().map_or("", |first| first.project.name);
-    let junit = junit_of(project, &suites).map_err(io::Error::other)?;
-    atomic::write(&folder.join("junit.xml"), junit)?;
-    // A picture would need an address on the web.
-    for judgement in findings {
-        github::summarise(&markdown(judgement, ""));
-    }
-    Ok(())
-}
-
-/// A test case for each column that decides; without one a case that fails for want of a claim.
-fn suite(findings: &Judgement<'_>) -> JudgedSuite {
-    let case = |judged: &JudgedColumn<'_>| {
-        let least = if judged.claim.at_least {
-            "at least "
-        } else {
-            ""
-        };
-        let claim = if judged.is_claimed() {
-            format!(": order {least}{}", judged.rate.order)
-        } else {
-            String::new()
-        };
-        (
-            judged.column.name.clone() + &claim,
-            judged.rate.verdict,
-            judged.answer(),
-        )
-    };
-    let deciding = findings.columns.iter().filter(|column| column.decides);
-    let mut cases: Vec<_> = deciding.map(case).collect();
-    if cases.is_empty() {
-        cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
-    }
-    JudgedSuite {
-        name: findings.source.name.clone(),
-        cases,
-    }
-}
-
 /// The errors over the steps, columns with a claim first.
-fn figure(findings: &Judgement<'_>) -> String {
+pub(crate) fn figure(findings: &Judgement<'_>) -> String {
     let mut drawn: Vec<&JudgedColumn<'_>> = findings
         .columns
         .iter()
@@ -244,7 +180,7 @@ fn figure(findings: &Judgement<'_>) -> String {
 /// The printed result, as a page.
 ///
 /// * `picture`: the link to the figure, with the empty line below it.
-fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
+pub(crate) fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
     let source = escaped(&findings.source.name);
     let text = visible::lines(&text(findings, false, plain_verdict));
     let block: String = text.lines().map(|line| format!("    {line}\n")).collect();
@@ -255,7 +191,36 @@ fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
     )
 }
 
+/// A test case for each column that decides: its name, verdict and reason; without one a case that
+/// fails for want of a claim.
+#[cfg(feature = "command-line")]
+pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> {
+    let case = |judged: &JudgedColumn<'_>| {
+        let least = if judged.claim.at_least {
+            "at least "
+        } else {
+            ""
+        };
+        let claim = if judged.is_claimed() {
+            format!(": order {least}{}", judged.rate.order)
+        } else {
+            String::new()
+        };
+        (
+            judged.column.name.clone() + &claim,
+            judged.rate.verdict,
+            judged.answer(),
+        )
+    };
+    let deciding = findings.columns.iter().filter(|column| column.decides);
+    let mut cases: Vec<_> = deciding.map(case).collect();
+    if cases.is_empty() {
+        cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
+    }
+    cases
+}
+
 /// A verdict without a colour.
-fn plain_verdict(verdict: Verdict) -> String {
+pub(super) fn plain_verdict(verdict: Verdict) -> String {
     verdict.to_string()
 }

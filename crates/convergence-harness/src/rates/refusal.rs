@@ -47,7 +47,7 @@ impl Refusal {
 
     /// The refusal for programs: its words, and of a table where, what was expected and found, and
     /// what is offered.
-    pub(super) fn object(&self, surface: &dyn Surface) -> Value {
+    pub fn object(&self, surface: &dyn Surface) -> Value {
         let mut object = json!({ "message": self.words(surface) });
         if let Self::Table { error, .. } = self {
             object["file"] = json!(error.file);

@@ -1,0 +1,324 @@
+//! Errors of any code, judged by the rule of the studies: tables of a text or a file, the claims
+//! about their columns, and what is found, in words and for programs. Nothing here needs files,
+//! threads or a clock, but for a file that a caller names.
+
+mod claims;
+mod forms;
+mod refusal;
+mod shown;
+
+use serde_json::Value;
+
+use crate::exchange;
+use crate::input::error_table::{Choice, Column, RateTable};
+use crate::judge::richardson::{Estimate, Estimator};
+use crate::judge::verdict::{Judge, RateVerdict, Verdict};
+use crate::judge::{self, claims::Claim};
+pub use claims::{Claimed, claimed};
+#[cfg(feature = "command-line")]
+pub(crate) use forms::{cases, csv, rows_in_markdown};
+pub(crate) use forms::{figure, markdown, object_of_all};
+pub use refusal::Refusal;
+pub(crate) use shown::{sentence_of_all, text_of_all};
+
+/// A column, judged.
+pub(crate) struct JudgedColumn<'t> {
+    column: &'t Column,
+    /// Its order is NaN without a claim.
+    claim: Claim,
+    rate: RateVerdict,
+    /// Only of a column of values.
+    estimate: Option<Estimate>,
+    /// Whether its verdict counts.
+    decides: bool,
+}
+
+impl Judgement<'_> {
+    /// The file, and the heading of the table if the file has several.
+    #[cfg(feature = "command-line")]
+    pub(crate) fn name(&self) -> &str {
+        &self.source.name
+    }
+}
+
+impl JudgedColumn<'_> {
+    fn is_claimed(&self) -> bool {
+        !self.rate.order.is_nan()
+    }
+}
+
+/// A table that was read.
+pub(crate) struct Source {
+    /// As the command line names it.
+    file: String,
+    /// The file, and the heading of the table if the file has several.
+    name: String,
+    table: RateTable,
+}
+
+impl Source {
+    /// * `heading`: of the table, if its file has several; otherwise empty.
+    fn new(file: &str, heading: &str, table: RateTable) -> Self {
+        let name = if heading.is_empty() {
+            file.to_owned()
+        } else {
+            format!("{file}: {heading}")
+        };
+        Self {
+            file: file.to_owned(),
+            name,
+            table,
+        }
+    }
+}
+
+/// Everything that is printed and written about a table.
+pub(crate) struct Judgement<'t> {
+    /// The program of the caller, in the commands that advice names.
+    command: &'t str,
+    source: &'t Source,
+    columns: Vec<JudgedColumn<'t>>,
+    judge: &'t Judge,
+    verdict: Verdict,
+}
+
+/// What is judged, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// The orders that theory claims; without one nothing passes.
+    pub claims: Vec<Claimed>,
+    /// Allowed deviation of a rate from its order, above or below.
+    pub tolerance: f64,
+    /// Round-off, in the unit of the errors.
+    pub floor: f64,
+    /// How the tables are read; the columns with a claim need not be named again.
+    pub choice: Choice,
+    /// Whether columns without a claim count, too.
+    pub all: bool,
+}
+
+/// Where tables come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tables<'t> {
+    /// A file; `-` is standard input.
+    File(&'t str),
+    /// A text.
+    Text(&'t str),
+}
+
+/// The name of a text in messages.
+const TEXT: &str = "text";
+
+/// The object that `rates --format json` prints.
+///
+/// * `command`: the program of the caller, in the commands that advice names.
+///
+/// # Errors
+/// [`Refusal`], if the tables cannot be read or the claims are about other columns.
+pub fn object(command: &str, tables: Tables<'_>, request: &Request) -> Result<Value, Refusal> {
+    let rule = Rule::new(request)?;
+    let sources = read(tables, &request.choice())?;
+    let findings = judgements(command, &sources, &rule, request)?;
+    Ok(exchange::object(
+        verdict_of(&findings),
+        &object_of_all(&findings),
+    ))
+}
+
+impl Request {
+    /// How the tables are read.
+    pub(crate) fn choice(&self) -> Choice {
+        let claims = self.claims.iter();
+        Choice {
+            claimed: claims.filter_map(|claimed| claimed.name.clone()).collect(),
+            ..self.choice.clone()
+        }
+    }
+}
+
+/// The rule for errors and the rule for values.
+pub(crate) struct Rule {
+    judge: Judge,
+    estimator: Estimator,
+}
+
+impl Rule {
+    pub(crate) fn new(request: &Request) -> Result<Self, Refusal> {
+        Ok(Self {
+            judge: Judge::new(request.tolerance)?.with_floor(request.floor)?,
+            estimator: Estimator::new(request.tolerance)?,
+        })
+    }
+}
+
+/// What a page shows of the tables of a text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// The worst verdict of the tables.
+    pub verdict: Verdict,
+    /// The verdict in a sentence.
+    pub sentence: String,
+    /// What `rates` prints.
+    pub text: String,
+    /// The same as `rates.md` has it, without pictures.
+    pub markdown: String,
+    /// What `rates --format json` prints.
+    pub object: Value,
+    /// The tables in the order of the text.
+    pub tables: Vec<TableSheet>,
+}
+
+/// What a page shows of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableSheet {
+    /// Its heading, if the text has several tables; otherwise the name of the text.
+    pub name: String,
+    /// How it was read.
+    pub reading: String,
+    /// Steps, errors and rates as text: the names, then a row for each level.
+    pub rows: Vec<Vec<String>>,
+    /// The meaning of the marks in the rows, a line for each.
+    pub legend: String,
+    /// What is found of each column.
+    pub columns: Vec<ColumnSheet>,
+    /// Errors over steps, as SVG.
+    pub figure: String,
+}
+
+/// What a page shows of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnSheet {
+    /// The name of the column.
+    pub name: String,
+    /// Its verdict; `None` if nothing is claimed.
+    pub verdict: Option<Verdict>,
+    /// Rate, claim, and the reason unless it is a pass.
+    pub answer: String,
+    /// What the reason means, and what to do; empty for a pass, and where nothing is claimed.
+    pub advice: String,
+}
+
+/// Judges a text for a page.
+///
+/// * `command`: as for [`object`].
+///
+/// # Errors
+/// As [`object`].
+pub fn sheet(command: &str, text: &str, request: &Request) -> Result<Sheet, Refusal> {
+    let rule = Rule::new(request)?;
+    let sources = read(Tables::Text(text), &request.choice())?;
+    let findings = judgements(command, &sources, &rule, request)?;
+    let verdict = verdict_of(&findings);
+    let mut pages: Vec<String> = findings.iter().map(|one| markdown(one, "")).collect();
+    pages.extend(verdict_in_markdown(&findings, verdict));
+    Ok(Sheet {
+        verdict,
+        sentence: sentence_of_all(&findings),
+        text: text_of_all(&findings, verdict, false, forms::plain_verdict),
+        markdown: pages.join("\n"),
+        object: exchange::object(verdict, &object_of_all(&findings)),
+        tables: findings.iter().map(table_sheet).collect(),
+    })
+}
+
+/// The verdict on several tables, below them; an only one has its own.
+pub(crate) fn verdict_in_markdown(findings: &[Judgement<'_>], verdict: Verdict) -> Option<String> {
+    (findings.len() > 1).then(|| format!("**{verdict}**: {}\n", sentence_of_all(findings)))
+}
+
+fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
+    let columns = judgement.columns_with_rates();
+    let table = &judgement.source.table;
+    let column = |judged: &JudgedColumn<'_>| ColumnSheet {
+        name: judged.column.name.clone(),
+        verdict: judged.is_claimed().then_some(judged.rate.verdict),
+        answer: judged.answer(),
+        advice: shown::advice_of_claim(judged, judgement).unwrap_or_default(),
+    };
+    TableSheet {
+        name: judgement.source.name.clone(),
+        reading: table.reading.clone(),
+        rows: judge::shown::rows(&table.step, &columns),
+        legend: judge::shown::legend(&columns, judgement.judge.floor()),
+        columns: judgement.columns.iter().map(column).collect(),
+        figure: figure(judgement),
+    }
+}
+
+/// Reads all tables of a file or a text.
+pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<Source>, Refusal> {
+    let (file, tables) = match tables {
+        Tables::File(file) => (file, RateTable::read_all_with(file, choice)),
+        Tables::Text(text) => (TEXT, RateTable::parse_all_with(text, TEXT, choice)),
+    };
+    let tables = tables.map_err(|error| Refusal::Table {
+        file: file.to_owned(),
+        error: Box::new(error),
+    })?;
+    let tables = tables.into_iter();
+    Ok(tables
+        .map(|(heading, table)| Source::new(file, &heading, table))
+        .collect())
+}
+
+/// The judgements of all tables.
+pub(crate) fn judgements<'t>(
+    command: &'t str,
+    sources: &'t [Source],
+    rule: &'t Rule,
+    request: &Request,
+) -> Result<Vec<Judgement<'t>>, Refusal> {
+    let claims = claims::claims(request, sources)?;
+    let judged = |(source, claims): (&'t Source, Vec<Claim>)| {
+        let columns = judged_columns(source, &claims, rule, request.all);
+        let deciding = columns.iter().filter(|column| column.decides);
+        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
+        Judgement {
+            command,
+            source,
+            columns,
+            judge: &rule.judge,
+            verdict,
+        }
+    };
+    Ok(sources.iter().zip(claims).map(judged).collect())
+}
+
+/// The verdict on all tables.
+pub(crate) fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
+    Verdict::worst(findings.iter().map(|judgement| judgement.verdict))
+}
+
+/// The columns of a table with their judgements.
+///
+/// * `claims`: one for each column, errors first.
+/// * `all`: whether columns without a claim count, too.
+fn judged_columns<'t>(
+    source: &'t Source,
+    claims: &[Claim],
+    rule: &Rule,
+    all: bool,
+) -> Vec<JudgedColumn<'t>> {
+    let errors = source.table.columns.len();
+    let judged = |(k, (column, claim)): (usize, (&'t Column, &Claim))| {
+        let estimate = (k >= errors).then(|| column.estimate(&rule.estimator, claim.order));
+        let rate = estimate.as_ref().map_or_else(
+            || column.judge(&rule.judge, claim),
+            |estimate| estimate.judged.clone(),
+        );
+        JudgedColumn {
+            column,
+            claim: *claim,
+            rate,
+            estimate,
+            decides: all || !claim.order.is_nan(),
+        }
+    };
+    let columns = columns(&source.table).zip(claims).enumerate();
+    columns.map(judged).collect()
+}
+
+/// The columns to judge: errors, then values.
+fn columns(table: &RateTable) -> impl Iterator<Item = &Column> + Clone {
+    table.columns.iter().chain(&table.values)
+}

@@ -17,15 +17,16 @@
 //! [`RateTable::reading`] says in a line how the table was read. `NaN` and `inf` are errors; a
 //! column with one of them fails.
 
-mod blocks;
 mod cleaned;
 mod columns;
 mod digits;
 mod forms;
 mod frame;
+mod groups;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;
+mod parts;
 mod reader;
 mod roles;
 mod stated;
@@ -117,7 +118,7 @@ impl RateTable {
     /// Reads a table from `text`; messages name `file_name`.
     ///
     /// # Errors
-    /// As [`RateTable::read_with`], except for the file.
+    /// As [`RateTable::read_with`], except for the file; also for several tables.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
         roles::read(Original::of_text(&cleaned::plain(text), file_name), choice)
     }
@@ -137,33 +138,23 @@ impl RateTable {
 
     /// Reads all tables of `text`; messages name `file_name`.
     ///
-    /// Lines of words and blank lines between some rows, but not between all, part a text, and each
-    /// part is a table: two tables that are read as one could pass where one of them fails. Other
-    /// texts are one table if they can be read so, or else the tables between lines of words.
+    /// What stands between some rows, but not between all, parts a text: a heading, a ruler, names
+    /// that come again, a blank line. So does a step that returns, and a column such as `p` or
+    /// `method`: two tables that are read as one could pass where one of them fails.
     ///
     /// # Errors
-    /// As [`RateTable::parse_with`], about the whole text.
+    /// As [`RateTable::parse_with`], about the table that cannot be read.
     pub fn parse_all_with(
         text: &str,
         file_name: &str,
         choice: &Choice,
     ) -> Result<Vec<(String, Self)>, InputError> {
         let text = cleaned::plain(text);
-        let blocks = blocks::split(&text);
-        let is_parted = pairs::read(&text, true).is_none() && blocks::are_tables(&blocks);
-        let error = match roles::read(Original::of_text(&text, file_name), choice) {
-            Ok(table) if !is_parted => return Ok(vec![(String::new(), table)]),
-            Ok(_) => blocks::refusal(file_name),
-            Err(error) => error,
-        };
-        let tables: Result<Vec<_>, InputError> = blocks
-            .into_iter()
-            .map(|block| {
-                let table = roles::read(Original::of_text(block.text, file_name), choice)?;
-                Ok((block.heading, table))
-            })
-            .collect();
-        tables.ok().filter(|tables| tables.len() > 1).ok_or(error)
+        let mut tables = roles::read_all(Original::of_text(&text, file_name), choice)?;
+        if let [(heading, _)] = &mut tables[..] {
+            heading.clear();
+        }
+        Ok(tables)
     }
 
     /// The column of errors of this name, with or without its unit.

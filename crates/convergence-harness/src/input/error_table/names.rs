@@ -124,6 +124,75 @@ impl Word {
     }
 }
 
+/// What a code says of one level, in place of a number.
+const STATES: [&str; 14] = [
+    "true",
+    "false",
+    "yes",
+    "no",
+    "ok",
+    "converged",
+    "diverged",
+    "failed",
+    "fail",
+    "pass",
+    "passed",
+    "success",
+    "nan",
+    "none",
+];
+
+/// What a code writes where it has no result.
+const FAILURES: [&str; 9] = [
+    "nan", "inf", "nanq", "nans", "diverged", "failed", "fail", "error", "crashed",
+];
+
+/// Names of what tells several tables in one apart.
+const GROUP_WORDS: [&str; 14] = [
+    "p",
+    "q",
+    "deg",
+    "degree",
+    "polydeg",
+    "polynomialdegree",
+    "order",
+    "method",
+    "scheme",
+    "case",
+    "test",
+    "element",
+    "family",
+    "variant",
+];
+
+/// Whether a cell says in a word how a level ended.
+pub(super) fn is_state(cell: &str) -> bool {
+    STATES.contains(&&*cell.to_lowercase())
+}
+
+/// Whether a cell stands for a number that a code did not find: `-nan(ind)`, `1.#QNAN`, `****`,
+/// `diverged`.
+pub(super) fn is_failure(cell: &str) -> bool {
+    let lower = cell.to_lowercase();
+    let word = lower
+        .trim_start_matches(['-', '+'])
+        .split(['(', ' '])
+        .next();
+    let is_stars = cell.len() > 1 && cell.chars().all(|c| c == '*');
+    is_stars
+        || lower.contains("#qnan")
+        || lower.contains("#ind")
+        || lower.contains("#inf")
+        || word.is_some_and(|word| FAILURES.contains(&word))
+}
+
+/// Whether a name is that of groups of rows: of a degree, a method.
+pub(super) fn is_group(name: &str) -> bool {
+    let lower = without_unit(name).to_lowercase();
+    let joined: String = lower.chars().filter(|c| c.is_alphanumeric()).collect();
+    GROUP_WORDS.contains(&&*joined)
+}
+
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
     ["", "numberof", "number", "num", "nr", "no", "n", "total"]

@@ -2,13 +2,13 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::names::Word;
+use super::names::{self, Word};
 use super::number::{is_dash, number};
 
 use crate::text::number::counted;
 
 /// A table as written. Names and cells are slices of the text, which give their places.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct RawTable<'t> {
     /// A name for each column, or an empty one.
     pub(super) names: Vec<&'t str>,
@@ -33,9 +33,9 @@ const LONGEST_LABEL: usize = 400;
 const LEVELS: [&str; 4] = ["INFO ", "DEBUG ", "WARNING ", "ERROR "];
 
 /// A name and the numbers after it.
-struct Pair<'t> {
-    name: &'t str,
-    values: Vec<&'t str>,
+pub(super) struct Pair<'t> {
+    pub(super) name: &'t str,
+    pub(super) values: Vec<&'t str>,
     /// Whether `=` or `:` separates them.
     is_marked: bool,
 }
@@ -56,7 +56,7 @@ impl<'t> Pair<'t> {
 }
 
 /// Characters around names and values.
-fn is_mark(c: char) -> bool {
+pub(super) fn is_mark(c: char) -> bool {
     c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
 }
 
@@ -67,17 +67,17 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     if must_mark && !text.contains([':', '=']) {
         return None;
     }
-    let PairedText { pairs, rows } = find_pairs(text);
-    let marked = pairs.iter().filter(|pair| pair.is_marked).count();
-    let longest = pairs.iter().map(|pair| pair.values.len()).max()?;
+    let found = find_pairs(text);
     let is_table_of_rows = if must_mark {
-        marked < 2 || marked <= rows
+        !found.is_log()
     } else {
-        rows > 0
+        !found.rows.is_empty()
     };
     if is_table_of_rows {
         return None;
     }
+    let pairs = found.pairs;
+    let longest = pairs.iter().map(|pair| pair.values.len()).max()?;
     Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
@@ -106,15 +106,86 @@ pub(crate) fn named_numbers(line: &str) -> Vec<(&str, f64)> {
 /// What a text holds.
 struct PairedText<'t> {
     pairs: Vec<Pair<'t>>,
-    /// The number of lines that begin with a nameless number.
-    rows: usize,
+    /// The lines that begin with a nameless number: that number.
+    rows: Vec<&'t str>,
+}
+
+impl PairedText<'_> {
+    /// Whether more numbers have a name and a mark than lines have none.
+    fn is_log(&self) -> bool {
+        let marked = self.pairs.iter().filter(|pair| pair.is_marked).count();
+        marked >= 2 && marked > self.rows.len()
+    }
+}
+
+/// The names and numbers of a log; `None` for a text of rows.
+pub(super) fn log(text: &str) -> Option<Vec<Pair<'_>>> {
+    let found = text.contains([':', '=']).then(|| find_pairs(text))?;
+    found.is_log().then_some(found.pairs)
+}
+
+/// A line that begins with a number, or the first number of a line that has a name and a mark.
+pub(super) struct LineOfNumbers<'t> {
+    /// The byte of the number.
+    pub(super) offset: usize,
+    /// The name of the number.
+    pub(super) name: Option<&'t str>,
+}
+
+/// The lines with numbers, by whether these have names.
+pub(super) fn kinds_of_lines(text: &str) -> Vec<LineOfNumbers<'_>> {
+    if !text.contains([':', '=']) {
+        return vec![];
+    }
+    let PairedText { pairs, rows } = find_pairs(text);
+    let offset = |cell: &str| cell.as_ptr() as usize - text.as_ptr() as usize;
+    let nameless = rows.into_iter().map(|cell| LineOfNumbers {
+        offset: offset(cell),
+        name: None,
+    });
+    let named = pairs
+        .iter()
+        .filter(|pair| pair.is_marked && pair.values.len() == 1);
+    let named = named.map(|pair| LineOfNumbers {
+        offset: offset(pair.values[0]),
+        name: Some(pair.name),
+    });
+    let mut lines: Vec<LineOfNumbers<'_>> = nameless.chain(named).collect();
+    lines.sort_by_key(|line| line.offset);
+    lines
+}
+
+/// The first name of lists that are columns: one of them is a step or a count with at least three
+/// numbers. Such lists come again in another table; other lists that come again are the errors of
+/// one level each.
+pub(super) fn first_column<'t>(pairs: &[Pair<'t>]) -> Option<&'t str> {
+    let is_step = |pair: &Pair<'_>| {
+        pair.values.len() > 2
+            && matches!(
+                Word::of(&names::without_markup(pair.name)),
+                Word::Step | Word::Count(_)
+            )
+    };
+    let mut lists = pairs.iter().filter(|pair| pair.values.len() > 1);
+    let first = lists.next()?;
+    pairs.iter().any(is_step).then_some(first.name)
+}
+
+/// The name whose every occurrence begins a row.
+pub(super) fn key_of_records<'t>(pairs: &[Pair<'t>]) -> Option<&'t str> {
+    let repetitions = count_keys(pairs);
+    let levels = count_levels(&repetitions);
+    let first = repetitions
+        .iter()
+        .find(|repetition| repetition.count == levels);
+    first.map(|repetition| repetition.key.name)
 }
 
 /// Finds the pairs of a text.
 fn find_pairs(text: &str) -> PairedText<'_> {
     let mut pairs: Vec<Pair<'_>> = vec![];
     let mut known: HashSet<&str> = HashSet::new();
-    let mut rows = 0;
+    let mut rows = vec![];
     let mut is_row = false;
     let mut depth = 0_usize;
     let mut label = 0;
@@ -161,8 +232,8 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             && (depth > 0 || !is_row)
         {
             last.values.push(word);
-        } else {
-            rows += usize::from(is_first);
+        } else if is_first {
+            rows.push(word);
         }
         label = position;
     }

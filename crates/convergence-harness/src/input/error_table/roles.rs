@@ -6,13 +6,15 @@ use std::hash::Hash;
 
 use super::columns::{Cells, Derived, Trend};
 use super::frame::Original;
+use super::groups;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
+use super::parts::{self, Part};
 use super::reader::{NEIGHBOURS, TableReader, listed};
 use super::step::{Measure, Step};
-use super::{Choice, Column, Offer, RateTable, names, text};
+use super::{Choice, Column, Offer, RateTable, names};
 use crate::input::advice::{Argument, Text};
-use crate::input::{InputError, shorten};
+use crate::input::{Complaint, InputError, failed, shorten};
 use crate::judge::verdict::Level;
 use crate::text::number::plain_text;
 
@@ -40,25 +42,110 @@ fn repeated<K: Copy, N: Eq + Hash>(
     keys.find(|key| !seen.insert(name(*key)))
 }
 
-/// Reads the step and the chosen errors. A refusal offers the choices that read the table and find
-/// its claimed columns.
-pub(super) fn read(original: Original<'_>, choice: &Choice) -> Result<RateTable, InputError> {
-    let table = text::read(original.text);
-    attempt(original, choice, &table).map_err(|mut error| {
+/// Reads each table of a text, with its heading. A refusal offers the choices that read all tables
+/// and find the claimed columns.
+pub(super) fn read_all(
+    original: Original<'_>,
+    choice: &Choice,
+) -> Result<Vec<(String, RateTable)>, InputError> {
+    let parts = parts::read(original.text);
+    attempt_all(original, choice, &parts).map_err(|mut error| {
         error.offers.retain(|offer| {
-            attempt(original, &offer.choice, &table)
-                .is_ok_and(|read| has_claimed_columns(&read, choice))
+            attempt_all(original, &offer.choice, &parts)
+                .is_ok_and(|tables| has_claimed_columns(&tables, choice))
         });
         error
     })
 }
 
-/// Whether a table has each column with an order claimed by name.
-fn has_claimed_columns(table: &RateTable, choice: &Choice) -> bool {
-    let columns = table.columns.iter().chain(&table.values);
-    let names = columns.map(|column| column.name.as_str());
+/// Reads the only table of a text; refuses several.
+pub(super) fn read(original: Original<'_>, choice: &Choice) -> Result<RateTable, InputError> {
+    let mut tables = read_all(original, choice)?;
+    match (tables.pop(), tables.len()) {
+        (Some((_, table)), 0) => Ok(table),
+        (last, _) => {
+            let headings = tables
+                .iter()
+                .chain(&last)
+                .map(|(heading, _)| format!("`{heading}`"));
+            let complaint = Complaint::Table {
+                expected: "one table".into(),
+                found: listed(headings),
+            };
+            Err(failed(original.name, complaint))
+        }
+    }
+}
+
+/// Whether one of the tables has each column with an order claimed by name.
+fn has_claimed_columns(tables: &[(String, RateTable)], choice: &Choice) -> bool {
+    let has = |table: &RateTable, name: &str| {
+        let columns = table.columns.iter().chain(&table.values);
+        names::position(columns.map(|column| column.name.as_str()), name).is_some()
+    };
     let mut claimed = choice.claimed.iter();
-    claimed.all(|name| names::position(names.clone(), name).is_some())
+    claimed.all(|name| tables.iter().any(|(_, table)| has(table, name)))
+}
+
+/// Reads all tables with one choice. Beside others, a table that holds no errors by its names is
+/// left out, which the first one says.
+fn attempt_all(
+    original: Original<'_>,
+    choice: &Choice,
+    parts: &[Part<'_>],
+) -> Result<Vec<(String, RateTable)>, InputError> {
+    let mut grids = vec![];
+    for part in parts {
+        for group in groups::split(&part.table, choice) {
+            let headings = [part.heading.as_str(), group.heading.as_str()];
+            let headings = if parts.len() == 1 {
+                &headings[1..]
+            } else {
+                &headings[..]
+            };
+            let headings: Vec<&str> = headings
+                .iter()
+                .copied()
+                .filter(|heading| !heading.is_empty())
+                .collect();
+            grids.push((headings.join(", "), group.table));
+        }
+    }
+    let has_errors = |grid: &(String, RawTable<'_>)| may_have_errors(&grid.1, choice);
+    let without_errors: Vec<String> = grids
+        .iter()
+        .filter(|grid| !has_errors(grid))
+        .map(|(heading, _)| heading.clone())
+        .collect();
+    let leaves_out = !without_errors.is_empty() && without_errors.len() < grids.len();
+    if leaves_out {
+        grids.retain(has_errors);
+    }
+    let mut tables = vec![];
+    for (heading, grid) in &grids {
+        tables.push((heading.clone(), attempt(original, choice, grid)?));
+    }
+    if let [(_, first), ..] = &mut tables[..]
+        && leaves_out
+    {
+        first.reading += &format!(
+            "; without errors: {}",
+            listed(without_errors.iter().map(|heading| format!("`{heading}`")))
+        );
+    }
+    Ok(tables)
+}
+
+/// Whether some name of a grid is not that of a step, a count, a rate or a cost.
+fn may_have_errors(grid: &RawTable<'_>, choice: &Choice) -> bool {
+    let names = choice.names.clone();
+    let names = names.unwrap_or_else(|| {
+        grid.names
+            .iter()
+            .map(|name| names::without_markup(name))
+            .collect()
+    });
+    names.iter().any(|name| Word::of(name).noun().is_none())
 }
 
 /// The k-th column over the steps.

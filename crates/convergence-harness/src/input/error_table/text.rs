@@ -9,12 +9,17 @@ const TYPES: [&str; 8] = [
     "double", "f64", "i64", "float64", "int64", "float", "int", "str",
 ];
 
+/// First words of a row that sums up those above it.
+const CLOSING: [&str; 6] = ["mean", "average", "avg", "median", "overall", "total"];
+
 /// A row that is filled has at least one cell in this many columns.
 const FULL: usize = 4;
 
 /// Finds the table in a text that has been made [plain](super::cleaned::plain): names with numbers after them, or rows
 /// below names.
-pub(super) fn read(text: &str) -> RawTable<'_> {
+///
+/// * `earlier`: the names of the table above it in the same text, which it may share.
+pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
     if let Some(table) = pairs::read(text, true) {
         return table;
     }
@@ -50,6 +55,7 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     match quoted_names
         .or_else(|| numbered(&heads, width))
         .or_else(|| names(&heads, &rows, separator, width))
+        .or_else(|| shared(earlier, &heads, separator, width))
     {
         None if is_turned(&rows) => transpose(&rows, width, table),
         names => {
@@ -67,6 +73,19 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
             }
         }
     }
+}
+
+/// The names of an earlier table of this width, if no line has a word for each column.
+fn shared<'t>(
+    earlier: &[&'t str],
+    heads: &[&str],
+    separator: Option<char>,
+    width: usize,
+) -> Option<Vec<&'t str>> {
+    let are_few = heads
+        .iter()
+        .all(|head| split(head, separator).len() < width.max(2));
+    (earlier.len() == width && are_few).then(|| earlier.to_vec())
 }
 
 /// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
@@ -129,6 +148,7 @@ fn sort_lines(text: &str) -> Lines<'_> {
         let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
         let is_first = rows.is_empty();
         if !is_comment(&line)
+            && (is_first || !is_closing(line))
             && (is_row(&cells, separator) || !is_first && is_row_with_words(&cells))
         {
             rows.push((line, cells));
@@ -142,6 +162,13 @@ fn sort_lines(text: &str) -> Lines<'_> {
         quoted_names,
         separator,
     }
+}
+
+/// Whether a line closes a table: the mean of its rows.
+pub(super) fn is_closing(line: &str) -> bool {
+    let words = line.split(|c: char| !c.is_alphanumeric());
+    let first = words.into_iter().find(|word| !word.is_empty());
+    first.is_some_and(|word| CLOSING.contains(&&*word.to_lowercase()))
 }
 
 /// Whether cells begin with a number, or are numbers but for one word.
@@ -159,14 +186,12 @@ fn is_row(cells: &[&str], separator: Option<char>) -> bool {
     }
 }
 
-/// Whether at least half of the cells begin with a digit. Such a line is a row with a word in place
-/// of a number, and the word will be refused.
+/// Whether more than half of the cells begin with a digit, or half of them with the first. Such a
+/// line is a row with a word in place of a number, and the word will be refused.
 fn is_row_with_words(cells: &[&str]) -> bool {
-    let begin_with_digit = cells
-        .iter()
-        .filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit()))
-        .count();
-    begin_with_digit > 0 && 2 * begin_with_digit >= cells.len()
+    let is_digit = |cell: &&str| cell.starts_with(|c: char| c.is_ascii_digit());
+    let digits = cells.iter().filter(|cell| is_digit(cell)).count();
+    2 * digits > cells.len() || 2 * digits == cells.len() && cells.first().is_some_and(is_digit)
 }
 
 /// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
@@ -260,7 +285,7 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
 }
 
 /// Whether the first word of a line is a number.
-fn begins_with_number(line: &&str) -> bool {
+pub(super) fn begins_with_number(line: &&str) -> bool {
     let line = line.trim_start_matches(|c: char| c.is_whitespace() || "|\"$".contains(c));
     let first = line
         .split(|c: char| c.is_whitespace() || ";,&|\"$".contains(c))
@@ -277,7 +302,7 @@ fn holds_two_numbers(cell: &&str) -> bool {
 }
 
 /// A line of dashes, or the border of a box.
-fn is_rule(line: &str) -> bool {
+pub(super) fn is_rule(line: &str) -> bool {
     line.chars().all(is_drawn)
         && line
             .chars()

@@ -6,6 +6,7 @@ use super::shown::{sentence, text};
 use super::{JudgedColumn, Judgement};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
+use crate::input::error_table::{FailedLine, NotError};
 use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
 use crate::judge::shown;
@@ -115,16 +116,19 @@ fn object(findings: &Judgement<'_>) -> Value {
         }
         object
     };
-    let not_errors = findings
-        .source
-        .table
-        .not_errors
-        .iter()
-        .map(|(column, because)| json!({"column": column, "because": because}));
+    let not_errors = findings.source.table.not_errors.iter().map(
+        |NotError {
+             column, because, ..
+         }| json!({"column": column, "because": because}),
+    );
+    let mut notes = vec![findings.source.table.reading.clone()];
+    if let Some(FailedLine { number, words }) = &findings.source.table.failure {
+        notes.push(format!("the run has failed: line {number} is `{words}`"));
+    }
     json!({
         "step": findings.source.table.step, "floor": findings.judge.floor(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.source.table.reading],
+        "not_errors": not_errors.collect::<Vec<_>>(), "notes": notes,
     })
 }
 
@@ -216,6 +220,10 @@ pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> 
     let mut cases: Vec<_> = deciding.map(case).collect();
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
+    }
+    if findings.source.table.failure.is_some() {
+        let name = "the run".to_owned();
+        cases.push((name, Verdict::Inconclusive, sentence(findings)));
     }
     cases
 }

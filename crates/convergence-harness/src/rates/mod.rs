@@ -272,7 +272,10 @@ pub(crate) fn judgements<'t>(
     let judged = |(source, claims): (&'t Source, Vec<Claim>)| {
         let columns = judged_columns(source, &claims, rule, request.all);
         let deciding = columns.iter().filter(|column| column.decides);
-        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
+        let verdicts = deciding.map(|column| column.rate.verdict);
+        // What a failed run has printed may look right.
+        let of_run = source.table.failure.as_ref().map(|_| Verdict::Inconclusive);
+        let verdict = Verdict::worst(verdicts.chain(of_run));
         Judgement {
             command,
             source,

@@ -38,8 +38,9 @@ impl Column<'_> {
     fn is_words(&self) -> bool {
         let mut cells = self.cells.iter();
         self.values.iter().all(|value| value.is_nan())
-            && cells
-                .all(|cell| !is_dash(cell) && !names::is_state(cell) && !names::is_failure(cell))
+            && cells.all(|cell| {
+                !is_dash(cell) && names::state(cell).is_none() && !names::is_failure(cell)
+            })
     }
 
     fn distinct(&self) -> usize {

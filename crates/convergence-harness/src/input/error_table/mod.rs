@@ -19,7 +19,9 @@
 
 mod cleaned;
 mod columns;
+mod contents;
 mod digits;
+mod failed_run;
 mod forms;
 mod frame;
 mod groups;
@@ -53,7 +55,7 @@ use frame::Original;
 /// let column = table.column("L2").expect("its name");
 /// let rate = column.judge(&Judge::default(), &Claim::new(2.0, 0.25));
 /// assert!(rate.verdict.is_pass(), "{}", rate.reason);
-/// assert_eq!(table.not_errors[0].0, "rate");
+/// assert_eq!(table.not_errors[0].column, "rate");
 /// # Ok::<(), convergence_harness::input::InputError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -66,12 +68,34 @@ pub struct RateTable {
     pub columns: Vec<Column>,
     /// The columns chosen as values.
     pub values: Vec<Column>,
-    /// Columns that are not errors, each with the reason.
-    pub not_errors: Vec<(String, String)>,
+    /// Columns that are not errors.
+    pub not_errors: Vec<NotError>,
     /// How the table was read: the step, errors, values, and what was left out with the reason.
     pub reading: String,
     /// Whether numbers, not names, identified the step.
     pub is_guessed: bool,
+    /// The line of the text that says that the run has failed: nothing of it should pass.
+    pub failure: Option<FailedLine>,
+}
+
+/// A column that is not an error.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotError {
+    /// Its name.
+    pub column: String,
+    /// Why it is not an error.
+    pub because: String,
+    /// Whether arithmetic shows this, and not the name of the column alone.
+    pub is_checked: bool,
+}
+
+/// A line that says that a run has failed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FailedLine {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Its words.
+    pub words: String,
 }
 
 /// Which columns of a table to use; by default their numbers decide.

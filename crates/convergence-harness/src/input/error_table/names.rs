@@ -13,6 +13,14 @@ pub(super) enum Word {
     /// The cost of a level, or its number.
     Cost,
     Logarithm,
+    /// What is left of an equation that a solver has solved, and no error of its solution.
+    Residual,
+    /// A value, or its limit.
+    Value,
+    /// Whether the code has solved a level.
+    State,
+    /// What tells several tables in one apart.
+    Group,
     Error,
     Unknown,
 }
@@ -47,8 +55,38 @@ const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations itera
     cfl row index cycle level lvl refinement i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
     displacement temperature stress flux solution gradient";
-const NORMS: [&str; 12] = [
-    "err", "norm", "resid", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv",
+/// Names of values and of their limits.
+const VALUE_WORDS: [&str; 10] = [
+    "value",
+    "values",
+    "exact",
+    "analytical",
+    "analytic",
+    "limit",
+    "extrapolated",
+    "extrapolation",
+    "reference",
+    "computed",
+];
+/// Names of columns that say whether a level was solved.
+const STATE_WORDS: [&str; 12] = [
+    "converged",
+    "success",
+    "succeeded",
+    "ok",
+    "status",
+    "state",
+    "solved",
+    "failed",
+    "outcome",
+    "result",
+    "passed",
+    "convergedreason",
+];
+/// Words in the name of a step: `panel_size`.
+const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
+const NORMS: [&str; 11] = [
+    "err", "norm", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv",
 ];
 
 impl Word {
@@ -89,6 +127,9 @@ impl Word {
         if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") {
             return Self::Rate;
         }
+        if joined.contains("resid") {
+            return Self::Residual;
+        }
         if NORMS
             .iter()
             .any(|part| lower.contains(part) || joined.contains(part))
@@ -98,17 +139,44 @@ impl Word {
         if STEPS.contains_key(joined.as_str()) {
             return Self::Step;
         }
+        if words.iter().any(|word| VALUE_WORDS.contains(word)) {
+            return Self::Value;
+        }
         if has(&ERRORS) && !words.contains(&"time") {
             return Self::Error;
         }
+        if STATE_WORDS.contains(&joined.as_str()) {
+            return Self::State;
+        }
+        if joined.len() > 1 && is_group(name) {
+            return Self::Group;
+        }
+        Self::of_counts_and_costs(&words, &joined)
+    }
+
+    /// The meaning of a name that is not that of an error.
+    fn of_counts_and_costs(words: &[&str], joined: &str) -> Self {
+        let some = |list: &Words| words.iter().any(|word| list.contains_key(word));
         if !words.is_empty() && words.iter().all(|word| COSTS.contains_key(word)) {
             return Self::Cost;
         }
-        match count(&joined) {
-            Some(rank) => Self::Count(rank),
-            None if has(&COSTS) => Self::Cost,
-            None => Self::Unknown,
+        if let Some(rank) = count(joined) {
+            return Self::Count(rank);
         }
+        if some(&COSTS) {
+            return Self::Cost;
+        }
+        // `inside_cells`, which may be some of them.
+        if words
+            .iter()
+            .any(|word| word.len() > 3 && COUNTS.contains_key(word))
+        {
+            return Self::Count(COUNTS.len());
+        }
+        if words.len() > 1 && words.iter().any(|word| SIZE_WORDS.contains(word)) {
+            return Self::Step;
+        }
+        Self::Unknown
     }
 
     /// What a column that is not an error holds; `None` if the name does not say so.
@@ -119,32 +187,38 @@ impl Word {
             Self::Rate => Some("a rate"),
             Self::Cost => Some("a cost"),
             Self::Logarithm => Some("a logarithm"),
+            Self::Residual => Some("a residual"),
+            Self::Value => Some("a value"),
+            Self::State => Some("a state"),
+            Self::Group => Some("a group"),
             Self::Error | Self::Unknown => None,
         }
     }
 }
 
-/// What a code says of one level, in place of a number.
-const STATES: [&str; 14] = [
-    "true",
+/// First letters of what a code says of a level that it has solved, and of one that it has not.
+const SOLVED: [&str; 7] = ["true", "yes", "ok", "converged", "pass", "success", "done"];
+const NOT_SOLVED: [&str; 14] = [
     "false",
-    "yes",
     "no",
-    "ok",
-    "converged",
+    "not converged",
     "diverged",
-    "failed",
+    "div",
     "fail",
-    "pass",
-    "passed",
-    "success",
-    "nan",
-    "none",
+    "error",
+    "crash",
+    "abort",
+    "killed",
+    "timeout",
+    "unstable",
+    "stalled",
+    "unconverged",
 ];
 
-/// What a code writes where it has no result.
-const FAILURES: [&str; 9] = [
-    "nan", "inf", "nanq", "nans", "diverged", "failed", "fail", "error", "crashed",
+/// Words of a cell that stands for a number that a code did not find.
+const FAILURES: [&str; 11] = [
+    "nan", "nanq", "nans", "inf", "infinity", "diverged", "failed", "fail", "error", "crashed",
+    "unstable",
 ];
 
 /// Names of what tells several tables in one apart.
@@ -165,25 +239,31 @@ const GROUP_WORDS: [&str; 14] = [
     "variant",
 ];
 
-/// Whether a cell says in a word how a level ended.
-pub(super) fn is_state(cell: &str) -> bool {
-    STATES.contains(&&*cell.to_lowercase())
+/// Whether a cell says that its level was solved, or that it was not; `None` if it says neither.
+pub(super) fn state(cell: &str) -> Option<bool> {
+    let lower = cell.to_lowercase();
+    let is_word = |word: &&str| {
+        lower.strip_prefix(*word).is_some_and(|rest| {
+            rest.is_empty() || word.len() > 3 && !rest.starts_with(' ') || rest.starts_with('_')
+        })
+    };
+    if NOT_SOLVED.iter().any(&is_word) {
+        return Some(false);
+    }
+    SOLVED.iter().any(is_word).then_some(true)
 }
 
 /// Whether a cell stands for a number that a code did not find: `-nan(ind)`, `1.#QNAN`, `****`,
 /// `diverged`.
 pub(super) fn is_failure(cell: &str) -> bool {
     let lower = cell.to_lowercase();
-    let word = lower
-        .trim_start_matches(['-', '+'])
-        .split(['(', ' '])
-        .next();
+    let word = lower.trim_start_matches(['-', '+']);
+    let word = word.split(['(', ' ']).next().unwrap_or_default();
     let is_stars = cell.len() > 1 && cell.chars().all(|c| c == '*');
-    is_stars
-        || lower.contains("#qnan")
-        || lower.contains("#ind")
-        || lower.contains("#inf")
-        || word.is_some_and(|word| FAILURES.contains(&word))
+    let is_mark_of_c = ["#qnan", "#snan", "#ind", "#inf"]
+        .iter()
+        .any(|mark| lower.contains(mark));
+    is_stars || is_mark_of_c || FAILURES.contains(&word)
 }
 
 /// Whether a name is that of groups of rows: of a degree, a method.

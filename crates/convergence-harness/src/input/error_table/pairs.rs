@@ -24,6 +24,8 @@ pub(super) struct RawTable<'t> {
 pub(super) struct LeftOut {
     pub(super) name: String,
     pub(super) reason: String,
+    /// Whether its numbers show the reason, and not its name alone.
+    pub(super) is_checked: bool,
 }
 
 /// Longest text in which a name is looked for before its number, in bytes.
@@ -294,6 +296,7 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
                     "{} instead of {longest}",
                     counted(pair.values.len(), "number")
                 ),
+                is_checked: false,
             });
         }
     }
@@ -359,6 +362,7 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
             left_out.push(LeftOut {
                 name: key.name.to_owned(),
                 reason: format!("printed {count} times for {levels} levels"),
+                is_checked: false,
             });
             continue;
         }

@@ -138,7 +138,10 @@ impl Occurrences<'_> {
 
     /// Whether it stands in all gaps, with words of which some come again.
     fn is_group(&self, gaps: usize) -> bool {
-        let is_state = self.values.iter().all(|value| names::is_state(value));
+        let is_state = self
+            .values
+            .iter()
+            .all(|value| names::state(value).is_some());
         self.gaps == gaps && (2..gaps).contains(&self.values.len()) && !is_state
     }
 }

@@ -29,6 +29,8 @@ pub(super) struct TableReader<'t> {
     pub(super) rows: Option<usize>,
     /// What is not an error.
     pub(super) left_out: Vec<LeftOut>,
+    /// For each row whether its level was solved, as a column of states says.
+    pub(super) is_solved: Vec<bool>,
 }
 
 /// The name of a column, with its unit if its numbers are in per cent.
@@ -59,6 +61,7 @@ impl<'t> TableReader<'t> {
             columns: vec![],
             rows: None,
             left_out: table.left_out.clone(),
+            is_solved: vec![true; table.rows.len()],
         };
         reader.columns = reader.columns()?;
         let has_levels = reader.columns.iter().any(|column| column.is_index);

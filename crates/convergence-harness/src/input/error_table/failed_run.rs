@@ -63,7 +63,8 @@ fn is_failure(line: &str) -> bool {
     let names_a_number = words.clone().next().is_some_and(is_number);
     let numbers = words.clone().filter(|word| is_number(word)).count();
     let is_row = line.contains(['|', '&', '\t']) || numbers > 1;
-    let goes_on = rest.starts_with(|c: char| c.is_alphanumeric() || c == '_' || c == '=');
+    let goes_on = rest.starts_with(|c: char| c.is_alphanumeric() || c == '_')
+        || rest.trim_start().starts_with('=');
     let is_word = !goes_on || beginning.ends_with(['(', '\'']);
     // `Error:` alone is a heading.
     let is_heading = line.ends_with(':') && words.next().is_none() && line.starts_with(['E', 'e']);

@@ -6,7 +6,7 @@ use super::shown::{sentence, text};
 use super::{JudgedColumn, Judgement};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
-use crate::input::error_table::{FailedLine, NotError};
+use crate::input::error_table::{Doubt, NotError};
 use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
 use crate::judge::shown;
@@ -121,10 +121,9 @@ fn object(findings: &Judgement<'_>) -> Value {
              column, because, ..
          }| json!({"column": column, "because": because}),
     );
-    let mut notes = vec![findings.source.table.reading.clone()];
-    if let Some(FailedLine { number, words }) = &findings.source.table.failure {
-        notes.push(format!("the run has failed: line {number} is `{words}`"));
-    }
+    let table = &findings.source.table;
+    let mut notes = vec![table.reading.clone()];
+    notes.extend(table.doubts.iter().map(Doubt::to_string));
     json!({
         "step": findings.source.table.step, "floor": findings.judge.floor(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
@@ -221,8 +220,8 @@ pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> 
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
     }
-    if findings.source.table.failure.is_some() {
-        let name = "the run".to_owned();
+    if !findings.source.table.doubts.is_empty() {
+        let name = "the table".to_owned();
         cases.push((name, Verdict::Inconclusive, sentence(findings)));
     }
     cases

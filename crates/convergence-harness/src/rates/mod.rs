@@ -273,9 +273,9 @@ pub(crate) fn judgements<'t>(
         let columns = judged_columns(source, &claims, rule, request.all);
         let deciding = columns.iter().filter(|column| column.decides);
         let verdicts = deciding.map(|column| column.rate.verdict);
-        // What a failed run has printed may look right.
-        let of_run = source.table.failure.as_ref().map(|_| Verdict::Inconclusive);
-        let verdict = Verdict::worst(verdicts.chain(of_run));
+        // What a failed run has printed may look right, and so may two tables in one.
+        let doubts = source.table.doubts.iter();
+        let verdict = Verdict::worst(verdicts.chain(doubts.map(|_| Verdict::Inconclusive)));
         Judgement {
             command,
             source,

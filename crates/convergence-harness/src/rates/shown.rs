@@ -3,7 +3,7 @@
 use std::slice;
 
 use super::{JudgedColumn, Judgement};
-use crate::input::error_table::{FailedLine, NotError, limit};
+use crate::input::error_table::{Doubt, NotError, limit};
 use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
@@ -141,16 +141,16 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
             words += &format!(", and {more} more");
         }
     }
-    let failure = findings
+    let mut doubts: Vec<&Doubt> = vec![];
+    for doubt in findings
         .iter()
-        .find_map(|findings| findings.source.table.failure.as_ref());
-    if let Some(FailedLine {
-        number,
-        words: line,
-    }) = failure
+        .flat_map(|findings| &findings.source.table.doubts)
     {
-        words += &format!("; the run has failed: line {number} is `{}`", visible(line));
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
     }
+    words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));
     words
 }
 

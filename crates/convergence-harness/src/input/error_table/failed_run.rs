@@ -1,7 +1,7 @@
 //! Lines that say that a run has failed. What stands between its rows may look like a table that
 //! passes.
 
-use super::FailedLine;
+use super::Doubt;
 use super::number::number;
 
 /// First words of such a line, as systems, languages and solvers print them.
@@ -44,11 +44,11 @@ const QUOTED: usize = 80;
 
 /// The first line that says that the run has failed: no name of a number, as `Error: 1e-3`, and no
 /// heading, as `L2 ERROR OF THE VELOCITY`.
-pub(super) fn line(text: &str) -> Option<FailedLine> {
+pub(super) fn line(text: &str) -> Option<Doubt> {
     let mut lines = text.lines().enumerate();
     let (k, line) = lines.find(|(_, line)| is_failure(line.trim()))?;
-    Some(FailedLine {
-        number: k + 1,
+    Some(Doubt::FailedRun {
+        line: k + 1,
         words: line.trim().chars().take(QUOTED).collect(),
     })
 }
@@ -77,7 +77,7 @@ fn is_number(word: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::line;
+    use super::{Doubt, line};
 
     #[test]
     fn a_line_of_a_failed_run_is_told_from_names_and_headings() {
@@ -90,8 +90,8 @@ mod tests {
             "[ERROR] no convergence",
         ] {
             let text = format!("h L2\n0.1 1\n{failed}\n");
-            let found = line(&text).expect(failed);
-            assert_eq!((found.number, found.words.as_str()), (3, failed));
+            let words = failed.to_owned();
+            assert_eq!(line(&text), Some(Doubt::FailedRun { line: 3, words }));
         }
         for other in [
             "L2 ERROR OF THE VELOCITY",

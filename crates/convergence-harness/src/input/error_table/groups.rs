@@ -57,7 +57,8 @@ impl Column<'_> {
 
     /// Whether it is a step, a count or a level, by its name.
     fn is_step(&self) -> bool {
-        matches!(self.word, Word::Step | Word::Count(_)) && self.is_number()
+        (matches!(self.word, Word::Step | Word::Count(_)) || names::is_level(&self.name))
+            && self.is_number()
     }
 }
 

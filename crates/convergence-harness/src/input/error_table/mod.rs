@@ -21,6 +21,7 @@ mod cleaned;
 mod columns;
 mod contents;
 mod digits;
+mod doubt;
 mod failed_run;
 mod forms;
 mod frame;
@@ -42,6 +43,7 @@ use super::advice::{Argument, Setting, Surface, Value};
 use crate::input::{self, InputError};
 pub use columns::limit;
 pub use digits::Column;
+pub use doubt::Doubt;
 pub use frame::FrameColumn;
 use frame::Original;
 
@@ -74,8 +76,8 @@ pub struct RateTable {
     pub reading: String,
     /// Whether numbers, not names, identified the step.
     pub is_guessed: bool,
-    /// The line of the text that says that the run has failed: nothing of it should pass.
-    pub failure: Option<FailedLine>,
+    /// Why none of its columns should pass.
+    pub doubts: Vec<Doubt>,
 }
 
 /// A column that is not an error.
@@ -87,15 +89,6 @@ pub struct NotError {
     pub because: String,
     /// Whether arithmetic shows this, and not the name of the column alone.
     pub is_checked: bool,
-}
-
-/// A line that says that a run has failed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FailedLine {
-    /// Its number, from 1.
-    pub number: usize,
-    /// Its words.
-    pub words: String,
 }
 
 /// Which columns of a table to use; by default their numbers decide.

@@ -273,6 +273,16 @@ pub(super) fn is_group(name: &str) -> bool {
     GROUP_WORDS.contains(&&*joined)
 }
 
+/// Whether a name is that of the number of a level.
+pub(super) fn is_level(name: &str) -> bool {
+    let joined: String = name
+        .to_lowercase()
+        .chars()
+        .filter(|c| c.is_alphanumeric())
+        .collect();
+    ["level", "lvl", "cycle", "refinement", "refinements"].contains(&&*joined)
+}
+
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
     ["", "numberof", "number", "num", "nr", "no", "n", "total"]

@@ -126,35 +126,51 @@ pub(super) fn log(text: &str) -> Option<Vec<Pair<'_>>> {
     found.is_log().then_some(found.pairs)
 }
 
-/// A line that begins with a number, or the first number of a line that has a name and a mark.
-pub(super) struct LineOfNumbers<'t> {
-    /// The byte of the number.
-    pub(super) offset: usize,
-    /// The name of the number.
-    pub(super) name: Option<&'t str>,
+/// How the numbers of a line or of a list are named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// A row of numbers.
+    Nameless,
+    /// A name and a mark before each number.
+    Each,
+    /// One name and several numbers.
+    List,
 }
 
-/// The lines with numbers, by whether these have names.
-pub(super) fn kinds_of_lines(text: &str) -> Vec<LineOfNumbers<'_>> {
+/// The first number of a row, or the one behind a name.
+pub(super) struct NamedPlace<'t> {
+    /// The byte of the number.
+    pub(super) offset: usize,
+    /// Its name; empty without.
+    pub(super) name: &'t str,
+    pub(super) naming: Naming,
+}
+
+/// Rows and named numbers in the order of the text.
+pub(super) fn namings(text: &str) -> Vec<NamedPlace<'_>> {
     if !text.contains([':', '=']) {
         return vec![];
     }
     let PairedText { pairs, rows } = find_pairs(text);
     let offset = |cell: &str| cell.as_ptr() as usize - text.as_ptr() as usize;
-    let nameless = rows.into_iter().map(|cell| LineOfNumbers {
+    let nameless = rows.into_iter().map(|cell| NamedPlace {
         offset: offset(cell),
-        name: None,
+        name: "",
+        naming: Naming::Nameless,
     });
-    let named = pairs
-        .iter()
-        .filter(|pair| pair.is_marked && pair.values.len() == 1);
-    let named = named.map(|pair| LineOfNumbers {
+    let named = pairs.iter().filter(|pair| pair.is_marked);
+    let named = named.map(|pair| NamedPlace {
         offset: offset(pair.values[0]),
-        name: Some(pair.name),
+        name: pair.name,
+        naming: if pair.values.len() > 1 {
+            Naming::List
+        } else {
+            Naming::Each
+        },
     });
-    let mut lines: Vec<LineOfNumbers<'_>> = nameless.chain(named).collect();
-    lines.sort_by_key(|line| line.offset);
-    lines
+    let mut places: Vec<NamedPlace<'_>> = nameless.chain(named).collect();
+    places.sort_by_key(|place| place.offset);
+    places
 }
 
 /// The first name of lists that are columns: one of them is a step or a count with at least three
@@ -202,15 +218,23 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         let before = &text[label..start];
         let word = &text[start..position];
         let behind = text[position..].trim_start_matches([' ', '\t']);
+        let behind = behind.trim_start_matches(['"', '\'']);
         let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
         let is_marked = before
             .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
             .ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
         let is_number = (begins || is_last) && number(word, false).is_some();
+        let stands_for_number = is_dash(word) || names::is_failure(word);
+        let is_in_list = depth > 0 && is_last && label > 0 && !before.contains(']');
         // After a name that has a number elsewhere, a word means that the number is missing.
         let is_value = is_number
-            || is_marked && is_last && (is_dash(word) || known.contains(name_before(before)));
+            || is_in_list && (stands_for_number || names::state(word).is_some())
+            || is_marked
+                && is_last
+                && (stands_for_number
+                    || known.contains(name_before(before))
+                    || is_state(before, word));
         if !is_value {
             continue;
         }
@@ -240,6 +264,11 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         label = position;
     }
     PairedText { pairs, rows }
+}
+
+/// Whether a word says that a level was solved, or was not, behind a name that promises this.
+fn is_state(before: &str, word: &str) -> bool {
+    names::state(word).is_some() && Word::of(name_before(before)) == Word::State
 }
 
 /// The name that a text ends with, before marks.

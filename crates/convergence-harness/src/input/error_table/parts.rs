@@ -10,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::names;
 use super::number::number;
-use super::pairs::{self, Pair, RawTable};
+use super::pairs::{self, NamedPlace, Naming, Pair, RawTable};
 use super::text::{self, begins_with_number, is_closing, is_rule};
 
 /// A table of a text.
@@ -361,25 +361,24 @@ fn pieces(start: usize, between: &str) -> Vec<Piece> {
     pieces
 }
 
-/// Where a log stands beside rows of numbers without names, each with several lines.
+/// Where a log, rows of numbers without names and lists stand beside each other, each with several
+/// numbers.
 fn mixed_cuts(text: &str) -> Vec<usize> {
-    let lines = pairs::kinds_of_lines(text);
-    let mut runs: Vec<&[pairs::LineOfNumbers<'_>]> = lines
-        .chunk_by(|a, b| a.name.is_some() == b.name.is_some())
-        .collect();
+    let places = pairs::namings(text);
+    let mut runs: Vec<&[NamedPlace<'_>]> = places.chunk_by(|a, b| a.naming == b.naming).collect();
     runs.retain(|run| {
         let mut names = HashSet::new();
-        run.len() > 1 && (run[0].name.is_none() || run.iter().any(|line| !names.insert(line.name)))
+        let repeats = run.iter().any(|place| !names.insert(place.name));
+        run.len() > 1 && (run[0].naming != Naming::Each || repeats)
     });
     let changes = runs
         .windows(2)
-        .filter(|two| two[0][0].name.is_some() != two[1][0].name.is_some());
+        .filter(|two| two[0][0].naming != two[1][0].naming);
     changes
         .map(|two| {
             let last = two[0][two[0].len() - 1].offset;
-            text[last..]
-                .find('\n')
-                .map_or(text.len(), |end| last + end + 1)
+            let line = text[last..].find('\n');
+            line.map_or(text.len(), |end| last + end + 1)
         })
         .collect()
 }

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use std::hash::Hash;
 
 use super::columns::Cells;
+use super::doubt;
 use super::failed_run;
 use super::frame::Original;
 use super::groups;
@@ -40,7 +41,7 @@ pub(super) fn read_all(
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {
         for (_, table) in &mut tables {
-            table.failure.clone_from(&failure);
+            table.doubts.extend(failure.clone());
         }
         tables
     });
@@ -226,7 +227,7 @@ fn attempt(
                 },
             )
             .collect(),
-        failure: None,
+        doubts: columns(&errors)?.iter().filter_map(doubt::jump).collect(),
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })

@@ -48,7 +48,7 @@ enum Command {
     Thermobeam(thermobeam_cli::Command),
     Bench(bench::Arguments),
     /// Tools for developing this project
-    #[command(subcommand)]
+    #[command(subcommand, hide = true)]
     Dev(Dev),
 }
 
@@ -59,7 +59,7 @@ enum Dev {
 }
 
 fn main() -> ExitCode {
-    let groups = [&GROUPS[..], &[("This project", &["bench", "dev"])]].concat();
+    let groups = [&GROUPS[..], &[("This project", &["bench"])]].concat();
     let line = command_line::<Xtask>(&PROJECT, &groups, &PAGES);
     ended(line.clone(), |program: Xtask| match program.command {
         Command::Thermobeam(command) => command.run(&PROJECT, line),

@@ -28,6 +28,7 @@ fn each_job_has_the_least_rights() {
             ("check", "contents: read"),
             ("binaries", "contents: read"),
             ("wheels", "contents: read"),
+            ("page", "contents: read"),
             ("publish", "contents: read, id-token: write"),
             (
                 "release",
@@ -47,7 +48,7 @@ fn publishing_waits_for_all_checks_and_for_a_reviewer() {
         .iter()
         .filter_map(Yaml::as_str)
         .collect();
-    assert_eq!(needs, ["check", "binaries", "wheels"]);
+    assert_eq!(needs, ["check", "binaries", "wheels", "page"]);
     assert_eq!(jobs["publish"]["environment"].as_str(), Some("release"));
     assert_eq!(jobs["release"]["needs"].as_str(), Some("publish"));
 }

@@ -8,12 +8,9 @@
 //! 2. *Order*: the intervals of the rates have no point in common and the rates are more than
 //!    `ORDER_SHIFT` apart, or a claim that passed does not.
 //! 3. *Error*: errors are deterministic; at a level of both records, one that is larger by more
-//!    than [`WITHIN`], negative or not finite is worse. If the levels differ, the old error is
-//!    interpolated linearly in logarithms; with Δ the change of the pairwise rate there and x the
-//!    distance of the neighbours in log h, this is off by at most Δ x / 8 for smooth data, and
-//!    twice as much is allowed. Errors are better if every level is better, and the same if every
-//!    level is the same.
-//! 4. *Work* for the smallest error of both, interpolated likewise: it may differ by `WORK_WITHIN`,
+//!    than [`WITHIN`], negative or not finite is worse. Errors are better if every level is better,
+//!    and the same if every level is the same. Levels that only one record has are not compared.
+//! 4. *Work* at the finest level of both, whose error is the same: it may differ by `WORK_WITHIN`,
 //!    as seconds are not counts.
 //!
 //! A study with a worse verdict is worse even if none of its errors is. What only the new record

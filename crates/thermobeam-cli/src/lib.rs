@@ -33,7 +33,6 @@ pub enum Command {
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
     Sweep(sweep::Arguments),
-    Merge(merge::Arguments),
 }
 
 /// The commands, grouped by the user's purpose.
@@ -45,7 +44,7 @@ pub const GROUPS: [(&str, &[&str]); 6] = [
     ),
     ("Records of runs", &["compare", "report"]),
     ("Errors of other codes", &["rates"]),
-    ("Many scenes", &["sweep", "merge"]),
+    ("Many scenes", &["sweep"]),
     ("Everything else", OTHERS),
 ];
 
@@ -57,7 +56,7 @@ const OTHERS: &[&str] = if cfg!(feature = "manual") {
 };
 
 /// The pages of the beam's commands. Each example works as it is in the folder that a test fills.
-pub const PAGES: [HelpPage; 4] = [
+pub const PAGES: [HelpPage; 3] = [
     HelpPage {
         command: "run",
         without: &["jobs"],
@@ -97,16 +96,9 @@ pub const PAGES: [HelpPage; 4] = [
                 "The first of two shares",
                 "PROGRAM sweep sweep.toml --out first --partition 1/2",
             ),
-        ],
-    },
-    HelpPage {
-        command: "merge",
-        without: &["jobs"],
-        examples: &[
-            ("Two shares", "PROGRAM merge share-1 share-2 --out joined"),
             (
-                "For a program",
-                "PROGRAM merge share-1 share-2 --out joined --format json",
+                "Two shares joined",
+                "PROGRAM sweep --merge share-1 share-2 --out joined",
             ),
         ],
     },
@@ -123,7 +115,6 @@ impl Command {
             Self::Run(arguments) => run::run(arguments),
             Self::Equilibria(arguments) => equilibria::run(arguments),
             Self::Sweep(arguments) => sweep::run(arguments),
-            Self::Merge(arguments) => merge::run(arguments),
         }
     }
 }

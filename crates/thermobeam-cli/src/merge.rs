@@ -1,36 +1,27 @@
-//! `merge DIR...`: joins the shares of a sweep.
+//! `sweep --merge DIR...`: joins the shares of a sweep into the file that one run would have
+//! written.
 
 use std::path::PathBuf;
 
-use clap::Args;
 use thermobeam_study::sweep;
 
 use convergence_harness::cli::exit::{Outcome, Unusable};
 use convergence_harness::cli::flags::Flags;
 use convergence_harness::judge::verdict::Verdict;
 
-/// Join the shares of a sweep into the file that one run would have written
+/// Writes `results.jsonl` to the folder of `--out`, with a line for each case in order.
 ///
-/// Writes results.jsonl to the folder given by --out, with a line for each case in order. A missing
-/// or repeated case is an error, and nothing is written.
-#[derive(Debug, Args)]
-pub struct Arguments {
-    /// The folders of all shares
-    #[arg(required = true, value_name = "DIR")]
-    folders: Vec<PathBuf>,
-    #[command(flatten)]
-    flags: Flags,
-}
-
-/// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let flags = &arguments.flags;
+/// * `folders`: of all shares.
+///
+/// # Errors
+/// A missing or repeated case; nothing is written then.
+pub(crate) fn run(folders: &[PathBuf], flags: &Flags) -> Outcome {
     let Some(folder) = &flags.out else {
         return Err(Unusable::because(
             "--out DIR: expected the folder for the joined results; found none",
         ));
     };
-    let merged = sweep::merge(&arguments.folders, folder)?;
+    let merged = sweep::merge(folders, folder)?;
     let verdict = if merged.failed == 0 {
         Verdict::Pass
     } else {

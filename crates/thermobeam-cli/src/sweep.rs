@@ -15,16 +15,20 @@ use convergence_harness::cli::running::{self, seconds};
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::run;
 
+use super::merge;
+
 /// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
 ///
 /// One JSON line for each case: its parameters and what `run --format json` prints, without the
 /// wall time. A case that fails has a line with the reason; the exit status is then 1. With --out
 /// the folder gets a journal, and results.jsonl at the end; without --out, the lines go to standard
-/// output.
+/// output. --merge joins the shares of a sweep into the file that one run would have written; a
+/// missing or repeated case is an error, and nothing is written.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The sweep file
-    file: PathBuf,
+    #[arg(required_unless_present = "merge")]
+    file: Option<PathBuf>,
     /// Time limit of each case; its line says where it stopped, and the others continue
     /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
@@ -32,16 +36,27 @@ pub struct Arguments {
     /// Continue the sweep in the folder; start it if the folder is empty
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Run share k of n; the values of a case determine its share; `merge` joins the shares
+    /// Run share k of n; the values of a case determine its share; --merge joins the shares
     #[arg(long, value_name = "k/n", default_value_t = Share::ALL, hide_default_value = true)]
     partition: Share,
+    /// Join these shares of a sweep, and run nothing
+    #[arg(
+        long,
+        value_name = "DIR",
+        num_args = 1..,
+        conflicts_with_all = ["file", "time_limit", "resume", "partition"]
+    )]
+    merge: Vec<PathBuf>,
     #[command(flatten)]
     flags: Flags,
 }
 
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let sweep = Sweep::read(&arguments.file)?;
+    let Some(file) = &arguments.file else {
+        return merge::run(&arguments.merge, &arguments.flags);
+    };
+    let sweep = Sweep::read(file)?;
     let share = arguments.partition;
     let mine: Vec<usize> = (0..sweep.cases())
         .filter(|&index| share == Share::ALL || share.holds(sweep.case(index).hash()))

@@ -1,5 +1,5 @@
-//! `study`: runs study files from anywhere, compares with no baseline and writes only what `--out`
-//! requests.
+//! `study`, and `verify` with files: runs study files from anywhere, compares with no baseline and
+//! writes only what `--out` requests.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ use super::github;
 use super::running::{Limits, watched};
 use super::screen::{self, Format};
 
-/// Run study files from anywhere
+/// Run study files from anywhere, as `verify` with files does
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Study files
@@ -31,28 +31,42 @@ pub struct Arguments {
     flags: Flags,
 }
 
-/// Runs the studies and prints what they found.
+/// Runs the command.
+///
+/// # Errors
+/// As [`run_files`].
+pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    run_files(
+        project,
+        &arguments.files,
+        arguments.limits,
+        &arguments.flags,
+    )
+}
+
+/// Runs the studies of files and prints what they found.
 ///
 /// # Errors
 /// Study files that cannot be used.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
-    let files = StudyFile::read_all(project.kinds, &arguments.files)?;
-    let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
-    let flags = &arguments.flags;
-    arguments.limits.consent(project, &studies)?;
+pub(super) fn run_files(
+    project: &Project,
+    files: &[PathBuf],
+    limits: Limits,
+    flags: &Flags,
+) -> Outcome {
+    let studies = StudyFile::read_all(project.kinds, files)?;
+    let studies: Vec<Box<dyn Study>> = studies.into_iter().map(|file| file.study).collect();
+    limits.consent(project, &studies)?;
     // A folder that is not writable is reported before the run.
     flags
         .out
         .as_deref()
         .map_or(Ok(()), atomic::prepare_folder)?;
-    let effort = flags.effort(arguments.limits.time_limit);
+    let effort = flags.effort(limits.time_limit);
     let mut finished = watched(&studies, flags.quiet, |progress| {
         run::run(&studies, effort, progress)
     })?;
-    let words = arguments
-        .files
-        .iter()
-        .map(|file| quoted(&file.to_string_lossy()));
+    let words = files.iter().map(|file| quoted(&file.to_string_lossy()));
     let command = words.fold(format!("{} study", project.command), |command, word| {
         command + " " + &word
     });

@@ -7,7 +7,7 @@ use super::exit::{Outcome, Unusable};
 use super::flags::Flags;
 use super::running::{Limits, watched};
 use super::screen::{self, Format};
-use super::{github, workspace};
+use super::{github, study, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{
@@ -22,7 +22,7 @@ use crate::text::visible::visible;
 use crate::verify;
 use crate::verify::{Blessing, Request, Scope, Verification};
 
-/// Run the studies in `studies/` and write `reports/`
+/// Run the studies in `studies/` and write `reports/`; or study files from anywhere
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Tier of studies; full includes quick
@@ -55,8 +55,9 @@ pub struct Arguments {
     /// List the slowest studies
     #[arg(long, conflicts_with = "quiet")]
     durations: bool,
-    /// Ids or patterns of studies; their reports go to reports/local/partial/
-    #[arg(value_name = "ID")]
+    /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files, named
+    /// with their ending .toml: they are run as `study` runs them
+    #[arg(value_name = "ID|FILE")]
     ids: Vec<String>,
     #[command(flatten)]
     flags: Flags,
@@ -67,6 +68,9 @@ pub struct Arguments {
 /// # Errors
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+    if let Some(files) = files(arguments)? {
+        return study::run_files(project, &files, arguments.limits, &arguments.flags);
+    }
     let started = Instant::now();
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
@@ -117,6 +121,36 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         flags.format,
     );
     Ok(record.verdict)
+}
+
+/// The study files that are named in place of ids.
+///
+/// # Errors
+/// Files beside ids, and options that are about the studies of the project.
+fn files(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Unusable> {
+    let is_file = |id: &&String| Path::new(id).extension().is_some_and(|end| end == "toml");
+    let Some(file) = arguments.ids.iter().find(is_file) else {
+        return Ok(None);
+    };
+    if let Some(id) = arguments.ids.iter().find(|id| !is_file(id)) {
+        return Err(Unusable::because(&format!(
+            "expected ids of studies or study files; found the file `{file}` beside `{id}`"
+        )));
+    }
+    let of_the_project = [
+        (arguments.tier != Tier::Quick, "--tier"),
+        (arguments.bless, "--bless"),
+        (arguments.verbose, "--verbose"),
+        (arguments.dry_run, "--dry-run"),
+        (arguments.fail_fast, "--fail-fast"),
+        (arguments.durations, "--durations"),
+    ];
+    match of_the_project.into_iter().find(|(is_given, _)| *is_given) {
+        Some((_, option)) => Err(Unusable::because(&format!(
+            "{option}: expected the studies of the project; found the file `{file}`, which is compared with no baseline"
+        ))),
+        None => Ok(Some(arguments.ids.iter().map(PathBuf::from).collect())),
+    }
 }
 
 /// Lists what would run. Nothing is run or written.

@@ -1,6 +1,6 @@
 //! One error in both records: the four questions, in their order.
 
-use super::sequence::{ErrorSequence, Estimate, Point, work};
+use super::sequence::{ErrorSequence, Point, work};
 use super::{ORDER_SHIFT, SAME_STEP, Shift, WORK_WITHIN};
 use crate::judge::verdict::Verdict;
 use crate::study::LevelErrors;
@@ -35,10 +35,10 @@ impl Answer {
     }
 }
 
-/// The logarithm of the new error over the old one at a level of the new record.
+/// The logarithm of the new error over the old one at a level of both records.
 struct Ratio<'r> {
     level: &'r LevelErrors,
-    log: Estimate,
+    log: f64,
 }
 
 impl Both<'_> {
@@ -77,7 +77,7 @@ impl Both<'_> {
         let is_lost = if old.is_sequence && new.is_sequence {
             (new.points.last()?.step / finest.step).ln() > SAME_STEP
         } else {
-            new.error_at(finest.level).is_none()
+            new.at(finest.level, finest.step).is_none()
         };
         let level = label(finest.level);
         is_lost.then(|| format!("the new record does not have the finest level, {level}"))
@@ -112,8 +112,9 @@ impl Both<'_> {
     /// Levels whose error has become negative, infinite or NaN.
     fn loss_of_finite_errors(&self) -> Option<String> {
         let mut levels = vec![];
-        for Point { level, error, .. } in &self.new.points {
-            if !is_error(*error) && self.old.error_at(level).is_some_and(is_error) {
+        for Point { level, step, error } in &self.new.points {
+            let before = self.old.at(level, *step);
+            if !is_error(*error) && before.is_some_and(|point| is_error(point.error)) {
                 levels.push(label(level));
             }
         }
@@ -121,7 +122,7 @@ impl Both<'_> {
         (!levels.is_empty()).then(|| format!("no longer a finite number >= 0 at {list}"))
     }
 
-    /// For each level of the new record that can be compared.
+    /// For each level of both records whose errors can be compared.
     fn ratios(&self) -> Vec<Ratio<'_>> {
         let points = self.new.points.iter();
         points
@@ -134,21 +135,12 @@ impl Both<'_> {
     }
 
     fn ratio<'p>(&self, point: &Point<'p>) -> Option<Ratio<'p>> {
-        let before = match self.old.error_at(point.level) {
-            Some(error) => Estimate {
-                value: error.max(self.floor).ln(),
-                doubt: 0.0,
-            },
-            None => self.old.error_at_step(point.step, self.floor)?,
-        };
-        let log = point.error.max(self.floor).ln() - before.value;
+        let before = self.old.at(point.level, point.step)?;
+        let log = point.error.max(self.floor).ln() - before.error.max(self.floor).ln();
         Some(Ratio {
             level: point.level,
-            log: Estimate {
-                // Two zeros without a floor are the same.
-                value: if log.is_nan() { 0.0 } else { log },
-                doubt: before.doubt,
-            },
+            // Two zeros without a floor are the same.
+            log: if log.is_nan() { 0.0 } else { log },
         })
     }
 
@@ -161,17 +153,15 @@ impl Both<'_> {
     fn growth(&self, ratios: &[Ratio<'_>]) -> Option<String> {
         let larger: Vec<&Ratio<'_>> = ratios
             .iter()
-            .filter(|ratio| ratio.log.value - ratio.log.doubt > self.limit())
+            .filter(|ratio| ratio.log > self.limit())
             .collect();
-        let worst = larger
-            .iter()
-            .max_by(|a, b| a.log.value.total_cmp(&b.log.value))?;
+        let worst = larger.iter().max_by(|a, b| a.log.total_cmp(&b.log))?;
         Some(format!(
             "errors larger at {} of {} levels that both have: {}: {} times",
             larger.len(),
             ratios.len(),
             label(worst.level),
-            plain_text(worst.log.value.exp())
+            plain_text(worst.log.exp())
         ))
     }
 
@@ -185,27 +175,30 @@ impl Both<'_> {
             let explanation = if is_empty {
                 "no errors are recorded, only rates"
             } else {
-                "no level is at a step that both have reached"
+                "no level is at a step that both have"
             };
             let reason = format!("no difference of orders is proven; {explanation}");
             return Answer::new(Shift::NotProven, reason);
         }
         let mut logs = ratios.iter().map(|ratio| ratio.log);
-        if logs.clone().all(|log| log.value + log.doubt < -limit) {
-            let most = logs.fold(f64::NEG_INFINITY, |most, log| most.max(log.value));
+        if logs.clone().all(|log| log < -limit) {
+            let most = logs.fold(f64::NEG_INFINITY, f64::max);
             let times = plain_text(most.exp());
             let reason = format!("errors smaller: {times} times or less at {count} levels");
             return Answer::new(Shift::Better, reason);
         }
-        if !logs.all(|log| log.value.abs() + log.doubt <= limit) {
+        if !logs.all(|log| log.abs() <= limit) {
             let reason = format!("no difference of errors is proven at {count} levels");
             return Answer::new(Shift::NotProven, reason);
         }
         match self.work() {
-            Some(work) if work.value.abs() - work.doubt > WORK_WITHIN.ln_1p() => {
-                let is_more = work.value > 0.0;
-                let change = if is_more { Shift::Worse } else { Shift::Better };
-                let times = work.value.exp();
+            Some(work) if work.abs() > WORK_WITHIN.ln_1p() => {
+                let change = if work > 0.0 {
+                    Shift::Worse
+                } else {
+                    Shift::Better
+                };
+                let times = work.exp();
                 let reason = format!("the same error takes {times:.3} times the work");
                 Answer::new(change, reason)
             }
@@ -213,25 +206,13 @@ impl Both<'_> {
         }
     }
 
-    /// The logarithm of the new work over the old one for the smallest error that both have
-    /// reached: errors within the limit count as equal, so the work is uncertain by its growth over
-    /// that share of the error.
-    fn work(&self) -> Option<Estimate> {
-        let [.., coarse, fine] = self.new.points.as_slice() else {
-            return None;
-        };
-        let error = self.old.points.last()?.error.max(fine.error);
-        if !(error > self.floor) {
-            return None;
-        }
-        let before = self.old.work_at_error(error)?;
-        let after = self.new.work_at_error(error)?;
-        let growth = (work(fine.level)? / work(coarse.level)?).ln();
-        let growth = growth / (coarse.error / fine.error).ln();
-        Some(Estimate {
-            value: after.value - before.value,
-            doubt: before.doubt + after.doubt + self.limit() * growth.abs(),
-        })
+    /// The logarithm of the new work over the old one at the finest level of both, where the errors
+    /// are the same.
+    fn work(&self) -> Option<f64> {
+        let mut finest = self.new.points.iter().rev();
+        let both = finest.find_map(|new| Some([self.old.at(new.level, new.step)?, new]));
+        let [old, new] = both?;
+        Some((work(new.level)? / work(old.level)?).ln())
     }
 }
 

@@ -1,4 +1,4 @@
-//! One error on the levels of one record, and its values between them.
+//! One error on the levels of one record.
 
 use super::{Order, SAME_STEP};
 use crate::judge::fit::Level;
@@ -14,15 +14,6 @@ pub(super) struct Point<'r> {
     pub(super) step: f64,
     /// The error.
     pub(super) error: f64,
-}
-
-/// A value, and by how much it may be off.
-#[derive(Clone, Copy)]
-pub(super) struct Estimate {
-    /// The value.
-    pub(super) value: f64,
-    /// The uncertainty: 0 for a value that is known.
-    pub(super) doubt: f64,
 }
 
 /// One error on the levels of one record that have it, and its rate.
@@ -78,32 +69,14 @@ impl<'r> ErrorSequence<'r> {
         set_aside.any(|aside| Some(aside.level) == place && aside.because == Aside::AtFloor)
     }
 
-    /// The error at the level with these parameters.
-    pub(super) fn error_at(&self, level: &LevelErrors) -> Option<f64> {
-        self.points
-            .iter()
-            .find(|point| point.level.parameters == level.parameters)
-            .map(|point| point.error)
-    }
-
-    /// The logarithm of the error at a step between two levels; errors below the floor count as
-    /// that.
-    pub(super) fn error_at_step(&self, step: f64, floor: f64) -> Option<Estimate> {
-        let places: Vec<[f64; 2]> = self
-            .points
-            .iter()
-            .map(|point| [point.step.ln(), point.error.max(floor).ln()])
-            .collect();
-        interpolate(&places, step.ln())
-    }
-
-    /// The logarithm of the work that an error takes.
-    pub(super) fn work_at_error(&self, error: f64) -> Option<Estimate> {
-        let mut places = vec![];
-        for point in &self.points {
-            places.push([point.error.ln(), work(point.level)?.ln()]);
-        }
-        interpolate(&places, error.ln())
+    /// The point at the level with these parameters, or else at this step.
+    pub(super) fn at(&self, level: &LevelErrors, step: f64) -> Option<&Point<'r>> {
+        let mut points = self.points.iter();
+        let same = points.find(|point| point.level.parameters == level.parameters);
+        same.or_else(|| {
+            let mut points = self.points.iter();
+            points.find(|point| (point.step / step).ln().abs() <= SAME_STEP)
+        })
     }
 }
 
@@ -116,35 +89,4 @@ fn order_of(rate: &RateVerdict) -> Option<Order> {
 /// The work of a level, if it is known.
 pub(super) fn work(level: &LevelErrors) -> Option<f64> {
     level.work.filter(|work| *work > 0.0)
-}
-
-/// Linear interpolation between points with decreasing x.
-///
-/// The uncertainty is twice the bound Δ x / 8 of smooth data, Δ being the change of the slope to a
-/// neighbouring interval and x the length of this one.
-fn interpolate(points: &[[f64; 2]], x: f64) -> Option<Estimate> {
-    let mut same = points.iter();
-    if let Some([_, value]) = same.find(|point| (point[0] - x).abs() <= SAME_STEP) {
-        return Some(Estimate {
-            value: *value,
-            doubt: 0.0,
-        });
-    }
-    let k = points
-        .windows(2)
-        .position(|pair| pair[0][0] > x && x > pair[1][0])?;
-    let slopes: Vec<f64> = points
-        .windows(2)
-        .map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]))
-        .collect();
-    let first = k.saturating_sub(1);
-    let end = (k + 2).min(slopes.len());
-    let changes = slopes[first..end]
-        .iter()
-        .map(|slope| (slope - slopes[k]).abs());
-    let change = changes.fold(0.0, f64::max);
-    Some(Estimate {
-        value: points[k][1] + slopes[k] * (x - points[k][0]),
-        doubt: 0.25 * change * (points[k][0] - points[k + 1][0]),
-    })
 }

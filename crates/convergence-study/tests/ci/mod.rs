@@ -89,7 +89,7 @@ fn pages() -> Vec<String> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
-        .filter(|path| path.is_file())
+        .filter(|path| path.extension().is_some_and(|end| end == "md"))
         .collect();
     paths.sort();
     assert!(paths.len() > 10);

@@ -16,7 +16,7 @@ const POSITIVE: &str = "expected a number > 0";
 const WITHOUT: &str = "required arguments were not provided";
 
 /// Command lines, and words of the message.
-const REFUSED: [(&str, &str); 88] = [
+const REFUSED: [(&str, &str); 92] = [
     (
         "rnu scene.toml",
         "the commands are compare, completions, equilibria, ",
@@ -64,6 +64,11 @@ const REFUSED: [(&str, &str); 88] = [
         "unknown key `obstacles`; expected sweep, set, grid, latin",
     ),
     ("sweep sweep.toml --resume", "--out <DIR>"),
+    ("sweep", "<FILE>"),
+    (
+        "sweep sweep.toml --merge swept --out joined",
+        "cannot be used with",
+    ),
     (
         "sweep sweep.toml --partition 3/2",
         "expected k/n with 1 <= k <= n",
@@ -74,22 +79,33 @@ const REFUSED: [(&str, &str); 88] = [
         "swept: expected a folder without results",
     ),
     (
-        "merge swept",
+        "sweep --merge swept",
         "--out DIR: expected the folder for the joined results; found none",
     ),
     (
-        "merge missing --out joined",
+        "sweep --merge missing --out joined",
         "missing: not the folder of a sweep",
     ),
-    ("merge swept swept --out joined", "expected each case once"),
     (
-        "merge swept --out swept",
+        "sweep --merge swept swept --out joined",
+        "expected each case once",
+    ),
+    (
+        "sweep --merge swept --out swept",
         "swept: expected another folder for the joined results, found that of a share",
     ),
-    ("merge swept --out rates.csv", TAKEN),
+    ("sweep --merge swept --out rates.csv", TAKEN),
     (
         "verify long",
         "`long` matches no study; expected short, or a pattern",
+    ),
+    (
+        "verify studies/short.toml short",
+        "expected ids of studies or study files; found the file `studies/short.toml` beside `short`",
+    ),
+    (
+        "verify studies/short.toml --bless",
+        "--bless: expected the studies of the project; found the file `studies/short.toml`",
     ),
     ("verify [", "`[` is not a pattern"),
     ("verify --tier slow", "possible values: quick, full"),

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Folder, thermobeam};
+use super::{Folder, ended, thermobeam};
 
 /// A study of a few milliseconds that passes.
 pub(crate) fn quick(id: &str) -> String {
@@ -92,4 +92,28 @@ pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         }
     }
     files
+}
+
+#[test]
+fn verify_runs_a_file_as_study_does() {
+    let folder = Folder::new();
+    let root = super::flags::place(&folder);
+    let printed = |command: &str, format: &str| {
+        let arguments = [command, "studies/short.toml", "--format", format];
+        let ended = ended(thermobeam().args(arguments).current_dir(&root));
+        assert_eq!(ended.status, Some(0), "{}", ended.stderr);
+        ended.stdout
+    };
+    // The first line has the seconds.
+    let [verified, studied] = ["verify", "study"].map(|command| {
+        let text = printed(command, "text");
+        text.split_once('\n').expect("lines").1.to_owned()
+    });
+    assert_eq!(verified, studied);
+    assert!(verified.contains("pass"), "{verified}");
+    assert_eq!(
+        printed("verify", "json").lines().count(),
+        printed("study", "json").lines().count()
+    );
+    assert!(!root.join("reports").exists());
 }

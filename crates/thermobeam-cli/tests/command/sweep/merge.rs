@@ -116,7 +116,7 @@ fn shares_are_disjoint_and_complete_and_merge_to_the_bytes_of_one_run() {
         let out = folder.path("merged");
         let merged = ended(
             thermobeam()
-                .arg("merge")
+                .args(["sweep", "--merge"])
                 .args(&shares)
                 .arg("--out")
                 .arg(&out),
@@ -143,7 +143,7 @@ fn a_merge_names_what_is_missing_twice_or_foreign_and_writes_nothing() {
     let merge = |folders: &[&PathBuf]| {
         let ended = ended(
             thermobeam()
-                .arg("merge")
+                .args(["sweep", "--merge"])
                 .args(folders)
                 .arg("--out")
                 .arg(&out),

@@ -1,0 +1,71 @@
+//! The judge of tables for a page in a browser: three functions over JSON, [`version`], [`read`] and
+//! [`judge`]. The words, numbers and figures are those of the command `rates`, made by the same
+//! code.
+//!
+//! `memory.rs` is what JavaScript calls: no generator of glue takes part. `page/` has the markup,
+//! the style and the script; `.ci/page` makes one file of all.
+
+mod answer;
+mod memory;
+mod question;
+
+use convergence_harness::input::advice::CommandLine;
+use convergence_harness::rates::{Refusal, sheet};
+use serde_json::{Value, json};
+
+use answer::{Judged, Read, Refused};
+use question::Question;
+
+/// The program in the commands that the page offers.
+const PROGRAM: &str = "convergence-study";
+/// The file in the commands that the page offers: the reader of the page puts its own name.
+const FILE: &str = "FILE";
+/// Longest text that is judged, in bytes: 100,000 rows of forty characters.
+pub const LONGEST_TEXT: usize = 4 << 20;
+
+/// The version of the program whose words and numbers these are.
+pub fn version() -> &'static str {
+    env!("CARGO_PKG_VERSION")
+}
+
+/// How the tables of a text are read: a JSON object with `tables`, or with `refused`.
+///
+/// * `question`: a JSON object, [`Question`].
+pub fn read(question: &str) -> String {
+    answered(question, |question| {
+        Ok(json!(Read::of(&sheet_of(question)?)))
+    })
+}
+
+/// What is found in the tables of a text: a JSON object with `verdict` and `tables`, or with
+/// `refused`.
+///
+/// * `question`: a JSON object, [`Question`].
+pub fn judge(question: &str) -> String {
+    answered(question, |question| {
+        let judged = Judged::of(sheet_of(question)?, question.command());
+        Ok(json!(judged))
+    })
+}
+
+fn sheet_of(question: &Question) -> Result<convergence_harness::rates::Sheet, Refused> {
+    let request = question.request()?;
+    sheet(PROGRAM, &question.text, &request).map_err(|refusal| refused(question, &refusal))
+}
+
+/// A refusal in the words of the command line.
+fn refused(question: &Question, refusal: &Refusal) -> Refused {
+    let command = question.command_of_claims();
+    Refused::of(refusal.object(&CommandLine {
+        command: Some(&command),
+    }))
+}
+
+/// The answer to a question, as text; a question that cannot be read is refused.
+fn answered(question: &str, answer: fn(&Question) -> Result<Value, Refused>) -> String {
+    let question = Question::of_json(question);
+    let answer = question.and_then(|question| answer(&question));
+    answer
+        .unwrap_or_else(|refused| json!({ "refused": refused }))
+        .to_string()
+}

@@ -1,0 +1,109 @@
+//! What the page asks.
+
+use convergence_harness::input::advice::{CommandLine, Surface};
+use convergence_harness::input::error_table::Choice;
+use convergence_harness::rates::{Claimed, Request, claimed};
+use convergence_harness::text::names::quoted;
+use serde::Deserialize;
+
+use crate::answer::Refused;
+use crate::{FILE, LONGEST_TEXT, PROGRAM};
+
+/// The tolerance of the command line.
+const TOLERANCE: f64 = convergence_harness::judge::verdict::DEFAULT_TOLERANCE;
+
+/// A text, and the options of the command `rates` under their names.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Question {
+    /// The tables.
+    pub(crate) text: String,
+    /// Values of `--order`.
+    #[serde(default)]
+    order: Vec<String>,
+    #[serde(default)]
+    tolerance: Option<f64>,
+    #[serde(default)]
+    floor: Option<f64>,
+    #[serde(default)]
+    step: Option<String>,
+    #[serde(default)]
+    columns: Option<Vec<String>>,
+    #[serde(default)]
+    values: Vec<String>,
+    #[serde(default)]
+    names: Option<Vec<String>>,
+    #[serde(default)]
+    dim: Option<f64>,
+    #[serde(default)]
+    ratio: Option<f64>,
+}
+
+impl Question {
+    pub(crate) fn of_json(text: &str) -> Result<Self, Refused> {
+        let question: Self =
+            serde_json::from_str(text).map_err(|error| Refused::because(&error.to_string()))?;
+        let length = question.text.len();
+        if length > LONGEST_TEXT {
+            return Err(Refused::because(&format!(
+                "expected a text of at most {LONGEST_TEXT} bytes; found {length}: use `{PROGRAM} rates {FILE}`"
+            )));
+        }
+        Ok(question)
+    }
+
+    pub(crate) fn request(&self) -> Result<Request, Refused> {
+        let claims: Result<Vec<Claimed>, Refused> = self
+            .order
+            .iter()
+            .map(|order| {
+                claimed(order).map_err(|expected| {
+                    Refused::because(&format!("--order {}: {expected}", quoted(order)))
+                })
+            })
+            .collect();
+        Ok(Request {
+            claims: claims?,
+            tolerance: self.tolerance.unwrap_or(TOLERANCE),
+            floor: self.floor.unwrap_or(0.0),
+            choice: self.choice(),
+            all: false,
+        })
+    }
+
+    fn choice(&self) -> Choice {
+        Choice {
+            step: self.step.clone(),
+            columns: self.columns.clone(),
+            values: self.values.clone(),
+            names: self.names.clone(),
+            claimed: vec![],
+            dim: self.dim,
+            ratio: self.ratio,
+        }
+    }
+
+    /// The command that judges a file by the same claims, without the settings of the reader.
+    pub(crate) fn command_of_claims(&self) -> String {
+        let mut command = format!("{PROGRAM} rates {FILE}");
+        for order in &self.order {
+            command += &format!(" --order {}", quoted(order));
+        }
+        for (option, value) in [("tolerance", self.tolerance), ("floor", self.floor)] {
+            if let Some(value) = value {
+                command += &format!(" --{option} {value}");
+            }
+        }
+        command
+    }
+
+    /// The command that judges a file in the same way.
+    pub(crate) fn command(&self) -> String {
+        let command = self.command_of_claims();
+        let surface = CommandLine {
+            command: Some(&command),
+        };
+        let call = surface.call(&self.choice().settings());
+        call.unwrap_or(command)
+    }
+}

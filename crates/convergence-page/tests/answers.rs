@@ -1,0 +1,82 @@
+//! The page says what the program says.
+
+use convergence_page::{LONGEST_TEXT, judge, read, version};
+use serde_json::{Value, json};
+
+/// A table of order 2 in `L2`, of order 1 in `H1`.
+const TABLE: &str = "h, L2, H1\n0.1, 1.01e-2, 1.0e-1\n0.05, 2.52e-3, 5.0e-2\n\
+     0.025, 6.27e-4, 2.5e-2\n0.0125, 1.565e-4, 1.25e-2\n";
+
+fn answer(of: fn(&str) -> String, question: &Value) -> Value {
+    serde_json::from_str(&of(&question.to_string())).expect("JSON")
+}
+
+#[test]
+fn a_table_has_verdicts_words_figure_and_command() {
+    let question = json!({"text": TABLE, "order": ["2", "H1=1"], "tolerance": 0.2});
+    let found = answer(judge, &question);
+    assert_eq!(found["verdict"], "pass", "{found}");
+    let text = found["text"].as_str().expect("text");
+    assert!(text.contains("L2: pass"), "{text}");
+    assert!(text.ends_with(&format!(
+        "pass: {}\n",
+        found["sentence"].as_str().expect("text")
+    )));
+    let table = &found["tables"][0];
+    assert!(table["figure"].as_str().expect("SVG").starts_with("<svg"));
+    assert_eq!(table["rows"].as_array().expect("rows").len(), 5);
+    assert_eq!(table["columns"][1]["verdict"], "pass");
+    assert_eq!(
+        found["command"],
+        "convergence-study rates FILE --order 2 --order H1=1 --tolerance 0.2"
+    );
+}
+
+#[test]
+fn a_lost_order_fails_with_advice() {
+    let found = answer(judge, &json!({"text": TABLE, "order": ["2"]}));
+    assert_eq!(found["verdict"], "fail");
+    let lost = &found["tables"][0]["columns"][1];
+    assert_eq!(lost["verdict"], "fail");
+    assert_ne!(lost["advice"], "");
+}
+
+#[test]
+fn without_a_claim_no_column_has_a_verdict() {
+    let found = answer(judge, &json!({ "text": TABLE }));
+    assert_eq!(found["verdict"], "inconclusive");
+    assert_eq!(found["tables"][0]["columns"][0]["verdict"], Value::Null);
+}
+
+#[test]
+fn how_a_table_is_read_needs_no_claim() {
+    let found = answer(read, &json!({ "text": TABLE }));
+    let reading = found["tables"][0]["reading"].as_str().expect("text");
+    assert_eq!(reading, "step: `h`; errors: `L2`, `H1`");
+    assert_eq!(found["tables"][0]["rows"][0][0], "h");
+}
+
+#[test]
+fn a_refusal_names_the_place_and_the_command() {
+    let question = json!({"text": "h, L2\n0.1, 1e-2\n0.05, 2x\n", "order": ["2"]});
+    let refused = &answer(judge, &question)["refused"];
+    assert_eq!(refused["line"], 3, "{refused}");
+}
+
+#[test]
+fn what_is_no_question_is_refused() {
+    let words = |question: &str| -> String {
+        let found: Value = serde_json::from_str(&judge(question)).expect("JSON");
+        found["refused"]["message"]
+            .as_str()
+            .expect("words")
+            .to_owned()
+    };
+    assert!(words("{").contains("EOF"));
+    assert!(words(r#"{"text": "", "ordr": []}"#).contains("ordr"));
+    let long = json!({"text": " ".repeat(LONGEST_TEXT + 1)}).to_string();
+    assert!(words(&long).contains("at most 4194304 bytes; found 4194305"));
+    let order = json!({"text": TABLE, "order": ["x"]}).to_string();
+    assert!(words(&order).starts_with("--order x: expected a number > 0"));
+    assert_eq!(version(), env!("CARGO_PKG_VERSION"));
+}

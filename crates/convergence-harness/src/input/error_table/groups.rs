@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::Choice;
 use super::names::{self, Word};
 use super::number::{is_dash, number};
-use super::pairs::RawTable;
+use super::pairs::{ColumnName, RawTable};
 use super::text::counts_rows;
 
 /// Rows of a grid that are a table.
@@ -62,8 +62,56 @@ impl Column<'_> {
     }
 }
 
-/// The tables of a grid.
+/// The tables of a grid: those side by side, each with steps of its own, and those below each other.
 pub(super) fn split<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Group<'t>> {
+    let side_by_side = side_by_side(table, choice);
+    let tables = side_by_side
+        .into_iter()
+        .flat_map(|side| with_heading(&side.heading, below_each_other(&side.table, choice)));
+    tables.collect()
+}
+
+/// The groups of columns as tables, if each has a step of its own.
+fn side_by_side<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Group<'t>> {
+    let columns: Vec<usize> = (0..table.groups.len()).collect();
+    let groups: Vec<&[usize]> = columns
+        .chunk_by(|a, b| table.groups[*a] == table.groups[*b])
+        .collect();
+    let has_step = |group: &&[usize]| {
+        let mut words = group
+            .iter()
+            .map(|k| Word::of(&names::without_markup(table.names[*k])));
+        words.any(|word| matches!(word, Word::Step | Word::Count(_)))
+    };
+    let is_even = table.rows.iter().all(|row| row.len() == table.names.len());
+    if choice.names.is_some() || groups.len() < 2 || !is_even || !groups.iter().all(has_step) {
+        return vec![Group {
+            heading: String::new(),
+            table: table.clone(),
+        }];
+    }
+    // Only the error needs the name of its group.
+    let own_name = |k: usize| match Word::of(&names::without_markup(table.names[k])) {
+        Word::Error => table.groups[k],
+        _ => "",
+    };
+    let side = |group: &&[usize]| Group {
+        heading: names::without_markup(table.groups[group[0]]),
+        table: RawTable {
+            names: group.iter().map(|k| table.names[*k]).collect(),
+            groups: group.iter().map(|k| own_name(*k)).collect(),
+            rows: table
+                .rows
+                .iter()
+                .map(|row| group.iter().map(|k| row[*k]).collect())
+                .collect(),
+            ..table.clone()
+        },
+    };
+    groups.iter().map(side).collect()
+}
+
+fn below_each_other<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Group<'t>> {
     let all = || {
         vec![Group {
             heading: String::new(),
@@ -95,13 +143,9 @@ pub(super) fn split<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Group<'t>>
 fn columns<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Column<'t>> {
     let names = choice
         .names
-        .as_ref()
+        .as_deref()
         .filter(|names| names.len() == table.names.len());
-    let column = |k: usize| {
-        let name = names.map_or_else(
-            || names::without_markup(table.names[k]),
-            |names| names[k].clone(),
-        );
+    let column = |(k, ColumnName { name, word }): (usize, ColumnName)| {
         let cells: Vec<&str> = table.rows.iter().map(|row| row[k]).collect();
         let value =
             |cell: &&str| number(cell, table.decimal_comma).map_or(f64::NAN, |number| number.value);
@@ -110,17 +154,18 @@ fn columns<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Column<'t>> {
             .as_deref()
             .is_some_and(|step| step == name || step == (k + 1).to_string());
         Column {
-            word: if is_chosen {
-                Word::Step
-            } else {
-                Word::of(&name)
-            },
+            word: if is_chosen { Word::Step } else { word },
             values: cells.iter().map(value).collect(),
             name,
             cells,
         }
     };
-    (0..table.names.len()).map(column).collect()
+    table
+        .column_names(names)
+        .into_iter()
+        .enumerate()
+        .map(column)
+        .collect()
 }
 
 /// The rows with the same cells in these columns, in the order of their first row.
@@ -202,9 +247,15 @@ fn by_steps<'t>(group: Group<'t>, choice: &Choice) -> Vec<Group<'t>> {
 /// Groups with what stands above them.
 fn with_heading<'t>(heading: &str, mut groups: Vec<Group<'t>>) -> Vec<Group<'t>> {
     if !heading.is_empty() {
-        groups
-            .iter_mut()
-            .for_each(|group| group.heading = format!("{heading}, {}", group.heading));
+        for group in &mut groups {
+            let own = std::mem::take(&mut group.heading);
+            let headings = [heading, &own];
+            let headings: Vec<&str> = headings
+                .into_iter()
+                .filter(|heading| !heading.is_empty())
+                .collect();
+            group.heading = headings.join(", ");
+        }
     }
     groups
 }

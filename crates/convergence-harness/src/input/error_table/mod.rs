@@ -26,6 +26,7 @@ mod failed_run;
 mod forms;
 mod frame;
 mod groups;
+mod heads;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;

@@ -13,10 +13,45 @@ pub(super) struct RawTable<'t> {
     /// A name for each column, or an empty one.
     pub(super) names: Vec<&'t str>,
     pub(super) rows: Vec<Vec<&'t str>>,
+    /// For each column the name above its name; may be empty.
+    pub(super) groups: Vec<&'t str>,
     /// Whether a comma in a cell is a decimal comma.
     pub(super) decimal_comma: bool,
     /// What is not a column of the table.
     pub(super) left_out: Vec<LeftOut>,
+}
+
+/// The name of a column, and what it says.
+pub(super) struct ColumnName {
+    pub(super) name: String,
+    pub(super) word: Word,
+}
+
+impl RawTable<'_> {
+    /// The names of the columns, or those that the user has chosen. The errors of a variable have its
+    /// name.
+    pub(super) fn column_names(&self, chosen: Option<&[String]>) -> Vec<ColumnName> {
+        if let Some(names) = chosen {
+            let names = names.iter().map(|name| ColumnName {
+                name: name.clone(),
+                word: Word::of(name),
+            });
+            return names.collect();
+        }
+        let name = |(k, name): (usize, &&str)| {
+            let name = names::without_markup(name);
+            let word = Word::of(&name);
+            let group = self.groups.get(k).map(|group| names::without_markup(group));
+            let group = group.filter(|group| !group.is_empty());
+            let name = match group {
+                Some(group) if word == Word::Error => group,
+                Some(group) => format!("{group} {name}"),
+                None => name,
+            };
+            ColumnName { name, word }
+        };
+        self.names.iter().enumerate().map(name).collect()
+    }
 }
 
 /// A column, or a list of numbers, that is not an error.

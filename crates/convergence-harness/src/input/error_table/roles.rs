@@ -134,14 +134,8 @@ fn attempt_all(
 
 /// Whether some name of a grid is not that of a step, a count, a rate or a cost.
 fn may_have_errors(grid: &RawTable<'_>, choice: &Choice) -> bool {
-    let names = choice.names.clone();
-    let names = names.unwrap_or_else(|| {
-        grid.names
-            .iter()
-            .map(|name| names::without_markup(name))
-            .collect()
-    });
-    names.iter().any(|name| Word::of(name).noun().is_none())
+    let names = grid.column_names(choice.names.as_deref());
+    names.iter().any(|column| column.word.noun().is_none())
 }
 
 /// The k-th column over the steps.

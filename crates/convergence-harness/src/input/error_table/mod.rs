@@ -27,6 +27,7 @@ mod forms;
 mod frame;
 mod groups;
 mod heads;
+mod markup;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;

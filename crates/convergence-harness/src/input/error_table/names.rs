@@ -163,7 +163,11 @@ impl Word {
         if let Some(rank) = count(joined) {
             return Self::Count(rank);
         }
-        if some(&COSTS) {
+        if some(&COSTS)
+            || joined
+                .strip_prefix('n')
+                .is_some_and(|rest| COSTS.contains_key(rest))
+        {
             return Self::Cost;
         }
         // `inside_cells`, which may be some of them.
@@ -285,9 +289,13 @@ pub(super) fn is_level(name: &str) -> bool {
 
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
-    ["", "numberof", "number", "num", "nr", "no", "n", "total"]
-        .iter()
-        .find_map(|prefix| COUNTS.get(name.strip_prefix(prefix)?).copied())
+    let find = |name: &str| {
+        ["", "numberof", "number", "num", "nr", "no", "n", "total"]
+            .iter()
+            .find_map(|prefix| COUNTS.get(name.strip_prefix(prefix)?).copied())
+    };
+    // `nx1` is that of the first direction.
+    find(name).or_else(|| find(name.trim_end_matches(|c: char| c.is_ascii_digit())))
 }
 
 /// Whether values are those of one row above the other: 1/h counts, 1/N is a step.
@@ -335,7 +343,7 @@ pub(crate) fn position<'n>(
     names: impl Iterator<Item = &'n str> + Clone,
     wanted: &str,
 ) -> Option<usize> {
-    for name in [wanted, &format!("column {wanted}")] {
+    for name in [wanted, &format!("column {wanted}"), &without_markup(wanted)] {
         let position = names.clone().position(|other| other == name);
         if position.is_some() {
             return position;

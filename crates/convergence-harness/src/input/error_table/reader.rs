@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::columns::Cells;
 use super::frame::{Original, Rows};
 use super::names::{self, Word};
-use super::number::{halves, has_percent, in_percent, number};
+use super::number::{common_unit, halves, has_percent, in_percent, number};
 use super::pairs::{ColumnName, LeftOut, RawTable};
 use super::text::counts_rows;
 use super::{Choice, Offer};
@@ -180,6 +180,13 @@ impl<'t> TableReader<'t> {
         let mut columns = Vec::with_capacity(names.len());
         for (k, ColumnName { name, word }) in names.into_iter().enumerate() {
             let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
+            let texts = match common_unit(&texts) {
+                Some(unit) => texts
+                    .iter()
+                    .map(|text| text[..text.len() - unit.len()].trim_end())
+                    .collect(),
+                None => texts,
+            };
             let percent = in_percent(&texts);
             let numbers: Vec<_> = texts
                 .iter()

@@ -59,24 +59,46 @@ pub(super) fn jump(column: &Column) -> Option<Doubt> {
     /// Least difference between a jump and the rates on either side.
     const JUMP: f64 = 1.0;
     let rates = pairwise_rates(&column.levels);
-    let spread = |rates: &[f64]| {
-        let least = rates.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = rates.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        (rates.len() > 1 && most - least < STEADY && least > FALLS).then_some([least, most])
+    let before = ranges(rates.iter());
+    let mut behind = ranges(rates.iter().rev());
+    behind.reverse();
+    let is_steady = |range: &Range, count: usize| {
+        count > 1 && range.most - range.least < STEADY && range.least > FALLS
     };
     let is_jump = |k: &usize| {
-        let sides = [&rates[..*k], &rates[k + 1..]];
-        let [Some(before), Some(behind)] = sides.map(spread) else {
-            return false;
-        };
-        let least = before[0].min(behind[0]);
-        let most = before[1].max(behind[1]);
-        rates[*k] > most + JUMP || rates[*k] < least - JUMP
+        let sides = [&before[*k - 1], &behind[*k + 1]];
+        let are_steady = is_steady(sides[0], *k) && is_steady(sides[1], rates.len() - k - 1);
+        let least = sides[0].least.min(sides[1].least);
+        let most = sides[0].most.max(sides[1].most);
+        are_steady && (rates[*k] > most + JUMP || rates[*k] < least - JUMP)
     };
-    let k = (0..rates.len()).find(is_jump)?;
+    let k = (1..rates.len().saturating_sub(1)).find(is_jump)?;
     Some(Doubt::Jump {
         column: column.name.clone(),
         before: column.levels[k].step,
         behind: column.levels[k + 1].step,
     })
+}
+
+/// The least and the greatest of some rates.
+#[derive(Clone, Copy)]
+struct Range {
+    least: f64,
+    most: f64,
+}
+
+/// The range of the first rates, of one, of two and so on. NaN is no rate.
+fn ranges<'r>(rates: impl Iterator<Item = &'r f64>) -> Vec<Range> {
+    let mut range = Range {
+        least: f64::INFINITY,
+        most: f64::NEG_INFINITY,
+    };
+    let wider = |rate: &f64| {
+        range = Range {
+            least: range.least.min(*rate),
+            most: range.most.max(*rate),
+        };
+        range
+    };
+    rates.map(wider).collect()
 }

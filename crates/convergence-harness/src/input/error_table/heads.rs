@@ -98,7 +98,7 @@ fn by_place<'t>(line: &'t str, rows: &[Vec<&str>], spans: &[[usize; 2]]) -> Opti
         next = below[below.len() - 1] + 1;
     }
     let has_all = (0..spans.len()).all(|k| is_rate[k] || !names[k].is_empty());
-    (has_all && !names.iter().any(|name| is_no_name(name))).then_some(names)
+    (has_all && !names.iter().any(is_no_name)).then_some(names)
 }
 
 /// The columns that begin or end with a dash, as rates do.

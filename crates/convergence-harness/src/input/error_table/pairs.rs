@@ -252,24 +252,21 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             .map_or(text.len(), |end| start + end);
         let before = &text[label..start];
         let word = &text[start..position];
-        let behind = text[position..].trim_start_matches([' ', '\t']);
-        let behind = behind.trim_start_matches(['"', '\'']);
+        let behind = text[position..].trim_start_matches([' ', '\t', '"', '\'']);
         let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
         let is_marked = before
             .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
             .ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
         let is_number = (begins || is_last) && number(word, false).is_some();
+        let is_in_list = depth > 0 && label > 0 && !before.contains(']');
+        let is_state = names::state(word).is_some();
         let stands_for_number = is_dash(word) || names::is_failure(word);
-        let is_in_list = depth > 0 && is_last && label > 0 && !before.contains(']');
-        // After a name that has a number elsewhere, a word means that the number is missing.
-        let is_value = is_number
-            || is_in_list && (stands_for_number || names::state(word).is_some())
-            || is_marked
-                && is_last
-                && (stands_for_number
-                    || known.contains(name_before(before))
-                    || is_state(before, word));
+        // After a name that has a number elsewhere, any word means that the number is missing.
+        let is_missing = is_last
+            && (is_in_list && (stands_for_number || is_state)
+                || is_marked && (stands_for_number || may_be_missing(before, is_state, &known)));
+        let is_value = is_number || is_missing;
         if !is_value {
             continue;
         }
@@ -301,9 +298,11 @@ fn find_pairs(text: &str) -> PairedText<'_> {
     PairedText { pairs, rows }
 }
 
-/// Whether a word says that a level was solved, or was not, behind a name that promises this.
-fn is_state(before: &str, word: &str) -> bool {
-    names::state(word).is_some() && Word::of(name_before(before)) == Word::State
+/// Whether a word stands behind a name that has a number elsewhere, or says that a level was solved,
+/// or was not, behind a name that promises this.
+fn may_be_missing(before: &str, is_state: bool, known: &HashSet<&str>) -> bool {
+    let name = name_before(before);
+    known.contains(name) || is_state && Word::of(name) == Word::State
 }
 
 /// The name that a text ends with, before marks.

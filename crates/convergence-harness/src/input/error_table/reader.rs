@@ -41,6 +41,18 @@ fn named_in(name: String, percent: Option<bool>) -> String {
     }
 }
 
+/// The cells of a column without the unit that stands in all of them.
+fn without_unit(cells: Vec<&str>) -> Vec<&str> {
+    let Some(unit) = common_unit(&cells) else {
+        return cells;
+    };
+    let number = |cell: &&'_ str| cell.len() - unit.len();
+    cells
+        .iter()
+        .map(|cell| cell[..number(cell)].trim_end())
+        .collect()
+}
+
 /// Names in a message, but not too many.
 pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.take(LISTED + 1).collect();
@@ -179,14 +191,7 @@ impl<'t> TableReader<'t> {
                 .any(|cell| cell.contains(',') && number(cell, true).is_some());
         let mut columns = Vec::with_capacity(names.len());
         for (k, ColumnName { name, word }) in names.into_iter().enumerate() {
-            let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
-            let texts = match common_unit(&texts) {
-                Some(unit) => texts
-                    .iter()
-                    .map(|text| text[..text.len() - unit.len()].trim_end())
-                    .collect(),
-                None => texts,
-            };
+            let texts = without_unit(rows.iter().map(|row| row[k]).collect());
             let percent = in_percent(&texts);
             let numbers: Vec<_> = texts
                 .iter()

@@ -204,10 +204,21 @@ fn a_number_is_read_as_it_is_written() {
         assert_eq!(read(cell), Some(value), "{cell}");
     }
     for cell in [
-        "", "-", "x", "2*0.1", "1,024", "****", "1/2/4", "é-101", "1.5-10", "D-01", "infD2",
-        "1e-3 4", "1,2,3",
+        "", "x", "2*0.1", "1,024", "1/2/4", "é-101", "1.5-10", "D-01", "infD2", "1e-3 4", "1,2,3",
     ] {
         assert_eq!(read(cell), None, "{cell}");
+    }
+    for cell in [
+        "-",
+        "****",
+        "-nan(ind)",
+        "1.#QNAN",
+        "NaNQ",
+        "diverged",
+        "None",
+        "null",
+    ] {
+        assert!(read(cell).is_some_and(f64::is_nan), "{cell}");
     }
 }
 

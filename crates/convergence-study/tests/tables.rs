@@ -182,14 +182,16 @@ fn found(sample: &Sample) -> String {
                 .lines()
                 .filter_map(|line| line.strip_prefix("  rates TABLE"))
             {
-                let table = RateTable::parse_with(
+                let tables = RateTable::parse_all_with(
                     &table,
                     "TABLE",
                     &choice(&words(line.split("  #").next().unwrap_or_default())).0,
                 );
-                let table =
-                    table.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
-                text += &format!("then: {}\n", table.reading);
+                let tables =
+                    tables.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
+                for (_, table) in tables {
+                    text += &format!("then: {}\n", table.reading);
+                }
             }
             text
         }

@@ -6,6 +6,7 @@ use super::shown::{sentence, text};
 use super::{JudgedColumn, Judgement};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
+use crate::input::error_table::{Doubt, NotError};
 use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
 use crate::judge::shown;
@@ -113,16 +114,18 @@ fn object(findings: &Judgement<'_>) -> Value {
         }
         object
     };
-    let not_errors = findings
-        .source
-        .table
-        .not_errors
-        .iter()
-        .map(|(column, because)| json!({"column": column, "because": because}));
+    let not_errors = findings.source.table.not_errors.iter().map(
+        |NotError {
+             column, because, ..
+         }| json!({"column": column, "because": because}),
+    );
+    let table = &findings.source.table;
+    let mut notes = vec![table.reading.clone()];
+    notes.extend(table.doubts.iter().map(Doubt::to_string));
     json!({
         "step": findings.source.table.step, "floor": findings.floor.value(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.source.table.reading],
+        "not_errors": not_errors.collect::<Vec<_>>(), "notes": notes,
     })
 }
 
@@ -208,6 +211,10 @@ pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> 
     let mut cases: Vec<_> = deciding.map(case).collect();
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
+    }
+    if !findings.source.table.doubts.is_empty() {
+        let name = "the table".to_owned();
+        cases.push((name, Verdict::Inconclusive, sentence(findings)));
     }
     cases
 }

@@ -271,7 +271,10 @@ pub(crate) fn judgements<'t>(
     let judged = |(source, claims): (&'t Source, Vec<Option<Claim>>)| {
         let columns = judged_columns(source, &claims, rule, request.all);
         let deciding = columns.iter().filter(|column| column.decides);
-        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
+        let verdicts = deciding.map(|column| column.rate.verdict);
+        // What a failed run has printed may look right, and so may two tables in one.
+        let doubts = source.table.doubts.iter();
+        let verdict = Verdict::worst(verdicts.chain(doubts.map(|_| Verdict::Inconclusive)));
         Judgement {
             command,
             source,

@@ -1,7 +1,9 @@
 //! The result in words, for people.
 
+use std::slice;
+
 use super::{JudgedColumn, Judgement};
-use crate::input::error_table::limit;
+use crate::input::error_table::{Doubt, NotError, limit};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{RateVerdict, Reason, Verdict};
@@ -13,6 +15,8 @@ use crate::text::visible::visible;
 const STEADY: f64 = 0.2;
 /// Least fall, in orders, of a steady rate where the error stops falling.
 const STOP: f64 = 0.5;
+/// Most columns that a verdict names as left out.
+const LISTED: usize = 12;
 /// Most levels that are predicted.
 const AHEAD: i32 = 3;
 
@@ -91,7 +95,46 @@ pub(crate) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
         .iter()
         .filter(|findings| findings.verdict.is_pass())
         .count();
-    format!("{passed} of {} agree", counted(findings.len(), "table"))
+    let agree = format!("{passed} of {} agree", counted(findings.len(), "table"));
+    agree + &reservations(findings)
+}
+
+/// What a verdict does not cover: columns that are left out by their names alone, and a run that
+/// has failed.
+fn reservations(findings: &[Judgement<'_>]) -> String {
+    let mut left_out: Vec<String> = vec![];
+    for findings in findings {
+        let not_errors = findings.source.table.not_errors.iter();
+        for NotError {
+            column, because, ..
+        } in not_errors.filter(|one| !one.is_checked)
+        {
+            let words = format!("{} ({because})", visible(column));
+            if !left_out.contains(&words) {
+                left_out.push(words);
+            }
+        }
+    }
+    let mut words = String::new();
+    if !left_out.is_empty() {
+        let more = left_out.len().saturating_sub(LISTED);
+        left_out.truncate(LISTED);
+        words += &format!("; left out: {}", left_out.join(", "));
+        if more > 0 {
+            words += &format!(", and {more} more");
+        }
+    }
+    let mut doubts: Vec<&Doubt> = vec![];
+    for doubt in findings
+        .iter()
+        .flat_map(|findings| &findings.source.table.doubts)
+    {
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
+    }
+    words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));
+    words
 }
 
 impl Judgement<'_> {
@@ -305,9 +348,10 @@ pub(crate) fn sentence(findings: &Judgement<'_>) -> String {
     let passed = deciding()
         .filter(|column| column.rate.verdict == Verdict::Pass)
         .count();
-    match deciding().count() {
+    let words = match deciding().count() {
         0 => "no order is claimed".to_owned(),
         1 => format!("{passed} of 1 column agrees with its order"),
         count => format!("{passed} of {count} columns agree with their orders"),
-    }
+    };
+    words + &reservations(slice::from_ref(findings))
 }

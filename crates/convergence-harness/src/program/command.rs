@@ -129,8 +129,7 @@ impl Invocation {
             CaseFailure::new(format!("the guard of {program} cannot be started: {error}"))
         })?;
         let child = group.start(&mut self.command());
-        let mut child =
-            child.map_err(|error| self.failed(&self.not_started(&error)))?;
+        let mut child = child.map_err(|error| self.failed(&self.not_started(&error)))?;
         let printed = in_background(child.stdout.take(), read);
         let words = in_background(child.stderr.take(), read_last_words);
         let input = self.input.clone();

@@ -62,7 +62,8 @@ pub(super) fn read_output(
                     if names.iter().any(|known| known == name) {
                         numbers.retain(|(known, _)| known != name);
                         numbers.push((name.to_owned(), number));
-                    } else if others.len() < MOST_OTHERS && !others.iter().any(|other| other == name)
+                    } else if others.len() < MOST_OTHERS
+                        && !others.iter().any(|other| other == name)
                     {
                         others.push(visible(name));
                     }

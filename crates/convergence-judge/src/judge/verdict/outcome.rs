@@ -351,7 +351,8 @@ impl RateVerdict {
             Some(band) if self.kind != Reason::ClaimUnusable => {
                 format!(": {}", against_claim(&rate, &band.to_string()))
             }
-            _ => format!(": {rate}"),
+            Some(_) => format!(": {rate}"),
+            None => String::new(),
         }
     }
 

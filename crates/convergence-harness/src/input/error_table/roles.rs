@@ -9,6 +9,7 @@ use super::doubt;
 use super::failed_run;
 use super::frame::Original;
 use super::groups;
+use super::limits;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
 use super::parts::{self, Part};
@@ -37,6 +38,7 @@ pub(super) fn read_all(
     choice: &Choice,
 ) -> Result<Vec<(String, RateTable)>, InputError> {
     let parts = parts::read(original.text);
+    limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {

@@ -137,7 +137,8 @@ fn attempt_all(
 /// Whether some name of a grid is not that of a step, a count, a rate or a cost.
 fn may_have_errors(grid: &RawTable<'_>, choice: &Choice) -> bool {
     let names = grid.column_names(choice.names.as_deref());
-    names.iter().any(|column| column.word.noun().is_none())
+    let is_uneven = grid.left_out.iter().any(LeftOut::may_be_error);
+    is_uneven || names.iter().any(|column| column.word.noun().is_none())
 }
 
 /// The k-th column over the steps.

@@ -3,7 +3,7 @@
 use convergence_harness::input::InputError;
 use convergence_harness::input::error_table::{Choice, RateTable};
 use convergence_harness::judge::claims::Claim;
-use convergence_harness::judge::verdict::{Judge, Verdict};
+use convergence_harness::judge::verdict::{Floor, Verdict};
 
 fn parsed(text: &str) -> Result<RateTable, InputError> {
     RateTable::parse_with(text, "t.csv", &Choice::default())
@@ -260,10 +260,7 @@ fn the_order_of_the_rows_does_not_matter() {
     ];
     let judged = |rows: Vec<&str>| {
         let table = parsed(&format!("h,e\n{}\n", rows.join("\n"))).expect("a table");
-        table.columns[0].judge(
-            &Judge::new(0.05).expect("a tolerance"),
-            &Claim::new(1.0, 0.05),
-        )
+        table.columns[0].judge(&Claim::new(1.0, 0.05), Floor::NONE)
     };
     let (down, up) = (
         judged(rows.to_vec()),

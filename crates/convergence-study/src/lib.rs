@@ -62,9 +62,12 @@
 #[doc(inline)]
 pub use convergence_harness::{
     judge::{
-        claims::Claim,
+        claims::{Claim, Interval},
         richardson::{Estimator, Value},
-        verdict::{Judge, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs},
+        verdict::{
+            Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs,
+            observe,
+        },
     },
     run::{Finished, RunError, assert_order, run_one},
     study::{

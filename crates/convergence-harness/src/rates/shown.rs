@@ -4,13 +4,10 @@ use std::slice;
 
 use super::{JudgedColumn, Judgement};
 use crate::input::error_table::{Doubt, NotError, limit};
-use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{RateVerdict, Reason, Verdict, judged_in_words};
-use crate::text::number::{
-    committed_rate, counted, error_text, order_text, pair_text, plain_text, short_text,
-};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::text::number::{counted, error_text, pair_text, plain_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
 
@@ -26,23 +23,9 @@ const AHEAD: i32 = 3;
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
     pub(super) fn answer(&self) -> String {
-        let rate = match self.claim {
-            Claim {
-                at_least: true,
-                order,
-                tolerance,
-                ..
-            } => {
-                let passes = format!("at least {}", order_text(committed_rate(order - tolerance)));
-                let why = if self.rate.verdict.is_pass() {
-                    &passes
-                } else {
-                    &self.rate.because
-                };
-                let rate = self.rate.rate_in_words(MOST_PLACES);
-                judged_in_words(&rate, &self.claim.to_string(), why)
-            }
-            _ => self.rate.answer(MOST_PLACES),
+        let rate = match &self.claim {
+            Some(claim) => claim.answer(&self.rate, &self.rate.rate_in_words(MOST_PLACES)),
+            None => self.rate.answer(MOST_PLACES),
         };
         match self
             .estimate
@@ -195,7 +178,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
         + &shown::table(
             &table.step,
             &findings.columns_with_rates(),
-            findings.judge.floor(),
+            findings.floor.value(),
         )
         + "\n";
     text.extend(columns.iter().map(line));
@@ -281,7 +264,8 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
 
 /// Whether the rate may be 0, within the tolerance, and the finest levels do not say otherwise.
 fn may_be_zero(rate: &RateVerdict) -> bool {
-    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance)
+    let tolerance = rate.claimed.map_or(0.0, |band| band.tolerance);
+    rate.interval.is_none_or(|[low, _]| low <= tolerance)
         && rate.finest_rate().is_none_or(|rate| rate < STOP)
 }
 
@@ -299,6 +283,7 @@ fn stop(rates: &[f64]) -> Option<usize> {
 
 /// The level that would decide if the rates continued: their changes shrink as the last two did.
 fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
+    let claim = judged.claim?;
     let mut levels = judged.column.levels.clone();
     let rates = &judged.rate.pairwise;
     let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else {
@@ -324,7 +309,7 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
             step: last.step / ratio,
             error: last.error * ratio.powf(-rate),
         });
-        let next = findings.judge.judge(&levels, judged.rate.order);
+        let next = claim.judge(&levels, findings.floor);
         if next.verdict == Verdict::Inconclusive {
             continue;
         }

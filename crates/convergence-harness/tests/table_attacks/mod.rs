@@ -35,7 +35,7 @@ const LAW: Law = Law {
 };
 
 /// Names that say nothing.
-const NEUTRAL: [&str; 6] = ["T", "ph", "B1", "Ux", "CN", "theta"];
+const NEUTRAL: [&str; 6] = ["T", "ph", "B1", "Ux", "CN", "kappa"];
 
 /// Columns that no order 2 fits.
 fn lost(levels: usize) -> Vec<(&'static str, Vec<f64>)> {

@@ -54,11 +54,11 @@ use frame::Original;
 ///
 /// ```
 /// # use convergence_harness::input::error_table::{Choice, RateTable};
-/// # use convergence_harness::judge::{claims::Claim, verdict::Judge};
+/// # use convergence_harness::judge::{claims::Claim, verdict::Floor};
 /// let text = "h, L2, rate\n0.1, 1.01e-3, -\n0.05, 2.51e-4, 2.01\n0.025, 6.26e-5, 2.00\n";
 /// let table = RateTable::parse_with(text, "errors.csv", &Choice::default())?;
 /// let column = table.column("L2").expect("its name");
-/// let rate = column.judge(&Judge::default(), &Claim::new(2.0, 0.25));
+/// let rate = column.judge(&Claim::new(2.0, 0.25), Floor::NONE);
 /// assert!(rate.verdict.is_pass(), "{}", rate.reason);
 /// assert_eq!(table.not_errors[0].column, "rate");
 /// # Ok::<(), convergence_harness::input::InputError>(())

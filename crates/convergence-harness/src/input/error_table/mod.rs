@@ -27,6 +27,7 @@ mod forms;
 mod frame;
 mod groups;
 mod heads;
+mod limits;
 mod markup;
 pub(crate) mod names;
 mod number;

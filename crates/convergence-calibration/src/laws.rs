@@ -80,7 +80,7 @@ pub(crate) const fn held_out(name: &'static str, group: Group, formula: Formula)
     law(name, group, Shape::HeldOut(formula))
 }
 
-const fn polluted(name: &'static str, a: [f64; 2], r: [f64; 2]) -> Law {
+pub(crate) const fn polluted(name: &'static str, a: [f64; 2], r: [f64; 2]) -> Law {
     law(name, Group::Polluted, Shape::Pollution { a, r })
 }
 

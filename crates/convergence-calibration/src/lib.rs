@@ -16,6 +16,9 @@
 //!   *visibly off* if it differs from the p that the coarse levels show. Also how often the
 //!   interval holds the order, and how often a table passes only without its coarsest level.
 //! * *held-out*: the same under [ten laws](held_out) with which nothing was tuned.
+//! * *benign*: the same under a smooth power with small pollution; *differences*: finite differences
+//!   of random smooth problems; see [`benign`].
+//! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].
 //! * *three*: three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the
 //!   finest error.
 //! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often
@@ -59,6 +62,7 @@
 //! libm.
 
 pub mod bars;
+pub mod benign;
 pub mod claims;
 mod draw;
 pub mod grids;
@@ -67,17 +71,20 @@ pub mod hidden;
 pub mod intervals;
 pub mod kind;
 pub mod laws;
+pub mod noisy;
 pub mod rules;
 mod shapes;
 pub mod sheet;
 
 use convergence_harness::judge::verdict::{Judge, JudgeError};
 
+use benign::{BENIGN, differences};
 use claims::{limits, other_claims, three};
 use draw::Draw;
 use held_out::HELD_OUT;
 use intervals::intervals;
 use laws::{LAWS, Table, USUAL, WIDE};
+use noisy::noisy;
 use rules::{hidden, levels, rules};
 use sheet::Sheet;
 
@@ -97,7 +104,7 @@ fn wrong(table: &Table, off: f64) -> [f64; 2] {
 }
 
 /// The sheets of the rule: *rules* on two sets of meshes, *levels*, *held-out*, *three*, *laws*,
-/// *hidden* three times, *limits*, *claims*.
+/// *hidden* three times, *limits*, *claims*, *benign*, *differences*, *noisy*.
 ///
 /// * `tables`: number of tables for each law and mesh.
 ///
@@ -119,6 +126,9 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         hidden("hidden-wide", 0.2, 8, hidden_tables, &mut draw(seed, 4))?,
         limits(hidden_tables, &mut draw(seed, 5))?,
         other_claims(10 * tables, &mut draw(seed, 6))?,
+        levels("benign", &BENIGN, 100 * tables, &mut draw(seed, 9))?,
+        differences(3 * tables, &mut draw(seed, 10))?,
+        noisy(20 * tables, &mut draw(seed, 11))?,
     ])
 }
 

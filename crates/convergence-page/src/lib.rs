@@ -30,7 +30,7 @@ pub fn version() -> &'static str {
 
 /// How the tables of a text are read: a JSON object with `tables`, or with `refused`.
 ///
-/// * `question`: a JSON object, [`Question`].
+/// * `question`: a JSON object with `text`, and the options of the command `rates` under their names.
 pub fn read(question: &str) -> String {
     answered(question, |question| {
         Ok(json!(Read::of(&sheet_of(question)?)))
@@ -40,7 +40,7 @@ pub fn read(question: &str) -> String {
 /// What is found in the tables of a text: a JSON object with `verdict` and `tables`, or with
 /// `refused`.
 ///
-/// * `question`: a JSON object, [`Question`].
+/// * `question`: a JSON object with `text`, and the options of the command `rates` under their names.
 pub fn judge(question: &str) -> String {
     answered(question, |question| {
         let judged = Judged::of(sheet_of(question)?, question.command());

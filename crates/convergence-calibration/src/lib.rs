@@ -126,7 +126,7 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         hidden("hidden-wide", 0.2, 8, hidden_tables, &mut draw(seed, 4))?,
         limits(hidden_tables, &mut draw(seed, 5))?,
         other_claims(10 * tables, &mut draw(seed, 6))?,
-        levels("benign", &BENIGN, 100 * tables, &mut draw(seed, 9))?,
+        levels("benign", &BENIGN, 25 * tables, &mut draw(seed, 9))?,
         differences(3 * tables, &mut draw(seed, 10))?,
         noisy(20 * tables, &mut draw(seed, 11))?,
     ])

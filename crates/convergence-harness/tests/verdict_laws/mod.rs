@@ -121,9 +121,21 @@ fn an_order_one_tenth_off_fails_on_clean_data() {
 
 #[test]
 fn a_rate_of_75_976_never_passes_and_a_coarse_level_like_that_is_set_aside() {
-    for rates in [[1.0, 1.0, 75.976], [1.0, 75.976, 1.0]] {
-        check_rates(&rates, 1.0, Reason::NotAsymptotic, Verdict::Inconclusive);
+    for (rates, reason) in [
+        ([1.0, 1.0, 75.976], Reason::NotAsymptotic),
+        // Another table begins there, or the unit changes.
+        ([1.0, 75.976, 1.0], Reason::Jump),
+        ([1.0, -2.5, 1.0], Reason::Jump),
+    ] {
+        check_rates(&rates, 1.0, reason, Verdict::Inconclusive);
     }
+    // However many levels follow.
+    check_rates(
+        &[1.0, 1.0, 17.0, 1.0, 1.0, 1.0],
+        1.0,
+        Reason::Jump,
+        Verdict::Inconclusive,
+    );
     check_rates(
         &[75.976, 75.976, 75.976],
         1.0,

@@ -10,6 +10,7 @@ mod cause;
 mod outcome;
 mod reading;
 mod reason;
+mod scatter;
 mod tendency;
 mod trend;
 mod words;

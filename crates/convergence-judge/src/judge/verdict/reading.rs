@@ -6,7 +6,7 @@ use super::cause::Cause;
 use super::reason::Reason;
 use super::tendency::Tendency;
 use super::words::{Aside, SetAside};
-use super::{FEWEST_LEVELS, trend};
+use super::{FEWEST_LEVELS, scatter, trend};
 use crate::judge::fit::{
     Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
@@ -153,6 +153,9 @@ impl<'a> Reading<'a> {
         if self.span() < super::LEAST_SPAN {
             return Reason::LevelsTooClose;
         }
+        if trend::jumps(self.rates()) {
+            return Reason::Jump;
+        }
         if trend::falls_away(self.rates(), order) {
             return Reason::FallsAway;
         }
@@ -168,7 +171,7 @@ impl<'a> Reading<'a> {
     /// Steps 6 and 7: the trend of the rates, and the interval against the band.
     fn compare(&self, interval: [f64; 2], order: f64, tolerance: f64) -> Reason {
         let rates = self.rates();
-        if trend::departs(rates, tolerance) {
+        if trend::departs(rates, tolerance) && !trend::approaches(rates, order, tolerance) {
             return Reason::Departs;
         }
         let grows = rates.last().is_none_or(|finest| *finest <= 0.0);
@@ -179,6 +182,9 @@ impl<'a> Reading<'a> {
             // could agree.
             _ if grows => Reason::IntervalTooWide,
             Reason::Agrees if trend::emerges(rates, order, tolerance) => Reason::NotAsymptotic,
+            Reason::Agrees if scatter::hides(&self.sequence[..self.range.end], order) => {
+                Reason::LowerOrderLikely
+            }
             reason => reason,
         }
     }

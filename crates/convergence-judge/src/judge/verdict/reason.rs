@@ -46,6 +46,10 @@ pub enum Reason {
     NotAsymptotic,
     /// The rates move away, faster and faster.
     Departs,
+    /// A term of lower order explains the errors far better than the order claimed.
+    LowerOrderLikely,
+    /// A rate is far from both its neighbours, which agree.
+    Jump,
     /// Too few levels are left above the round-off floor.
     RoundOffFloor,
     /// Too few digits of the errors are known.
@@ -91,7 +95,7 @@ impl TryFrom<String> for Reason {
 
 impl Reason {
     /// Every reason, for listing.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 28] = [
         Self::Agrees,
         Self::NoResult,
         Self::NonFiniteError,
@@ -110,6 +114,8 @@ impl Reason {
         Self::TooFewLevels,
         Self::NotAsymptotic,
         Self::Departs,
+        Self::LowerOrderLikely,
+        Self::Jump,
         Self::RoundOffFloor,
         Self::Digits,
         Self::ConstantUnsure,
@@ -141,6 +147,8 @@ impl Reason {
             | Self::TooFewLevels
             | Self::NotAsymptotic
             | Self::Departs
+            | Self::LowerOrderLikely
+            | Self::Jump
             | Self::RoundOffFloor
             | Self::Digits
             | Self::ConstantUnsure
@@ -168,6 +176,7 @@ impl Reason {
             Self::TooFewLevels
                 | Self::NotAsymptotic
                 | Self::Departs
+                | Self::LowerOrderLikely
                 | Self::LeftOver
                 | Self::ConstantUnsure
                 | Self::LevelsTooClose
@@ -203,7 +212,7 @@ impl Reason {
     /// The mathematics of the reason, and what to try, most promising first.
     pub fn mathematics(self) -> &'static str {
         match self {
-            Self::TooLow | Self::ErrorGrows | Self::NotAsymptotic => {
+            Self::TooLow | Self::ErrorGrows | Self::NotAsymptotic | Self::LowerOrderLikely => {
                 "The error is e(h) = C h^p + D h^q + ...; the rate between two steps tends to the smallest exponent with a coefficient \
                  that is not zero. What is lost tells what is wrong. Half an order: a singular solution, a boundary or initial layer, \
                  data that do not match at a corner, a maximum norm. One order: a term at the wrong time level or point, a one-sided \
@@ -372,6 +381,19 @@ impl Reason {
                 "The rates change more and more: a term of lower order, or a wrong limit, is about to \
                  show. Add a finer level; look for what does not change with the step: the reference, the \
                  solver's tolerance, the error of the other axis.",
+            ],
+            Self::LowerOrderLikely => [
+                "lower-order",
+                "a lower order may hide in the scatter",
+                "A term of lower order explains the errors five times as well as the order claimed. Add finer \
+                 levels, where it shows or does not, or take errors that scatter less: a tighter tolerance of \
+                 the solver, the mean over shifted meshes.",
+            ],
+            Self::Jump => [
+                "jump",
+                "a rate does not belong to its neighbours",
+                "One rate is far from those before and after it, which agree: another table begins there, the \
+                 unit changes, or a level is wrong. Judge the parts by themselves, or mend that level.",
             ],
             Self::RoundOffFloor => [
                 "floor",

@@ -1,6 +1,6 @@
 //! The trend of the rates: it tells a lost order from noise.
 
-use crate::judge::fit::{changes, scatter};
+use crate::judge::fit::{SPREAD, changes, scatter};
 
 /// A fall is still going on if the finest rate is lower than the one before by more than this.
 const STILL_FALLING: f64 = 0.1;
@@ -23,6 +23,12 @@ const DEPARTED: [f64; 3] = [1.0 / 40.0, 1.0 / 6.0, 1.0 / 10.0];
 /// Share of the tolerance by which the second of two rates may be farther from the order than the
 /// first.
 const LEFT: f64 = 1.0 / 80.0;
+
+/// Share of the tolerance within which rates that come nearer to the order are as good as there.
+const NEAR: f64 = 0.1;
+
+/// Least distance of a rate from both its neighbours that no error law explains.
+const JUMP: f64 = 3.0;
 
 /// Whether the second change has the sign of the first and is larger by more than the factor.
 fn larger(from: f64, to: f64, factor: f64) -> bool {
@@ -67,6 +73,34 @@ pub fn departs(rates: &[f64], tolerance: f64) -> bool {
     let turns = before * last <= 0.0 && last.abs() > TURN * before.abs();
     in_a_row && (first + before + last).abs() > three
         || larger(before, first, 1.0) && turns && last.abs() > one
+}
+
+/// Whether rates that [`departs`] refuses come nearer to the order and have hardly anything left:
+/// the last four lie within a tenth of the tolerance of it, on one side, and each is nearer than the
+/// one before.
+///
+/// The rates 1.9872, 1.9888, 1.9917, 1.9961 rise at a growing pace, towards 2. Rates that move away
+/// from the order, however little, stay a reason: h² (1 + s h_min/h) has them.
+pub(super) fn approaches(rates: &[f64], order: f64, tolerance: f64) -> bool {
+    let Some(last) = rates.len().checked_sub(4) else {
+        return false;
+    };
+    let distances: Vec<f64> = rates[last..].iter().map(|rate| order - rate).collect();
+    let is_near = distances[0].abs() <= NEAR * tolerance;
+    let pairs = distances.windows(2);
+    let are_nearer = |pair: &[f64]| pair[0] * pair[1] >= 0.0 && pair[1].abs() < pair[0].abs();
+    is_near && pairs.clone().all(are_nearer)
+}
+
+/// Whether a rate is far from both its neighbours, which agree: the levels before and after it are
+/// those of two tables, or in other units.
+pub(super) fn jumps(rates: &[f64]) -> bool {
+    rates.windows(3).any(|three| {
+        let [before, rate, after] = [three[0], three[1], three[2]];
+        (before - after).abs() < SPREAD
+            && (rate - before).abs() > JUMP
+            && (rate - after).abs() > JUMP
+    })
 }
 
 /// Whether the rates of three or four levels, too few for [`departs`] to see, may be leaving the
@@ -162,6 +196,36 @@ mod tests {
                 !expected || departs_by(&earlier, tolerance),
                 "disarmed: {changes:?} {tolerance}"
             );
+        }
+    }
+
+    #[test]
+    fn rates_that_end_near_the_order_approach_it() {
+        for (rates, order, expected) in [
+            (&[1.9872, 1.9888, 1.9917, 1.9961][..], 2.0, true),
+            (&[2.0128, 2.0112, 2.0083, 2.0039], 2.0, true),
+            // Farther than a tenth of the tolerance; away from the order; through it; three rates.
+            (&[1.9672, 1.9688, 1.9717, 1.9761], 2.0, false),
+            (&[1.9961, 1.9917, 1.9888, 1.9872], 2.0, false),
+            (&[1.9961, 1.9977, 1.9995, 2.0004], 2.0, false),
+            (&[1.9888, 1.9917, 1.9961], 2.0, false),
+        ] {
+            assert_eq!(approaches(rates, order, 0.25), expected, "{rates:?}");
+            let earlier = [&[1.5][..], rates].concat();
+            assert_eq!(approaches(&earlier, order, 0.25), expected, "{earlier:?}");
+        }
+    }
+
+    #[test]
+    fn a_jump_stands_between_rates_that_agree() {
+        assert!(jumps(&[2.0, 17.0, 2.0]) && jumps(&[1.9, 2.0, -2.0, 2.1]));
+        for rates in [
+            &[2.0, 17.0][..],
+            &[2.0, 4.0, 2.0],
+            &[12.0, -8.0, 2.0],
+            &[1.0, 17.0, 2.0],
+        ] {
+            assert!(!jumps(rates), "{rates:?}");
         }
     }
 

@@ -1,5 +1,6 @@
 //! Attacks on the reader of tables: texts that look like tables that pass, and must not.
 
+mod claims;
 mod forms;
 mod laws;
 

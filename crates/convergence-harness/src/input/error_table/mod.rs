@@ -32,6 +32,7 @@ mod markup;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;
+mod parameters;
 mod parts;
 mod reader;
 mod roles;
@@ -49,6 +50,7 @@ pub use digits::Column;
 pub use doubt::Doubt;
 pub use frame::FrameColumn;
 use frame::Original;
+pub use parameters::Parameter;
 
 /// A table of errors that was read.
 ///
@@ -79,6 +81,8 @@ pub struct RateTable {
     pub reading: String,
     /// Whether numbers, not names, identified the step.
     pub is_guessed: bool,
+    /// Numbers that all its rows share, such as the degree of the elements.
+    pub parameters: Vec<Parameter>,
     /// Why none of its columns should pass.
     pub doubts: Vec<Doubt>,
 }

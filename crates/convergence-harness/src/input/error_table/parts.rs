@@ -233,13 +233,10 @@ fn offset(text: &str, piece: &str) -> usize {
 /// others begin, or something stands between some of its rows.
 fn log_cuts(text: &str, pairs: &[Pair<'_>]) -> Vec<usize> {
     if let Some(first) = pairs::first_column(pairs) {
-        let lists = pairs
-            .iter()
-            .filter(|pair| pair.name == first && pair.values.len() > 1);
-        return lists
-            .skip(1)
-            .map(|pair| line_or_name(text, pair.name))
-            .collect();
+        let is_list = |pair: &Pair<'_>| pair.values.len() > 1;
+        let lists: Vec<&Pair<'_>> = pairs.iter().filter(|pair| is_list(pair)).collect();
+        let again = lists.windows(2).filter(|two| two[1].name == first);
+        return again.map(|two| end_of_numbers(text, two[0])).collect();
     }
     let ends = successive_names(pairs);
     if !ends.is_empty() {
@@ -251,30 +248,23 @@ fn log_cuts(text: &str, pairs: &[Pair<'_>]) -> Vec<usize> {
     gap_cuts(&log_gaps(text, pairs))
 }
 
-/// The beginning of the line of a name, if nothing but marks stands before it.
-fn line_or_name(text: &str, name: &str) -> usize {
-    let start = offset(text, name);
-    let line = text[..start].rfind('\n').map_or(0, |end| end + 1);
-    if text[line..start].chars().all(pairs::is_mark) {
-        line
-    } else {
-        start
-    }
+/// The end of the numbers behind a name, of the brackets that close there, or of their line.
+fn end_of_numbers(text: &str, pair: &Pair<'_>) -> usize {
+    let last = pair.values.last().copied().unwrap_or(pair.name);
+    let end = offset(text, last) + last.len();
+    let behind = &text[end..];
+    let marks = behind.find(|c| !pairs::is_mark(c) || "[{(".contains(c));
+    let marks = &behind[..marks.unwrap_or(behind.len())];
+    let line = marks.rfind('\n').or_else(|| marks.rfind([']', '}', ')']));
+    end + line.map_or(0, |last| last + 1)
 }
 
 /// The end of the number before the k-th name, or of its line.
 fn after_number(text: &str, pairs: &[Pair<'_>], k: usize) -> usize {
-    let start = offset(text, pairs[k].name);
-    let Some(last) = k
-        .checked_sub(1)
-        .and_then(|before| pairs[before].values.last())
-    else {
-        return start;
-    };
-    let end = offset(text, last) + last.len();
-    text[end..start]
-        .find('\n')
-        .map_or(end, |line| end + line + 1)
+    match k.checked_sub(1) {
+        Some(before) => end_of_numbers(text, &pairs[before]),
+        None => offset(text, pairs[k].name),
+    }
 }
 
 /// The pairs with which rows begin whose names come after others that occur several times have

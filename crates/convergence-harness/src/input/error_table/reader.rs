@@ -181,7 +181,7 @@ impl<'t> TableReader<'t> {
         } = self.choice;
         let claimed = columns.iter().flatten().chain(claimed).chain(values);
         let claimed = claimed.filter_map(|name| {
-            names::position(names.iter().map(|column| column.name.as_str()), name)
+            names::claimed_position(names.iter().map(|column| column.name.as_str()), name)
         });
         let claimed: HashSet<usize> = claimed.collect();
         // With decimal commas, `1.024` may be 1024.

@@ -2,7 +2,7 @@
 
 use super::{Request, Source, columns};
 use crate::input::advice::{Argument, Text};
-use crate::input::error_table::names::position;
+use crate::input::error_table::{is_degree, names::position};
 use crate::judge::claims::{Claim, order_from_text};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::visible::visible;
@@ -25,9 +25,9 @@ pub struct Claimed {
 pub enum ClaimedOrder {
     /// A number > 0.
     Number(f64),
-    /// `p + 1` and the like: a number that all rows of a table share, plus another.
+    /// `p + 1` and the like: the degree that all rows of a table share, plus a number.
     Degree {
-        /// The name of the number.
+        /// The name of the degree.
         name: String,
         /// What is added.
         plus: f64,
@@ -47,9 +47,7 @@ impl ClaimedOrder {
         } else {
             plus.parse().ok()?
         };
-        let is_name = !name.is_empty() && name.chars().all(char::is_alphabetic);
-        let is_number = name.parse::<f64>().is_ok();
-        (is_name && !is_number && f64::is_finite(plus)).then(|| Self::Degree {
+        (is_degree(name) && f64::is_finite(plus)).then(|| Self::Degree {
             name: name.to_owned(),
             plus,
         })
@@ -74,7 +72,7 @@ pub fn claimed(text: &str) -> Result<Claimed, String> {
     let order = number.or_else(|| ClaimedOrder::of_degree(bound));
     let order = order.filter(|_| name.is_empty() || name.ends_with('='));
     let order = order.ok_or(
-        "expected a number > 0, p + 1 for the degree p of each table, '>=P' with such an order P, or NAME= before one of them",
+        "expected a number > 0, '>=P' with such a number P, or NAME= before one of them; P may be p + 1, with the degree p of each table",
     )?;
     Ok(Claimed {
         text: text.to_owned(),

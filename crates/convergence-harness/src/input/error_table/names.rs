@@ -1,4 +1,4 @@
-//! What the name of a column says, if its numbers do not decide.
+//! What the name of a column says, and what the words in cells say.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;

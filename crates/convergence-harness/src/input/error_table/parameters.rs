@@ -27,10 +27,13 @@ const DEGREES: [&str; 7] = [
 impl Parameter {
     /// Whether a name is meant: the same, or another one of the degree.
     pub fn is_called(&self, name: &str) -> bool {
-        let [own, other] = [self.name.as_str(), name].map(str::to_lowercase);
-        let is_degree = |name: &str| DEGREES.contains(&name);
-        own == other || is_degree(&own) && is_degree(&other)
+        self.name.eq_ignore_ascii_case(name) || is_degree(&self.name) && is_degree(name)
     }
+}
+
+/// Whether a name is one of the degree of elements: `p`, `Degree`.
+pub fn is_degree(name: &str) -> bool {
+    DEGREES.contains(&&*name.to_lowercase())
 }
 
 /// The numbers of a heading behind their names, as in `Degree = 2`, `p: 2` and `P2 elements`, and

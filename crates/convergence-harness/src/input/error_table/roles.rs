@@ -1,5 +1,5 @@
-//! Which columns are errors, values and rates: decided by their numbers, and by their names if the
-//! numbers do not decide.
+//! Each table of a text with its step, its errors and its values: those that the user has chosen, or
+//! what the columns hold.
 
 use std::collections::HashSet;
 use std::hash::Hash;

@@ -199,6 +199,7 @@ fn by_steps<'t>(group: Group<'t>, choice: &Choice) -> Vec<Group<'t>> {
     let has_repetition = steps.iter().any(|step| step.repeats());
     let is_key = |column: &&Column<'_>| {
         !column.is_step()
+            && !matches!(column.word, Word::Error | Word::Rate)
             && column.is_number()
             && column.repeats()
             && !steps.is_empty()

@@ -36,7 +36,7 @@ pub fn is_degree(name: &str) -> bool {
     DEGREES.contains(&&*name.to_lowercase())
 }
 
-/// The numbers of a heading behind their names, as in `Degree = 2`, `p: 2` and `P2 elements`, and
+/// The degrees of a heading behind their names, as in `Degree = 2`, `p: 2` and `P2 elements`, and
 /// those of columns of groups with the same number in all rows.
 pub(super) fn of_table(heading: &str, table: &RawTable<'_>) -> Vec<Parameter> {
     let mut parameters = of_heading(heading);
@@ -64,7 +64,7 @@ fn of_heading(heading: &str) -> Vec<Parameter> {
         let behind = words.get(k + 1).and_then(|word| number(word, false));
         let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
         let (name, value) = match behind {
-            Some(number) if word.starts_with(char::is_alphabetic) => (*word, number.value),
+            Some(number) if is_degree(word) => (*word, number.value),
             // `P2`.
             _ if letters.len() == 1 && letters.starts_with(['P', 'p', 'Q', 'q']) => {
                 let Ok(value) = word[1..].parse() else {

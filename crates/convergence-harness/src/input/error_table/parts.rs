@@ -8,7 +8,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::names;
+use super::names::{self, Word};
 use super::number::number;
 use super::pairs::{self, NamedPlace, Naming, Pair, RawTable};
 use super::text::{self, begins_with_number, is_closing, is_rule};
@@ -133,7 +133,8 @@ impl Occurrences<'_> {
     /// are.
     fn is_common(&self, piece: &Piece, gaps: usize) -> bool {
         let is_late = piece.is_named && !self.is_in_first && self.gaps + 1 == gaps;
-        self.gaps == gaps || gaps > 2 && is_late
+        let is_rate = Word::of(&piece.shape) == Word::Rate;
+        self.gaps == gaps || is_late && (gaps > 2 || is_rate)
     }
 
     /// Whether it stands in all gaps, with words of which some come again.

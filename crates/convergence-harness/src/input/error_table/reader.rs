@@ -32,6 +32,8 @@ pub(super) struct TableReader<'t> {
     pub(super) left_out: Vec<LeftOut>,
     /// For each row whether its level was solved, as a column of states says.
     pub(super) is_solved: Vec<bool>,
+    /// Whether the rows were in no order and have been sorted.
+    pub(super) is_shuffled: bool,
 }
 
 /// The name of a column, with its unit if its numbers are in per cent.
@@ -75,6 +77,7 @@ impl<'t> TableReader<'t> {
             rows: None,
             left_out: table.left_out.clone(),
             is_solved: vec![true; table.rows.len()],
+            is_shuffled: false,
         };
         reader.columns = reader.columns()?;
         let has_levels = reader.columns.iter().any(|column| column.is_index);

@@ -228,6 +228,9 @@ fn attempt(
             .map(|k| column(&reader, *k, &steps, &step_halves))
             .collect()
     };
+    let errors_over_steps = columns(&errors)?;
+    let jumps = errors_over_steps.iter().filter_map(doubt::jump);
+    let doubts = jumps.chain(reader.contradiction(step.column));
     Ok(RateTable {
         reading: reading(&reader, &step, [&errors, &values], &others),
         columns: columns(&errors)?,
@@ -247,7 +250,7 @@ fn attempt(
             )
             .collect(),
         parameters: vec![],
-        doubts: columns(&errors)?.iter().filter_map(doubt::jump).collect(),
+        doubts: doubts.collect(),
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })
@@ -270,6 +273,9 @@ fn reading(
     let mut reading = format!("step: `{}`{}", step.label, step.how);
     for (what, list) in parts.iter().filter(|(_, list)| !list.is_empty()) {
         reading += &format!("; {what}: {list}");
+    }
+    if reader.is_shuffled {
+        reading += &format!("; rows sorted by `{}`", reader.columns[step.column].name);
     }
     let unsolved = reader
         .is_solved
@@ -328,6 +334,8 @@ impl TableReader<'_> {
                 &found,
             ));
         }
+        let is_in_order = order.is_sorted() || order.is_sorted_by(|a, b| a > b);
+        self.is_shuffled = !is_in_order;
         self.columns.iter_mut().for_each(|cells| cells.sort(&order));
         Ok(order.iter().map(|row| steps[*row]).collect())
     }

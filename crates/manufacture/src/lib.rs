@@ -29,7 +29,7 @@ mod sample;
 use std::path::Path;
 use std::time::Duration;
 
-pub use against::{Comparison, Question};
+pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
 pub use problem::{InputError, keys};

@@ -72,7 +72,7 @@ fn named(expression: &str, cause: &str, terms: &[&str], factors: &[f64]) {
 }
 
 #[test]
-fn each_cause_is_named() {
+fn what_concerns_a_whole_source_or_term_is_named() {
     named("S(x,y,t) + D(x,y,t) + R(x,y,t)", "equal", &[], &[]);
     named(
         "-(S(x,y,t) + D(x,y,t) + R(x,y,t))",
@@ -122,10 +122,14 @@ fn each_cause_is_named() {
         &["diffusion", "reaction"],
         &[2.0, 0.5],
     );
+}
+
+#[test]
+fn what_stands_inside_a_term_and_changed_arguments_are_named() {
     named(
         "S(x,y,t) - (1 + 0.5*x)*L(x,y,t) + R(x,y,t)",
         "product-rule",
-        &["without the derivative of a coefficient that varies"],
+        &[],
         &[],
     );
     named("S(x,y,0) + D(x,y,0) + R(x,y,0)", "time", &[], &[0.0]);
@@ -141,7 +145,18 @@ fn each_cause_is_named() {
         &["a"],
         &[2.0],
     );
-    named("S(x,y,t) + D(x,y,t) + R(x,y,t)**1.1", "none", &[], &[]);
+    named(
+        "S(x,y,t) + D(x,y,t) + R(x,y,t)**1.1",
+        "exponent",
+        &[],
+        &[1.1],
+    );
+    named(
+        "S(x,y,t) + D(x,y,t) + R(x,y,t) + 0.1*sin(7*x*y)",
+        "none",
+        &[],
+        &[],
+    );
 }
 
 #[test]

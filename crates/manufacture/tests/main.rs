@@ -7,6 +7,7 @@ mod emitted;
 mod files;
 mod functions;
 mod fuzz;
+mod mistakes;
 mod orders;
 mod pages;
 mod properties;

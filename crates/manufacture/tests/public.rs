@@ -334,7 +334,7 @@ fn axisymmetric_flow_has_the_sources_of_moose_but_for_its_lost_term() {
     }
     assert_eq!(
         found[0].sentence,
-        "radial: your source lacks `hoop`; the other terms are right"
+        "radial: your source lacks `hoop`; the other terms are right (test.toml:18:9)"
     );
     assert_eq!([found[1].cause, found[2].cause], ["equal"; 2], "{found:?}");
     // The terms are those of the operators on vectors.

@@ -30,7 +30,7 @@ fn the_signs_of_the_generated_source_of_pfhub_are_named() {
     assert_eq!(comparison.terms, ["reaction", "diffusion"]);
     assert_eq!(
         comparison.sentence,
-        "eta: your source has the opposite sign in `reaction` and `diffusion`; the other term is right"
+        "eta: your source has the opposite sign in `reaction` and `diffusion`; the other term is right (test.toml:18:13)"
     );
 }
 

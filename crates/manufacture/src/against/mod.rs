@@ -2,11 +2,20 @@
 //! what is wrong with it?
 
 pub(crate) mod ask;
-mod causes;
+mod bench;
+mod candidates;
+mod cause;
+mod pairs;
 mod right;
+mod search;
 mod sentence;
+mod site;
+mod solve;
+mod text;
+mod whole;
 
 pub use ask::{CommandWords, command_words};
+pub use cause::Edit;
 
 use std::time::Duration;
 
@@ -34,16 +43,24 @@ pub struct Comparison {
     pub terms: Vec<String>,
     /// A factor for each term, or the number that the cause is about.
     pub factors: Vec<f64>,
-    /// Other terms that fit as well, with their factors.
+    /// The changes of the file that give the values of the other program: one, or two together;
+    /// none where the values are right or unexplained.
+    pub edits: Vec<Edit>,
+    /// Other terms or edits that fit as well.
     pub alternatives: Vec<String>,
     /// In words.
     pub sentence: String,
 }
 
+/// Points at which edits that fit are told apart.
+const FRESH_POINTS: usize = 4;
+
 /// The points of a comparison, as another program reads them, and the right values there.
 pub struct Question<'m> {
     text: String,
     right: Right<'m>,
+    /// Points at which edits that fit are told apart.
+    fresh: Vec<Vec<f64>>,
 }
 
 impl<'m> Question<'m> {
@@ -55,8 +72,12 @@ impl<'m> Question<'m> {
     ) -> Result<Self, InputError> {
         let questions = questions(model, face, sampling.seed, sampling.points)?;
         let right = Right::new(model, &questions);
-        let text = questions.text;
-        Ok(Self { text, right })
+        let fresh = Sampler::new(model, !sampling.seed).points(questions.part, FRESH_POINTS)?;
+        Ok(Self {
+            text: questions.text,
+            right,
+            fresh,
+        })
     }
 
     /// A line of names, then a line for each point.
@@ -74,10 +95,7 @@ impl<'m> Question<'m> {
         let right = &self.right;
         let answers = ask::read(answer, command, &right.names(), right.points.len())?;
         let spreads = right.spreads()?;
-        Ok(answers
-            .iter()
-            .map(|answer| causes::explain(right, &spreads, answer))
-            .collect())
+        Ok(sentence::explain(right, &spreads, &answers, &self.fresh))
     }
 }
 

@@ -5,7 +5,7 @@ use super::ask::Answer;
 use crate::arithmetic::NodeId;
 use crate::arithmetic::jet::Jet;
 use crate::arithmetic::tape::Measured;
-use crate::derive::{Part, Quantity, Role, Slip, Tensor, components};
+use crate::derive::{Part, Quantity, Role, Tensor, components};
 use crate::fit::Column;
 use crate::model::{Model, Rows};
 use crate::problem::InputError;
@@ -141,15 +141,10 @@ impl<'m> Right<'m> {
             .collect()
     }
 
-    /// The component with a slip made throughout; `None` if there is no room for it.
-    pub(crate) fn with_slip(&self, place: Place, slip: Slip) -> Option<Column> {
-        let name = &self.quantities[place.quantity].quantity.name;
-        let sources = &self.model.slips.iter().find(|entry| entry.0 == slip)?.1;
-        let source = sources.iter().find(|source| source.name == *name)?;
-        if self.part != Part::Interior {
-            return None;
-        }
-        Some(column(self.model, &source.tensor, place, &self.points))
+    /// The labels of the terms; a datum has none.
+    pub(crate) fn labels(&self, place: Place) -> Vec<&str> {
+        let terms = self.quantities[place.quantity].quantity.terms.iter();
+        terms.map(|term| term.0.as_str()).collect()
     }
 
     /// The component with a normal that points inwards; `None` inside the domain.
@@ -169,27 +164,25 @@ impl<'m> Right<'m> {
         column(self.model, tensor, place, points)
     }
 
-    /// The component with a parameter changed, at these points.
-    pub(crate) fn with_parameter(
+    /// The parameters with one of them changed; those that depend on it follow.
+    pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
+        let problem = &self.model.problem;
+        problem.parameter_values(Some((parameter, value))).ok()
+    }
+
+    /// The component with these parameters, at these points.
+    pub(crate) fn with_parameters(
         &self,
         place: Place,
-        parameter: usize,
-        value: f64,
+        parameters: &[f64],
         points: &[Vec<f64>],
-    ) -> Option<Column> {
-        let parameters = self
-            .model
-            .problem
-            .parameter_values(Some((parameter, value)))
-            .ok()?;
+    ) -> Column {
         let tensor = &self.quantities[place.quantity].quantity.tensor;
         let rows = Rows::new(&self.model.graph, std::iter::once(tensor));
         let points = points.iter();
-        Some(
-            points
-                .map(|point| rows.with(point, &parameters).tensors[0][place.component].value)
-                .collect(),
-        )
+        points
+            .map(|point| rows.with(point, parameters).tensors[0][place.component].value)
+            .collect()
     }
 }
 

@@ -1,93 +1,142 @@
-//! What a colleague would say.
+//! Comparisons: what is said of each component.
 
-use super::causes::{Cause, SPREADS};
-use super::right::Right;
+use std::collections::BTreeMap;
+
+use super::Comparison;
+use super::ask::Answer;
+use super::candidates;
+use super::cause::{Cause, Edit, TermFactor, Unexplained};
+use super::right::{Place, Right};
+use super::search::{Explained, Search, place_of};
+use super::text::{self, of_whole};
+use super::whole::Component;
 use crate::check::place;
+use crate::problem::{Expression, Problem};
 
-fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    match names.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
-        Some((last, _)) => last.clone(),
-        None => String::new(),
-    }
-}
+/// A value explains another within this many spreads of the file's own two evaluations, or within
+/// the digits printed.
+///
+/// Another program sums in another order, and may expand products: its rounding is larger than the
+/// spread, but of its kind.
+const SPREADS: f64 = 1000.0;
 
-/// What is said of the terms that are right.
-fn others(labels: &[&str], terms: &[String]) -> &'static str {
-    match labels.len().saturating_sub(terms.len()) {
-        0 => "",
-        1 => "; the other term is right",
-        _ => "; the other terms are right",
-    }
-}
-
-pub(super) fn sentence(
+/// Explains what another program answers.
+///
+/// * `spreads`: those of [`Right::spreads`].
+/// * `fresh`: points that the program was not asked about.
+pub(super) fn explain(
     right: &Right<'_>,
-    quantity: &str,
-    labels: &[&str],
-    cause: &Cause,
-    differences: &[f64],
-) -> String {
-    let Cause {
-        name,
-        terms,
-        factors,
-        alternatives,
-    } = cause;
-    let factor = factors.first().copied().unwrap_or(f64::NAN);
-    let others = others(labels, terms);
-    let quoted = quoted(terms);
-    let what = match *name {
-        "equal" => right_values(differences),
-        "sign-of-source" => {
-            "your source has the opposite sign: the equation was written on the other side"
-                .to_owned()
+    spreads: &[Vec<f64>],
+    answers: &[Answer],
+    fresh: &[Vec<f64>],
+) -> Vec<Comparison> {
+    let components: Vec<Component<'_, '_>> = answers
+        .iter()
+        .map(|answer| component(right, spreads, answer))
+        .collect();
+    let mut explained: Vec<Option<Explained>> = components
+        .iter()
+        .map(|component| component.of_source().map(Explained::plain))
+        .collect();
+    let mut open: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (place, explained) in explained.iter().enumerate() {
+        if explained.is_none() {
+            let quantity = components[place].place.quantity;
+            open.entry(quantity).or_default().push(place);
         }
-        "normal" => "your values have the opposite sign: the normal points inwards".to_owned(),
-        "constant" => format!("your values differ from the right ones by the constant {factor}"),
-        "factor-of-source" => format!("your values are the right ones times {factor}"),
-        "sign-of-term" => format!("your source has the opposite sign in {quoted}{others}"),
-        "missing-term" => format!("your source lacks {quoted}{others}"),
-        "factor-of-term" => {
-            let parts: Vec<String> = terms
-                .iter()
-                .zip(factors)
-                .map(|(term, factor)| format!("`{term}` times {factor}"))
-                .collect();
-            format!("your source has {}{others}", parts.join(" and "))
-        }
-        "product-rule" | "transposed-gradient" | "missing-transpose" => {
-            format!("your source is the one {}", terms.join(""))
-        }
-        "time" => format!("your values are those of the time {factor} at all times"),
-        "components" => format!("your values are those of {quoted}"),
-        "coordinates" => format!("your values fit with {quoted} exchanged"),
-        "parameter" => format!("your values fit with {quoted} = {factor}"),
-        _ => nothing(right, differences),
-    };
-    let also = if alternatives.is_empty() {
-        String::new()
-    } else {
-        format!(" (this fits as well: {})", alternatives.join(", "))
-    };
-    format!("{quantity}: {what}{also}")
-}
-
-/// Equal values, and the largest difference that was taken for rounding.
-fn right_values(differences: &[f64]) -> String {
-    let largest = differences.iter().copied().fold(0.0, f64::max);
-    if largest == 0.0 {
-        return "your values are right, to the last digit".to_owned();
     }
-    format!(
-        "your values are right: the largest difference, {largest:.1e}, is within {SPREADS} times the spread \
-         of the two evaluations of the file, or within the digits printed"
-    )
+    if !open.is_empty()
+        && let Some(mut search) = Search::new(right, &components, fresh.to_vec())
+    {
+        for (quantity, wrong) in open {
+            let found = search.explain(quantity, &wrong);
+            for (place, found) in wrong.into_iter().zip(found) {
+                explained[place] = Some(found);
+            }
+        }
+    }
+    let parts = answers.iter().zip(&components).zip(explained);
+    parts
+        .map(|((answer, component), explained)| {
+            let explained =
+                explained.unwrap_or_else(|| Explained::plain(Cause::None(Unexplained::default())));
+            comparison(answer, component, explained)
+        })
+        .collect()
 }
 
-/// No explanation: where the difference is largest and where it is smallest.
-fn nothing(right: &Right<'_>, differences: &[f64]) -> String {
+fn component<'a, 'm>(
+    right: &'a Right<'m>,
+    spreads: &[Vec<f64>],
+    answer: &'a Answer,
+) -> Component<'a, 'm> {
+    let place = right.place_of(answer).unwrap_or(Place {
+        quantity: 0,
+        component: 0,
+    });
+    let values = right.values(place);
+    let spread = spreads[place.quantity][place.component];
+    let allowed = values
+        .iter()
+        .zip(&answer.units)
+        .map(|(v, unit)| SPREADS * spread * v.size + unit);
+    Component {
+        right,
+        place,
+        foreign: &answer.values,
+        allowed: allowed.collect(),
+        source: values.iter().map(|v| v.value).collect(),
+    }
+}
+
+fn comparison(answer: &Answer, component: &Component<'_, '_>, explained: Explained) -> Comparison {
+    let Explained {
+        cause,
+        alternatives,
+    } = explained;
+    let right = component.right;
+    let differences = component.differences();
+    let largest = differences.iter().copied().fold(0.0, f64::max);
+    let labels = right.labels(component.place);
+    let edits = edits(right, component.place, &cause);
+    let words = cause.words(&right.model.problem.file, &labels);
+    let words = match &cause {
+        Cause::Equal if largest == 0.0 => format!("{words}, to the last digit"),
+        Cause::Equal => format!(
+            "{words}: the largest difference, {largest:.1e}, is within {SPREADS} times the spread \
+             of the two evaluations of the file, or within the digits printed"
+        ),
+        Cause::None(_) => format!("{words}; {}", where_it_differs(right, &differences)),
+        _ => placed(words, &cause, &edits, &right.model.problem.file),
+    };
+    let words = match alternatives.is_empty() {
+        true => words,
+        false => format!("{words} (this fits as well: {})", alternatives.join(", ")),
+    };
+    Comparison {
+        quantity: answer.name.clone(),
+        difference: largest,
+        sentence: format!("{}: {words}", answer.name),
+        cause: cause.name(),
+        terms: cause.terms(),
+        factors: cause.factors(),
+        edits,
+        alternatives,
+    }
+}
+
+/// Words with the place of the edit, if they do not name it.
+fn placed(words: String, cause: &Cause, edits: &[Edit], file: &str) -> String {
+    match edits.first() {
+        Some(Edit { line, column, .. }) if !cause.has_place() => {
+            format!("{words} ({file}:{line}:{column})")
+        }
+        _ => words,
+    }
+}
+
+/// Where the difference is largest and where it is smallest.
+fn where_it_differs(right: &Right<'_>, differences: &[f64]) -> String {
     let differences = || differences.iter().zip(&right.points);
     let largest = differences().max_by(|a, b| a.0.total_cmp(b.0));
     let smallest = differences().min_by(|a, b| a.0.total_cmp(b.0));
@@ -96,5 +145,86 @@ fn nothing(right: &Right<'_>, differences: &[f64]) -> String {
             format!("{difference:.3e} at {}", place(right.model, point))
         })
     });
-    format!("no explanation found; your values differ by {largest} and by {smallest}")
+    format!("your values differ by {largest} and by {smallest}")
+}
+
+/// The edits of a cause, each with its place.
+fn edits(right: &Right<'_>, place: Place, cause: &Cause) -> Vec<Edit> {
+    let problem = &right.model.problem;
+    let whole = place_of(right, place.quantity);
+    let of_all = |old: &str, new: String| {
+        vec![Edit {
+            kind: cause.name(),
+            ..of_whole(problem, &whole, old.to_owned(), new)
+        }]
+    };
+    let sum = sum(&right.labels(place), &whole.key);
+    match cause {
+        Cause::Equal | Cause::None(_) => vec![],
+        Cause::Edits(edits) => edits.iter().map(|named| named.edit.clone()).collect(),
+        Cause::SignOfSource => of_all(&sum, format!("-({sum})")),
+        Cause::Normal => of_all("n", "-n".to_owned()),
+        Cause::Constant(number) => of_all(&sum, format!("{sum} + {number}")),
+        Cause::FactorOfSource(factor) => of_all(&sum, format!("{factor}*({sum})")),
+        Cause::Terms(terms) => {
+            let name = &right.quantities[place.quantity].quantity.name;
+            let edit = |term: &TermFactor| {
+                let candidate = candidates::of_term(problem, name, &term.label)?;
+                Some(text::named(problem, &whole, &candidate, term.factor).edit)
+            };
+            terms.iter().filter_map(edit).collect()
+        }
+        Cause::Time(time) => of_all(time_name(right), time.to_string()),
+        Cause::TimeShift(shift) => {
+            let name = time_name(right);
+            of_all(name, format!("{name} + {shift}"))
+        }
+        Cause::Component(name) => of_all(right.name(place), name.clone()),
+        Cause::Coordinates([first, second]) => {
+            of_all(&format!("{first}, {second}"), format!("{second}, {first}"))
+        }
+        Cause::Parameters(names) => {
+            let [first, second] = names.each_ref().map(|name| parameter(problem, name));
+            let both = first.zip(second);
+            both.map_or_else(Vec::new, |(first, second)| {
+                let new = |of: &Expression, other: &Expression| Edit {
+                    kind: cause.name(),
+                    ..of_whole(problem, &of.place, of.text.clone(), other.text.clone())
+                };
+                vec![new(first, second), new(second, first)]
+            })
+        }
+        Cause::Parameter { name, value } => {
+            parameter(problem, name).map_or_else(Vec::new, |expression| {
+                vec![Edit {
+                    kind: cause.name(),
+                    ..of_whole(
+                        problem,
+                        &expression.place,
+                        expression.text.clone(),
+                        value.to_string(),
+                    )
+                }]
+            })
+        }
+    }
+}
+
+fn parameter<'p>(problem: &'p Problem, name: &str) -> Option<&'p Expression> {
+    let mut parameters = problem.parameters.iter();
+    parameters
+        .find(|parameter| parameter.name == name)
+        .map(|parameter| &parameter.expression)
+}
+
+fn time_name<'r>(right: &'r Right<'_>) -> &'r str {
+    right.model.problem.time.as_deref().unwrap_or("")
+}
+
+/// The sum of all terms in words; for a datum its key.
+fn sum(labels: &[&str], key: &str) -> String {
+    if labels.is_empty() {
+        return key.to_owned();
+    }
+    labels.join(" + ").replace(" + -", " - ")
 }

@@ -31,13 +31,17 @@ pub(crate) enum Node {
         variable: usize,
         panels: usize,
     },
+    /// A value that derivatives take for a constant: the search for mistakes makes it.
+    Held(NodeId),
 }
 
 impl Node {
     /// The nodes that its value is made of at the same point.
     pub(crate) fn operands(&self) -> &[NodeId] {
         match self {
-            Node::Negate(operand) | Node::Call(_, operand) => std::slice::from_ref(operand),
+            Node::Negate(operand) | Node::Call(_, operand) | Node::Held(operand) => {
+                std::slice::from_ref(operand)
+            }
             Node::Binary(_, operands) => operands,
             Node::Choose(_, operands) => operands,
             _ => &[],
@@ -48,12 +52,21 @@ impl Node {
 /// A node is made of parameters, so its value is not known before they are.
 const PARAMETERS: u8 = 1 << 7;
 
+/// How much a graph holds, to go back to.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mark {
+    nodes: usize,
+    derived: usize,
+}
+
 /// All expressions of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     places: HashMap<Node, NodeId>,
     derivatives: HashMap<(NodeId, usize), NodeId>,
+    /// The keys of `derivatives`, in the order in which they were added.
+    derived: Vec<(NodeId, usize)>,
     /// A bit for each variable that a node depends on, and [`PARAMETERS`].
     depends: Vec<u8>,
     /// The interval of each variable.
@@ -90,6 +103,25 @@ impl Graph {
             Node::Number(bits) => Some(f64::from_bits(*bits)),
             _ => None,
         }
+    }
+
+    /// How much it holds now.
+    pub(crate) fn mark(&self) -> Mark {
+        Mark {
+            nodes: self.nodes.len(),
+            derived: self.derived.len(),
+        }
+    }
+
+    /// Forgets what was added since a mark.
+    pub(crate) fn rewind(&mut self, mark: Mark) {
+        for key in self.derived.drain(mark.derived..) {
+            self.derivatives.remove(&key);
+        }
+        for node in self.nodes.drain(mark.nodes..) {
+            self.places.remove(&node);
+        }
+        self.depends.truncate(mark.nodes);
     }
 
     fn store(&mut self, node: Node) -> NodeId {
@@ -175,7 +207,7 @@ impl Graph {
 
     fn derive(&mut self, of: NodeId, by: usize) -> NodeId {
         match *self.node(of) {
-            Node::Number(_) | Node::Parameter(_) => self.number(0.0),
+            Node::Number(_) | Node::Parameter(_) | Node::Held(_) => self.number(0.0),
             Node::Variable(index) => self.number(f64::from(u8::from(index == by))),
             Node::Negate(inner) => {
                 let slope = self.derivative(&inner, by);
@@ -389,6 +421,7 @@ impl Algebra for Graph {
         }
         let derivative = self.derive(*of, variable);
         self.derivatives.insert((*of, variable), derivative);
+        self.derived.push((*of, variable));
         derivative
     }
 
@@ -419,6 +452,13 @@ impl Algebra for Graph {
                     panels / 2
                 ));
             }
+        }
+    }
+
+    fn held(&mut self, number: &NodeId) -> NodeId {
+        match self.depends[number.0 as usize] & !PARAMETERS {
+            0 => *number,
+            _ => self.store(Node::Held(*number)),
         }
     }
 

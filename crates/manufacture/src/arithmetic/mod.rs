@@ -53,6 +53,11 @@ pub(crate) trait Algebra {
     /// # Errors
     /// In words: the integrand is not integrated accurately.
     fn integral(&mut self, body: &Self::Number, variable: usize) -> Result<Self::Number, String>;
+    /// The same value, which derivatives take for a constant; in an arithmetic without derivatives
+    /// the number itself.
+    fn held(&mut self, number: &Self::Number) -> Self::Number {
+        number.clone()
+    }
     /// Whether it is zero wherever it is evaluated, as far as the arithmetic knows.
     fn is_zero(&self, _number: &Self::Number) -> bool {
         false

@@ -93,6 +93,7 @@ impl<'g> Tape<'g> {
                 Node::Number(bits) => exactly(f64::from_bits(*bits)),
                 Node::Variable(index) => exactly(point[*index]),
                 Node::Parameter(index) => exactly(parameters[*index]),
+                Node::Held(operand) => of(operand),
                 Node::Negate(operand) => Measured {
                     value: -of(operand).value,
                     ..of(operand)

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Slip;
-use super::space::Space;
+use super::space::{Basis, Space};
 use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::MAX_DEPTH;
@@ -24,7 +24,8 @@ pub(crate) struct Elaborator<'p, A: Algebra> {
     pub(super) slips: usize,
     /// On a face: the outward unit normal.
     pub(super) normal: Option<Tensor<A::Number>>,
-    pub(super) known: HashMap<String, Tensor<A::Number>>,
+    /// The values of definitions.
+    pub(crate) known: HashMap<String, Tensor<A::Number>>,
     /// Whether a derivative occurs in a definition.
     pub(super) differential: HashMap<String, bool>,
     /// Definitions that are being evaluated.
@@ -39,6 +40,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             space: Space {
                 system: problem.system,
                 components: problem.axes().len(),
+                basis: Basis::Turning,
             },
             problem,
             algebra,

@@ -8,9 +8,10 @@ pub(crate) mod tensor;
 
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
-use crate::problem::{Datum, InputError, Problem, Surface};
+use crate::problem::{Datum, Equation, InputError, Problem, Surface};
 
 pub(crate) use elaborate::Elaborator;
+pub(crate) use space::Basis;
 pub(crate) use tensor::Tensor;
 
 /// A mistake that is made throughout.
@@ -207,50 +208,62 @@ impl<A: Algebra> Elaborator<'_, A> {
                 self.forget();
             }
             let before = self.slips;
-            let mut terms: Vec<(usize, String, Tensor<A::Number>)> = vec![];
-            let mut total: Option<Tensor<A::Number>> = None;
-            for term in &equation.terms {
-                let mut tensor = self.expression(&term.expression)?;
-                if term.is_negative {
-                    let minus = self.algebra.number(-1.0);
-                    tensor = tensor::scale(&mut self.algebra, Binary::Multiply, &tensor, &minus);
-                }
-                let sum = match &total {
-                    None => Ok(tensor.clone()),
-                    Some(total) if term.is_negative => {
-                        // The sign is in the term: the message is about the term as written.
-                        self.binary(Binary::Add, total, &tensor)
-                            .map_err(|problem| problem.replace(" plus ", " minus "))
-                    }
-                    Some(total) => self.binary(Binary::Add, total, &tensor),
-                };
-                let label = &term.label;
-                total = Some(sum.map_err(|problem| {
-                    let expression = &term.expression;
-                    let problem = format!("`{label}`: {problem}");
-                    expression
-                        .place
-                        .error_at(&expression.text, expression.tree.at, problem)
-                })?);
-                terms.push((term.place, label.clone(), tensor));
+            let source = self.source(equation)?;
+            if self.slip == Slip::None || self.slips > before {
+                sources.push(source);
             }
-            terms.sort_by_key(|term| term.0);
-            let Some(tensor) = total else { continue };
-            if self.slip != Slip::None && self.slips == before {
-                continue;
-            }
-            if tensor.rank() > 1 {
-                let problem = format!("expected a scalar or a vector, found {}", tensor.words());
-                return Err(equation.place.error(problem));
-            }
-            let key = format!("equations.{}", equation.name);
-            let terms = terms.into_iter().map(|(_, label, tensor)| (label, tensor));
-            sources.push(Quantity {
-                terms: terms.collect(),
-                ..quantity(Role::Source, &equation.name, &key, tensor)
-            });
         }
         Ok(sources)
+    }
+
+    /// The source of an equation, with its terms.
+    pub(crate) fn source(
+        &mut self,
+        equation: &Equation,
+    ) -> Result<Quantity<A::Number>, InputError> {
+        let mut terms: Vec<(usize, String, Tensor<A::Number>)> = vec![];
+        let mut total: Option<Tensor<A::Number>> = None;
+        for term in &equation.terms {
+            let mut tensor = self.expression(&term.expression)?;
+            if term.is_negative {
+                let minus = self.algebra.number(-1.0);
+                tensor = tensor::scale(&mut self.algebra, Binary::Multiply, &tensor, &minus);
+            }
+            let sum = match &total {
+                None => Ok(tensor.clone()),
+                Some(total) if term.is_negative => {
+                    // The sign is in the term: the message is about the term as written.
+                    self.binary(Binary::Add, total, &tensor)
+                        .map_err(|problem| problem.replace(" plus ", " minus "))
+                }
+                Some(total) => self.binary(Binary::Add, total, &tensor),
+            };
+            let label = &term.label;
+            total = Some(sum.map_err(|problem| {
+                let expression = &term.expression;
+                let problem = format!("`{label}`: {problem}");
+                expression
+                    .place
+                    .error_at(&expression.text, expression.tree.at, problem)
+            })?);
+            terms.push((term.place, label.clone(), tensor));
+        }
+        terms.sort_by_key(|term| term.0);
+        let Some(tensor) = total else {
+            return Err(equation
+                .place
+                .error("expected at least one term, found none"));
+        };
+        if tensor.rank() > 1 {
+            let problem = format!("expected a scalar or a vector, found {}", tensor.words());
+            return Err(equation.place.error(problem));
+        }
+        let key = format!("equations.{}", equation.name);
+        let terms = terms.into_iter().map(|(_, label, tensor)| (label, tensor));
+        Ok(Quantity {
+            terms: terms.collect(),
+            ..quantity(Role::Source, &equation.name, &key, tensor)
+        })
     }
 
     fn face(&mut self, index: usize) -> Result<Vec<Quantity<A::Number>>, InputError> {

@@ -2,9 +2,10 @@
 
 use super::Slip;
 use super::elaborate::{Elaborated, Elaborator, matrix, refused};
+use super::space::Basis;
 use super::tensor::{self, Tensor, combine, scale, sum_of_products};
 use crate::arithmetic::Algebra;
-use crate::language::names::{Callee, Operator};
+use crate::language::names::{Alteration, Callee, Operator};
 use crate::language::tree::{Binary, Kind, Tree};
 use crate::problem::{Expression, InputError, Value};
 
@@ -37,6 +38,7 @@ impl<A: Algebra> Elaborator<'_, A> {
                 self.outer_derivative(&Outer::Divergence, &parts[0], tree, within)
             }
             Operator::Integral => self.integral(parts, within),
+            Operator::Altered(alteration) => self.altered(alteration, &parts[0], within),
             Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross => {
                 let left = self.tree(&parts[0], within)?;
                 let right = self.tree(&parts[1], within)?;
@@ -47,6 +49,29 @@ impl<A: Algebra> Elaborator<'_, A> {
                 self.of_one(operator, of, tree, within)
             }
         }
+    }
+
+    fn altered(
+        &mut self,
+        alteration: Alteration,
+        operand: &Tree,
+        within: &Expression,
+    ) -> Elaborated<A> {
+        let basis = match alteration {
+            Alteration::Held => self.space.basis,
+            Alteration::Unturned => Basis::Unturned,
+            Alteration::Flat => Basis::Flat,
+        };
+        let outside = std::mem::replace(&mut self.space.basis, basis);
+        let value = self.tree(operand, within);
+        self.space.basis = outside;
+        let mut value = value?;
+        if alteration == Alteration::Held {
+            for part in &mut value.parts {
+                *part = self.algebra.held(part);
+            }
+        }
+        Ok(value)
     }
 
     fn partial(&mut self, of: &Tensor<A::Number>, by: &[usize]) -> Tensor<A::Number> {

@@ -15,6 +15,19 @@ pub(crate) struct Space {
     pub(crate) system: System,
     /// The number of components of a vector.
     pub(crate) components: usize,
+    /// What derivatives know of the basis: all, but for a mistake.
+    pub(crate) basis: Basis,
+}
+
+/// What a derivative along theta is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Basis {
+    /// (1/r)(∂_θ + turn).
+    Turning,
+    /// (1/r) ∂_θ.
+    Unturned,
+    /// ∂_θ.
+    Flat,
 }
 
 impl Space {
@@ -50,11 +63,15 @@ impl Space {
             shape: of.shape.clone(),
             parts,
         };
-        if self.system == System::Cartesian || direction != 1 {
+        let is_flat = self.system == System::Cartesian || self.basis == Basis::Flat;
+        if is_flat || direction != 1 {
             return derivative;
         }
-        let turned = self.turn(algebra, of);
-        let sum = combine(algebra, Binary::Add, &derivative, &turned);
+        let mut sum = derivative;
+        if self.basis == Basis::Turning {
+            let turned = self.turn(algebra, of);
+            sum = combine(algebra, Binary::Add, &sum, &turned);
+        }
         let radius = algebra.variable(0);
         scale(algebra, Binary::Divide, &sum, &radius)
     }

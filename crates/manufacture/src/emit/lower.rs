@@ -159,6 +159,8 @@ fn text(graph: &Graph, id: NodeId, texts: &HashMap<NodeId, Text>, names: &Names<
             Text::atom(language.choose(*comparison, operands.each_ref().map(String::as_str)))
         }
         Node::Integral { .. } => Text::atom((names.integrals)(id)),
+        // No file has one.
+        Node::Held(operand) => Text::atom(texts[operand].within(Binding::Atom)),
     }
 }
 

@@ -53,6 +53,19 @@ pub enum Operator {
     Determinant,
     Inverse,
     Integral,
+    /// What the search for mistakes alone writes; it has no name in the language.
+    Altered(Alteration),
+}
+
+/// What the search for mistakes does to an operand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Alteration {
+    /// Derivatives take it for a constant.
+    Held,
+    /// Its own derivatives do not know that the basis turns; along theta they keep the factor 1/r.
+    Unturned,
+    /// Its own derivatives are those of Cartesian coordinates.
+    Flat,
 }
 
 /// What is called.

@@ -124,6 +124,19 @@ impl Tree {
     }
 }
 
+impl Tree {
+    /// The parts directly below, in the order of [`Tree::children`].
+    pub(crate) fn children_mut(&mut self) -> Vec<&mut Tree> {
+        match &mut self.kind {
+            Kind::Number(..) | Kind::Name(_) => vec![],
+            Kind::Negate(inner) | Kind::Bracket(inner) => vec![inner],
+            Kind::Binary(_, operands) | Kind::Compare(_, operands) => operands.iter_mut().collect(),
+            Kind::Call(_, parts) | Kind::List(parts) => parts.iter_mut().collect(),
+            Kind::Index(tensor, indices) => std::iter::once(&mut **tensor).chain(indices).collect(),
+        }
+    }
+}
+
 /// The name of what is called.
 pub fn callee_name(callee: Callee) -> &'static str {
     CALLEES

@@ -64,6 +64,8 @@ impl fmt::Display for InputError {
 pub(crate) struct Place {
     pub(crate) file: String,
     pub(crate) line: usize,
+    /// The byte of the file at which the value begins.
+    pub(crate) start: usize,
     pub(crate) key: String,
 }
 

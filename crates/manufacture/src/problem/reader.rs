@@ -67,6 +67,7 @@ impl<'t> Reader<'t> {
             place: Place {
                 file: self.file.to_owned(),
                 line: self.line(span.start),
+                start: span.start,
                 key: joined(path, name),
             },
             value: value.get_ref(),
@@ -89,6 +90,7 @@ impl<'t> Section<'t> {
         Place {
             file: self.reader.file.to_owned(),
             line: self.line,
+            start: 0,
             key: self.path.clone(),
         }
     }
@@ -193,6 +195,7 @@ impl<'t> Field<'t> {
                 let items = values.iter().map(|value| Field {
                     place: Place {
                         line: self.reader.line(value.span().start),
+                        start: value.span().start,
                         ..self.place.clone()
                     },
                     ..self.reader.field("", &self.name, value)

@@ -51,7 +51,7 @@ use std::path::Path;
 
 use super::advice::{Argument, Setting, Surface, Value};
 use crate::input::{self, InputError};
-pub use columns::limit;
+
 pub use digits::Column;
 pub use doubt::Doubt;
 pub use frame::FrameColumn;

@@ -1,0 +1,288 @@
+//! Quantities of the file after an edit: only what the edit reaches is derived anew.
+
+use std::collections::{HashMap, HashSet};
+
+use super::site::{self, Home, Route};
+use crate::arithmetic::graph::Mark;
+use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::{Graph, NodeId};
+use crate::derive::{Basis, Elaborator, Part, Role, Slip, Tensor};
+use crate::language::tree::{Kind, Tree};
+use crate::model::Model;
+use crate::problem::{Expression, Parameter, Place, Problem, mentions};
+
+/// The names of unknown factors; no file can contain them.
+pub(super) const FACTORS: [&str; 2] = [" first factor", " second factor"];
+
+/// A part of the file replaced by another.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Rewrite {
+    pub(super) home: Home,
+    pub(super) route: Route,
+    pub(super) new: Tree,
+}
+
+/// What is done to the file.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Alteration {
+    Rewrite(Rewrite),
+    /// Two definitions of one shape change their places.
+    Exchange([String; 2]),
+    /// All derivatives in the equation, and in what it names.
+    Basis(Basis),
+}
+
+/// A file that edits are tried on.
+pub(super) struct Bench {
+    problem: Problem,
+    part: Part,
+    graph: Graph,
+    mark: Mark,
+    /// The values of definitions as written.
+    known: HashMap<String, Tensor<NodeId>>,
+    /// For each definition those that its value is part of, and itself.
+    reached: HashMap<String, HashSet<String>>,
+    /// Of the file, then 1 for each unknown factor.
+    parameters: Vec<f64>,
+}
+
+/// A quantity that may have been changed.
+pub(super) struct Altered<'b> {
+    graph: &'b Graph,
+    pub(super) tensor: Tensor<NodeId>,
+    parameters: &'b [f64],
+}
+
+impl Altered<'_> {
+    /// All components at a point, with these unknown factors.
+    pub(super) fn evaluation(&self) -> Evaluation<'_> {
+        Evaluation {
+            tape: Tape::new(self.graph, &self.tensor.parts),
+            parameters: self.parameters,
+        }
+    }
+}
+
+/// A quantity as steps of its evaluation.
+pub(super) struct Evaluation<'b> {
+    tape: Tape<'b>,
+    parameters: &'b [f64],
+}
+
+impl Evaluation<'_> {
+    /// All components at a point, with these unknown factors.
+    pub(super) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<Measured> {
+        let mut parameters = self.parameters.to_vec();
+        let known = parameters.len() - factors.len();
+        parameters[known..].copy_from_slice(&factors);
+        self.tape.with(point, &parameters).roots
+    }
+}
+
+impl Bench {
+    /// `None` if the file with unknown factors has no values; it has, if it has without.
+    pub(super) fn new(model: &Model, part: Part) -> Option<Self> {
+        let mut problem = model.problem.clone();
+        for name in FACTORS {
+            problem.parameters.push(Parameter {
+                name: name.to_owned(),
+                expression: one(),
+            });
+        }
+        let parameters = problem.parameter_values(None).ok()?;
+        let graph = Graph::new(problem.intervals.clone(), parameters.clone());
+        let mut elaborator = Elaborator::new(&problem, graph, Slip::None);
+        elaborator.part(Part::Interior).ok()?;
+        elaborator.part(part).ok()?;
+        let known = std::mem::take(&mut elaborator.known);
+        let graph = elaborator.algebra;
+        let names = problem.definitions.keys();
+        let reached = names.map(|name| (name.clone(), reached(&problem, name)));
+        Some(Self {
+            reached: reached.collect(),
+            mark: graph.mark(),
+            parameters,
+            graph,
+            known,
+            part,
+            problem,
+        })
+    }
+
+    /// Whether a quantity may change if an expression does.
+    pub(super) fn reaches(&self, home: &Home, quantity: &str) -> bool {
+        match home {
+            Home::Term { equation, .. } => self.problem.equations[*equation].name == quantity,
+            Home::Datum { face, datum, .. } => {
+                self.part == Part::Face(*face)
+                    && self.problem.faces[*face].data[*datum].name == quantity
+            }
+            Home::Definition { name, .. } => {
+                let reached = &self.reached[name];
+                self.expressions(quantity)
+                    .iter()
+                    .any(|tree| reached.iter().any(|name| mentions(tree, name)))
+            }
+        }
+    }
+
+    /// The trees of a quantity itself.
+    fn expressions(&self, quantity: &str) -> Vec<&Tree> {
+        match self.part {
+            Part::Face(face) => {
+                let data = self.problem.faces[face].data.iter();
+                data.filter(|datum| datum.name == quantity)
+                    .flat_map(|datum| site::parts(&datum.value))
+                    .map(|expression| &expression.tree)
+                    .collect()
+            }
+            _ => {
+                let equations = self.problem.equations.iter();
+                equations
+                    .filter(|equation| equation.name == quantity)
+                    .flat_map(|equation| &equation.terms)
+                    .map(|term| &term.expression.tree)
+                    .collect()
+            }
+        }
+    }
+
+    /// What becomes of a quantity, given to `see`; `None` if the altered file has no such values.
+    pub(super) fn altered<R>(
+        &mut self,
+        alterations: &[&Alteration],
+        quantity: &str,
+        see: impl FnOnce(&Altered<'_>) -> R,
+    ) -> Option<R> {
+        let mut undo: Vec<Rewrite> = vec![];
+        let mut known = self.known.clone();
+        let mut basis = Basis::Turning;
+        for alteration in alterations {
+            match alteration {
+                Alteration::Rewrite(rewrite) => {
+                    undo.extend(self.rewrite(rewrite));
+                    if let Home::Definition { name, .. } = &rewrite.home {
+                        known.retain(|known, _| !self.reached[name].contains(known));
+                    }
+                }
+                Alteration::Exchange(names) => {
+                    let values = names.each_ref().map(|name| self.known.get(name).cloned());
+                    for name in names {
+                        known.retain(|known, _| !self.reached[name].contains(known));
+                    }
+                    let [first, second] = values;
+                    known.insert(names[1].clone(), first?);
+                    known.insert(names[0].clone(), second?);
+                }
+                Alteration::Basis(other) => {
+                    basis = *other;
+                    known.clear();
+                }
+            }
+        }
+        let tensor = self.derived(known, basis, quantity);
+        for rewrite in undo.iter().rev() {
+            self.rewrite(rewrite);
+        }
+        let seen = tensor.map(|tensor| {
+            see(&Altered {
+                graph: &self.graph,
+                tensor,
+                parameters: &self.parameters,
+            })
+        });
+        self.graph.rewind(self.mark);
+        seen
+    }
+
+    /// Puts a part into its place, and returns how to put back what was there.
+    fn rewrite(&mut self, rewrite: &Rewrite) -> Option<Rewrite> {
+        let expression = rewrite.home.expression_mut(&mut self.problem)?;
+        let part = site::at_mut(&mut expression.tree, &rewrite.route)?;
+        let old = std::mem::replace(part, rewrite.new.clone());
+        Some(Rewrite {
+            new: old,
+            ..rewrite.clone()
+        })
+    }
+
+    fn derived(
+        &mut self,
+        known: HashMap<String, Tensor<NodeId>>,
+        basis: Basis,
+        quantity: &str,
+    ) -> Option<Tensor<NodeId>> {
+        let graph = std::mem::take(&mut self.graph);
+        let mut elaborator = Elaborator::new(&self.problem, graph, Slip::None);
+        elaborator.known = known;
+        elaborator.space.basis = basis;
+        let tensor = match self.part {
+            Part::Face(_) => elaborator.part(self.part).ok().and_then(|quantities| {
+                let mut data = quantities.into_iter();
+                data.find(|q| q.role == Role::Datum && q.name == quantity)
+                    .map(|datum| datum.tensor)
+            }),
+            _ => {
+                let mut equations = self.problem.equations.iter();
+                equations
+                    .find(|equation| equation.name == quantity)
+                    .and_then(|equation| elaborator.source(equation).ok())
+                    .map(|source| source.tensor)
+            }
+        };
+        self.graph = elaborator.algebra;
+        tensor
+    }
+
+    /// The definitions and fields of the same shape, pair by pair.
+    pub(super) fn of_one_shape(&self) -> Vec<[String; 2]> {
+        let mut names: Vec<&String> = self.known.keys().collect();
+        names.sort();
+        let mut pairs = vec![];
+        for (place, first) in names.iter().enumerate() {
+            for second in &names[..place] {
+                let is_open = self.reached[*first].contains(*second)
+                    || self.reached[*second].contains(*first);
+                if !is_open && self.known[*first].shape == self.known[*second].shape {
+                    pairs.push([(*second).clone(), (*first).clone()]);
+                }
+            }
+        }
+        pairs
+    }
+}
+
+/// The definitions that a definition is part of, and itself.
+fn reached(problem: &Problem, name: &str) -> HashSet<String> {
+    let mut reached = HashSet::from([name.to_owned()]);
+    loop {
+        let before = reached.len();
+        for (other, definition) in &problem.definitions {
+            let mut trees = site::parts(&definition.value).map(|part| &part.tree);
+            let is_reached = trees.any(|tree| reached.iter().any(|name| mentions(tree, name)));
+            if is_reached {
+                reached.insert(other.clone());
+            }
+        }
+        if reached.len() == before {
+            return reached;
+        }
+    }
+}
+
+/// The number 1, as an expression of the file.
+fn one() -> Expression {
+    Expression {
+        place: Place {
+            file: String::new(),
+            line: 0,
+            start: 0,
+            key: String::new(),
+        },
+        text: "1".to_owned(),
+        tree: Tree {
+            kind: Kind::Number(1.0, "1".to_owned()),
+            at: 0,
+        },
+    }
+}

@@ -1,0 +1,311 @@
+//! What is wrong with a source: an edit of the file that gives its values, or what concerns all of
+//! it; the names of causes, and their words.
+
+use serde::Serialize;
+
+use super::candidates::Change;
+
+/// A change of the file that gives the values of the other program.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Edit {
+    /// What it does.
+    pub kind: &'static str,
+    /// The key in the file, such as `define.tau`.
+    pub key: String,
+    /// From 1.
+    pub line: usize,
+    /// In characters, from 1.
+    pub column: usize,
+    /// What the file has there.
+    pub old: String,
+    /// What the other program has.
+    pub new: String,
+}
+
+/// An edit with its data.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Named {
+    pub(super) change: Change,
+    /// The factor that fits, of an edit that has one.
+    pub(super) factor: f64,
+    /// The label of the term, if the edit is about all of it.
+    pub(super) label: Option<String>,
+    pub(super) edit: Edit,
+}
+
+/// A term with another factor.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TermFactor {
+    pub(super) label: String,
+    pub(super) factor: f64,
+}
+
+/// An edit that does not fit, but comes nearest.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Nearest {
+    pub(super) named: Named,
+    /// The share of the difference that it leaves.
+    pub(super) left: f64,
+}
+
+/// Nothing fits.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Unexplained {
+    pub(super) nearest: Vec<Nearest>,
+    /// How many edits were tried, and how many pairs.
+    pub(super) edits: usize,
+    pub(super) pairs: usize,
+}
+
+/// What explains the values of another program.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Cause {
+    Equal,
+    SignOfSource,
+    Normal,
+    Constant(f64),
+    FactorOfSource(f64),
+    /// Several terms, each with a factor.
+    Terms(Vec<TermFactor>),
+    /// One edit, or two that are made together.
+    Edits(Vec<Named>),
+    /// The values of one time.
+    Time(f64),
+    /// The values of a time that is later by this.
+    TimeShift(f64),
+    Component(String),
+    Coordinates([String; 2]),
+    /// Two parameters are exchanged.
+    Parameters([String; 2]),
+    Parameter {
+        name: String,
+        value: f64,
+    },
+    None(Unexplained),
+}
+
+/// The name of a cause by the factors of its terms.
+fn of_factors(mut factors: impl Iterator<Item = f64> + Clone) -> &'static str {
+    if factors.clone().all(|factor| factor == -1.0) {
+        "sign-of-term"
+    } else if factors.all(|factor| factor == 0.0) {
+        "missing-term"
+    } else {
+        "factor-of-term"
+    }
+}
+
+/// The name of an edit, by what it changes.
+pub(super) fn kind(change: Change, factor: f64) -> &'static str {
+    match change {
+        Change::Term => of_factors(std::iter::once(factor)),
+        Change::Exponent => "exponent",
+        Change::Summand | Change::Part if factor == -1.0 => "sign",
+        Change::Summand | Change::Part if factor == 0.0 => "missing-term",
+        Change::Summand | Change::Part => "coefficient",
+        Change::LostFactor | Change::LostDivisor => "missing-factor",
+        Change::TimesForOver => "inverse-factor",
+        Change::Square => "exponent",
+        Change::LostOperator => "missing-operator",
+        Change::Function => "function",
+        Change::TransposedGradient => "transposed-gradient",
+        Change::MissingTranspose => "missing-transpose",
+        Change::Order => "order",
+        Change::Operator | Change::TakenBelow => "operator",
+        Change::Held | Change::OneDifferentiated => "product-rule",
+        Change::Basis => "basis",
+        Change::Exchange => "exchange",
+    }
+}
+
+impl Cause {
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Cause::Equal => "equal",
+            Cause::SignOfSource => "sign-of-source",
+            Cause::Normal => "normal",
+            Cause::Constant(_) => "constant",
+            Cause::FactorOfSource(_) => "factor-of-source",
+            Cause::Terms(terms) => of_factors(terms.iter().map(|term| term.factor)),
+            Cause::Edits(edits) => edits.first().map_or("none", |named| named.edit.kind),
+            Cause::Time(_) => "time",
+            Cause::TimeShift(_) => "time-shift",
+            Cause::Component(_) => "components",
+            Cause::Coordinates(_) => "coordinates",
+            Cause::Parameters(_) => "parameters",
+            Cause::Parameter { .. } => "parameter",
+            Cause::None(_) => "none",
+        }
+    }
+
+    /// The terms or the names that it is about.
+    pub(super) fn terms(&self) -> Vec<String> {
+        match self {
+            Cause::Terms(terms) => terms.iter().map(|term| term.label.clone()).collect(),
+            Cause::Edits(edits) => edits
+                .iter()
+                .filter_map(|named| named.label.clone())
+                .collect(),
+            Cause::Component(name) | Cause::Parameter { name, .. } => vec![name.clone()],
+            Cause::Coordinates(names) | Cause::Parameters(names) => names.to_vec(),
+            _ => vec![],
+        }
+    }
+
+    /// A factor for each term or edit that has one, or the number that it is about.
+    pub(super) fn factors(&self) -> Vec<f64> {
+        match self {
+            Cause::Constant(number)
+            | Cause::FactorOfSource(number)
+            | Cause::Time(number)
+            | Cause::TimeShift(number)
+            | Cause::Parameter { value: number, .. } => vec![*number],
+            Cause::Terms(terms) => terms.iter().map(|term| term.factor).collect(),
+            Cause::Edits(edits) => {
+                let edits = edits.iter().filter(|named| named.change.has_factor());
+                edits.map(|named| named.factor).collect()
+            }
+            _ => vec![],
+        }
+    }
+
+    /// Whether its words say where its edits are.
+    pub(super) fn has_place(&self) -> bool {
+        matches!(self, Cause::Edits(edits) if edits.len() > 1 || edits.iter().all(|e| e.label.is_none()))
+    }
+
+    /// What a colleague would say.
+    ///
+    /// * `labels`: those of all terms.
+    /// * `file`: the name of the file.
+    pub(super) fn words(&self, file: &str, labels: &[&str]) -> String {
+        let terms = self.terms();
+        let quoted = quoted(&terms);
+        let others = others(labels, &terms);
+        match self {
+            Cause::Equal => "your values are right".to_owned(),
+            Cause::SignOfSource => {
+                "your source has the opposite sign: the equation was written on the other side"
+                    .to_owned()
+            }
+            Cause::Normal => {
+                "your values have the opposite sign: the normal points inwards".to_owned()
+            }
+            Cause::Constant(number) => {
+                format!("your values differ from the right ones by the constant {number}")
+            }
+            Cause::FactorOfSource(number) => {
+                format!("your values are the right ones times {number}")
+            }
+            Cause::Terms(terms) => of_terms(terms, &quoted, others),
+            Cause::Edits(edits) => match edits.as_slice() {
+                [named] => one_edit(named, file, others),
+                _ => {
+                    let parts: Vec<String> = edits
+                        .iter()
+                        .map(|named| place_and_text(named, file))
+                        .collect();
+                    format!("two mistakes together: {}", parts.join("; and "))
+                }
+            },
+            Cause::Time(number) => {
+                format!("your values are those of the time {number} at all times")
+            }
+            Cause::TimeShift(number) => {
+                format!("your values are those of a time that is later by {number}")
+            }
+            Cause::Component(_) => format!("your values are those of {quoted}"),
+            Cause::Coordinates(_) | Cause::Parameters(_) => {
+                format!("your values fit with {quoted} exchanged")
+            }
+            Cause::Parameter { value, .. } => format!("your values fit with {quoted} = {value}"),
+            Cause::None(unexplained) => unexplained.words(file),
+        }
+    }
+}
+
+impl Unexplained {
+    fn words(&self, file: &str) -> String {
+        let Self { edits, pairs, .. } = self;
+        let nearest: Vec<String> = self
+            .nearest
+            .iter()
+            .map(|nearest| {
+                let share = 100.0 * nearest.left;
+                format!(
+                    "{}, which leaves {share:.2} % of the difference",
+                    place_and_text(&nearest.named, file)
+                )
+            })
+            .collect();
+        let nearest = match nearest.is_empty() {
+            true => String::new(),
+            false => format!("; nearest, but no explanation: {}", nearest.join("; ")),
+        };
+        format!("no explanation found by {edits} edit(s) and {pairs} pair(s) of the best{nearest}")
+    }
+}
+
+fn of_terms(terms: &[TermFactor], quoted: &str, others: &str) -> String {
+    match of_factors(terms.iter().map(|term| term.factor)) {
+        "sign-of-term" => format!("your source has the opposite sign in {quoted}{others}"),
+        "missing-term" => format!("your source lacks {quoted}{others}"),
+        _ => {
+            let parts: Vec<String> = terms
+                .iter()
+                .map(|term| format!("`{}` times {}", term.label, term.factor))
+                .collect();
+            format!("your source has {}{others}", parts.join(" and "))
+        }
+    }
+}
+
+/// An edit of a whole term in the words of terms, another with its place.
+fn one_edit(named: &Named, file: &str, others: &str) -> String {
+    match &named.label {
+        Some(label) => {
+            let term = TermFactor {
+                label: label.clone(),
+                factor: named.factor,
+            };
+            of_terms(&[term], &format!("`{label}`"), others)
+        }
+        None => place_and_text(named, file),
+    }
+}
+
+/// `stress.toml:12:9: in tau: your source has 1/2 where the file has 1/3`.
+pub(super) fn place_and_text(named: &Named, file: &str) -> String {
+    let Edit { key, old, new, .. } = &named.edit;
+    let what = match named.change {
+        Change::Held => {
+            format!("your source does not differentiate `{old}`: it stands outside the derivatives")
+        }
+        Change::OneDifferentiated => {
+            format!("your source differentiates only `{new}` of the product `{old}`")
+        }
+        _ if new.is_empty() => format!("your source lacks `{old}`"),
+        _ => format!("your source has `{new}` where the file has `{old}`"),
+    };
+    let Edit { line, column, .. } = &named.edit;
+    let key = key.strip_prefix("define.").unwrap_or(key);
+    format!("{file}:{line}:{column}: in {key}: {what}")
+}
+
+fn quoted(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        Some((last, _)) => last.clone(),
+        None => String::new(),
+    }
+}
+
+/// What is said of the terms that are right.
+fn others(labels: &[&str], terms: &[String]) -> &'static str {
+    match labels.len().saturating_sub(terms.len()) {
+        0 => "",
+        1 => "; the other term is right",
+        _ => "; the other terms are right",
+    }
+}

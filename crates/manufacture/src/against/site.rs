@@ -1,0 +1,164 @@
+//! The parts of a file that an edit can change: where they are in its trees, and in its text.
+
+use crate::language::tree::{Kind, Tree};
+use crate::problem::{Expression, Problem, Value};
+
+/// The expression that a part stands in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Home {
+    /// A term of an equation, both by their places.
+    Term { equation: usize, term: usize },
+    /// A component of a definition, counted row by row.
+    Definition { name: String, part: usize },
+    /// A component of a datum of a face.
+    Datum {
+        face: usize,
+        datum: usize,
+        part: usize,
+    },
+}
+
+impl Home {
+    pub(super) fn expression<'p>(&self, problem: &'p Problem) -> Option<&'p Expression> {
+        match self {
+            Home::Term { equation, term } => {
+                let terms = &problem.equations.get(*equation)?.terms;
+                Some(&terms.get(*term)?.expression)
+            }
+            Home::Definition { name, part } => {
+                parts(&problem.definitions.get(name)?.value).nth(*part)
+            }
+            Home::Datum { face, datum, part } => {
+                parts(&problem.faces.get(*face)?.data.get(*datum)?.value).nth(*part)
+            }
+        }
+    }
+
+    pub(super) fn expression_mut<'p>(
+        &self,
+        problem: &'p mut Problem,
+    ) -> Option<&'p mut Expression> {
+        match self {
+            Home::Term { equation, term } => {
+                let terms = &mut problem.equations.get_mut(*equation)?.terms;
+                Some(&mut terms.get_mut(*term)?.expression)
+            }
+            Home::Definition { name, part } => {
+                parts_mut(&mut problem.definitions.get_mut(name)?.value)
+                    .into_iter()
+                    .nth(*part)
+            }
+            Home::Datum { face, datum, part } => {
+                let datum = problem.faces.get_mut(*face)?.data.get_mut(*datum)?;
+                parts_mut(&mut datum.value).into_iter().nth(*part)
+            }
+        }
+    }
+}
+
+/// The expressions of a value, row by row.
+pub(super) fn parts(value: &Value) -> Box<dyn Iterator<Item = &Expression> + '_> {
+    match value {
+        Value::One(expression) => Box::new(std::iter::once(expression)),
+        Value::List(_, values) => Box::new(values.iter().flat_map(parts)),
+    }
+}
+
+fn parts_mut(value: &mut Value) -> Vec<&mut Expression> {
+    match value {
+        Value::One(expression) => vec![expression],
+        Value::List(_, values) => values.iter_mut().flat_map(parts_mut).collect(),
+    }
+}
+
+/// A part of an expression: which child of which child.
+pub(super) type Route = Vec<usize>;
+
+pub(super) fn at<'t>(tree: &'t Tree, route: &[usize]) -> Option<&'t Tree> {
+    match route.split_first() {
+        None => Some(tree),
+        Some((first, rest)) => at(tree.children().get(*first)?, rest),
+    }
+}
+
+pub(super) fn at_mut<'t>(tree: &'t mut Tree, route: &[usize]) -> Option<&'t mut Tree> {
+    match route.split_first() {
+        None => Some(tree),
+        Some((first, rest)) => at_mut(tree.children_mut().into_iter().nth(*first)?, rest),
+    }
+}
+
+/// The bytes of an expression's text that a part of it takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Span {
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+impl Span {
+    pub(super) fn of(tree: &Tree, text: &str) -> Self {
+        Self {
+            start: start(tree),
+            end: end(tree, text),
+        }
+    }
+}
+
+fn start(tree: &Tree) -> usize {
+    match &tree.kind {
+        Kind::Binary(_, operands) | Kind::Compare(_, operands) => start(&operands[0]),
+        Kind::Index(of, _) => start(of),
+        _ => tree.at,
+    }
+}
+
+fn end(tree: &Tree, text: &str) -> usize {
+    let last = |parts: &[Tree]| parts.last().map_or(tree.at, |part| end(part, text));
+    match &tree.kind {
+        Kind::Number(_, written) => tree.at + written.len(),
+        Kind::Name(name) => tree.at + name.len(),
+        Kind::Negate(inner) => end(inner, text),
+        Kind::Binary(_, operands) | Kind::Compare(_, operands) => end(&operands[1], text),
+        Kind::Call(_, parts) | Kind::List(parts) | Kind::Index(_, parts) => {
+            closed(text, last(parts))
+        }
+        Kind::Bracket(inner) => closed(text, end(inner, text)),
+    }
+}
+
+/// The end of the bracket that closes behind this byte.
+fn closed(text: &str, from: usize) -> usize {
+    let rest = text.get(from..).unwrap_or("");
+    let blanks = rest.len() - rest.trim_start().len();
+    (from + blanks + 1).min(text.len())
+}
+
+/// A place in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct LineColumn {
+    pub(super) line: usize,
+    /// In characters, from 1.
+    pub(super) column: usize,
+}
+
+/// The place of a byte of an expression's text.
+pub(super) fn line_and_column(problem: &Problem, within: &Expression, byte: usize) -> LineColumn {
+    let file = &problem.text;
+    let value = file.get(within.place.start..).unwrap_or("");
+    // A number is its own text; the others begin with one or three quotes.
+    let quote = ["\"\"\"", "'''", "\"", "'"]
+        .into_iter()
+        .find(|quote| value.starts_with(quote))
+        .unwrap_or("");
+    let mut start = within.place.start + quote.len();
+    if quote.len() == 3 && file[start..].starts_with('\n') {
+        start += 1;
+    }
+    let place = (start + byte).min(file.len());
+    let before = file.get(..place).unwrap_or("");
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+    LineColumn {
+        line: before.matches('\n').count() + 1,
+        column: before[line_start..].chars().count() + 1,
+    }
+}

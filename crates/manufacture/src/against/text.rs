@@ -1,0 +1,341 @@
+//! Edits as texts: what the file has, and what it would have after the edit.
+
+use super::bench::{Alteration, FACTORS, Rewrite};
+use super::candidates::{Candidate, Change, number};
+use super::cause::{Edit, Named, kind};
+use super::site::{self, Home, Span, line_and_column};
+use super::solve::simple;
+use crate::derive::Basis;
+use crate::language::names::{self, Callee, Operator};
+use crate::language::tree::{Binary, Kind, Tree};
+use crate::problem::{Expression, Place, Problem};
+
+/// An edit with the factor that fits, in the words of the file.
+///
+/// * `whole`: the place of the quantity, for an edit that is about all of it.
+pub(super) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, factor: f64) -> Named {
+    let change = candidate.change;
+    let kind = kind(change, factor);
+    let about_all = |old: String, new: String| Edit {
+        kind,
+        ..of_whole(problem, whole, old, new)
+    };
+    let mut label = None;
+    let edit = match &candidate.alteration {
+        Alteration::Exchange(names) => {
+            let [first, second] = names;
+            about_all(format!("{first}, {second}"), format!("{second}, {first}"))
+        }
+        Alteration::Basis(basis) => {
+            let system = problem.system.name();
+            let new = match basis {
+                Basis::Flat => "cartesian",
+                _ => "without the derivatives of the basis",
+            };
+            about_all(system.to_owned(), new.to_owned())
+        }
+        Alteration::Rewrite(rewrite) => {
+            if change == Change::Term
+                && let Home::Term { equation, term } = rewrite.home
+            {
+                label = Some(problem.equations[equation].terms[term].label.clone());
+            }
+            match rewrite.home.expression(problem) {
+                Some(expression) => Edit {
+                    kind,
+                    ..rewritten(problem, expression, rewrite, change, factor)
+                },
+                None => about_all(String::new(), String::new()),
+            }
+        }
+    };
+    Named {
+        change,
+        factor,
+        label,
+        edit,
+    }
+}
+
+/// An edit that is about all of a quantity.
+pub(super) fn of_whole(problem: &Problem, place: &Place, old: String, new: String) -> Edit {
+    let file = &problem.text;
+    let before = file.get(..place.start).unwrap_or("");
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+    Edit {
+        kind: "",
+        key: place.key.clone(),
+        line: place.line,
+        column: before[line_start..].chars().count() + 1,
+        old,
+        new,
+    }
+}
+
+/// The old and the new text of a part.
+struct Texts {
+    span: Span,
+    new: String,
+}
+
+fn rewritten(
+    problem: &Problem,
+    expression: &Expression,
+    rewrite: &Rewrite,
+    change: Change,
+    factor: f64,
+) -> Edit {
+    let part = site::at(&expression.tree, &rewrite.route).unwrap_or(&expression.tree);
+    let own = Span::of(part, &expression.text);
+    let texts = match change {
+        Change::Term | Change::Summand | Change::Part => {
+            with_factor(expression, rewrite, part, factor)
+        }
+        Change::Exponent => exponent(expression, rewrite, part, factor),
+        Change::Held => Texts {
+            span: own,
+            new: format!("{part}, held constant"),
+        },
+        Change::OneDifferentiated => Texts {
+            span: own,
+            new: differentiated(&rewrite.new),
+        },
+        _ => Texts {
+            span: own,
+            new: rewrite.new.to_string(),
+        },
+    };
+    let Span { start, end } = texts.span;
+    let place = line_and_column(problem, expression, start);
+    Edit {
+        kind: "",
+        key: expression.place.key.clone(),
+        line: place.line,
+        column: place.column,
+        old: expression.text.get(start..end).unwrap_or("").to_owned(),
+        new: texts.new,
+    }
+}
+
+/// The one factor of a product that is not held.
+fn differentiated(tree: &Tree) -> String {
+    match &tree.kind {
+        Kind::Call(Callee::Operator(Operator::Altered(names::Alteration::Held)), _)
+        | Kind::Number(..) => String::new(),
+        Kind::Name(name) => name.clone(),
+        Kind::Binary(Binary::Multiply | Binary::Divide, _)
+        | Kind::Negate(_)
+        | Kind::Bracket(_)
+        | Kind::Call(
+            Callee::Operator(Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross),
+            _,
+        ) => {
+            let mut parts = tree.children().into_iter().map(differentiated);
+            parts.find(|part| !part.is_empty()).unwrap_or_default()
+        }
+        _ => tree.to_string(),
+    }
+}
+
+/// A part times a number; a sign before it is part of the text.
+fn with_factor(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: f64) -> Texts {
+    let own = Span::of(part, &expression.text);
+    let before = expression.text.get(..own.start).unwrap_or("").trim_end();
+    let parent = rewrite.route.split_last();
+    let is_right = match parent {
+        None => matches!(rewrite.home, Home::Term { .. }),
+        Some((place, route)) => {
+            let parent = site::at(&expression.tree, route).map(|parent| &parent.kind);
+            let is_sum = matches!(
+                parent,
+                Some(Kind::Binary(Binary::Add | Binary::Subtract, _))
+            );
+            *place == 1 && is_sum
+        }
+    };
+    let sign = match before.chars().next_back() {
+        Some('+') if is_right => Some(1.0),
+        Some('-') if is_right => Some(-1.0),
+        _ => None,
+    };
+    let is_tight = matches!(parent, Some((_, route))
+        if matches!(site::at(&expression.tree, route).map(|tree| &tree.kind),
+            Some(Kind::Binary(Binary::Power, _))));
+    match sign {
+        Some(sign) => {
+            let size = times(part, factor.abs());
+            let symbol = if sign * factor < 0.0 { '-' } else { '+' };
+            let new = match factor == 0.0 {
+                true => String::new(),
+                false => format!("{symbol} {size}"),
+            };
+            Texts {
+                span: Span {
+                    start: before.len() - 1,
+                    ..own
+                },
+                new,
+            }
+        }
+        None => {
+            let new = match factor == 0.0 {
+                true => "0".to_owned(),
+                false => times(part, factor),
+            };
+            let new = match is_tight {
+                true => format!("({new})"),
+                false => new,
+            };
+            Texts { span: own, new }
+        }
+    }
+}
+
+/// The text of a part times a number, which goes into a number that the part has, if it becomes
+/// simple.
+fn times(part: &Tree, factor: f64) -> String {
+    let size = factor.abs();
+    let text = match (size == 1.0, with_number(part, size)) {
+        (true, _) => bracketed(part),
+        (false, Some(new)) => new.to_string(),
+        (false, None) => format!("{}*{}", written(size), bracketed(part)),
+    };
+    match (factor < 0.0, text.strip_prefix('-')) {
+        (false, _) => text,
+        (true, Some(positive)) => positive.to_owned(),
+        (true, None) => format!("-{text}"),
+    }
+}
+
+fn bracketed(part: &Tree) -> String {
+    match part.kind {
+        Kind::Binary(Binary::Add | Binary::Subtract, _) => format!("({part})"),
+        _ => part.to_string(),
+    }
+}
+
+/// A number as people write it.
+pub(super) fn written(value: f64) -> String {
+    for below in [3.0, 6.0, 7.0, 9.0, 11.0, 12.0] {
+        let above = value * below;
+        let is_decimal = [1.0, 2.0, 4.0, 5.0, 8.0, 10.0]
+            .iter()
+            .any(|scale| (value * scale).fract() == 0.0);
+        if !is_decimal && (above - above.round()).abs() <= 1e-12 * above.abs() {
+            return format!("{}/{below}", above.round());
+        }
+    }
+    format!("{value}")
+}
+
+/// The same product with one of its numbers changed, if that makes a simple one.
+pub(super) fn with_number(part: &Tree, factor: f64) -> Option<Tree> {
+    let mut found = vec![];
+    numbers(part, &mut vec![], false, &mut found);
+    for Literal {
+        route,
+        value,
+        is_below,
+    } in found
+    {
+        let new = if is_below {
+            value / factor
+        } else {
+            value * factor
+        };
+        let new = simple(new);
+        if (new * 20.0 - (new * 20.0).round()).abs() > 1e-9 * new.abs() || new == 0.0 {
+            continue;
+        }
+        let mut tree = part.clone();
+        *site::at_mut(&mut tree, &route)? = number(&format!("{new}"), new);
+        return Some(tree);
+    }
+    None
+}
+
+/// A number of a product.
+struct Literal {
+    route: Vec<usize>,
+    value: f64,
+    is_below: bool,
+}
+
+fn numbers(tree: &Tree, route: &mut Vec<usize>, is_below: bool, found: &mut Vec<Literal>) {
+    let mut go = |child: &Tree, place: usize, is_below: bool| {
+        route.push(place);
+        numbers(child, route, is_below, found);
+        route.pop();
+    };
+    match &tree.kind {
+        Kind::Number(value, _) => found.push(Literal {
+            route: route.clone(),
+            value: *value,
+            is_below,
+        }),
+        Kind::Binary(Binary::Multiply, operands) => {
+            go(&operands[0], 0, is_below);
+            go(&operands[1], 1, is_below);
+        }
+        Kind::Binary(Binary::Divide, operands) => {
+            go(&operands[0], 0, is_below);
+            go(&operands[1], 1, !is_below);
+        }
+        Kind::Negate(inner) | Kind::Bracket(inner) => go(inner, 0, is_below),
+        _ => (),
+    }
+}
+
+/// A power with another exponent.
+fn exponent(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: f64) -> Texts {
+    let value = match &part.kind {
+        Kind::Number(value, _) => Some(simple(value * factor)),
+        _ => None,
+    };
+    let new = match value {
+        Some(1.0) => String::new(),
+        Some(value) if value < 0.0 => format!("^({value})"),
+        Some(value) => format!("^{}", within_power(&written(value))),
+        None => format!("^({})", times(part, factor)),
+    };
+    let power = rewrite.route.split_last();
+    let power = power.and_then(|(_, route)| site::at(&expression.tree, route));
+    let span = |tree: &Tree| Span::of(tree, &expression.text);
+    match power.map(|power| (power, &power.kind)) {
+        Some((power, Kind::Binary(_, operands))) => Texts {
+            span: span(power),
+            new: format!("{}{new}", operands[0]),
+        },
+        _ => Texts {
+            span: span(part),
+            new,
+        },
+    }
+}
+
+/// A fraction needs brackets as an exponent.
+fn within_power(number: &str) -> String {
+    match number.contains('/') {
+        true => format!("({number})"),
+        false => number.to_owned(),
+    }
+}
+
+/// Whether an edit with this factor changes a number of the file into a simple one.
+pub(super) fn has_simple_number(candidate: &Candidate, factor: f64) -> bool {
+    let Alteration::Rewrite(rewrite) = &candidate.alteration else {
+        return false;
+    };
+    // The part times the unknown factor.
+    let Kind::Binary(Binary::Multiply, operands) = &rewrite.new.kind else {
+        return false;
+    };
+    let is_factor = matches!(&operands[1].kind, Kind::Name(name) if name == FACTORS[0]);
+    match (&operands[0].kind, candidate.change) {
+        (Kind::Number(value, _), Change::Exponent) => {
+            let new = simple(value * factor);
+            (new * 12.0 - (new * 12.0).round()).abs() <= 1e-9
+        }
+        _ => is_factor && with_number(&operands[0], factor.abs()).is_some(),
+    }
+}

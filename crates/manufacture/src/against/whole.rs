@@ -1,0 +1,255 @@
+//! Causes that concern all of a component: its sign, a factor of it, its terms, its time, its
+//! parameters.
+
+use super::cause::{Cause, TermFactor};
+use super::right::{Place, Right};
+use super::solve::{difference, simple};
+use crate::derive::Part;
+use crate::fit::{self, Column};
+
+/// A term depends on others if less than this share of it is left.
+const DEPENDENT: f64 = 1e-9;
+
+/// A component of a foreign source beside the right one.
+pub(super) struct Component<'a, 'm> {
+    pub(super) right: &'a Right<'m>,
+    pub(super) place: Place,
+    pub(super) foreign: &'a [f64],
+    pub(super) source: Column,
+    /// How close is close enough, at each point.
+    pub(super) allowed: Vec<f64>,
+}
+
+impl Component<'_, '_> {
+    pub(super) fn differences(&self) -> Column {
+        let differences = difference(self.foreign, &self.source).into_iter();
+        differences.map(f64::abs).collect()
+    }
+
+    /// Whether these values are those of the foreign source.
+    pub(super) fn fits(&self, values: &[f64]) -> bool {
+        let mut triples = self.foreign.iter().zip(values).zip(&self.allowed);
+        triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
+    }
+
+    fn combined(&self, columns: &[&Column], factors: &[f64]) -> Column {
+        let mut sum = vec![0.0; self.source.len()];
+        for (column, factor) in columns.iter().zip(factors) {
+            for (sum, value) in sum.iter_mut().zip(*column) {
+                *sum += factor * value;
+            }
+        }
+        sum
+    }
+
+    /// Sign, constant, factor.
+    pub(super) fn of_source(&self) -> Option<Cause> {
+        if self.fits(&self.source) {
+            return Some(Cause::Equal);
+        }
+        let inward = self.right.with_inward_normal(self.place);
+        if inward.is_some_and(|inward| self.fits(&inward)) {
+            return Some(Cause::Normal);
+        }
+        let opposite: Column = self.source.iter().map(|s| -s).collect();
+        if self.fits(&opposite) {
+            return Some(match self.right.part {
+                Part::Interior => Cause::SignOfSource,
+                _ => Cause::Normal,
+            });
+        }
+        let ones = vec![1.0; self.source.len()];
+        let difference = difference(self.foreign, &self.source);
+        let constant = fit::least_squares(&[&ones], &difference).factors[0];
+        let shifted: Column = self.source.iter().map(|s| s + constant).collect();
+        if self.fits(&shifted) {
+            return Some(Cause::Constant(simple(constant)));
+        }
+        let foreign = self.foreign.to_vec();
+        let factor = simple(fit::least_squares(&[&self.source], &foreign).factors[0]);
+        let scaled = self.combined(&[&self.source], &[factor]);
+        let fits = fit::norm(&self.source) > 0.0 && self.fits(&scaled);
+        fits.then_some(Cause::FactorOfSource(factor))
+    }
+
+    /// Several terms with other factors, by least squares over those that are independent.
+    pub(super) fn of_terms(&self) -> Option<Cause> {
+        let terms = self.right.terms(self.place);
+        let mut independent: Vec<usize> = vec![];
+        for (term, column) in terms.iter().enumerate() {
+            let others: Vec<&Column> = independent.iter().map(|i| &terms[*i]).collect();
+            let rest = fit::least_squares(&others, column).residual;
+            if rest > DEPENDENT * fit::norm(column) {
+                independent.push(term);
+            }
+        }
+        let columns: Vec<&Column> = independent.iter().map(|i| &terms[*i]).collect();
+        let fitted = fit::least_squares(&columns, &difference(self.foreign, &self.source));
+        let factors: Vec<f64> = fitted
+            .factors
+            .iter()
+            .map(|factor| simple(1.0 + factor))
+            .collect();
+        let changes: Vec<f64> = factors.iter().map(|factor| factor - 1.0).collect();
+        let columns: Vec<&Column> = std::iter::once(&self.source).chain(columns).collect();
+        let changed = self.combined(&columns, &[vec![1.0], changes].concat());
+        if columns.len() < 2 || !self.fits(&changed) {
+            return None;
+        }
+        let labels = self.right.labels(self.place);
+        let changed = independent
+            .iter()
+            .zip(&factors)
+            .filter(|pair| *pair.1 != 1.0);
+        let terms = changed.map(|(term, factor)| TermFactor {
+            label: labels[*term].to_owned(),
+            factor: *factor,
+        });
+        Some(Cause::Terms(terms.collect()))
+    }
+
+    /// The values of the first or of the last time at all times, or of a later or earlier time.
+    pub(super) fn of_time(&self) -> Option<Cause> {
+        let problem = &self.right.model.problem;
+        problem.time.as_ref()?;
+        let ends = problem.intervals.last()?;
+        for time in ends {
+            if self.fits(&self.at_times(|_| *time)) {
+                return Some(Cause::Time(*time));
+            }
+        }
+        let shifted = |shift: f64| self.at_times(|time| time + shift);
+        let length = ends[1] - ends[0];
+        for start in [
+            0.0,
+            0.01 * length,
+            -0.01 * length,
+            0.1 * length,
+            -0.1 * length,
+        ] {
+            let shift = self.newton(start, 0.1 * length, |shift| Some(shifted(shift)));
+            let Some(shift) = shift.map(simple) else {
+                continue;
+            };
+            if shift != 0.0 && self.fits(&shifted(shift)) {
+                return Some(Cause::TimeShift(shift));
+            }
+        }
+        None
+    }
+
+    fn at_times(&self, time: impl Fn(f64) -> f64) -> Column {
+        let mut points = self.right.points.clone();
+        for point in &mut points {
+            if let Some(t) = point.last_mut() {
+                *t = time(*t);
+            }
+        }
+        self.right.at_points(self.place, &points)
+    }
+
+    /// Another component, or two coordinates exchanged.
+    pub(super) fn of_exchange(&self) -> Option<Cause> {
+        let right = self.right;
+        for other in right.places() {
+            let values: Column = right.values(other).iter().map(|v| v.value).collect();
+            if other != self.place && self.fits(&values) {
+                return Some(Cause::Component(right.name(other).to_owned()));
+            }
+        }
+        let coordinates = &right.model.problem.coordinates;
+        for first in 0..coordinates.len() {
+            for second in first + 1..coordinates.len() {
+                let mut points = right.points.clone();
+                points
+                    .iter_mut()
+                    .for_each(|point| point.swap(first, second));
+                if self.fits(&right.at_points(self.place, &points)) {
+                    let names = [first, second].map(|place| coordinates[place].clone());
+                    return Some(Cause::Coordinates(names));
+                }
+            }
+        }
+        None
+    }
+
+    /// Two parameters exchanged, or one with another value.
+    pub(super) fn of_parameters(&self) -> Option<Cause> {
+        let parameters = &self.right.model.problem.parameters;
+        let values = &self.right.model.graph.parameters;
+        for first in 0..parameters.len() {
+            for second in first + 1..parameters.len() {
+                let mut exchanged = values.clone();
+                exchanged.swap(first, second);
+                if values[first] != values[second] && self.fits_with(&exchanged) {
+                    let names = [first, second].map(|place| parameters[place].name.clone());
+                    return Some(Cause::Parameters(names));
+                }
+            }
+        }
+        for (index, parameter) in parameters.iter().enumerate() {
+            let few = &self.right.points[..self.right.points.len().min(FEW)];
+            let with = |value: f64| {
+                let values = self.right.parameters(index, value)?;
+                Some(self.right.with_parameters(self.place, &values, few))
+            };
+            for start in [values[index], 0.0, 1.0] {
+                let Some(value) = self.newton(start, f64::INFINITY, with).map(simple) else {
+                    continue;
+                };
+                let all = self.right.parameters(index, value);
+                if all.is_some_and(|values| self.fits_with(&values)) {
+                    let name = parameter.name.clone();
+                    return Some(Cause::Parameter { name, value });
+                }
+            }
+        }
+        None
+    }
+
+    /// Whether these parameters explain all points; the first few are tried first.
+    fn fits_with(&self, parameters: &[f64]) -> bool {
+        let points = &self.right.points;
+        [points.len().min(FEW), points.len()].iter().all(|count| {
+            let values = self
+                .right
+                .with_parameters(self.place, parameters, &points[..*count]);
+            let mut triples = self.foreign.iter().zip(&values).zip(&self.allowed);
+            triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
+        })
+    }
+
+    /// Gauss-Newton on one number; the slope is a central difference.
+    ///
+    /// * `longest`: the longest step.
+    fn newton(
+        &self,
+        start: f64,
+        longest: f64,
+        with: impl Fn(f64) -> Option<Column>,
+    ) -> Option<f64> {
+        const STEPS: usize = 25;
+        let mut value = start;
+        for _ in 0..STEPS {
+            let step = 1e-6 * value.abs().max(1e-3);
+            let [here, above, below] = [value, value + step, value - step].map(&with);
+            let slope: Column = difference(&above?, &below?)
+                .iter()
+                .map(|change| change / (2.0 * step))
+                .collect();
+            let rest = difference(self.foreign, &here?);
+            let change = fit::least_squares(&[&slope], &rest).factors[0];
+            if !change.is_finite() {
+                return None;
+            }
+            value += change.clamp(-longest, longest);
+            if change.abs() <= 1e-14 * value.abs() {
+                break;
+            }
+        }
+        Some(value)
+    }
+}
+
+/// Points for numbers that are found step by step.
+const FEW: usize = 50;

@@ -1,0 +1,228 @@
+//! Problems of the literature, each with mistakes in its source: the edit that is named.
+
+use manufacture::{Comparison, Edit, Sampling};
+
+use crate::files::read;
+
+const GAS: &str = include_str!("files/viscous-gas.toml");
+const FILTERED: &str = include_str!("files/filtered-gas.toml");
+const RUBBER: &str = include_str!("files/rubber.toml");
+const TORUS: &str = include_str!("files/torus.toml");
+const INTERVAL: &str = include_str!("files/moving-interval.toml");
+const COASTAL: &str = include_str!("files/coastal.toml");
+
+const SAMPLING: Sampling = Sampling {
+    seed: 1,
+    points: 60,
+    is_strict: false,
+};
+
+/// The answer of a program whose source is that of another file.
+pub(crate) fn answered(text: &str, other: &str, sampling: &Sampling) -> Vec<Comparison> {
+    let right = read(text);
+    let question = right.question(None, sampling).unwrap();
+    let table = question.text().replace(' ', ",");
+    let values = read(other).at(&table, "points.csv").unwrap();
+    let sources = values["sources"].as_object().unwrap();
+    let names: Vec<&String> = sources.keys().collect();
+    let mut answer: String = names.iter().map(|name| format!("{name} ")).collect();
+    for line in 0..sampling.points {
+        answer.push('\n');
+        for name in &names {
+            answer += &format!("{:?} ", sources[*name][line].as_f64().unwrap());
+        }
+    }
+    question.compare(&answer, "other").unwrap()
+}
+
+/// The file after an edit of its text, which must have the old text at the edit's place.
+#[track_caller]
+pub(crate) fn applied(text: &str, edit: &Edit) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let line = &lines[edit.line - 1];
+    let before: String = line.chars().take(edit.column - 1).collect();
+    let rest = line[before.len()..].strip_prefix(&edit.old);
+    let rest = rest.unwrap_or_else(|| panic!("{edit:?} in {line}"));
+    lines[edit.line - 1] = format!("{before}{}{rest}", edit.new);
+    lines.join("\n")
+}
+
+/// Whether the new text of an edit stands for its old text in the file.
+pub(crate) fn is_text(edit: &Edit) -> bool {
+    !matches!(
+        edit.kind,
+        "product-rule" | "basis" | "exchange" | "coordinates"
+    )
+}
+
+/// A file with one text replaced is held against the file: the kind of the edit that is named, its
+/// line, and its texts. The corrected text has the values of the other program.
+#[track_caller]
+fn named(text: &str, replaced: [&str; 2], kind: &str, texts: [&str; 2]) {
+    let [old, new] = replaced;
+    let other = text.replacen(old, new, 1);
+    assert_ne!(text, other);
+    let found = answered(text, &other, &SAMPLING);
+    let wrong: Vec<&Comparison> = found.iter().filter(|c| c.cause != "equal").collect();
+    assert!(!wrong.is_empty());
+    // Values of parameters are exchanged where they are given.
+    let place = if kind == "parameters" { texts[0] } else { old };
+    let line = 1 + text[..text.find(place).unwrap()].matches('\n').count();
+    for comparison in wrong {
+        let edits = &comparison.edits;
+        assert_eq!(comparison.cause, kind, "{}", comparison.sentence);
+        let first = &edits[0];
+        assert_eq!([first.old.as_str(), &first.new], texts, "{comparison:?}");
+        assert_eq!((first.line, edits[0].kind), (line, kind), "{comparison:?}");
+        let place = format!("test.toml:{line}:{}", first.column);
+        assert!(comparison.sentence.contains(&place), "{comparison:?}");
+        if edits.iter().all(is_text) {
+            let corrected = edits
+                .iter()
+                .fold(text.to_owned(), |text, e| applied(&text, e));
+            let again = answered(&corrected, &other, &SAMPLING);
+            let again = again.iter().find(|c| c.quantity == comparison.quantity);
+            assert_eq!(again.unwrap().cause, "equal", "{comparison:?}");
+        }
+    }
+}
+
+#[test]
+fn mistakes_in_a_viscous_gas_are_named() {
+    named(GAS, ["T^1.5", "T^0.5"], "exponent", ["T^1.5", "T^0.5"]);
+    named(
+        GAS,
+        ["div(v)/3", "div(v)/2"],
+        "coefficient",
+        ["- div(v)/3*identity", "- div(v)/2*identity"],
+    );
+    named(
+        GAS,
+        ["rho*dot(v, v)/2", "rho*dot(v, v)"],
+        "missing-factor",
+        ["rho*dot(v, v)/2", "rho*dot(v, v)"],
+    );
+    named(
+        GAS,
+        ["div(rho*outer(v, v))", "rho*dot(grad(v), v)"],
+        "product-rule",
+        ["rho*outer(v, v)", "v"],
+    );
+}
+
+/// `mu` stands before each divergence that acts on it, in two equations.
+#[test]
+fn a_viscosity_outside_of_all_derivatives_is_named() {
+    let mut other = GAS.to_owned();
+    for [old, new] in [
+        ["-div(tau)", "-mu*div(tau/mu)"],
+        ["-div(mu*cp/Pr*grad(T))", "-mu*div(cp/Pr*grad(T))"],
+        ["-div(dot(tau, v))", "-mu*div(dot(tau/mu, v))"],
+    ] {
+        assert!(other.contains(old));
+        other = other.replace(old, new);
+    }
+    let found = answered(GAS, &other, &SAMPLING);
+    let wrong: Vec<&Comparison> = found.iter().filter(|c| c.cause != "equal").collect();
+    assert_eq!(wrong.len(), 4);
+    for comparison in wrong {
+        assert_eq!(comparison.cause, "product-rule", "{}", comparison.sentence);
+        assert_eq!(comparison.edits[0].key, "define.mu");
+    }
+}
+
+#[test]
+fn mistakes_in_a_filtered_gas_are_named() {
+    named(
+        FILTERED,
+        ["- 2/3*skk*identity", "+ 2/3*skk*identity"],
+        "sign",
+        ["- 2/3*skk*identity", "+ 2/3*skk*identity"],
+    );
+    named(
+        FILTERED,
+        ["sqrt(2*inner(S, S))", "sqrt(inner(S, S))"],
+        "missing-factor",
+        ["2*inner(S, S)", "inner(S, S)"],
+    );
+    named(
+        FILTERED,
+        ["Gamma*Cv*mut", "Cv*mut"],
+        "missing-factor",
+        ["Gamma*Cv", "Cv"],
+    );
+}
+
+#[test]
+fn mistakes_in_rubber_are_named() {
+    named(
+        RUBBER,
+        ["- 2*c01*dot(F, C)", "+ 2*c01*dot(F, C)"],
+        "sign",
+        ["- 2*c01*dot(F, C)", "+ 2*c01*dot(F, C)"],
+    );
+    named(
+        RUBBER,
+        ["p*J*transpose(inv(F))", "p*J*inv(F)"],
+        "missing-transpose",
+        ["transpose(inv(F))", "inv(F)"],
+    );
+    named(
+        RUBBER,
+        ["p*J*transpose", "p*transpose"],
+        "missing-factor",
+        ["p*J", "p"],
+    );
+    named(
+        RUBBER,
+        [
+            "2*(c10 + c01*trace(C))*F - 2*c01*dot",
+            "2*(c01 + c10*trace(C))*F - 2*c10*dot",
+        ],
+        "parameters",
+        ["0.3", "0.8"],
+    );
+}
+
+#[test]
+fn mistakes_on_a_torus_are_named() {
+    named(
+        TORUS,
+        ["d(w*d(u, b), b)/(r^2*w)", "d(u, b, b)/r^2"],
+        "product-rule",
+        ["w", "w, held constant"],
+    );
+    named(TORUS, ["/w^2", "/w"], "exponent", ["w^2", "w"]);
+}
+
+#[test]
+fn mistakes_on_a_moving_interval_are_named() {
+    named(
+        INTERVAL,
+        ["\"-d(w*u, X)\"", "\"d(w*u, X)\""],
+        "sign-of-term",
+        ["-d(w*u, X)", "d(w*u, X)"],
+    );
+    named(
+        INTERVAL,
+        ["-d(w*u, X)", "-w*d(u, X)"],
+        "product-rule",
+        ["w", "w, held constant"],
+    );
+    named(
+        INTERVAL,
+        ["dt(s*u)", "s*dt(u)"],
+        "product-rule",
+        ["s", "s, held constant"],
+    );
+}
+
+#[test]
+fn a_lost_mean_velocity_is_named() {
+    named(
+        COASTAL,
+        ["-f0*(v - vbar)", "-f0*v"],
+        "missing-term",
+        ["- vbar", ""],
+    );
+}

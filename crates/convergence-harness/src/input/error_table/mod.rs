@@ -45,6 +45,7 @@ mod roles;
 mod stated;
 mod step;
 mod text;
+mod turned;
 
 use std::io;
 use std::path::Path;

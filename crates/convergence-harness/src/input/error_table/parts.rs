@@ -25,11 +25,16 @@ const DEPTH: usize = 3;
 
 /// The tables of a text that has been made [plain](super::cleaned::plain).
 pub(super) fn read(text: &str) -> Vec<Part<'_>> {
+    let mut sections = vec![];
+    cut(text, DEPTH, &mut sections);
     let mut parts: Vec<Part<'_>> = vec![];
-    for section in sections(text, DEPTH) {
+    for Section { text, table } in sections {
         let earlier = parts.last().map_or(&[][..], |part| &part.table.names);
-        let table = text::read(section, earlier);
-        let heading = heading(section, &table);
+        let table = match table {
+            Some(table) if earlier.is_empty() => table,
+            _ => text::read(text, earlier),
+        };
+        let heading = heading(text, &table);
         parts.push(Part {
             heading: heading.unwrap_or_else(|| format!("table {}", parts.len() + 1)),
             table,
@@ -38,29 +43,53 @@ pub(super) fn read(text: &str) -> Vec<Part<'_>> {
     parts
 }
 
-/// The text of each table.
-fn sections(text: &str, depth: usize) -> Vec<&str> {
-    let cuts = cuts(text);
-    if depth == 0 || cuts.is_empty() {
-        return vec![text];
-    }
-    let starts = [0].into_iter().chain(cuts.iter().copied());
-    let ends = cuts.iter().copied().chain([text.len()]);
-    let sections = starts.zip(ends).map(|(start, end)| &text[start..end]);
-    sections
-        .flat_map(|section| self::sections(section, depth - 1))
-        .collect()
+/// The text of a table.
+struct Section<'t> {
+    text: &'t str,
+    /// The table, if it was read to find out that nothing is to be cut.
+    table: Option<RawTable<'t>>,
 }
 
-/// The bytes at which a text is cut.
-fn cuts(text: &str) -> Vec<usize> {
+/// Cuts a text into those of its tables.
+fn cut<'t>(text: &'t str, depth: usize, sections: &mut Vec<Section<'t>>) {
+    let Cuts { at, table } = cuts(text);
+    if depth == 0 || at.is_empty() {
+        sections.push(Section { text, table });
+        return;
+    }
+    let starts = [0].into_iter().chain(at.iter().copied());
+    let ends = at.iter().copied().chain([text.len()]);
+    for (start, end) in starts.zip(ends) {
+        cut(&text[start..end], depth - 1, sections);
+    }
+}
+
+/// Where a text is cut.
+struct Cuts<'t> {
+    /// Bytes.
+    at: Vec<usize>,
+    /// The table of the whole text, if it was read.
+    table: Option<RawTable<'t>>,
+}
+
+fn cuts(text: &str) -> Cuts<'_> {
     let mixed = mixed_cuts(text);
     if !mixed.is_empty() {
-        return mixed;
+        return Cuts {
+            at: mixed,
+            table: None,
+        };
     }
-    match pairs::log(text) {
-        Some(pairs) => log_cuts(text, &pairs),
-        None => gap_cuts(&row_gaps(text)),
+    if let Some(pairs) = pairs::log(text) {
+        return Cuts {
+            at: log_cuts(text, &pairs),
+            table: None,
+        };
+    }
+    let table = text::read(text, &[]);
+    Cuts {
+        at: gap_cuts(&row_gaps(text, &table)),
+        table: Some(table),
     }
 }
 
@@ -181,8 +210,7 @@ fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
 }
 
 /// What stands between the lines of rows.
-fn row_gaps(text: &str) -> Vec<Vec<Piece>> {
-    let table = text::read(text, &[]);
+fn row_gaps(text: &str, table: &RawTable<'_>) -> Vec<Vec<Piece>> {
     let mut starts: Vec<usize> = vec![];
     for row in &table.rows {
         starts.extend(row.iter().map(|cell| offset(text, cell)));

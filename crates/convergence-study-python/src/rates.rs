@@ -2,7 +2,7 @@
 
 use convergence_harness::input::advice::Argument;
 use convergence_harness::program::PROJECT;
-use convergence_harness::rates::{Claimed, Request, Tables, object};
+use convergence_harness::rates::{Claimed, ClaimedOrder, Request, Tables, object};
 use convergence_harness::study::Claim;
 use pyo3::prelude::*;
 
@@ -69,7 +69,7 @@ fn claimed(
         Claimed {
             text,
             name,
-            order: claim.order,
+            order: ClaimedOrder::Number(claim.order),
             at_least: claim.at_least,
         }
     };

@@ -63,6 +63,9 @@ pub(crate) fn judge_table(
     };
     let table = RateTable::from_columns(&columns, "h", &choice)
         .map_err(|error| refuse(error.words(&call)))?;
+    if let Some(doubt) = table.doubts.first() {
+        return Err(refuse(format!("table: {doubt}; give one table at a time")));
+    }
     let judged = |column: &Column, claim: Option<Claim>| Judgement {
         name: column.name.clone(),
         step: table.step.clone(),

@@ -84,7 +84,7 @@ pub use convergence_harness::{
 pub use convergence_harness::{
     input::{
         Field, InputError, Section,
-        error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, RateTable},
+        error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, Parameter, RateTable},
     },
     study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, reader},
 };

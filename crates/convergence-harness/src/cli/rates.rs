@@ -22,12 +22,12 @@ use crate::text::names::quoted;
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
-/// The input may be tables, logs, lists or JSON. The step is the column that falls, or counts up,
-/// by regular ratios; errors are positive and fall; rates are recognised by their numbers. A line
-/// says how the table was read. Several tables of one file are judged each under its heading. Exit
-/// status 0 if every rate with a claim agrees with its order, 1 if one does not, the data cannot
-/// tell or nothing is claimed in a table, 2 if a table cannot be read: then the message has the
-/// command that reads it.
+/// The input may be tables, logs, lists or JSON. A column is judged unless its name, or arithmetic
+/// that can be checked, says that it is something else; a line says how the table was read. Several
+/// tables of one file are judged each under its heading, and the worst verdict decides. Exit status 0
+/// if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell or
+/// nothing is claimed in a table, 2 if a table cannot be read: then the message has the command that
+/// reads it.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The tables; `-` is standard input, which is read without a file, too
@@ -35,6 +35,9 @@ pub struct Arguments {
     files: Vec<PathBuf>,
     /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may
     /// be repeated. Without one nothing passes
+    ///
+    /// P may be p, p+1, p-1 for the degree p of each table, in a column p or in the heading, as in
+    /// 'Degree = 2'. TABLE:NAME=P is about one table, by its heading or as 'Table 2'.
     #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
     order: Vec<Claimed>,
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, because bands of half
@@ -56,8 +59,8 @@ pub struct Arguments {
     /// The column of the step, of a count or of levels: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
     step: Option<String>,
-    /// The columns of errors, by name or number, separated by commas; without it those whose
-    /// numbers fall
+    /// The columns of errors, by name or number, separated by commas; without it all that
+    /// are nothing else
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     columns: Option<Vec<String>>,
     /// Columns of values, which tend to an unknown limit: their differences are judged

@@ -2,21 +2,56 @@
 
 use super::{Request, Source, columns};
 use crate::input::advice::{Argument, Text};
-use crate::input::error_table::{RateTable, names::position};
+use crate::input::error_table::{is_degree, names::position};
 use crate::judge::claims::{Claim, order_from_text};
 use crate::text::names::{did_you_mean, nearest};
+use crate::text::visible::visible;
 
 /// An order that is claimed, for one column or for all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claimed {
     /// As the caller has written it.
     pub text: String,
-    /// The column; `None` for all.
+    /// The column, of all tables or behind the name of one, as in `Table 2:L2`; `None` for all.
     pub name: Option<String>,
-    /// The order, > 0.
-    pub order: f64,
+    /// The order.
+    pub order: ClaimedOrder,
     /// Whether a higher rate agrees with it.
     pub at_least: bool,
+}
+
+/// An order, as a number or by the degree of the elements of each table.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ClaimedOrder {
+    /// A number > 0.
+    Number(f64),
+    /// `p + 1` and the like: the degree that all rows of a table share, plus a number.
+    Degree {
+        /// The name of the degree.
+        name: String,
+        /// What is added.
+        plus: f64,
+    },
+}
+
+impl ClaimedOrder {
+    /// `p`, `p+1`, `degree-1`.
+    fn of_degree(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let end = text.find(['+', '-']).unwrap_or(text.len());
+        let (name, plus) = text.split_at(end);
+        let name = name.trim();
+        let plus: String = plus.split_whitespace().collect();
+        let plus = if plus.is_empty() {
+            0.0
+        } else {
+            plus.parse().ok()?
+        };
+        (is_degree(name) && f64::is_finite(plus)).then(|| Self::Degree {
+            name: name.to_owned(),
+            plus,
+        })
+    }
 }
 
 /// A value of `--order`.
@@ -29,15 +64,30 @@ pub fn claimed(text: &str) -> Result<Claimed, String> {
         .or_else(|| text.rfind('=').map(|at| at + 1));
     let (name, order) = text.split_at(at.unwrap_or(0));
     let name = name.trim_end();
-    let order = order_from_text(order).filter(|_| name.is_empty() || name.ends_with('='));
-    let (order, at_least) = order
-        .ok_or("expected a number > 0, '>=P' with such a number P, or NAME= before one of them")?;
+    let (bound, is_least) = match order.trim().strip_prefix(">=") {
+        Some(bound) => (bound, true),
+        None => (order, false),
+    };
+    let number = order_from_text(order).map(|(number, _)| ClaimedOrder::Number(number));
+    let order = number.or_else(|| ClaimedOrder::of_degree(bound));
+    let order = order.filter(|_| name.is_empty() || name.ends_with('='));
+    let order = order.ok_or(
+        "expected a number > 0, '>=P' with such a number P, or NAME= before one of them; P may be p + 1, with the degree p of each table",
+    )?;
     Ok(Claimed {
         text: text.to_owned(),
         name: name.strip_suffix('=').map(str::to_owned),
         order,
-        at_least,
+        at_least: is_least,
     })
+}
+
+/// What a claim is about in one table.
+struct Place {
+    /// The number of the column; that of all columns behind the last one.
+    column: usize,
+    /// Whether the claim names the table.
+    is_own: bool,
 }
 
 /// The claims for each column of each table. Each column that is named must be in one of them.
@@ -51,51 +101,112 @@ pub(super) fn claims(
         .map(|column| column.name.as_str())
         .collect();
     for claimed in &request.claims {
-        let is_in = |source: &Source, name: &str| {
-            let names = columns(&source.table).map(|column| column.name.as_str());
-            position(names, name).is_some()
-        };
+        let mut sources = sources.iter().enumerate();
         if let Some(name) = &claimed.name
-            && !sources.iter().any(|source| is_in(source, name))
+            && !sources.any(|(k, source)| place(name, k, source).is_some())
         {
             return Err(unknown(name, &claimed.text, &all));
         }
     }
-    let claims = sources
-        .iter()
-        .map(|source| claims_of(request, &source.table));
+    let sources = sources.iter().enumerate();
+    let claims = sources.map(|(k, source)| claims_of(request, k, source));
     claims.collect()
 }
 
-/// The claim for each column; `None` without one.
-fn claims_of(request: &Request, table: &RateTable) -> Result<Vec<Option<Claim>>, Text> {
-    let names: Vec<&str> = columns(table).map(|column| column.name.as_str()).collect();
-    // The last entry is the claim for all columns.
-    let mut of: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
-    for claimed in &request.claims {
-        let place = claimed.name.as_deref().map_or(Some(names.len()), |name| {
-            position(names.iter().copied(), name)
+/// Where a table has the column of this name: `L2`, or `Table 2:L2` behind the heading or the number
+/// of the table, or `Table 2:` for all its columns.
+///
+/// * `number`: of the table, from 0.
+fn place(name: &str, number: usize, source: &Source) -> Option<Place> {
+    let names = || columns(&source.table).map(|column| column.name.as_str());
+    if let Some(column) = position(names(), name) {
+        return Some(Place {
+            column,
+            is_own: false,
         });
+    }
+    let (table, name) = name.rsplit_once(':')?;
+    let table = table.trim().to_lowercase();
+    let numbered = [format!("table {}", number + 1), (number + 1).to_string()];
+    if table != source.heading.to_lowercase() && !numbered.contains(&table) {
+        return None;
+    }
+    let column = match name.trim() {
+        "" => names().count(),
+        name => position(names(), name)?,
+    };
+    Some(Place {
+        column,
+        is_own: true,
+    })
+}
+
+/// The claim for each column; `None` without one. A claim about this table goes before one about
+/// all, and one about a column before one about all columns.
+fn claims_of(
+    request: &Request,
+    number: usize,
+    source: &Source,
+) -> Result<Vec<Option<Claim>>, Text> {
+    let names: Vec<&str> = columns(&source.table)
+        .map(|column| column.name.as_str())
+        .collect();
+    // The last entry is the claim for all columns.
+    let mut general: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
+    let mut own = general.clone();
+    for claimed in &request.claims {
+        let all = Place {
+            column: names.len(),
+            is_own: false,
+        };
+        let place = claimed
+            .name
+            .as_deref()
+            .map_or(Some(all), |name| place(name, number, source));
         // Another table has the column.
-        let Some(k) = place else { continue };
-        if let Some(first) = of[k].replace(claimed) {
-            return Err(repeated(first, claimed, names.get(k).copied()));
+        let Some(Place { column, is_own }) = place else {
+            continue;
+        };
+        let claims = if is_own { &mut own } else { &mut general };
+        if let Some(first) = claims[column].replace(claimed) {
+            return Err(repeated(first, claimed, names.get(column).copied()));
         }
     }
-    let claim = |(k, name): (usize, &&str)| match of[k].or(of[names.len()]) {
-        Some(claimed) if claimed.at_least && k >= table.columns.len() => {
-            let order = format!("'>={}'", claimed.order);
-            Err(Text::from("expected an order alone for values; found ")
-                + Argument::Order.with(&order)
-                + format!(" for `{name}`"))
-        }
-        Some(claimed) => Ok(Some(Claim {
-            at_least: claimed.at_least,
-            ..Claim::new(claimed.order, request.tolerance)
-        })),
-        None => Ok(None),
-    };
+    let all = names.len();
+    let claim =
+        |(k, name): (usize, &&str)| match own[k].or(own[all]).or(general[k]).or(general[all]) {
+            Some(claimed) if claimed.at_least && k >= source.table.columns.len() => {
+                Err(Text::from("expected an order alone for values; found ")
+                    + Argument::Order.with(&claimed.text)
+                    + format!(" for `{name}`"))
+            }
+            Some(claimed) => Ok(Some(Claim {
+                at_least: claimed.at_least,
+                ..Claim::new(order(claimed, source)?, request.tolerance)
+            })),
+            None => Ok(None),
+        };
     names.iter().enumerate().map(claim).collect()
+}
+
+/// The order that is claimed of a table.
+fn order(claimed: &Claimed, source: &Source) -> Result<f64, Text> {
+    let (name, plus) = match &claimed.order {
+        ClaimedOrder::Number(order) => return Ok(*order),
+        ClaimedOrder::Degree { name, plus } => (name, plus),
+    };
+    let mut parameters = source.table.parameters.iter();
+    let order = parameters
+        .find(|parameter| parameter.is_called(name))
+        .map(|parameter| parameter.value + plus);
+    order.filter(|order| *order > 0.0 && order.is_finite()).ok_or_else(|| {
+        let found = order.map_or("none".to_owned(), |order| format!("an order of {order}"));
+        Argument::Order.with(&claimed.text)
+            + format!(
+                ": expected the number `{name}` of each table, in its heading as `{name} = 2` or in a column, and an order > 0; found {found} for `{}`",
+                visible(&source.name)
+            )
+    })
 }
 
 /// The refusal of a second claim for a column, or for all columns.

@@ -14,7 +14,7 @@ use crate::input::error_table::{Choice, Column, RateTable};
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{Floor, RateVerdict, Verdict};
 use crate::judge::{self, claims::Claim};
-pub use claims::{Claimed, claimed};
+pub use claims::{Claimed, ClaimedOrder, claimed};
 #[cfg(feature = "command-line")]
 pub(crate) use forms::{cases, csv, rows_in_markdown};
 pub(crate) use forms::{figure, markdown, object_of_all};
@@ -52,6 +52,8 @@ pub(crate) struct Source {
     file: String,
     /// The file, and the heading of the table if the file has several.
     name: String,
+    /// The heading, if the file has several tables; otherwise empty.
+    heading: String,
     table: RateTable,
 }
 
@@ -66,6 +68,7 @@ impl Source {
         Self {
             file: file.to_owned(),
             name,
+            heading: heading.to_owned(),
             table,
         }
     }

@@ -33,8 +33,8 @@ fn table() -> impl Strategy<Value = Table> {
 
 /// Names of columns that may be anything.
 const NAMES: [&str; 14] = [
-    "T", "ph", "B1", "theta", "column", "rho", "L1", "energy", "time", "residual", "value",
-    "order", "q", "K",
+    "T", "ph", "B1", "beta", "column", "rho", "L1", "energy", "time", "residual", "value", "order",
+    "q", "K",
 ];
 
 /// A number as a code prints it, or what stands for one.

@@ -1,5 +1,7 @@
 //! Attacks on the reader of tables: texts that look like tables that pass, and must not.
 
+mod claims;
+mod cuts;
 mod forms;
 mod laws;
 

@@ -42,34 +42,27 @@ impl Cells<'_> {
 
     /// What the cells hold.
     pub(super) fn holdings(&self) -> Holdings {
-        let is = |cell: &str| names::is_failure(cell) || is_dash(cell);
-        let numbers = self
-            .is_number
+        let cells = self.texts.iter().zip(&self.is_number);
+        let others: Vec<&str> = cells
+            .filter(|(_, is_number)| !**is_number)
+            .map(|(cell, _)| *cell)
+            .collect();
+        let has_numbers = others.len() < self.texts.len();
+        let is_state = |cell: &&str| names::state(cell).is_some();
+        let stand_for_numbers = others
             .iter()
-            .filter(|is_number| **is_number)
-            .count();
-        let mut others = self
-            .texts
-            .iter()
-            .zip(&self.is_number)
-            .filter(|(_, is_number)| !**is_number);
+            .all(|cell| names::is_failure(cell) || is_dash(cell));
+        let are_states = others.iter().all(|cell| is_dash(cell) || is_state(cell));
         if self.texts.iter().all(|cell| cell.is_empty()) {
             Holdings::Nothing
-        } else if numbers == 0
-            && others
-                .clone()
-                .all(|(cell, _)| is_dash(cell) || names::state(cell).is_some())
-            && others
-                .clone()
-                .any(|(cell, _)| names::state(cell).is_some() && !names::is_failure(cell))
-        {
-            Holdings::States
-        } else if numbers == 0 && !others.clone().all(|(cell, _)| is(cell)) {
-            Holdings::Words
-        } else if others.all(|(cell, _)| is(cell)) {
+        } else if stand_for_numbers {
             Holdings::Numbers
-        } else {
+        } else if has_numbers {
             Holdings::NumbersAndWords
+        } else if are_states {
+            Holdings::States
+        } else {
+            Holdings::Words
         }
     }
 

@@ -27,6 +27,15 @@ pub enum Doubt {
         /// The step behind it.
         behind: f64,
     },
+    /// The rates that the table prints are those of another dimension than the chosen one.
+    Dimension {
+        /// The dimension that the user has chosen.
+        chosen: f64,
+        /// The dimension of the rates.
+        stated: f64,
+        /// The column whose rates they are.
+        column: String,
+    },
 }
 
 impl Display for Doubt {
@@ -45,6 +54,15 @@ impl Display for Doubt {
                 visible(column),
                 plain_text(*before),
                 plain_text(*behind)
+            ),
+            Self::Dimension {
+                chosen,
+                stated,
+                column,
+            } => write!(
+                f,
+                "the printed rates of {} are those of dimension {stated}, not {chosen}",
+                visible(column)
             ),
         }
     }

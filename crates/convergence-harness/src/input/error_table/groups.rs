@@ -111,32 +111,29 @@ fn side_by_side<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Group<'t>> {
     groups.iter().map(side).collect()
 }
 
+/// The tables of rows with the same cells in the columns of groups, parted where a step returns.
 fn below_each_other<'t>(table: &RawTable<'t>, choice: &Choice) -> Vec<Group<'t>> {
-    let all = || {
-        vec![Group {
-            heading: String::new(),
-            table: table.clone(),
-        }]
+    let all = Group {
+        heading: String::new(),
+        table: table.clone(),
     };
     let width = table.names.len();
     if table.rows.len() < 2 || table.rows.iter().any(|row| row.len() != width) {
-        return all();
+        return vec![all];
     }
     let columns = columns(table, choice);
     let is_group = |column: &&Column<'_>| {
-        column.repeats()
-            && (column.is_words()
-                || names::is_group(&column.name) && column.is_number() && column.is_whole())
+        let is_degree = names::is_group(&column.name) && column.is_number() && column.is_whole();
+        column.repeats() && (column.is_words() || is_degree)
     };
     let keys: Vec<&Column<'_>> = columns.iter().filter(is_group).collect();
-    let mut groups = by_cells(table, &keys);
-    if keys.is_empty() {
-        groups = vec![all().remove(0)];
-    }
-    groups
-        .into_iter()
-        .flat_map(|group| by_steps(group, choice))
-        .collect()
+    let groups = if keys.is_empty() {
+        vec![all]
+    } else {
+        by_cells(table, &keys)
+    };
+    let groups = groups.into_iter();
+    groups.flat_map(|group| by_steps(group, choice)).collect()
 }
 
 /// The columns of a grid, with the names that the user has chosen.
@@ -199,6 +196,7 @@ fn by_steps<'t>(group: Group<'t>, choice: &Choice) -> Vec<Group<'t>> {
     let has_repetition = steps.iter().any(|step| step.repeats());
     let is_key = |column: &&Column<'_>| {
         !column.is_step()
+            && !matches!(column.word, Word::Error | Word::Rate)
             && column.is_number()
             && column.repeats()
             && !steps.is_empty()

@@ -9,13 +9,19 @@
 //! 0.025, 6.26e-5, 5.20e-3
 //! ```
 //!
-//! Any text with such numbers can be read: rows of cells, names before numbers, lists; `reading-tables.md`
-//! shows which. The step falls, or grows if it is a count, by regular ratios; rates are those of
-//! another column. All else is an error, unless its name says otherwise: a column that grows, stands
-//! still or falls like the step is judged. One that tends to a limit, and so may be a value, is
-//! refused with the choices that work. Words between some of the rows part a text into tables.
-//! [`RateTable::reading`] says in a line how the table was read. `NaN` and `inf` are errors; a
-//! column with one of them fails.
+//! Every number of the text is accounted for. A column is judged unless its name, or arithmetic
+//! that can be checked, says that it is something else: nothing is left out because its numbers look
+//! wrong, for a lost order looks just like that. Reading has three stages, of which none knows the
+//! next:
+//!
+//! 1. Grids: rows of cells below names (`text`, `heads`), or names with their numbers
+//!    (`pairs`), in a text without markup (`cleaned`, `markup`, `forms`).
+//! 2. Parts: a text is cut where another table may begin (`parts`), a grid by columns of groups and
+//!    where a step returns (`groups`).
+//! 3. Columns: which one is the step (`step`), and what the others hold (`contents`).
+//!
+//! [`RateTable::reading`] says in a line how a table was read, [`RateTable::doubts`] why none of it
+//! should pass. A level without a result is NaN, and its column fails.
 
 mod cleaned;
 mod columns;
@@ -32,12 +38,14 @@ mod markup;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;
+mod parameters;
 mod parts;
 mod reader;
 mod roles;
 mod stated;
 mod step;
 mod text;
+mod turned;
 
 use std::io;
 use std::path::Path;
@@ -49,6 +57,7 @@ pub use digits::Column;
 pub use doubt::Doubt;
 pub use frame::FrameColumn;
 use frame::Original;
+pub use parameters::{Parameter, is_degree};
 
 /// A table of errors that was read.
 ///
@@ -79,6 +88,8 @@ pub struct RateTable {
     pub reading: String,
     /// Whether numbers, not names, identified the step.
     pub is_guessed: bool,
+    /// Numbers that all its rows share, such as the degree of the elements.
+    pub parameters: Vec<Parameter>,
     /// Why none of its columns should pass.
     pub doubts: Vec<Doubt>,
 }
@@ -94,7 +105,7 @@ pub struct NotError {
     pub is_checked: bool,
 }
 
-/// Which columns of a table to use; by default their numbers decide.
+/// Which columns of a table to use; by default their names decide, and arithmetic.
 ///
 /// A column is named as in the table, with or without its unit, or by its number from 1.
 #[derive(Debug, Clone, Default, PartialEq)]

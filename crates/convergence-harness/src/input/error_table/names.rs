@@ -1,4 +1,4 @@
-//! What the name of a column says, if its numbers do not decide.
+//! What the name of a column says, and what the words in cells say.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -335,6 +335,15 @@ fn without_unit(name: &str) -> &str {
         .and_then(|name| name.rsplit_once(['[', '(']))
         .map(|(name, _)| name.trim());
     before.filter(|before| !before.is_empty()).unwrap_or(name)
+}
+
+/// Position of the column that a claim names, perhaps behind the name of a table, as in `P1:L2`.
+pub(super) fn claimed_position<'n>(
+    names: impl Iterator<Item = &'n str> + Clone,
+    claimed: &str,
+) -> Option<usize> {
+    let in_all = position(names.clone(), claimed);
+    in_all.or_else(|| position(names, claimed.rsplit_once(':')?.1.trim()))
 }
 
 /// Position of the name wanted: as written, or the only such name without its unit, or a nameless

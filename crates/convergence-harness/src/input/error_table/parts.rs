@@ -8,7 +8,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::names;
+use super::names::{self, Word};
 use super::number::number;
 use super::pairs::{self, NamedPlace, Naming, Pair, RawTable};
 use super::text::{self, begins_with_number, is_closing, is_rule};
@@ -25,11 +25,16 @@ const DEPTH: usize = 3;
 
 /// The tables of a text that has been made [plain](super::cleaned::plain).
 pub(super) fn read(text: &str) -> Vec<Part<'_>> {
+    let mut sections = vec![];
+    cut(text, DEPTH, &mut sections);
     let mut parts: Vec<Part<'_>> = vec![];
-    for section in sections(text, DEPTH) {
+    for Section { text, table } in sections {
         let earlier = parts.last().map_or(&[][..], |part| &part.table.names);
-        let table = text::read(section, earlier);
-        let heading = heading(section, &table);
+        let table = match table {
+            Some(table) if earlier.is_empty() => table,
+            _ => text::read(text, earlier),
+        };
+        let heading = heading(text, &table);
         parts.push(Part {
             heading: heading.unwrap_or_else(|| format!("table {}", parts.len() + 1)),
             table,
@@ -38,29 +43,53 @@ pub(super) fn read(text: &str) -> Vec<Part<'_>> {
     parts
 }
 
-/// The text of each table.
-fn sections(text: &str, depth: usize) -> Vec<&str> {
-    let cuts = cuts(text);
-    if depth == 0 || cuts.is_empty() {
-        return vec![text];
-    }
-    let starts = [0].into_iter().chain(cuts.iter().copied());
-    let ends = cuts.iter().copied().chain([text.len()]);
-    let sections = starts.zip(ends).map(|(start, end)| &text[start..end]);
-    sections
-        .flat_map(|section| self::sections(section, depth - 1))
-        .collect()
+/// The text of a table.
+struct Section<'t> {
+    text: &'t str,
+    /// The table, if it was read to find out that nothing is to be cut.
+    table: Option<RawTable<'t>>,
 }
 
-/// The bytes at which a text is cut.
-fn cuts(text: &str) -> Vec<usize> {
+/// Cuts a text into those of its tables.
+fn cut<'t>(text: &'t str, depth: usize, sections: &mut Vec<Section<'t>>) {
+    let Cuts { at, table } = cuts(text);
+    if depth == 0 || at.is_empty() {
+        sections.push(Section { text, table });
+        return;
+    }
+    let starts = [0].into_iter().chain(at.iter().copied());
+    let ends = at.iter().copied().chain([text.len()]);
+    for (start, end) in starts.zip(ends) {
+        cut(&text[start..end], depth - 1, sections);
+    }
+}
+
+/// Where a text is cut.
+struct Cuts<'t> {
+    /// Bytes.
+    at: Vec<usize>,
+    /// The table of the whole text, if it was read.
+    table: Option<RawTable<'t>>,
+}
+
+fn cuts(text: &str) -> Cuts<'_> {
     let mixed = mixed_cuts(text);
     if !mixed.is_empty() {
-        return mixed;
+        return Cuts {
+            at: mixed,
+            table: None,
+        };
     }
-    match pairs::log(text) {
-        Some(pairs) => log_cuts(text, &pairs),
-        None => gap_cuts(&row_gaps(text)),
+    if let Some(pairs) = pairs::log(text) {
+        return Cuts {
+            at: log_cuts(text, &pairs),
+            table: None,
+        };
+    }
+    let table = text::read(text, &[]);
+    Cuts {
+        at: gap_cuts(&row_gaps(text, &table)),
+        table: Some(table),
     }
 }
 
@@ -133,7 +162,8 @@ impl Occurrences<'_> {
     /// are.
     fn is_common(&self, piece: &Piece, gaps: usize) -> bool {
         let is_late = piece.is_named && !self.is_in_first && self.gaps + 1 == gaps;
-        self.gaps == gaps || gaps > 2 && is_late
+        let is_rate = Word::of(&piece.shape) == Word::Rate;
+        self.gaps == gaps || is_late && (gaps > 2 || is_rate)
     }
 
     /// Whether it stands in all gaps, with words of which some come again.
@@ -180,8 +210,7 @@ fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
 }
 
 /// What stands between the lines of rows.
-fn row_gaps(text: &str) -> Vec<Vec<Piece>> {
-    let table = text::read(text, &[]);
+fn row_gaps(text: &str, table: &RawTable<'_>) -> Vec<Vec<Piece>> {
     let mut starts: Vec<usize> = vec![];
     for row in &table.rows {
         starts.extend(row.iter().map(|cell| offset(text, cell)));
@@ -233,13 +262,10 @@ fn offset(text: &str, piece: &str) -> usize {
 /// others begin, or something stands between some of its rows.
 fn log_cuts(text: &str, pairs: &[Pair<'_>]) -> Vec<usize> {
     if let Some(first) = pairs::first_column(pairs) {
-        let lists = pairs
-            .iter()
-            .filter(|pair| pair.name == first && pair.values.len() > 1);
-        return lists
-            .skip(1)
-            .map(|pair| line_or_name(text, pair.name))
-            .collect();
+        let is_list = |pair: &Pair<'_>| pair.values.len() > 1;
+        let lists: Vec<&Pair<'_>> = pairs.iter().filter(|pair| is_list(pair)).collect();
+        let again = lists.windows(2).filter(|two| two[1].name == first);
+        return again.map(|two| end_of_numbers(text, two[0])).collect();
     }
     let ends = successive_names(pairs);
     if !ends.is_empty() {
@@ -251,30 +277,23 @@ fn log_cuts(text: &str, pairs: &[Pair<'_>]) -> Vec<usize> {
     gap_cuts(&log_gaps(text, pairs))
 }
 
-/// The beginning of the line of a name, if nothing but marks stands before it.
-fn line_or_name(text: &str, name: &str) -> usize {
-    let start = offset(text, name);
-    let line = text[..start].rfind('\n').map_or(0, |end| end + 1);
-    if text[line..start].chars().all(pairs::is_mark) {
-        line
-    } else {
-        start
-    }
+/// The end of the numbers behind a name, of the brackets that close there, or of their line.
+fn end_of_numbers(text: &str, pair: &Pair<'_>) -> usize {
+    let last = pair.values.last().copied().unwrap_or(pair.name);
+    let end = offset(text, last) + last.len();
+    let behind = &text[end..];
+    let marks = behind.find(|c| !pairs::is_mark(c) || "[{(".contains(c));
+    let marks = &behind[..marks.unwrap_or(behind.len())];
+    let line = marks.rfind('\n').or_else(|| marks.rfind([']', '}', ')']));
+    end + line.map_or(0, |last| last + 1)
 }
 
 /// The end of the number before the k-th name, or of its line.
 fn after_number(text: &str, pairs: &[Pair<'_>], k: usize) -> usize {
-    let start = offset(text, pairs[k].name);
-    let Some(last) = k
-        .checked_sub(1)
-        .and_then(|before| pairs[before].values.last())
-    else {
-        return start;
-    };
-    let end = offset(text, last) + last.len();
-    text[end..start]
-        .find('\n')
-        .map_or(end, |line| end + line + 1)
+    match k.checked_sub(1) {
+        Some(before) => end_of_numbers(text, &pairs[before]),
+        None => offset(text, pairs[k].name),
+    }
 }
 
 /// The pairs with which rows begin whose names come after others that occur several times have

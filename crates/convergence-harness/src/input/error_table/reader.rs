@@ -32,6 +32,8 @@ pub(super) struct TableReader<'t> {
     pub(super) left_out: Vec<LeftOut>,
     /// For each row whether its level was solved, as a column of states says.
     pub(super) is_solved: Vec<bool>,
+    /// Whether the rows were in no order and have been sorted.
+    pub(super) is_shuffled: bool,
 }
 
 /// The name of a column, with its unit if its numbers are in per cent.
@@ -75,6 +77,7 @@ impl<'t> TableReader<'t> {
             rows: None,
             left_out: table.left_out.clone(),
             is_solved: vec![true; table.rows.len()],
+            is_shuffled: false,
         };
         reader.columns = reader.columns()?;
         let has_levels = reader.columns.iter().any(|column| column.is_index);
@@ -181,7 +184,7 @@ impl<'t> TableReader<'t> {
         } = self.choice;
         let claimed = columns.iter().flatten().chain(claimed).chain(values);
         let claimed = claimed.filter_map(|name| {
-            names::position(names.iter().map(|column| column.name.as_str()), name)
+            names::claimed_position(names.iter().map(|column| column.name.as_str()), name)
         });
         let claimed: HashSet<usize> = claimed.collect();
         // With decimal commas, `1.024` may be 1024.

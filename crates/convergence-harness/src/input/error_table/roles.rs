@@ -1,5 +1,5 @@
-//! Which columns are errors, values and rates: decided by their numbers, and by their names if the
-//! numbers do not decide.
+//! Each table of a text with its step, its errors and its values: those that the user has chosen, or
+//! what the columns hold.
 
 use std::collections::HashSet;
 use std::hash::Hash;
@@ -12,6 +12,7 @@ use super::groups;
 use super::limits;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
+use super::parameters::{self, Parameter};
 use super::parts::{self, Part};
 use super::reader::{TableReader, listed};
 use super::step::{Measure, Step};
@@ -79,10 +80,41 @@ pub(super) fn read(original: Original<'_>, choice: &Choice) -> Result<RateTable,
 fn has_claimed_columns(tables: &[(String, RateTable)], choice: &Choice) -> bool {
     let has = |table: &RateTable, name: &str| {
         let columns = table.columns.iter().chain(&table.values);
-        names::position(columns.map(|column| column.name.as_str()), name).is_some()
+        let names = columns.map(|column| column.name.as_str());
+        name.ends_with(':') || names::claimed_position(names, name).is_some()
     };
     let mut claimed = choice.claimed.iter();
     claimed.all(|name| tables.iter().any(|(_, table)| has(table, name)))
+}
+
+/// A table that is not yet read.
+struct Grid<'t> {
+    heading: String,
+    parameters: Vec<Parameter>,
+    table: RawTable<'t>,
+}
+
+/// The tables of all parts.
+fn grids<'t>(parts: &[Part<'t>], choice: &Choice) -> Vec<Grid<'t>> {
+    let mut grids = vec![];
+    for part in parts {
+        for group in groups::split(&part.table, choice) {
+            let headings = [part.heading.as_str(), group.heading.as_str()];
+            let all = headings.join(", ");
+            let parameters = parameters::of_table(&all, &group.table);
+            let heading = match headings {
+                [_, group] if parts.len() == 1 => group.to_owned(),
+                [part, ""] => part.to_owned(),
+                _ => all,
+            };
+            grids.push(Grid {
+                heading,
+                parameters,
+                table: group.table,
+            });
+        }
+    }
+    grids
 }
 
 /// Reads all tables with one choice. Beside others, a table that holds no errors by its names is
@@ -92,44 +124,34 @@ fn attempt_all(
     choice: &Choice,
     parts: &[Part<'_>],
 ) -> Result<Vec<(String, RateTable)>, InputError> {
-    let mut grids = vec![];
-    for part in parts {
-        for group in groups::split(&part.table, choice) {
-            let headings = [part.heading.as_str(), group.heading.as_str()];
-            let headings = if parts.len() == 1 {
-                &headings[1..]
-            } else {
-                &headings[..]
-            };
-            let headings: Vec<&str> = headings
-                .iter()
-                .copied()
-                .filter(|heading| !heading.is_empty())
-                .collect();
-            grids.push((headings.join(", "), group.table));
-        }
-    }
-    let has_errors = |grid: &(String, RawTable<'_>)| may_have_errors(&grid.1, choice);
-    let without_errors: Vec<String> = grids
-        .iter()
-        .filter(|grid| !has_errors(grid))
-        .map(|(heading, _)| heading.clone())
-        .collect();
-    let leaves_out = !without_errors.is_empty() && without_errors.len() < grids.len();
-    if leaves_out {
+    let mut grids = grids(parts, choice);
+    let has_errors = |grid: &Grid<'_>| may_have_errors(&grid.table, choice);
+    let mut without_errors: Vec<String> = vec![];
+    if grids.iter().any(has_errors) {
+        let others = grids.iter().filter(|grid| !has_errors(grid));
+        without_errors = others.map(|grid| format!("`{}`", grid.heading)).collect();
         grids.retain(has_errors);
     }
     let mut tables = vec![];
-    for (heading, grid) in &grids {
-        tables.push((heading.clone(), attempt(original, choice, grid)?));
-    }
-    if let [(_, first), ..] = &mut tables[..]
-        && leaves_out
+    for Grid {
+        heading,
+        parameters,
+        table,
+    } in grids
     {
-        first.reading += &format!(
-            "; without errors: {}",
-            listed(without_errors.iter().map(|heading| format!("`{heading}`")))
-        );
+        let table = attempt(original, choice, &table)?;
+        tables.push((
+            heading,
+            RateTable {
+                parameters,
+                ..table
+            },
+        ));
+    }
+    if let Some((_, first)) = tables.first_mut()
+        && !without_errors.is_empty()
+    {
+        first.reading += &format!("; without errors: {}", listed(without_errors.into_iter()));
     }
     Ok(tables)
 }
@@ -206,6 +228,9 @@ fn attempt(
             .map(|k| column(&reader, *k, &steps, &step_halves))
             .collect()
     };
+    let errors_over_steps = columns(&errors)?;
+    let jumps = errors_over_steps.iter().filter_map(doubt::jump);
+    let doubts = jumps.chain(reader.contradiction(step.column));
     Ok(RateTable {
         reading: reading(&reader, &step, [&errors, &values], &others),
         columns: columns(&errors)?,
@@ -224,7 +249,8 @@ fn attempt(
                 },
             )
             .collect(),
-        doubts: columns(&errors)?.iter().filter_map(doubt::jump).collect(),
+        parameters: vec![],
+        doubts: doubts.collect(),
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })
@@ -247,6 +273,9 @@ fn reading(
     let mut reading = format!("step: `{}`{}", step.label, step.how);
     for (what, list) in parts.iter().filter(|(_, list)| !list.is_empty()) {
         reading += &format!("; {what}: {list}");
+    }
+    if reader.is_shuffled {
+        reading += &format!("; rows sorted by `{}`", reader.columns[step.column].name);
     }
     let unsolved = reader
         .is_solved
@@ -305,6 +334,8 @@ impl TableReader<'_> {
                 &found,
             ));
         }
+        let is_in_order = order.is_sorted() || order.is_sorted_by(|a, b| a > b);
+        self.is_shuffled = !is_in_order;
         self.columns.iter_mut().for_each(|cells| cells.sort(&order));
         Ok(order.iter().map(|row| steps[*row]).collect())
     }

@@ -1,6 +1,7 @@
 //! What the rates that a table prints say about its steps: the dimension of a count, the ratio of
 //! levels.
 
+use super::Doubt;
 use super::columns::Derived;
 use super::reader::{NEIGHBOURS, TableReader};
 
@@ -21,6 +22,17 @@ impl TableReader<'_> {
     /// The only dimension D with which a column has the rates of another over `count^(-1/D)`.
     pub(super) fn stated_dimension(&self, count: usize) -> Option<Stated<'_>> {
         self.only(count, &DIMENSIONS, |count, dim| count.powf(-1.0 / dim))
+    }
+
+    /// A dimension that the user has chosen, where the rates of the table say another.
+    pub(super) fn contradiction(&self, count: usize) -> Option<Doubt> {
+        let chosen = self.choice.dim?;
+        let stated = self.stated_dimension(count)?;
+        (stated.number != chosen).then(|| Doubt::Dimension {
+            chosen,
+            stated: stated.number,
+            column: stated.error.to_owned(),
+        })
     }
 
     /// The only ratio R with which a column has the rates of another over `R^(-level)`.

@@ -3,6 +3,7 @@
 use super::heads::{self, Names};
 use super::number::number;
 use super::pairs::{self, RawTable};
+use super::turned;
 
 /// First words of a row that sums up those above it.
 const CLOSING: [&str; 6] = ["mean", "average", "avg", "median", "overall", "total"];
@@ -16,6 +17,9 @@ const FULL: usize = 4;
 /// * `earlier`: the names of the table above it in the same text, which it may share.
 pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
     if let Some(table) = pairs::read(text, true) {
+        return table;
+    }
+    if let Some(table) = turned::with_rates_between(text) {
         return table;
     }
     let Lines {
@@ -57,7 +61,7 @@ pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
         .or_else(|| heads::find(&heads, &rows, &spans, separator))
         .or_else(|| heads::shared(earlier, &heads, separator, width).map(with_names))
     {
-        None if is_turned(&rows) => transpose(&rows, width, table),
+        None if turned::is_turned(&rows) => turned::transpose(&rows, width, table),
         names => {
             // If the number of words is not that of the columns, it says how many columns there
             // should be.
@@ -74,23 +78,6 @@ pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
                 ..table
             }
         }
-    }
-}
-
-/// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
-fn transpose<'t>(rows: &[Vec<&'t str>], width: usize, table: RawTable<'t>) -> RawTable<'t> {
-    let mut columns: Vec<Vec<&str>> = (0..width)
-        .map(|k| rows.iter().map(|row| row[k]).collect())
-        .collect();
-    let names = if number(rows[0][0], true).is_none() {
-        columns.remove(0)
-    } else {
-        vec![&rows[0][0][..0]; rows.len()]
-    };
-    RawTable {
-        names,
-        rows: columns,
-        ..table
     }
 }
 
@@ -361,31 +348,6 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)], spans: &[[usize; 2]]) {
             *cells = all;
         }
     }
-}
-
-/// Whether numbers have a constant ratio, as those of a step do.
-fn has_constant_ratio(cells: &[&str]) -> bool {
-    let numbers: Vec<f64> = cells
-        .iter()
-        .filter_map(|cell| Some(number(cell, true)?.value))
-        .collect();
-    numbers.len() > 2
-        && numbers
-            .windows(3)
-            .all(|three| (three[0] * three[2] / three[1].powi(2) - 1.0).abs() < 1e-3)
-}
-
-/// Whether columns stand as rows: words before them and none above, two rows of numbers, or the
-/// steps in the first one.
-fn is_turned(rows: &[Vec<&str>]) -> bool {
-    let width = rows[0].len();
-    if rows.len() < 2 || rows.iter().any(|row| row.len() != width || row.len() < 3) {
-        return false;
-    }
-    let firsts: Vec<&str> = rows.iter().map(|row| row[0]).collect();
-    firsts.iter().all(|cell| number(cell, true).is_none())
-        || rows.len() == 2
-        || has_constant_ratio(&rows[0]) && !has_constant_ratio(&firsts)
 }
 
 /// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.

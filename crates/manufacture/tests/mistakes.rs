@@ -11,14 +11,18 @@ const TORUS: &str = include_str!("files/torus.toml");
 const INTERVAL: &str = include_str!("files/moving-interval.toml");
 const COASTAL: &str = include_str!("files/coastal.toml");
 
+/// All of them.
+pub(crate) const FILES: [&str; 6] = [GAS, FILTERED, RUBBER, TORUS, INTERVAL, COASTAL];
+
 const SAMPLING: Sampling = Sampling {
     seed: 1,
     points: 60,
     is_strict: false,
 };
 
-/// The answer of a program whose source is that of another file.
-pub(crate) fn answered(text: &str, other: &str, sampling: &Sampling) -> Vec<Comparison> {
+/// What is said of a program whose sources are those of another file; `None` if they are not
+/// finite.
+pub(crate) fn compared(text: &str, other: &str, sampling: &Sampling) -> Option<Vec<Comparison>> {
     let right = read(text);
     let question = right.question(None, sampling).unwrap();
     let table = question.text().replace(' ', ",");
@@ -29,10 +33,15 @@ pub(crate) fn answered(text: &str, other: &str, sampling: &Sampling) -> Vec<Comp
     for line in 0..sampling.points {
         answer.push('\n');
         for name in &names {
-            answer += &format!("{:?} ", sources[*name][line].as_f64().unwrap());
+            answer += &format!("{:?} ", sources[*name][line].as_f64()?);
         }
     }
-    question.compare(&answer, "other").unwrap()
+    Some(question.compare(&answer, "other").unwrap())
+}
+
+#[track_caller]
+fn answered(text: &str, other: &str, sampling: &Sampling) -> Vec<Comparison> {
+    compared(text, other, sampling).unwrap()
 }
 
 /// The file after an edit of its text, which must have the old text at the edit's place.
@@ -49,10 +58,17 @@ pub(crate) fn applied(text: &str, edit: &Edit) -> String {
 
 /// Whether the new text of an edit stands for its old text in the file.
 pub(crate) fn is_text(edit: &Edit) -> bool {
-    !matches!(
-        edit.kind,
-        "product-rule" | "basis" | "exchange" | "coordinates"
-    )
+    let whole = [
+        "product-rule",
+        "basis",
+        "exchange",
+        "coordinates",
+        "components",
+        "sign-of-source",
+        "constant",
+        "factor-of-source",
+    ];
+    !whole.contains(&edit.kind)
 }
 
 /// A file with one text replaced is held against the file: the kind of the edit that is named, its

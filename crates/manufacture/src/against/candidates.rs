@@ -22,7 +22,7 @@ pub(super) enum Change {
     Exponent,
     LostFactor,
     LostDivisor,
-    /// A product in place of a quotient.
+    /// A product in place of a quotient, or the other way round.
     TimesForOver,
     /// A square in place of a number.
     Square,
@@ -44,6 +44,18 @@ pub(super) enum Change {
     TakenBelow,
     /// Derivatives as in Cartesian coordinates.
     Basis,
+    /// A derivative by another variable, or by one fewer.
+    Derivative,
+    /// A component by another.
+    Index,
+    /// One of the values of a choice at all points.
+    Branch,
+    /// The factor before a bracket, or the divisor behind it, reaches one summand only.
+    LostBracket,
+    /// A name by another of its kind.
+    Name,
+    /// Another summand, with an unknown factor.
+    Added,
     /// Two names exchanged.
     Exchange,
 }
@@ -55,13 +67,15 @@ pub(super) struct Candidate {
     pub(super) alteration: Alteration,
     /// How far it is from a top-level term.
     pub(super) depth: usize,
+    /// It is tried only if no other explains the values.
+    pub(super) is_rare: bool,
 }
 
 impl Change {
     /// Whether a number belongs to it.
     pub(super) fn has_factor(self) -> bool {
-        use Change::{Exponent, Part, Summand, Term};
-        matches!(self, Term | Summand | Part | Exponent)
+        use Change::{Added, Exponent, Part, Summand, Term};
+        matches!(self, Term | Summand | Part | Exponent | Added)
     }
 }
 
@@ -90,6 +104,9 @@ enum Role {
 const DEFINITION: usize = 20;
 
 struct Walk<'c> {
+    problem: &'c Problem,
+    /// Definitions of one shape, pair by pair.
+    alike: &'c [[String; 2]],
     home: &'c Home,
     /// How far the expression is from a top-level term.
     depth: usize,
@@ -97,7 +114,9 @@ struct Walk<'c> {
 }
 
 /// All candidates in the expressions that a comparison is about.
-pub(super) fn all(problem: &Problem, part: Part) -> Vec<Candidate> {
+///
+/// * `alike`: definitions of one shape, pair by pair.
+pub(super) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
     let mut found = vec![];
     let mut homes = vec![];
     for (name, definition) in &problem.definitions {
@@ -132,11 +151,17 @@ pub(super) fn all(problem: &Problem, part: Part) -> Vec<Candidate> {
             _ => 0,
         };
         let mut walk = Walk {
+            problem,
+            alike,
             home,
             depth: DEFINITION * distance,
             found: &mut found,
         };
         walk.visit(&expression.tree, &mut vec![], Role::Root);
+        walk.exchanges(&expression.tree);
+        if matches!(home, Home::Term { term: 0, .. } | Home::Datum { .. }) {
+            walk.added(&expression.tree);
+        }
     }
     if problem.system != System::Cartesian {
         for basis in [Basis::Unturned, Basis::Flat] {
@@ -144,8 +169,17 @@ pub(super) fn all(problem: &Problem, part: Part) -> Vec<Candidate> {
                 change: Change::Basis,
                 alteration: Alteration::Basis(basis),
                 depth: 0,
+                is_rare: false,
             });
         }
+    }
+    for names in alike {
+        found.push(Candidate {
+            change: Change::Exchange,
+            alteration: Alteration::Exchange(names.clone()),
+            depth: 0,
+            is_rare: true,
+        });
     }
     found
 }
@@ -166,6 +200,7 @@ pub(super) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<
             new,
         }),
         depth: 0,
+        is_rare: false,
     })
 }
 
@@ -278,7 +313,16 @@ impl Walk<'_> {
                 new,
             }),
             depth: self.depth + route.len(),
+            is_rare: false,
         });
+    }
+
+    /// An edit that is tried only if others do not explain the values.
+    fn add_rare(&mut self, change: Change, route: &Route, new: Tree) {
+        self.add(change, route, new);
+        if let Some(last) = self.found.last_mut() {
+            last.is_rare = true;
+        }
     }
 
     fn visit(&mut self, tree: &Tree, route: &mut Route, role: Role) {
@@ -298,16 +342,91 @@ impl Walk<'_> {
         match &tree.kind {
             Kind::Binary(operator, operands) => self.binary(*operator, operands, route),
             Kind::Call(callee, parts) => self.call(*callee, parts, route),
-            Kind::Name(_) if role == Role::Factor => {
-                let two = number("2", 2.0);
-                self.add(Change::Square, route, binary(Binary::Power, tree, &two));
+            Kind::Name(named) => {
+                if role == Role::Factor {
+                    let two = number("2", 2.0);
+                    self.add(Change::Square, route, binary(Binary::Power, tree, &two));
+                }
+                for other in self.others(named) {
+                    self.add_rare(Change::Name, route, name(&other));
+                }
             }
+            Kind::Index(of, indices) => self.index(of, indices, route),
             _ => (),
         }
         for (place, (child, role)) in tree.children().into_iter().zip(roles(tree)).enumerate() {
             route.push(place);
             self.visit(child, route, role);
             route.pop();
+        }
+    }
+
+    /// Names of the same kind: variables, parameters, definitions of the same shape.
+    fn others(&self, named: &str) -> Vec<String> {
+        let parameters = self.problem.parameters.iter();
+        let parameters: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
+        for kind in [self.problem.variables(), parameters] {
+            if kind.contains(&named) {
+                let others = kind.into_iter().filter(|other| *other != named);
+                return others.map(str::to_owned).collect();
+            }
+        }
+        let pairs = self.alike.iter();
+        pairs
+            .filter_map(|[first, second]| match [first == named, second == named] {
+                [true, _] => Some(second.clone()),
+                [_, true] => Some(first.clone()),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Two names of one kind exchanged in all of an expression.
+    fn exchanges(&mut self, tree: &Tree) {
+        let mut names: Vec<String> = vec![];
+        collect_names(tree, &mut names);
+        names.sort();
+        names.dedup();
+        for (place, first) in names.iter().enumerate() {
+            for second in self.others(first) {
+                if names[place..].contains(&second) {
+                    let mut new = tree.clone();
+                    exchange(&mut new, first, &second);
+                    self.add_rare(Change::Name, &vec![], new);
+                }
+            }
+        }
+    }
+
+    /// A field, or another definition, as another summand.
+    fn added(&mut self, tree: &Tree) {
+        let names: Vec<String> = self.problem.definitions.keys().cloned().collect();
+        for named in names {
+            let summand = times_factor(&name(&named));
+            let sum = binary(Binary::Add, tree, &summand);
+            self.add_rare(Change::Added, &vec![], sum);
+        }
+    }
+
+    /// Another component.
+    fn index(&mut self, of: &Tree, indices: &[Tree], route: &Route) {
+        let indexed = |indices: Vec<Tree>| node(Kind::Index(Box::new(of.clone()), indices));
+        if let [first, second] = indices {
+            let swapped = indexed(vec![second.clone(), first.clone()]);
+            self.add(Change::Index, route, swapped);
+        }
+        for (place, index) in indices.iter().enumerate() {
+            let others: Vec<Tree> = match index.kind {
+                Kind::Number(..) => (1..=3)
+                    .map(|other| number(&other.to_string(), f64::from(other)))
+                    .collect(),
+                _ => self.problem.axes().iter().map(|axis| name(axis)).collect(),
+            };
+            for other in others.into_iter().filter(|other| other.kind != index.kind) {
+                let mut indices = indices.to_vec();
+                indices[place] = other;
+                self.add_rare(Change::Index, route, indexed(indices));
+            }
         }
     }
 
@@ -334,12 +453,19 @@ impl Walk<'_> {
         match operator {
             Binary::Multiply => {
                 self.add(Change::LostFactor, route, left.clone());
+                self.add(
+                    Change::TimesForOver,
+                    route,
+                    binary(Binary::Divide, left, right),
+                );
+                self.brackets(operator, operands, route);
                 if !is_chain(left) {
                     self.add(Change::LostFactor, route, right.clone());
                 }
             }
             Binary::Divide => {
                 self.add(Change::LostDivisor, route, left.clone());
+                self.brackets(operator, operands, route);
                 let product = binary(Binary::Multiply, left, right);
                 self.add(Change::TimesForOver, route, product);
                 if !is_chain(left) && !matches!(left.kind, Kind::Number(..)) {
@@ -348,6 +474,36 @@ impl Walk<'_> {
                 }
             }
             _ => (),
+        }
+    }
+
+    /// `a*b + c` for `a*(b + c)`, `a + b/c` for `(a + b)/c`.
+    fn brackets(&mut self, of: Binary, [left, right]: &[Tree; 2], route: &Route) {
+        let sum = |tree: &Tree| match &tree.kind {
+            Kind::Bracket(inner) => match &inner.kind {
+                Kind::Binary(sign @ (Binary::Add | Binary::Subtract), parts) => {
+                    Some((*sign, (**parts).clone()))
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        let bracket = |tree: Tree| node(Kind::Bracket(Box::new(tree)));
+        if let Some((sign, [first, last])) = sum(left) {
+            let last = binary(of, &last, right);
+            self.add(
+                Change::LostBracket,
+                route,
+                bracket(binary(sign, &first, &last)),
+            );
+        }
+        if let (Binary::Multiply, Some((sign, [first, last]))) = (of, sum(right)) {
+            let first = binary(of, left, &first);
+            self.add(
+                Change::LostBracket,
+                route,
+                bracket(binary(sign, &first, &last)),
+            );
         }
     }
 
@@ -362,15 +518,17 @@ impl Walk<'_> {
             }
             Callee::Piecewise(function) => {
                 let other = match function {
-                    Piecewise::Min => Piecewise::Max,
-                    Piecewise::Max => Piecewise::Min,
-                    Piecewise::Abs => {
-                        self.add(Change::LostOperator, route, parts[0].clone());
-                        return;
-                    }
-                    _ => return,
+                    Piecewise::Min => Some(Piecewise::Max),
+                    Piecewise::Max => Some(Piecewise::Min),
+                    _ => None,
                 };
-                self.add(Change::Function, route, call(Callee::Piecewise(other)));
+                if let Some(other) = other {
+                    self.add(Change::Function, route, call(Callee::Piecewise(other)));
+                }
+                let is_choice = |part: &&Tree| !matches!(part.kind, Kind::Compare(..));
+                for branch in parts.iter().filter(is_choice) {
+                    self.add(Change::Branch, route, branch.clone());
+                }
             }
             Callee::Operator(operator) => self.operator(operator, parts, route),
         }
@@ -379,7 +537,30 @@ impl Walk<'_> {
     fn operator(&mut self, of: Operator, parts: &[Tree], route: &Route) {
         let first = &parts[0];
         let transposed = |tree: &Tree| operator(Operator::Transpose, &[tree]);
+        let is_curved = self.problem.system != System::Cartesian;
+        let is_derivative = matches!(
+            of,
+            Operator::Gradient | Operator::Divergence | Operator::Laplacian | Operator::Curl
+        );
+        if is_curved && is_derivative {
+            let parts: Vec<&Tree> = parts.iter().collect();
+            let whole = operator(of, &parts);
+            for basis in [names::Alteration::Unturned, names::Alteration::Flat] {
+                let new = operator(Operator::Altered(basis), &[&whole]);
+                self.add(Change::Basis, route, new);
+            }
+        }
         match of {
+            Operator::Derivative => self.derivative(parts, route),
+            Operator::TimeDerivative => {
+                let is_first = !matches!(
+                    first.kind,
+                    Kind::Call(Callee::Operator(Operator::TimeDerivative), _)
+                );
+                if !is_first {
+                    self.add(Change::Derivative, route, first.clone());
+                }
+            }
             Operator::Gradient => {
                 let whole = operator(of, &[first]);
                 self.add(Change::TransposedGradient, route, transposed(&whole));
@@ -428,6 +609,36 @@ impl Walk<'_> {
         }
     }
 
+    /// A derivative by one variable fewer, or by another.
+    fn derivative(&mut self, parts: &[Tree], route: &Route) {
+        for place in 1..parts.len() {
+            let is_other = place == 1 || parts[place - 1].kind != parts[place].kind;
+            if parts.len() > 2 && is_other {
+                let mut fewer = parts.to_vec();
+                fewer.remove(place);
+                let fewer = fewer.iter().collect::<Vec<_>>();
+                self.add(
+                    Change::Derivative,
+                    route,
+                    operator(Operator::Derivative, &fewer),
+                );
+            }
+            for other in self.problem.variables() {
+                let other = name(other);
+                if other.kind != parts[place].kind {
+                    let mut by = parts.to_vec();
+                    by[place] = other;
+                    let by = by.iter().collect::<Vec<_>>();
+                    self.add_rare(
+                        Change::Derivative,
+                        route,
+                        operator(Operator::Derivative, &by),
+                    );
+                }
+            }
+        }
+    }
+
     /// Products: all factors but one are constants for derivatives; a factor goes below a derivative
     /// that it stands before.
     fn chain(&mut self, tree: &Tree, route: &Route) {
@@ -452,6 +663,28 @@ impl Walk<'_> {
                 self.add(Change::TakenBelow, route, new);
             }
         }
+    }
+}
+
+fn collect_names(tree: &Tree, names: &mut Vec<String>) {
+    if let Kind::Name(name) = &tree.kind {
+        names.push(name.clone());
+    }
+    for child in tree.children() {
+        collect_names(child, names);
+    }
+}
+
+fn exchange(tree: &mut Tree, first: &str, second: &str) {
+    if let Kind::Name(name) = &mut tree.kind {
+        if name == first {
+            second.clone_into(name);
+        } else if name == second {
+            first.clone_into(name);
+        }
+    }
+    for child in tree.children_mut() {
+        exchange(child, first, second);
     }
 }
 

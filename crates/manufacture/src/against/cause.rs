@@ -115,6 +115,12 @@ pub(super) fn kind(change: Change, factor: f64) -> &'static str {
         Change::Held | Change::OneDifferentiated => "product-rule",
         Change::Basis => "basis",
         Change::Exchange => "exchange",
+        Change::Derivative => "derivative",
+        Change::Index => "index",
+        Change::Branch => "branch",
+        Change::LostBracket => "bracket",
+        Change::Name => "name",
+        Change::Added => "added-term",
     }
 }
 
@@ -284,6 +290,7 @@ pub(super) fn place_and_text(named: &Named, file: &str) -> String {
         Change::OneDifferentiated => {
             format!("your source differentiates only `{new}` of the product `{old}`")
         }
+        _ if old.is_empty() => format!("your source has another summand, `{}`", new.trim_start()),
         _ if new.is_empty() => format!("your source lacks `{old}`"),
         _ => format!("your source has `{new}` where the file has `{old}`"),
     };

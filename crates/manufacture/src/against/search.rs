@@ -68,14 +68,8 @@ impl<'a, 'm> Search<'a, 'm> {
         fresh: Vec<Vec<f64>>,
     ) -> Option<Self> {
         let bench = Bench::new(right.model, right.part)?;
-        let mut candidates = candidates::all(&right.model.problem, right.part);
-        for names in bench.of_one_shape() {
-            candidates.push(Candidate {
-                change: Change::Exchange,
-                alteration: Alteration::Exchange(names),
-                depth: 0,
-            });
-        }
+        let alike = bench.of_one_shape();
+        let candidates = candidates::all(&right.model.problem, right.part, &alike);
         Some(Self {
             right,
             components,
@@ -140,7 +134,12 @@ impl<'a, 'm> Search<'a, 'm> {
             samples,
             is_wrong,
         };
-        let mut tried = self.singles(quantity, &trial);
+        let mut tried = Tried::default();
+        for is_rare in [false, true] {
+            if !self.are_explained(&tried, &trial) {
+                self.singles(quantity, &trial, is_rare, &mut tried);
+            }
+        }
         for found in &mut tried.matches {
             found.breadth = self.breadth(quantity, found);
         }
@@ -176,9 +175,8 @@ impl<'a, 'm> Search<'a, 'm> {
     }
 
     /// All single edits of a quantity.
-    fn singles(&mut self, quantity: usize, trial: &Trial) -> Tried {
+    fn singles(&mut self, quantity: usize, trial: &Trial, is_rare: bool, tried: &mut Tried) {
         let name = self.name(quantity);
-        let mut tried = Tried::default();
         let fresh = self.fresh.clone();
         for place in 0..self.candidates.len() {
             let candidate = self.candidates[place].clone();
@@ -186,7 +184,7 @@ impl<'a, 'm> Search<'a, 'm> {
                 Alteration::Rewrite(rewrite) => self.bench.reaches(&rewrite.home, name),
                 _ => true,
             };
-            if !reaches {
+            if !reaches || candidate.is_rare != is_rare {
                 continue;
             }
             let seen = self
@@ -215,7 +213,21 @@ impl<'a, 'm> Search<'a, 'm> {
                 ..near
             }));
         }
-        tried
+    }
+
+    /// Whether each component that is wrong has an edit that is not far-fetched.
+    fn are_explained(&self, tried: &Tried, trial: &Trial) -> bool {
+        let near =
+            |found: &&Match| cost(&self.candidates[found.candidate], found.factor) < FAR_FETCHED;
+        let is_wrong = trial.is_wrong.iter().enumerate();
+        let mut wrong = is_wrong.filter(|entry| *entry.1).map(|entry| entry.0);
+        wrong.all(|place| {
+            tried
+                .matches
+                .iter()
+                .filter(near)
+                .any(|found| found.fits[place])
+        })
     }
 
     /// The number of all components that an edit explains, or leaves right.
@@ -556,6 +568,8 @@ fn cost(candidate: &Candidate, factor: f64) -> usize {
         Change::TransposedGradient | Change::MissingTranspose | Change::Held => 11,
         Change::Exponent if text::has_simple_number(candidate, factor) => 11,
         Change::TimesForOver | Change::Order | Change::Operator | Change::Function => 12,
+        Change::Derivative | Change::Index | Change::Branch | Change::LostBracket => 13,
+        Change::Name => 16,
         Change::Term | Change::Summand | Change::Part
             if text::has_simple_number(candidate, factor) =>
         {

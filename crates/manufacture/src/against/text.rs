@@ -92,6 +92,22 @@ fn rewritten(
             with_factor(expression, rewrite, part, factor)
         }
         Change::Exponent => exponent(expression, rewrite, part, factor),
+        Change::Added => Texts {
+            span: Span {
+                start: own.end,
+                ..own
+            },
+            new: added(&rewrite.new, factor),
+        },
+        Change::Basis => Texts {
+            span: own,
+            new: match &rewrite.new.kind {
+                Kind::Call(Callee::Operator(Operator::Altered(names::Alteration::Flat)), _) => {
+                    format!("{part} as in Cartesian coordinates")
+                }
+                _ => format!("{part} without the derivatives of the basis"),
+            },
+        },
         Change::Held => Texts {
             span: own,
             new: format!("{part}, held constant"),
@@ -114,6 +130,20 @@ fn rewritten(
         column: place.column,
         old: expression.text.get(start..end).unwrap_or("").to_owned(),
         new: texts.new,
+    }
+}
+
+/// A summand with a factor: the last one of a sum, whose own factor is unknown.
+fn added(sum: &Tree, factor: f64) -> String {
+    let Kind::Binary(_, operands) = &sum.kind else {
+        return String::new();
+    };
+    let summand = operands[1].children().first().map(|name| name.to_string());
+    let summand = summand.unwrap_or_default();
+    let sign = if factor < 0.0 { '-' } else { '+' };
+    match factor.abs() {
+        1.0 => format!(" {sign} {summand}"),
+        size => format!(" {sign} {}*{summand}", written(size)),
     }
 }
 

@@ -81,9 +81,7 @@ fn named(text: &str, replaced: [&str; 2], kind: &str, texts: [&str; 2]) {
     let found = answered(text, &other, &SAMPLING);
     let wrong: Vec<&Comparison> = found.iter().filter(|c| c.cause != "equal").collect();
     assert!(!wrong.is_empty());
-    // Values of parameters are exchanged where they are given.
-    let place = if kind == "parameters" { texts[0] } else { old };
-    let line = 1 + text[..text.find(place).unwrap()].matches('\n').count();
+    let line = 1 + text[..text.find(old).unwrap()].matches('\n').count();
     for comparison in wrong {
         let edits = &comparison.edits;
         assert_eq!(comparison.cause, kind, "{}", comparison.sentence);
@@ -196,7 +194,10 @@ fn mistakes_in_rubber_are_named() {
             "2*(c01 + c10*trace(C))*F - 2*c10*dot",
         ],
         "parameters",
-        ["0.3", "0.8"],
+        [
+            "2*(c10 + c01*trace(C))*F - 2*c01*dot(F, C) - p*J*transpose(inv(F))",
+            "2*(c01 + c10*trace(C))*F - 2*c10*dot(F, C) - p*J*transpose(inv(F))",
+        ],
     );
 }
 
@@ -241,4 +242,24 @@ fn a_lost_mean_velocity_is_named() {
         "missing-term",
         ["- vbar", ""],
     );
+}
+
+/// Two mistakes, one of them inside what the other changes.
+#[test]
+fn two_mistakes_together_are_named() {
+    for [old, new] in [
+        ["2*mu*(sym(grad(v)) - div(v)/3*identity)", "mu*sym(grad(v))"],
+        [
+            "storage = \"dt(rho*v)\"\nconvection = \"div(rho*outer(v, v))\"",
+            "storage = \"rho*dt(v)\"\nconvection = \"rho*dot(grad(v), v)\"",
+        ],
+    ] {
+        let other = GAS.replacen(old, new, 1);
+        assert_ne!(GAS, other);
+        let found = answered(GAS, &other, &SAMPLING);
+        for comparison in found.iter().filter(|c| c.cause != "equal") {
+            assert_eq!(comparison.edits.len(), 2, "{}", comparison.sentence);
+            println!("{}", comparison.sentence);
+        }
+    }
 }

@@ -56,8 +56,10 @@ pub(super) enum Change {
     Name,
     /// Another summand, with an unknown factor.
     Added,
-    /// Two names exchanged.
+    /// Two definitions exchanged.
     Exchange,
+    /// Two parameters exchanged.
+    Parameters,
 }
 
 /// An edit that is tried.
@@ -102,6 +104,9 @@ enum Role {
 
 /// A definition is so much further from a term than what names it.
 const DEFINITION: usize = 20;
+
+/// The solution is further from all terms than any definition.
+const EXACT: usize = 1000;
 
 struct Walk<'c> {
     problem: &'c Problem,
@@ -154,7 +159,7 @@ pub(super) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<C
             problem,
             alike,
             home,
-            depth: DEFINITION * distance,
+            depth: distance,
             found: &mut found,
         };
         walk.visit(&expression.tree, &mut vec![], Role::Root);
@@ -204,7 +209,7 @@ pub(super) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<
     })
 }
 
-/// How many definitions lead from a term, or a datum, to each.
+/// How far each definition is from a term, or from a datum.
 fn distances(problem: &Problem, homes: &[Home]) -> HashMap<String, usize> {
     let mut distances = HashMap::new();
     let tops = homes
@@ -219,7 +224,8 @@ fn distances(problem: &Problem, homes: &[Home]) -> HashMap<String, usize> {
         for (name, definition) in &problem.definitions {
             let is_named = level.iter().any(|tree| mentions(tree, name));
             if is_named && !distances.contains_key(name) {
-                distances.insert(name.clone(), distance);
+                let exact = if definition.is_exact { EXACT } else { 0 };
+                distances.insert(name.clone(), DEFINITION * distance + exact);
                 next.extend(site::parts(&definition.value).map(|part| &part.tree));
             }
         }
@@ -392,7 +398,12 @@ impl Walk<'_> {
                 if names[place..].contains(&second) {
                     let mut new = tree.clone();
                     exchange(&mut new, first, &second);
-                    self.add_rare(Change::Name, &vec![], new);
+                    let mut parameters = self.problem.parameters.iter();
+                    let change = match parameters.any(|parameter| parameter.name == *first) {
+                        true => Change::Parameters,
+                        false => Change::Exchange,
+                    };
+                    self.add_rare(change, &vec![], new);
                 }
             }
         }

@@ -115,6 +115,7 @@ pub(super) fn kind(change: Change, factor: f64) -> &'static str {
         Change::Held | Change::OneDifferentiated => "product-rule",
         Change::Basis => "basis",
         Change::Exchange => "exchange",
+        Change::Parameters => "parameters",
         Change::Derivative => "derivative",
         Change::Index => "index",
         Change::Branch => "branch",

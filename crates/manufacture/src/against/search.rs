@@ -273,12 +273,8 @@ impl<'a, 'm> Search<'a, 'm> {
     /// Those that explain most first; of these the smallest, then those nearest to a term.
     fn order(&self, matches: &mut [Match]) {
         let key = |found: &Match| {
-            let candidate = &self.candidates[found.candidate];
-            (
-                usize::MAX - found.breadth,
-                cost(candidate, found.factor),
-                candidate.depth,
-            )
+            let size = self.size(found.candidate, found.factor);
+            (usize::MAX - found.breadth, size)
         };
         matches.sort_by_key(key);
     }
@@ -558,6 +554,14 @@ fn is_same(first: &[f64], second: &[f64]) -> bool {
 /// The cost of an edit with a number that nobody writes.
 const FAR_FETCHED: usize = 40;
 
+impl Search<'_, '_> {
+    /// The size of an edit, then how far it is from a term: the smaller, the more likely.
+    pub(super) fn size(&self, candidate: usize, factor: f64) -> (usize, usize) {
+        let candidate = &self.candidates[candidate];
+        (cost(candidate, factor), candidate.depth)
+    }
+}
+
 /// How much an edit changes; those that people make most often are cheapest.
 fn cost(candidate: &Candidate, factor: f64) -> usize {
     let is_lost = factor == -1.0 || factor == 0.0;
@@ -575,7 +579,7 @@ fn cost(candidate: &Candidate, factor: f64) -> usize {
         {
             12
         }
-        Change::Exchange | Change::Basis => 13,
+        Change::Exchange | Change::Parameters | Change::Basis => 13,
         Change::Part if is_lost => 14,
         Change::OneDifferentiated | Change::TakenBelow | Change::Square => 15,
         _ if candidate.has_factor() && is_simple => 20,

@@ -225,15 +225,22 @@ fn with_factor(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: 
 /// simple.
 fn times(part: &Tree, factor: f64) -> String {
     let size = factor.abs();
-    let text = match (size == 1.0, with_number(part, size)) {
-        (true, _) => bracketed(part),
-        (false, Some(new)) => new.to_string(),
-        (false, None) => format!("{}*{}", written(size), bracketed(part)),
+    let text = bracketed(part);
+    // The sign of a product stands before all of it.
+    let (is_negative, positive) = match text.strip_prefix('-') {
+        Some(positive) => (true, positive.to_owned()),
+        None => (false, text),
     };
-    match (factor < 0.0, text.strip_prefix('-')) {
-        (false, _) => text,
-        (true, Some(positive)) => positive.to_owned(),
-        (true, None) => format!("-{text}"),
+    let new = with_number(part, size).map(|new| new.to_string());
+    let positive = match (size == 1.0, new) {
+        (true, _) => positive,
+        (false, Some(new)) => new.strip_prefix('-').unwrap_or(&new).to_owned(),
+        (false, None) => format!("{}*{positive}", written(size)),
+    };
+    if is_negative == (factor < 0.0) {
+        positive
+    } else {
+        format!("-{positive}")
     }
 }
 
@@ -279,9 +286,28 @@ pub(super) fn with_number(part: &Tree, factor: f64) -> Option<Tree> {
         }
         let mut tree = part.clone();
         *site::at_mut(&mut tree, &route)? = number(&format!("{new}"), new);
+        if new == 1.0 {
+            drop_one(&mut tree, &route);
+        }
         return Some(tree);
     }
     None
+}
+
+/// Drops a factor or a divisor of 1.
+fn drop_one(tree: &mut Tree, route: &[usize]) {
+    let Some((place, above)) = route.split_last() else {
+        return;
+    };
+    let Some(product) = site::at_mut(tree, above) else {
+        return;
+    };
+    let other = match (&product.kind, place) {
+        (Kind::Binary(Binary::Multiply, operands), place) => operands[1 - place].clone(),
+        (Kind::Binary(Binary::Divide, operands), 1) => operands[0].clone(),
+        _ => return,
+    };
+    *product = other;
 }
 
 /// A number of a product.

@@ -1,6 +1,6 @@
 //! Claims other than an order, and wrong claims that few levels or a wrong limit suggest.
 
-use convergence_harness::judge::claims;
+use convergence_harness::judge::claims::{self, Interval};
 use convergence_harness::judge::verdict::{
     DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading, Reason, Verdict,
 };
@@ -10,6 +10,16 @@ use crate::hidden::{hidden_term, three_terms, wrong_limit};
 use crate::judge;
 use crate::laws::{LAWS, Law, Table};
 use crate::sheet::{Cell, Row, Share, Sheet};
+
+/// A claim about the constant 1, and one that it refutes.
+const RIGHT: Interval = Interval {
+    low: 0.8,
+    high: 1.25,
+};
+const WRONG: Interval = Interval {
+    low: 1.25,
+    high: 2.0,
+};
 
 /// Whether the order that the coarse levels show passes.
 fn passes(judge: &Judge, table: &Table) -> bool {
@@ -124,13 +134,13 @@ impl OtherClaims {
             .count(passes_at_least(judge, &reading, order - half));
         let rate = judge.judge_read(&reading, order);
         if HAS_CONSTANT.contains(&law.name) && rate.verdict.is_pass() {
-            if let Some([low, high]) = claims::constant(&table.levels, &rate) {
+            if let Some(Interval { low, high }) = claims::constant(&table.levels, &rate) {
                 // A pure power is known to the last digit.
                 self.interval_holds_constant
                     .count(low <= 1.0 + 1e-12 && 1.0 - 1e-12 <= high);
             }
-            let right = claims::with_constant(&table.levels, rate.clone(), [0.8, 1.25]).verdict;
-            let wrong = claims::with_constant(&table.levels, rate, [1.25, 2.0]).verdict;
+            let right = claims::with_constant(&table.levels, rate.clone(), RIGHT).verdict;
+            let wrong = claims::with_constant(&table.levels, rate, WRONG).verdict;
             self.right_constant_passes.count(right.is_pass());
             self.right_constant_fails.count(right == Verdict::Fail);
             self.wrong_constant_passes.count(wrong.is_pass());

@@ -24,7 +24,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::judge::verdict::{Judge, JudgeError, Verdict};
+use crate::judge::verdict::{Floor, Verdict};
 use crate::run::Finished;
 use crate::store::Record;
 use crate::study::outcome::Outcome;
@@ -75,17 +75,6 @@ impl Shift {
     }
 }
 
-/// The rule by which errors are compared.
-///
-/// * `floor`: errors not above it count as the floor.
-///
-/// # Errors
-/// [`JudgeError`] for an invalid floor.
-pub fn rule(floor: f64) -> Result<Judge, JudgeError> {
-    // The tolerance decides nothing here: the runs have judged the claims.
-    Judge::new(ORDER_SHIFT)?.with_floor(floor)
-}
-
 /// What became of one thing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
@@ -134,9 +123,9 @@ pub struct Comparison {
 
 /// Compares two records; studies are matched by their ids.
 ///
-/// * `rule`: see [`rule()`].
+/// * `floor`: errors not above it count as the floor.
 /// * `within`: errors that differ by less, as a share, are the same.
-pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Comparison {
+pub fn compare(old: &Record, new: &Record, floor: Floor, within: f64) -> Comparison {
     let mut comparison = Comparison {
         within,
         change: Shift::Same,
@@ -147,7 +136,7 @@ pub fn compare(old: &Record, new: &Record, rule: &Judge, within: f64) -> Compari
     for before in &old.studies {
         let id = &before.header.id;
         match new.studies.iter().find(|study| study.header.id == *id) {
-            Some(after) => comparison.add(before, after, rule),
+            Some(after) => comparison.add(before, after, floor),
             None => {
                 comparison.findings.push(finding_on_study(
                     id,
@@ -184,7 +173,7 @@ fn finding_on_study(study: &str, change: Shift, reason: String) -> Finding {
 
 impl Comparison {
     /// Adds a study that both records have.
-    fn add(&mut self, old: &Finished, new: &Finished, rule: &Judge) {
+    fn add(&mut self, old: &Finished, new: &Finished, floor: Floor) {
         self.studies += 1;
         let id = &old.header.id;
         let old_names = names(&old.outcome);
@@ -196,12 +185,12 @@ impl Comparison {
         let first = self.findings.len();
         for name in old_names {
             let [before, after] =
-                [old, new].map(|study| ErrorSequence::new(&study.outcome, name, rule));
+                [old, new].map(|study| ErrorSequence::new(&study.outcome, name, floor));
             let orders = [before.order, after.order];
             let both = Both {
                 old: before,
                 new: after,
-                floor: rule.floor(),
+                floor: floor.value(),
                 within: self.within,
             };
             let Answer { change, reason } = both.judge();

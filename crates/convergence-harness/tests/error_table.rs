@@ -3,7 +3,7 @@
 use convergence_harness::input::InputError;
 use convergence_harness::input::error_table::{Choice, RateTable};
 use convergence_harness::judge::claims::Claim;
-use convergence_harness::judge::verdict::{Judge, Verdict};
+use convergence_harness::judge::verdict::{Floor, Verdict};
 
 fn parsed(text: &str) -> Result<RateTable, InputError> {
     RateTable::parse_with(text, "t.csv", &Choice::default())
@@ -204,10 +204,21 @@ fn a_number_is_read_as_it_is_written() {
         assert_eq!(read(cell), Some(value), "{cell}");
     }
     for cell in [
-        "", "-", "x", "2*0.1", "1,024", "****", "1/2/4", "é-101", "1.5-10", "D-01", "infD2",
-        "1e-3 4", "1,2,3",
+        "", "x", "2*0.1", "1,024", "1/2/4", "é-101", "1.5-10", "D-01", "infD2", "1e-3 4", "1,2,3",
     ] {
         assert_eq!(read(cell), None, "{cell}");
+    }
+    for cell in [
+        "-",
+        "****",
+        "-nan(ind)",
+        "1.#QNAN",
+        "NaNQ",
+        "diverged",
+        "None",
+        "null",
+    ] {
+        assert!(read(cell).is_some_and(f64::is_nan), "{cell}");
     }
 }
 
@@ -221,10 +232,7 @@ fn the_order_of_the_rows_does_not_matter() {
     ];
     let judged = |rows: Vec<&str>| {
         let table = parsed(&format!("h,e\n{}\n", rows.join("\n"))).expect("a table");
-        table.columns[0].judge(
-            &Judge::new(0.05).expect("a tolerance"),
-            &Claim::new(1.0, 0.05),
-        )
+        table.columns[0].judge(&Claim::new(1.0, 0.05), Floor::NONE)
     };
     let (down, up) = (
         judged(rows.to_vec()),

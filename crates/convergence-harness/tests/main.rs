@@ -12,6 +12,8 @@ mod grid;
 #[cfg(feature = "reports")]
 mod plots;
 mod richardson;
+#[cfg(feature = "tables")]
+mod table_attacks;
 mod verdict_laws;
 mod verdict_rule;
 mod verdict_tables;

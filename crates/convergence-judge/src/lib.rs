@@ -34,12 +34,13 @@ pub mod rule {}
 
 #[doc(inline)]
 pub use judge::{
-    claims::Claim,
+    claims::{Claim, Interval},
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
     grid::{Adding, GridErrors},
     richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},
     verdict::{
-        Aside, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, JudgeError, Level, PowerLaw,
+        Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, PowerLaw,
         RateVerdict, Reading, Reason, SetAside, Verdict, WIDEST_TOLERANCE, judge, judge_pairs,
+        observe,
     },
 };

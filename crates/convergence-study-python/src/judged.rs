@@ -3,11 +3,11 @@
 use convergence_harness::judge::fit::Level;
 use convergence_harness::judge::shown::{self, MOST_PLACES, Shown};
 use convergence_harness::judge::verdict::{
-    DEFAULT_TOLERANCE, RateVerdict, Verdict, judged_in_words,
+    DEFAULT_TOLERANCE, Floor, RateVerdict, Reason, Verdict, observe,
 };
 use convergence_harness::study::over_levels::{ErrorColumn, Levels};
 use convergence_harness::study::{Axis, Claim, NamedRate, Refinement};
-use convergence_harness::text::number::{committed_rate, decimals, order_text};
+use convergence_harness::text::number::decimals;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -31,16 +31,14 @@ pub(crate) struct Judgement {
     pub(crate) name: String,
     pub(crate) step: String,
     pub(crate) levels: Vec<Level>,
-    /// Its order is NaN without a claim.
-    pub(crate) claim: Claim,
-    pub(crate) floor: f64,
+    pub(crate) claim: Option<Claim>,
+    pub(crate) tolerance: f64,
+    pub(crate) floor: Floor,
     pub(crate) rate: RateVerdict,
 }
 
 /// Decimals of the rate in the first line of a failing test.
 const FEW_PLACES: usize = 3;
-/// What is said where theory claims nothing.
-const UNCLAIMED: &str = "no order is claimed";
 
 impl Judgement {
     fn shown(&self) -> Shown<'_> {
@@ -52,36 +50,13 @@ impl Judgement {
         }
     }
 
-    fn is_claimed(&self) -> bool {
-        !self.claim.order.is_nan()
-    }
-
     /// `error: fail: 1.000, claimed 2 ± 0.25: too low`, for a rate in words.
     fn line(&self, rate: &str) -> String {
-        let is_pass = self.rate.verdict.is_pass();
-        let claim = if self.claim.at_least {
-            self.claim.to_string()
-        } else {
-            self.rate.claim()
+        let words = match &self.claim {
+            Some(claim) => claim.answer(&self.rate, rate),
+            None => format!("{rate}: {}", self.rate.because),
         };
-        let why = match self.claim {
-            Claim {
-                at_least: true,
-                order,
-                tolerance,
-                ..
-            } if is_pass => {
-                format!("at least {}", order_text(committed_rate(order - tolerance)))
-            }
-            _ if is_pass => self.rate.excludes(),
-            _ => self.rate.because.clone(),
-        };
-        let rate = if self.is_claimed() {
-            judged_in_words(rate, &claim, &why)
-        } else {
-            format!("{rate}: {UNCLAIMED}")
-        };
-        format!("{}: {}: {rate}", self.name, self.rate.verdict)
+        format!("{}: {}: {words}", self.name, self.rate.verdict)
     }
 
     /// The line with few decimals: the summary of a failing test.
@@ -100,7 +75,6 @@ impl Judgement {
             parameters: vec![],
             step: level.step,
         };
-        let claim = Some(self.claim).filter(|_| self.is_claimed());
         let errors = self.levels.iter().map(|level| Some(level.error));
         let axis = if self.step == "dt" {
             Axis::Time
@@ -108,7 +82,7 @@ impl Judgement {
             Axis::Space
         };
         let columns = [ErrorColumn {
-            claim,
+            claim: self.claim,
             ..ErrorColumn::without_claim(&self.name, errors)
         }];
         let levels = Levels::new(axis, self.levels.iter().map(refinement), columns);
@@ -137,15 +111,20 @@ impl Judgement {
         tolerance: f64,
         floor: f64,
     ) -> PyResult<Self> {
-        let claim = values::claim(order, tolerance)?;
-        let judge = values::judge_with(tolerance, floor)?;
+        let claim = values::optional_claim(order, tolerance)?;
+        let floor = values::floor_of(floor)?;
         let levels = values::levels(h, "errors", errors)?;
+        let rate = match &claim {
+            Some(claim) => claim.judge(&levels, floor),
+            None => observe(&levels, floor),
+        };
         Ok(Self {
-            rate: claim.judge(&judge, &levels),
+            rate,
             name,
             step,
             levels,
             claim,
+            tolerance,
             floor,
         })
     }
@@ -156,9 +135,9 @@ impl Judgement {
             self.step.clone(),
             self.levels.iter().map(|level| level.step).collect(),
             self.levels.iter().map(|level| level.error).collect(),
-            values::order_of(&self.claim),
-            self.claim.tolerance,
-            self.floor,
+            self.claim.as_ref().map(values::order_of),
+            self.tolerance,
+            self.floor.value(),
         )
     }
 
@@ -185,7 +164,7 @@ impl Judgement {
 
     #[getter]
     fn order(&self) -> Option<f64> {
-        Some(self.rate.order).filter(|order| !order.is_nan())
+        self.rate.order()
     }
 
     #[getter]
@@ -210,16 +189,12 @@ impl Judgement {
 
     #[getter]
     fn reason(&self) -> &str {
-        if self.is_claimed() {
-            &self.rate.reason
-        } else {
-            UNCLAIMED
-        }
+        &self.rate.reason
     }
 
     #[getter]
     fn advice(&self) -> Option<String> {
-        if self.is_claimed() {
+        if self.claim.is_some() {
             self.rate.advice()
         } else {
             Some("Claim what theory says: order=2, for example.".to_owned())
@@ -314,14 +289,14 @@ pub(crate) fn finite(number: f64) -> Option<f64> {
 pub(crate) fn explained(judgements: &[&Judgement]) -> String {
     let first = judgements.first();
     let step = first.map_or("h", |judgement| &judgement.step);
-    let floor = first.map_or(0.0, |judgement| judgement.floor);
+    let floor = first.map_or(0.0, |judgement| judgement.floor.value());
     let columns: Vec<Shown<'_>> = judgements.iter().map(|one| one.shown()).collect();
     let mut text = shown::table(step, &columns, floor);
     for judgement in judgements {
         let rate = judgement.rate.rate_in_words(MOST_PLACES);
         text += &(judgement.line(&rate) + "\n");
         if let Some(advice) = judgement.advice() {
-            let code = if judgement.is_claimed() {
+            let code = if judgement.claim.is_some() {
                 judgement.code()
             } else {
                 "order"
@@ -350,7 +325,9 @@ pub(crate) fn failure(
 ) -> Option<String> {
     let judgements: Vec<&Judgement> = judgements.iter().map(|judgement| &**judgement).collect();
     let Some(headline) = headline(&judgements) else {
-        return judgements.is_empty().then(|| UNCLAIMED.to_owned());
+        return judgements
+            .is_empty()
+            .then(|| Reason::NotClaimed.text().to_owned());
     };
     let verdict = Verdict::worst(judgements.iter().map(|judgement| judgement.rate.verdict));
     let is_allowed = allow_inconclusive && verdict == Verdict::Inconclusive;

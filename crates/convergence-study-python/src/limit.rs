@@ -101,7 +101,7 @@ pub(crate) fn limit(
     order: Option<&Bound<'_, PyAny>>,
     tolerance: f64,
 ) -> PyResult<Limit> {
-    let claim = values::claim(order, tolerance)?;
+    let claim = values::optional_claim(order, tolerance)?;
     let levels = values::levels(h, "values", values)?;
     let values: Vec<Value> = levels
         .iter()
@@ -111,10 +111,9 @@ pub(crate) fn limit(
         })
         .collect();
     let estimator = Estimator::new(tolerance).map_err(refuse)?;
-    let estimate = if order.is_none() {
-        estimator.estimate_unclaimed(&values)
-    } else {
-        estimator.estimate(&values, claim.order)
+    let estimate = match claim {
+        Some(claim) => estimator.estimate(&values, claim.order),
+        None => estimator.estimate_unclaimed(&values),
     };
     Ok(Limit::new(estimate, order.is_some()))
 }

@@ -1,8 +1,8 @@
 //! Tables of files and texts, judged by the command `rates`.
 
-use convergence_harness::rates::{Claimed, Request, Tables, object};
 use convergence_harness::input::advice::Argument;
 use convergence_harness::program::PROJECT;
+use convergence_harness::rates::{Claimed, Request, Tables, object};
 use convergence_harness::study::Claim;
 use pyo3::prelude::*;
 
@@ -27,7 +27,8 @@ pub(crate) fn rates(
     chosen: Chosen,
 ) -> PyResult<String> {
     // Refuses what the rule cannot use.
-    let _ = values::judge_with(tolerance, floor)?;
+    values::check_tolerance(tolerance)?;
+    let _ = values::floor_of(floor)?;
     let request = Request {
         claims: claimed(py, order, tolerance)?,
         tolerance,
@@ -73,7 +74,7 @@ fn claimed(
         }
     };
     Ok(match Claims::read(Some(order), tolerance)? {
-        Claims::ForAll(claim) => vec![one(None, claim)],
+        Claims::ForAll(claim) => claim.map(|claim| one(None, claim)).into_iter().collect(),
         Claims::Named(named) => {
             let named = named.into_iter();
             named.map(|(name, claim)| one(Some(name), claim)).collect()

@@ -1,5 +1,8 @@
 //! What a study is made of, and how it is judged.
 
+use std::borrow::Cow;
+
+use convergence_harness::judge::verdict::Floor;
 use convergence_harness::study::over_levels::Levels;
 use convergence_harness::study::until_decided::{self, Looks, Next};
 use convergence_harness::study::{
@@ -9,6 +12,7 @@ use convergence_harness::study::{
 use pyo3::prelude::*;
 
 use crate::studied::Study;
+use crate::values::floor_of;
 
 /// What is said about a study in addition to its levels.
 #[derive(Clone, FromPyObject, IntoPyObject)]
@@ -21,8 +25,17 @@ pub(crate) struct Options {
     /// Seconds for studies that add levels.
     pub(crate) budget: f64,
     /// Round-off, in the unit of the errors.
-    pub(crate) floor: f64,
+    #[pyo3(from_py_with = floor_from, into_py_with = floor_into)]
+    pub(crate) floor: Floor,
     pub(crate) allow_inconclusive: bool,
+}
+
+fn floor_from(value: &Bound<'_, PyAny>) -> PyResult<Floor> {
+    floor_of(value.extract()?)
+}
+
+fn floor_into<'py>(floor: Cow<'_, Floor>, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    Ok(floor.value().into_pyobject(py)?.into_any())
 }
 
 /// A claim as Python keeps it.
@@ -101,8 +114,9 @@ impl Results {
             set(format!("expect.{name}.at_least"), at_least.to_string());
         }
         set("levels".to_owned(), self.levels.clone());
-        if self.options.floor > 0.0 {
-            set("floor".to_owned(), format!("{:e}", self.options.floor));
+        let floor = self.options.floor.value();
+        if floor > 0.0 {
+            set("floor".to_owned(), format!("{floor:e}"));
         }
         if !self.options.test.is_empty() {
             set(TEST.to_owned(), self.options.test.clone());
@@ -147,7 +161,7 @@ impl Results {
     /// The judged study.
     pub(crate) fn judged(self) -> Study {
         let mut finished = self.study().run();
-        if self.options.floor > 0.0 {
+        if self.options.floor.value() > 0.0 {
             let checks = std::mem::take(&mut finished.outcome.checks);
             let caption = "Errors over levels of refinement.";
             finished.outcome = self.levels().outcome("errors", None, caption, checks);

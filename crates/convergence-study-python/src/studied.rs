@@ -8,7 +8,7 @@ use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::program;
 use convergence_harness::run::Finished;
 use convergence_harness::study::until_decided::Next;
-use convergence_harness::study::{NamedErrors, NamedRate, STEPS};
+use convergence_harness::study::{NamedErrors, NamedRate, STEPS, first_repeated};
 use convergence_harness::verify;
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
@@ -43,11 +43,13 @@ impl Study {
         let judgement = |NamedRate { name, rate, .. }: &NamedRate| {
             let claims = self.results.claims.iter();
             let mut claims = claims.filter(|claimed| claimed.name == *name);
+            let claim = claims.next()?.claim();
             Some(Judgement {
                 name: name.clone(),
                 step: self.results.step().to_owned(),
                 levels: outcome.levels_of(name),
-                claim: claims.next()?.claim(),
+                claim: Some(claim),
+                tolerance: claim.tolerance,
                 floor: self.results.options.floor,
                 rate: rate.clone(),
             })
@@ -218,11 +220,10 @@ pub(crate) fn study_of(
             .map(|one| (one.name.clone(), one.levels[row].error));
         step.into_iter().chain(errors).collect()
     };
-    let claimed = judgements.iter().filter(|one| !one.claim.order.is_nan());
+    let claims = judgements.iter();
+    let claims = claims.filter_map(|one| Some(NamedClaim::new(&one.name, one.claim.as_ref()?)));
     let results = Results {
-        claims: claimed
-            .map(|one| NamedClaim::new(&one.name, &one.claim))
-            .collect(),
+        claims: claims.collect(),
         counted: "level".to_owned(),
         counts: (1..=rows).collect(),
         levels: rows.to_string(),
@@ -246,7 +247,14 @@ fn found(level: &str, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
         let value = number(|| format!("solve({level})[{name:?}]"), &value)?;
         Ok((name, value))
     };
-    by_name.iter().map(entry).collect()
+    let errors: NamedErrors = by_name.iter().map(entry).collect::<PyResult<_>>()?;
+    match first_repeated(&errors) {
+        // The keys 1 and "1", for example.
+        Some(name) => Err(refuse(format!(
+            "solve({level}): expected each name of an error once, found `{name}` twice"
+        ))),
+        None => Ok(errors),
+    }
 }
 
 /// Calls `solve` at one level, and reports it on a terminal.
@@ -352,8 +360,8 @@ fn all_claims(claims: &Claims, first: &NamedErrors) -> Vec<NamedClaim> {
             .iter()
             .map(|(name, claim)| NamedClaim::new(name, claim))
             .collect(),
-        Claims::ForAll(claim) if claim.order.is_nan() => vec![],
-        Claims::ForAll(claim) => {
+        Claims::ForAll(None) => vec![],
+        Claims::ForAll(Some(claim)) => {
             let errors = first
                 .iter()
                 .filter(|(name, _)| !STEPS.contains(&name.as_str()));

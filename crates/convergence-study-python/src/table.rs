@@ -51,7 +51,7 @@ pub(crate) fn judge_table(
     function: &str,
 ) -> PyResult<Option<Vec<Judgement>>> {
     let claims = Claims::read(order, tolerance)?;
-    let judge = values::judge_with(tolerance, floor)?;
+    let floor = values::floor_of(floor)?;
     let choice = Choice {
         claimed: claims.names(),
         ..chosen.into()
@@ -62,12 +62,16 @@ pub(crate) fn judge_table(
     };
     let table = RateTable::from_columns(&columns, "h", &choice)
         .map_err(|error| refuse(error.words(&call)))?;
-    let judged = |column: &Column, claim: Claim| Judgement {
+    let judged = |column: &Column, claim: Option<Claim>| Judgement {
         name: column.name.clone(),
         step: table.step.clone(),
-        rate: claim.judge(&judge, &column.levels),
+        rate: match &claim {
+            Some(claim) => claim.judge(&column.levels, floor),
+            None => column.observe(floor),
+        },
         levels: column.levels.clone(),
         claim,
+        tolerance,
         floor,
     };
     let named = match claims {
@@ -85,7 +89,7 @@ pub(crate) fn judge_table(
                 "order: expected names of columns of errors, {known}; found `{name}`"
             ))
         })?;
-        Ok(judged(column, claim))
+        Ok(judged(column, Some(claim)))
     };
     named
         .into_iter()

@@ -1,9 +1,11 @@
 //! Converts Python values to Rust; an invalid value is a `ValueError` that names the argument.
 
+use std::collections::BTreeSet;
+
 use convergence_harness::input::error_table::FrameColumn;
 use convergence_harness::judge::claims::{Claim, order_from_text};
 use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::verdict::Judge;
+use convergence_harness::judge::verdict::{Floor, Judge};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
@@ -103,13 +105,23 @@ pub(crate) fn levels(
         .map(|(step, error)| Level { step, error })
         .collect();
     levels.sort_by(|a, b| b.step.total_cmp(&a.step));
-    Ok(levels)
+    match levels.windows(2).find(|pair| pair[0].step == pair[1].step) {
+        Some(pair) => Err(refuse(format!(
+            "h: expected each step once, found {} twice",
+            pair[0].step
+        ))),
+        None => Ok(levels),
+    }
 }
 
-/// The rule with a tolerance and a floor of round-off.
-pub(crate) fn judge_with(tolerance: f64, floor: f64) -> PyResult<Judge> {
-    let judge = Judge::new(tolerance).and_then(|judge| judge.with_floor(floor));
-    judge.map_err(refuse)
+/// Round-off, in the unit of the errors.
+pub(crate) fn floor_of(floor: f64) -> PyResult<Floor> {
+    Floor::new(floor).map_err(refuse)
+}
+
+/// Refuses tolerances that the rule cannot use.
+pub(crate) fn check_tolerance(tolerance: f64) -> PyResult<()> {
+    Judge::new(tolerance).map(|_| ()).map_err(refuse)
 }
 
 /// An order as Python writes it: a number, or a text such as `">=2.0"`.
@@ -119,22 +131,26 @@ pub(crate) enum Order {
     Text(String),
 }
 
-/// The order of a claim; `None` without one.
-pub(crate) fn order_of(claim: &Claim) -> Option<Order> {
+/// The order of a claim.
+pub(crate) fn order_of(claim: &Claim) -> Order {
     let order = claim.order;
-    (!order.is_nan()).then(|| match claim.at_least {
+    match claim.at_least {
         true => Order::Text(format!(">={order:?}")),
         false => Order::Number(order),
-    })
+    }
 }
 
-/// The claim about an error; without a claim the order is NaN, which nothing confirms.
-pub(crate) fn claim(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Claim> {
-    // The rule refuses tolerances that it cannot use.
-    let _ = judge_with(tolerance, 0.0)?;
-    let Some(order) = order else {
-        return Ok(Claim::new(f64::NAN, tolerance));
-    };
+/// The claim about an error, if there is an order.
+pub(crate) fn optional_claim(
+    order: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+) -> PyResult<Option<Claim>> {
+    check_tolerance(tolerance)?;
+    order.map(|order| claim(order, tolerance)).transpose()
+}
+
+/// The claim about an error.
+fn claim(order: &Bound<'_, PyAny>, tolerance: f64) -> PyResult<Claim> {
     let expected = || refuse(format!("order: expected {ORDER}, found {}", shown(order)));
     let (order, at_least) = match order.extract::<String>() {
         Ok(text) => order_from_text(&text).ok_or_else(expected)?,
@@ -152,20 +168,21 @@ pub(crate) fn claim(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResul
     })
 }
 
-/// Claims by name, or one for all names.
+/// Claims by name, or one for all names, which may be none.
 pub(crate) enum Claims {
-    ForAll(Claim),
+    ForAll(Option<Claim>),
     Named(Vec<(String, Claim)>),
 }
 
 impl Claims {
     pub(crate) fn read(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Self> {
         let Some(by_name) = order.and_then(|order| order.cast::<PyDict>().ok()) else {
-            return Ok(Self::ForAll(claim(order, tolerance)?));
+            return Ok(Self::ForAll(optional_claim(order, tolerance)?));
         };
+        check_tolerance(tolerance)?;
         let named = by_name
             .iter()
-            .map(|(name, order)| Ok((name.extract()?, claim(Some(&order), tolerance)?)));
+            .map(|(name, order)| Ok((name.extract()?, claim(&order, tolerance)?)));
         Ok(Self::Named(named.collect::<PyResult<_>>()?))
     }
 
@@ -189,9 +206,15 @@ pub(crate) fn columns(
     };
     let mut columns = vec![];
     let mut refused = None;
+    let mut known = BTreeSet::new();
     for name in names.try_iter()? {
         let name = name?;
         let text = name.str()?.to_string();
+        if !known.insert(text.clone()) {
+            return Err(refuse(format!(
+                "expected each name of a column once, found `{text}` twice"
+            )));
+        }
         match numbers(&text, &table.get_item(&name)?) {
             Ok(numbers) => columns.push(FrameColumn {
                 name: text,

@@ -62,9 +62,12 @@
 #[doc(inline)]
 pub use convergence_harness::{
     judge::{
-        claims::Claim,
+        claims::{Claim, Interval},
         richardson::{Estimator, Value},
-        verdict::{Judge, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs},
+        verdict::{
+            Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs,
+            observe,
+        },
     },
     run::{Finished, RunError, assert_order, run_one},
     study::{
@@ -81,7 +84,7 @@ pub use convergence_harness::{
 pub use convergence_harness::{
     input::{
         Field, InputError, Section,
-        error_table::{Choice, Column, FrameColumn, Offer, RateTable},
+        error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, RateTable},
     },
     study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, reader},
 };

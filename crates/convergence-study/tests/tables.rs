@@ -9,7 +9,7 @@ use convergence_harness::input::advice::CommandLine;
 use convergence_harness::input::error_table::{Choice, Column, RateTable};
 use convergence_harness::judge::claims::Claim;
 use convergence_harness::judge::richardson::Estimator;
-use convergence_harness::judge::verdict::{Judge, Verdict};
+use convergence_harness::judge::verdict::{Floor, Verdict};
 
 /// The tolerance of all claims of the page.
 const TOLERANCE: f64 = 0.25;
@@ -126,11 +126,10 @@ fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
             .or_else(|| orders.iter().find(|(of, _)| of.is_none()))
             .map(|(_, order)| *order)
     };
-    let judge = Judge::new(TOLERANCE).expect("a tolerance");
     for column in &table.columns {
         text += &format!("{}: {}", column.name, numbers(column));
         if let Some(order) = order(&column.name) {
-            let judged = column.judge(&judge, &Claim::new(order, TOLERANCE));
+            let judged = column.judge(&Claim::new(order, TOLERANCE), Floor::NONE);
             text += &format!(
                 " | {order}: {}{}",
                 judged.verdict,
@@ -146,7 +145,7 @@ fn told(table: &RateTable, orders: &[(Option<String>, f64)]) -> String {
     for column in &table.values {
         let found = column.estimate(
             &Estimator::new(TOLERANCE).expect("a tolerance"),
-            order(&column.name).unwrap_or(f64::NAN),
+            order(&column.name),
         );
         let limit = found.bar.map_or_else(
             |refusal| refusal.to_string(),
@@ -183,14 +182,16 @@ fn found(sample: &Sample) -> String {
                 .lines()
                 .filter_map(|line| line.strip_prefix("  rates TABLE"))
             {
-                let table = RateTable::parse_with(
+                let tables = RateTable::parse_all_with(
                     &table,
                     "TABLE",
                     &choice(&words(line.split("  #").next().unwrap_or_default())).0,
                 );
-                let table =
-                    table.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
-                text += &format!("then: {}\n", table.reading);
+                let tables =
+                    tables.unwrap_or_else(|error| panic!("{}: {line}: {error}", sample.title));
+                for (_, table) in tables {
+                    text += &format!("then: {}\n", table.reading);
+                }
             }
             text
         }

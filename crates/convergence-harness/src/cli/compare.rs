@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::exit::{Outcome, Unusable};
 use super::flags::{Flags, number};
 use crate::cli::screen;
-use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare, rule};
-use crate::judge::verdict::Verdict;
+use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare};
+use crate::judge::verdict::{Floor, Verdict};
 use crate::store::Record;
 use crate::text::visible::{self, visible};
 
@@ -60,8 +60,8 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         all,
         flags,
     } = arguments;
-    let rule = rule(*floor)?;
-    let comparison = compare(&Record::read(old)?, &Record::read(new)?, &rule, *within);
+    let floor = Floor::new(*floor)?;
+    let comparison = compare(&Record::read(old)?, &Record::read(new)?, floor, *within);
     if comparison.studies == 0 {
         let [old, new] = [old, new].map(|path| visible::path(path));
         return Err(Unusable::because(&format!(

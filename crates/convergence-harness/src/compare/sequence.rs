@@ -2,7 +2,7 @@
 
 use super::{Order, SAME_STEP};
 use crate::judge::fit::Level;
-use crate::judge::verdict::{Aside, Judge, RateVerdict};
+use crate::judge::verdict::{Aside, Floor, RateVerdict, observe};
 use crate::study::LevelErrors;
 use crate::study::outcome::Outcome;
 
@@ -29,7 +29,7 @@ pub(super) struct ErrorSequence<'r> {
 }
 
 impl<'r> ErrorSequence<'r> {
-    pub(super) fn new(outcome: &'r Outcome, name: &str, rule: &Judge) -> Self {
+    pub(super) fn new(outcome: &'r Outcome, name: &str, floor: Floor) -> Self {
         let rate = outcome.rate(name);
         let mut points = vec![];
         for level in &outcome.levels {
@@ -49,7 +49,7 @@ impl<'r> ErrorSequence<'r> {
                 step: point.step,
                 error: point.error,
             });
-            order = order_of(&rule.judge(&levels.collect::<Vec<_>>(), 1.0));
+            order = order_of(&observe(&levels.collect::<Vec<_>>(), floor));
         }
         Self {
             points,

@@ -135,9 +135,9 @@ fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
     draw_rate(pen, &row.rate, plot, y);
 }
 
-/// A value in units of its claim's tolerance.
+/// A value in units of its claim's tolerance; NaN without a claim, which no picture shows.
 fn relative(rate: &RateVerdict, value: f64) -> f64 {
-    (value - rate.order) / rate.tolerance
+    rate.claimed.map_or(f64::NAN, |band| band.distance(value))
 }
 
 fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {

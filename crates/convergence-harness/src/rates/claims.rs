@@ -41,7 +41,10 @@ pub fn claimed(text: &str) -> Result<Claimed, String> {
 }
 
 /// The claims for each column of each table. Each column that is named must be in one of them.
-pub(super) fn claims(request: &Request, sources: &[Source]) -> Result<Vec<Vec<Claim>>, Text> {
+pub(super) fn claims(
+    request: &Request,
+    sources: &[Source],
+) -> Result<Vec<Vec<Option<Claim>>>, Text> {
     let all: Vec<&str> = sources
         .iter()
         .flat_map(|source| columns(&source.table))
@@ -64,8 +67,8 @@ pub(super) fn claims(request: &Request, sources: &[Source]) -> Result<Vec<Vec<Cl
     claims.collect()
 }
 
-/// The claim for each column; the order is NaN without one.
-fn claims_of(request: &Request, table: &RateTable) -> Result<Vec<Claim>, Text> {
+/// The claim for each column; `None` without one.
+fn claims_of(request: &Request, table: &RateTable) -> Result<Vec<Option<Claim>>, Text> {
     let names: Vec<&str> = columns(table).map(|column| column.name.as_str()).collect();
     // The last entry is the claim for all columns.
     let mut of: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
@@ -86,11 +89,11 @@ fn claims_of(request: &Request, table: &RateTable) -> Result<Vec<Claim>, Text> {
                 + Argument::Order.with(&order)
                 + format!(" for `{name}`"))
         }
-        Some(claimed) => Ok(Claim {
+        Some(claimed) => Ok(Some(Claim {
             at_least: claimed.at_least,
             ..Claim::new(claimed.order, request.tolerance)
-        }),
-        None => Ok(Claim::new(f64::NAN, request.tolerance)),
+        })),
+        None => Ok(None),
     };
     names.iter().enumerate().map(claim).collect()
 }

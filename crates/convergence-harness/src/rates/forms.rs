@@ -6,6 +6,7 @@ use super::shown::{sentence, text};
 use super::{JudgedColumn, Judgement};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
+use crate::input::error_table::{Doubt, NotError};
 use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
 use crate::judge::shown;
@@ -56,7 +57,7 @@ pub(crate) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
         };
         let rule = format!("|{}\n", " --: |".repeat(rows[0].len()));
         let body: String = rows[1..].iter().map(line).collect();
-        let legend: String = shown::legend(&columns, judgement.judge.floor())
+        let legend: String = shown::legend(&columns, judgement.floor.value())
             .lines()
             .map(|line| format!("\n{}\n", escaped(line)))
             .collect();
@@ -101,12 +102,10 @@ fn object(findings: &Judgement<'_>) -> Value {
             |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
         object["norm"] = json!(judged.column.name);
         object["decides"] = json!(judged.decides);
-        object["at_least"] = json!(judged.claim.at_least);
+        object["order"] = json!(judged.claim.map(|claim| claim.order));
+        object["at_least"] = json!(judged.claim.is_some_and(|claim| claim.at_least));
         object["levels"] = judged.column.levels.iter().map(level).collect();
         object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
-        if !judged.is_claimed() {
-            object["reason"] = json!("no order is claimed");
-        }
         if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {
             object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
         }
@@ -115,16 +114,18 @@ fn object(findings: &Judgement<'_>) -> Value {
         }
         object
     };
-    let not_errors = findings
-        .source
-        .table
-        .not_errors
-        .iter()
-        .map(|(column, because)| json!({"column": column, "because": because}));
+    let not_errors = findings.source.table.not_errors.iter().map(
+        |NotError {
+             column, because, ..
+         }| json!({"column": column, "because": because}),
+    );
+    let table = &findings.source.table;
+    let mut notes = vec![table.reading.clone()];
+    notes.extend(table.doubts.iter().map(Doubt::to_string));
     json!({
-        "step": findings.source.table.step, "floor": findings.judge.floor(),
+        "step": findings.source.table.step, "floor": findings.floor.value(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "not_errors": not_errors.collect::<Vec<_>>(), "notes": [findings.source.table.reading],
+        "not_errors": not_errors.collect::<Vec<_>>(), "notes": notes,
     })
 }
 
@@ -144,7 +145,7 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
             .iter()
             .map(|level| (level.step, level.error))
             .collect(),
-        order: Some(judged.rate.order).filter(|order| !order.is_nan()),
+        order: judged.rate.order(),
         fit: judged.rate.power_law(),
         interval: judged.rate.interval,
         used: Some(judged.rate.used.clone()),
@@ -160,7 +161,7 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
     };
     let floor = drawn.iter().any(at_floor).then(|| Guide {
         label: "floor".to_owned(),
-        value: findings.judge.floor(),
+        value: findings.floor.value(),
     });
     let guides = floor.into_iter().collect();
     convergence(
@@ -196,16 +197,10 @@ pub(crate) fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
 #[cfg(feature = "command-line")]
 pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> {
     let case = |judged: &JudgedColumn<'_>| {
-        let least = if judged.claim.at_least {
-            "at least "
-        } else {
-            ""
-        };
-        let claim = if judged.is_claimed() {
-            format!(": order {least}{}", judged.rate.order)
-        } else {
-            String::new()
-        };
+        let claim = judged.claim.map_or(String::new(), |claim| {
+            let least = if claim.at_least { "at least " } else { "" };
+            format!(": order {least}{}", claim.order)
+        });
         (
             judged.column.name.clone() + &claim,
             judged.rate.verdict,
@@ -216,6 +211,10 @@ pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> 
     let mut cases: Vec<_> = deciding.map(case).collect();
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
+    }
+    if !findings.source.table.doubts.is_empty() {
+        let name = "the table".to_owned();
+        cases.push((name, Verdict::Inconclusive, sentence(findings)));
     }
     cases
 }

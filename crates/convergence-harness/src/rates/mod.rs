@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::exchange;
 use crate::input::error_table::{Choice, Column, RateTable};
 use crate::judge::richardson::{Estimate, Estimator};
-use crate::judge::verdict::{Judge, RateVerdict, Verdict};
+use crate::judge::verdict::{Floor, RateVerdict, Verdict};
 use crate::judge::{self, claims::Claim};
 pub use claims::{Claimed, claimed};
 #[cfg(feature = "command-line")]
@@ -24,8 +24,7 @@ pub(crate) use shown::{sentence_of_all, text_of_all};
 /// A column, judged.
 pub(crate) struct JudgedColumn<'t> {
     column: &'t Column,
-    /// Its order is NaN without a claim.
-    claim: Claim,
+    claim: Option<Claim>,
     rate: RateVerdict,
     /// Only of a column of values.
     estimate: Option<Estimate>,
@@ -43,7 +42,7 @@ impl Judgement<'_> {
 
 impl JudgedColumn<'_> {
     fn is_claimed(&self) -> bool {
-        !self.rate.order.is_nan()
+        self.claim.is_some()
     }
 }
 
@@ -78,7 +77,7 @@ pub(crate) struct Judgement<'t> {
     command: &'t str,
     source: &'t Source,
     columns: Vec<JudgedColumn<'t>>,
-    judge: &'t Judge,
+    floor: Floor,
     verdict: Verdict,
 }
 
@@ -138,14 +137,14 @@ impl Request {
 
 /// The rule for errors and the rule for values.
 pub(crate) struct Rule {
-    judge: Judge,
+    floor: Floor,
     estimator: Estimator,
 }
 
 impl Rule {
     pub(crate) fn new(request: &Request) -> Result<Self, Refusal> {
         Ok(Self {
-            judge: Judge::new(request.tolerance)?.with_floor(request.floor)?,
+            floor: Floor::new(request.floor)?,
             estimator: Estimator::new(request.tolerance)?,
         })
     }
@@ -239,7 +238,7 @@ fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
         name: judgement.source.name.clone(),
         reading: table.reading.clone(),
         rows: judge::shown::rows(&table.step, &columns),
-        legend: judge::shown::legend(&columns, judgement.judge.floor()),
+        legend: judge::shown::legend(&columns, judgement.floor.value()),
         columns: judgement.columns.iter().map(column).collect(),
         figure: figure(judgement),
     }
@@ -269,15 +268,18 @@ pub(crate) fn judgements<'t>(
     request: &Request,
 ) -> Result<Vec<Judgement<'t>>, Refusal> {
     let claims = claims::claims(request, sources)?;
-    let judged = |(source, claims): (&'t Source, Vec<Claim>)| {
+    let judged = |(source, claims): (&'t Source, Vec<Option<Claim>>)| {
         let columns = judged_columns(source, &claims, rule, request.all);
         let deciding = columns.iter().filter(|column| column.decides);
-        let verdict = Verdict::worst(deciding.map(|column| column.rate.verdict));
+        let verdicts = deciding.map(|column| column.rate.verdict);
+        // What a failed run has printed may look right, and so may two tables in one.
+        let doubts = source.table.doubts.iter();
+        let verdict = Verdict::worst(verdicts.chain(doubts.map(|_| Verdict::Inconclusive)));
         Judgement {
             command,
             source,
             columns,
-            judge: &rule.judge,
+            floor: rule.floor,
             verdict,
         }
     };
@@ -295,23 +297,25 @@ pub(crate) fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
 /// * `all`: whether columns without a claim count, too.
 fn judged_columns<'t>(
     source: &'t Source,
-    claims: &[Claim],
+    claims: &[Option<Claim>],
     rule: &Rule,
     all: bool,
 ) -> Vec<JudgedColumn<'t>> {
     let errors = source.table.columns.len();
-    let judged = |(k, (column, claim)): (usize, (&'t Column, &Claim))| {
-        let estimate = (k >= errors).then(|| column.estimate(&rule.estimator, claim.order));
-        let rate = estimate.as_ref().map_or_else(
-            || column.judge(&rule.judge, claim),
-            |estimate| estimate.judged.clone(),
-        );
+    let judged = |(k, (column, claim)): (usize, (&'t Column, &Option<Claim>))| {
+        let order = claim.map(|claim| claim.order);
+        let estimate = (k >= errors).then(|| column.estimate(&rule.estimator, order));
+        let rate = match (&estimate, claim) {
+            (Some(estimate), _) => estimate.judged.clone(),
+            (None, Some(claim)) => column.judge(claim, rule.floor),
+            (None, None) => column.observe(rule.floor),
+        };
         JudgedColumn {
             column,
             claim: *claim,
             rate,
             estimate,
-            decides: all || !claim.order.is_nan(),
+            decides: all || claim.is_some(),
         }
     };
     let columns = columns(&source.table).zip(claims).enumerate();

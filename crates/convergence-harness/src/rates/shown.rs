@@ -1,14 +1,13 @@
 //! The result in words, for people.
 
+use std::slice;
+
 use super::{JudgedColumn, Judgement};
-use crate::input::error_table::limit;
-use crate::judge::claims::Claim;
+use crate::input::error_table::{Doubt, NotError, limit};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{RateVerdict, Reason, Verdict, judged_in_words};
-use crate::text::number::{
-    committed_rate, counted, error_text, order_text, pair_text, plain_text, short_text,
-};
+use crate::judge::verdict::{RateVerdict, Reason, Verdict};
+use crate::text::number::{counted, error_text, pair_text, plain_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
 
@@ -16,29 +15,17 @@ use crate::text::visible::visible;
 const STEADY: f64 = 0.2;
 /// Least fall, in orders, of a steady rate where the error stops falling.
 const STOP: f64 = 0.5;
+/// Most columns that a verdict names as left out.
+const LISTED: usize = 12;
 /// Most levels that are predicted.
 const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
     pub(super) fn answer(&self) -> String {
-        let rate = match self.claim {
-            Claim {
-                at_least: true,
-                order,
-                tolerance,
-                ..
-            } => {
-                let passes = format!("at least {}", order_text(committed_rate(order - tolerance)));
-                let why = if self.rate.verdict.is_pass() {
-                    &passes
-                } else {
-                    &self.rate.because
-                };
-                let rate = self.rate.rate_in_words(MOST_PLACES);
-                judged_in_words(&rate, &self.claim.to_string(), why)
-            }
-            _ => self.rate.answer(MOST_PLACES),
+        let rate = match &self.claim {
+            Some(claim) => claim.answer(&self.rate, &self.rate.rate_in_words(MOST_PLACES)),
+            None => self.rate.answer(MOST_PLACES),
         };
         match self
             .estimate
@@ -108,7 +95,46 @@ pub(crate) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
         .iter()
         .filter(|findings| findings.verdict.is_pass())
         .count();
-    format!("{passed} of {} agree", counted(findings.len(), "table"))
+    let agree = format!("{passed} of {} agree", counted(findings.len(), "table"));
+    agree + &reservations(findings)
+}
+
+/// What a verdict does not cover: columns that are left out by their names alone, and a run that
+/// has failed.
+fn reservations(findings: &[Judgement<'_>]) -> String {
+    let mut left_out: Vec<String> = vec![];
+    for findings in findings {
+        let not_errors = findings.source.table.not_errors.iter();
+        for NotError {
+            column, because, ..
+        } in not_errors.filter(|one| !one.is_checked)
+        {
+            let words = format!("{} ({because})", visible(column));
+            if !left_out.contains(&words) {
+                left_out.push(words);
+            }
+        }
+    }
+    let mut words = String::new();
+    if !left_out.is_empty() {
+        let more = left_out.len().saturating_sub(LISTED);
+        left_out.truncate(LISTED);
+        words += &format!("; left out: {}", left_out.join(", "));
+        if more > 0 {
+            words += &format!(", and {more} more");
+        }
+    }
+    let mut doubts: Vec<&Doubt> = vec![];
+    for doubt in findings
+        .iter()
+        .flat_map(|findings| &findings.source.table.doubts)
+    {
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
+    }
+    words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));
+    words
 }
 
 impl Judgement<'_> {
@@ -152,7 +178,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
         + &shown::table(
             &table.step,
             &findings.columns_with_rates(),
-            findings.judge.floor(),
+            findings.floor.value(),
         )
         + "\n";
     text.extend(columns.iter().map(line));
@@ -238,7 +264,8 @@ fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
 
 /// Whether the rate may be 0, within the tolerance, and the finest levels do not say otherwise.
 fn may_be_zero(rate: &RateVerdict) -> bool {
-    rate.interval.is_none_or(|[low, _]| low <= rate.tolerance)
+    let tolerance = rate.claimed.map_or(0.0, |band| band.tolerance);
+    rate.interval.is_none_or(|[low, _]| low <= tolerance)
         && rate.finest_rate().is_none_or(|rate| rate < STOP)
 }
 
@@ -256,6 +283,7 @@ fn stop(rates: &[f64]) -> Option<usize> {
 
 /// The level that would decide if the rates continued: their changes shrink as the last two did.
 fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
+    let claim = judged.claim?;
     let mut levels = judged.column.levels.clone();
     let rates = &judged.rate.pairwise;
     let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else {
@@ -281,7 +309,7 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
             step: last.step / ratio,
             error: last.error * ratio.powf(-rate),
         });
-        let next = findings.judge.judge(&levels, judged.rate.order);
+        let next = claim.judge(&levels, findings.floor);
         if next.verdict == Verdict::Inconclusive {
             continue;
         }
@@ -320,9 +348,10 @@ pub(crate) fn sentence(findings: &Judgement<'_>) -> String {
     let passed = deciding()
         .filter(|column| column.rate.verdict == Verdict::Pass)
         .count();
-    match deciding().count() {
+    let words = match deciding().count() {
         0 => "no order is claimed".to_owned(),
         1 => format!("{passed} of 1 column agrees with its order"),
         count => format!("{passed} of {count} columns agree with their orders"),
-    }
+    };
+    words + &reservations(slice::from_ref(findings))
 }

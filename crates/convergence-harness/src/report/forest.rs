@@ -66,9 +66,9 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
 
 /// The width of a rate's interval in units of its tolerance; infinite without one.
 fn width(rate: &RateVerdict) -> f64 {
-    match rate.interval {
-        Some([low, high]) => (high - low) / rate.tolerance,
-        None => f64::INFINITY,
+    match (rate.interval, rate.claimed) {
+        (Some([low, high]), Some(band)) => (high - low) / band.tolerance,
+        _ => f64::INFINITY,
     }
 }
 

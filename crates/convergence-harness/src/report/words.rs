@@ -261,7 +261,7 @@ fn rates_in_words(rates: &[NamedRate]) -> Vec<String> {
     let mut parts = vec![format!("{name} {}", worst.beside_order(RATE_PLACES - 1))];
     let distances: Option<Vec<f64>> = rates
         .iter()
-        .map(|NamedRate { rate, .. }| Some((committed_rate(rate.fitted?) - rate.order).abs()))
+        .map(|NamedRate { rate, .. }| Some((committed_rate(rate.fitted?) - rate.order()?).abs()))
         .collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1)
     {

@@ -48,7 +48,10 @@ impl Item<'_> {
     pub fn name(&self) -> String {
         match self {
             Item::Cases { labels, .. } => format!("case {}", cases_in_words(labels)),
-            Item::Rate { name, rate } => format!("{name}: order {}", rate.order),
+            Item::Rate { name, rate } => match rate.order() {
+                Some(order) => format!("{name}: order {order}"),
+                None => (*name).to_owned(),
+            },
             Item::Check(check) => check.statement(),
             Item::Study(_) => "verdict".to_owned(),
         }

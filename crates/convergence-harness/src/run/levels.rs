@@ -9,7 +9,7 @@ use crate::study::{ErrorsOverLevels, IntoErrors, NamedRate};
 /// Judges errors against the order that theory claims, in any test; the tolerance is
 /// [`DEFAULT_TOLERANCE`].
 ///
-/// * `h`: the steps, coarse to fine; `errors`: the errors at these steps.
+/// * `h`: the steps, in any order; `errors`: the errors at these steps.
 ///
 /// # Panics
 /// Unless the verdict is a pass; the message has the table, the rate, its interval, the reason and
@@ -27,11 +27,12 @@ pub fn assert_order(h: &[f64], errors: &[f64], order: f64) {
         h.len(),
         errors.len()
     );
-    let levels: Vec<Level> = h
+    let mut levels: Vec<Level> = h
         .iter()
         .zip(errors)
         .map(|(&step, &error)| Level { step, error })
         .collect();
+    levels.sort_by(|one, other| other.step.total_cmp(&one.step));
     let rate = judge(&levels, order, DEFAULT_TOLERANCE);
     let shown = Shown {
         name: "error",

@@ -293,10 +293,10 @@ fn clearest(failing: &[&Finished]) -> Vec<String> {
 fn largest_distance(outcome: &Outcome) -> f64 {
     let mut largest: f64 = 0.0;
     for NamedRate { rate, .. } in &outcome.rates {
-        if let Some(fitted) = rate.fitted
+        if let (Some(fitted), Some(band)) = (rate.fitted, rate.claimed)
             && !rate.verdict.is_pass()
         {
-            largest = largest.max((fitted - rate.order).abs() / rate.tolerance);
+            largest = largest.max(band.distance(fitted).abs());
         }
     }
     largest

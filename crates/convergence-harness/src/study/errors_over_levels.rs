@@ -1,5 +1,7 @@
 //! A ready-made kind of study: errors over levels of refinement, computed by a function.
 
+use std::collections::BTreeSet;
+
 use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran, completion};
 use super::outcome::{Check, Outcome};
@@ -13,10 +15,20 @@ pub type NamedErrors = Vec<(String, f64)>;
 /// Names under which a level reports its own step, if that is not 1/n.
 pub const STEPS: [&str; 2] = ["h", "dt"];
 
+/// The first name that a list has twice.
+pub fn first_repeated<T>(list: &[(String, T)]) -> Option<&str> {
+    let mut known = BTreeSet::new();
+    let mut names = list.iter().map(|(name, _)| name.as_str());
+    names.find(|name| !known.insert(*name))
+}
+
 /// What the function of a study may return: errors with their names, or a single error, which is
 /// then called `error`; or a [`Result`] of either.
 pub trait IntoErrors {
     /// The errors by name.
+    ///
+    /// # Errors
+    /// The case failed, or a name is given twice: one of the two would not be judged.
     fn into_errors(self) -> Result<NamedErrors, CaseFailure>;
 }
 
@@ -28,10 +40,16 @@ impl IntoErrors for f64 {
 
 impl<N: Into<String>> IntoErrors for Vec<(N, f64)> {
     fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
-        Ok(self
+        let errors: NamedErrors = self
             .into_iter()
             .map(|(name, error)| (name.into(), error))
-            .collect())
+            .collect();
+        match first_repeated(&errors) {
+            Some(name) => Err(CaseFailure::new(format!(
+                "expected each name of an error once, found `{name}` twice"
+            ))),
+            None => Ok(errors),
+        }
     }
 }
 
@@ -66,8 +84,8 @@ pub struct ErrorsOverLevels<F> {
 
 /// A study of the errors that a function computes on each level of refinement.
 ///
-/// * `counts`: what distinguishes the levels, such as the number of cells in one direction: coarse
-///   to fine.
+/// * `counts`: what distinguishes the levels, such as the number of cells in one direction, in any
+///   order.
 /// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The
 ///   step is 1/count, unless `solve` returns it with the errors under one of the names [`STEPS`].
 ///
@@ -130,22 +148,26 @@ impl<F> ErrorsOverLevels<F> {
         format!("{} = {count}", self.counted)
     }
 
-    /// The levels computed so far, which [`until_decided`](super::until_decided) judges as they
-    /// grow.
+    /// The levels computed so far, coarse to fine, which [`until_decided`](super::until_decided)
+    /// judges as they grow.
     pub fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
+        let mut ran: Vec<&Ran<usize, NamedErrors>> = ran.iter().collect();
         let has_steps = ran.iter().any(|ran| reported_step(ran).is_some());
+        // If some levels report their step, 1/n cannot stand in for that of the others.
+        let step_of = |ran: &Ran<usize, NamedErrors>| match reported_step(ran) {
+            Some(step) => step,
+            None if has_steps => f64::NAN,
+            None => 1.0 / ran.case.data as f64,
+        };
+        // A level without a step has no place among the others: then none is moved.
+        if ran.iter().all(|ran| !step_of(ran).is_nan()) {
+            ran.sort_by(|one, other| step_of(other).total_cmp(&step_of(one)));
+        }
         let refinements = ran.iter().map(|ran| {
-            let count = ran.case.data;
-            // If some levels report their step, 1/n cannot stand in for that of the others.
-            let default = if has_steps {
-                f64::NAN
-            } else {
-                1.0 / count as f64
-            };
-            let step = reported_step(ran).unwrap_or(default);
-            Refinement::new(ran.case.label.clone(), &[(&self.counted, count)], step)
+            let parameters = [(self.counted.as_str(), ran.case.data)];
+            Refinement::new(ran.case.label.clone(), &parameters, step_of(ran))
         });
-        let errors: Vec<Option<NamedErrors>> = ran.iter().map(without_step).collect();
+        let errors: Vec<Option<NamedErrors>> = ran.iter().map(|ran| without_step(ran)).collect();
         let errors: Vec<_> = errors.iter().map(Option::as_deref).collect();
         Levels::new(
             self.axis,
@@ -221,6 +243,11 @@ where
                 verdict: Verdict::Inconclusive,
                 ..Check::that(false, claim, evidence).about(Subject::of("claims"))
             });
+        }
+        if let Some(name) = first_repeated(&self.claims) {
+            let claim = "each error is claimed once".to_owned();
+            let evidence = format!("`{name}` is claimed twice: only one of the claims is judged");
+            checks.push(Check::that(false, claim, evidence).about(Subject::of("claims")));
         }
         levels.outcome("errors", None, "Errors over levels of refinement.", checks)
     }
@@ -397,6 +424,29 @@ mod tests {
             outcome(2.0, |_, error| [("another", error)]).verdict,
             Verdict::Fail
         );
+    }
+
+    #[test]
+    fn a_name_that_is_given_twice_does_not_pass() {
+        let twice = |n: usize| [("e", (n as f64).powi(-2)), ("e", 1.0 / n as f64)];
+        let found = judged(&levels(COUNTS, twice).claim("e", 2.0));
+        assert_eq!(found.verdict, Verdict::Fail);
+        let evidence = &found.checks[0].evidence;
+        assert!(evidence.contains("found `e` twice"), "{evidence}");
+        let solve = |n: usize| [("e", (n as f64).powi(-2))];
+        let found = judged(&levels(COUNTS, solve).claim("e", 2.0).claim("e", 1.0));
+        assert_eq!(found.verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn levels_come_in_any_order_and_each_once() {
+        let solve = |n: usize| [("e", (n as f64).powi(-2))];
+        let found = judged(&levels([16, 4, 64, 8, 32], solve).claim("e", 2.0));
+        assert_eq!(found.verdict, Verdict::Pass);
+        assert_eq!(found.levels[0].parameters, [("n".to_owned(), 4.0)]);
+        let found = judged(&levels([16, 4, 16, 64, 8], solve).claim("e", 2.0));
+        assert_eq!(found.rates[0].rate.kind, Reason::StepsNotDecreasing);
+        assert_ne!(found.verdict, Verdict::Pass);
     }
 
     #[test]

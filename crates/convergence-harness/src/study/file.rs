@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::{Described, Kind, Study, erased};
-use super::over_levels::Claim;
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
-use crate::judge::claims::order_from_text;
+use crate::judge::claims::{Claim, Interval, order_from_text};
 use crate::judge::verdict::DEFAULT_TOLERANCE;
 use crate::text::visible;
 
@@ -392,7 +391,7 @@ pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError>
     })
 }
 
-fn constant(section: &Section<'_>) -> Result<Option<[f64; 2]>, InputError> {
+fn constant(section: &Section<'_>) -> Result<Option<Interval>, InputError> {
     let Some(field) = section.get("constant") else {
         return Ok(None);
     };
@@ -403,7 +402,9 @@ fn constant(section: &Section<'_>) -> Result<Option<[f64; 2]>, InputError> {
         .map(Field::positive)
         .collect::<Result<_, _>>()?;
     match ends[..] {
-        [least, most] if least < most && section.get("order").is_some() => Ok(Some([least, most])),
+        [low, high] if low < high && section.get("order").is_some() => {
+            Ok(Some(Interval { low, high }))
+        }
         _ => Err(field.refuse_as_written(allowed)),
     }
 }

@@ -19,7 +19,9 @@ pub mod subject;
 pub mod until_decided;
 
 pub use coverage::Coverage;
-pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, levels};
+pub use errors_over_levels::{
+    ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, first_repeated, levels,
+};
 #[cfg(feature = "command-line")]
 pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]

@@ -9,7 +9,7 @@ use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
 use super::subject::{Sort, Subject};
 pub use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
-use crate::judge::verdict::{self, Judge, RateVerdict, Reason};
+use crate::judge::verdict::{Floor, RateVerdict, Reason};
 use crate::text::lists::distinct;
 pub use rates::{RATE_TOLERANCE, rate_quantities, rate_table, summary};
 
@@ -191,7 +191,7 @@ pub struct Levels {
     pub columns: Vec<ErrorColumn>,
     /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
     /// that is known.
-    pub floor: f64,
+    pub floor: Floor,
 }
 
 impl Levels {
@@ -207,14 +207,12 @@ impl Levels {
             axis,
             refinements,
             columns,
-            floor: 0.0,
+            floor: Floor::NONE,
         }
     }
 
     /// The same where errors up to this one are round-off.
-    ///
-    /// * `floor`: finite, at least 0.
-    pub fn with_floor(self, floor: f64) -> Self {
+    pub fn with_floor(self, floor: Floor) -> Self {
         Self { floor, ..self }
     }
 
@@ -257,12 +255,7 @@ impl Levels {
     /// The verdict on the claim about an error.
     fn verdict(&self, column: &ErrorColumn, claim: &Claim) -> RateVerdict {
         let points = self.points(column);
-        // No verdict can be based on such a tolerance; readers of study files have already refused
-        // it.
-        let judge = Judge::new(claim.tolerance).and_then(|judge| judge.with_floor(self.floor));
-        let judged = judge
-            .map(|judge| claim.judge(&judge, &points))
-            .unwrap_or_else(|_| verdict::judge(&points, claim.order, claim.tolerance));
+        let judged = claim.judge(&points, self.floor);
         let labels: Vec<&str> = self
             .refinements
             .iter()

@@ -1,7 +1,8 @@
 //! Errors that have become larger, at the same levels.
 
-use convergence_harness::compare::{Shift, WITHIN, compare, rule};
-use convergence_harness::judge::verdict::{Judge, Level};
+use convergence_harness::compare::{Shift, WITHIN, compare};
+use convergence_harness::judge::claims::Claim;
+use convergence_harness::judge::verdict::{Floor, Level};
 use convergence_harness::run::Finished;
 
 use super::{COUNTS, compared, found, level, record, smooth, sound, study, unjudged};
@@ -57,7 +58,7 @@ fn noise_and_errors_at_the_floor_differ_from_nothing() {
         compare(
             &record(vec![of(1.0)]),
             &record(vec![of(2.0)]),
-            &rule(1e-10).unwrap(),
+            Floor::new(1e-10).unwrap(),
             within,
         )
     };
@@ -130,7 +131,8 @@ fn an_error_that_is_larger_at_one_common_step_is_worse_and_named() {
             factor * 1e-13,
         ])])
     };
-    let by = |floor: f64| compare(&tiny(1.0), &tiny(100.0), &rule(floor).unwrap(), WITHIN).change;
+    let by =
+        |floor: f64| compare(&tiny(1.0), &tiny(100.0), Floor::new(floor).unwrap(), WITHIN).change;
     assert_eq!((by(1e-10), by(0.0)), (Shift::Same, Shift::Worse));
 }
 
@@ -172,10 +174,8 @@ fn levels_at_the_floor_of_the_study_are_not_compared() {
                 error: error(step),
             })
             .collect();
-        let judge = Judge::new(0.1)
-            .and_then(|judge| judge.with_floor(floor))
-            .unwrap();
-        study.outcome.rates[0].rate = judge.judge(&pairs, 2.0);
+        let floor = Floor::new(floor).unwrap();
+        study.outcome.rates[0].rate = Claim::new(2.0, 0.1).judge(&pairs, floor);
         study
     };
     assert_eq!(

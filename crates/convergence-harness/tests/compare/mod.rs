@@ -2,8 +2,8 @@
 
 mod larger;
 
-use convergence_harness::compare::{Comparison, Shift, WITHIN, compare, rule};
-use convergence_harness::judge::verdict::{Verdict, judge_pairs};
+use convergence_harness::compare::{Comparison, Shift, WITHIN, compare};
+use convergence_harness::judge::verdict::{Floor, Verdict, judge_pairs};
 use convergence_harness::run::{Finished, Spent};
 use convergence_harness::store::{Record, json};
 use convergence_harness::study::{Header, LevelErrors, NamedRate, Outcome};
@@ -68,12 +68,7 @@ fn sound(id: &str) -> Finished {
 }
 
 fn compared(old: Finished, new: Finished) -> Comparison {
-    compare(
-        &record(vec![old]),
-        &record(vec![new]),
-        &rule(0.0).unwrap(),
-        WITHIN,
-    )
+    compare(&record(vec![old]), &record(vec![new]), Floor::NONE, WITHIN)
 }
 
 /// The errors that differ, each with its change.
@@ -101,7 +96,7 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
     };
     let old = studies(&smooth(1.0, 2.0), &smooth(3.0, 1.0));
     let new = studies(&smooth(1.05, 2.0), &smooth(3.0, 0.5));
-    let comparison = compare(&old, &new, &rule(0.0).unwrap(), WITHIN);
+    let comparison = compare(&old, &new, Floor::NONE, WITHIN);
     assert_eq!(
         found(&comparison),
         [("L2", Shift::Worse), ("H1", Shift::Worse)]
@@ -128,15 +123,12 @@ fn a_larger_constant_and_a_lost_order_are_found_and_nothing_else() {
         lower.reason
     );
     // The other way round both are better.
-    let comparison = compare(&new, &old, &rule(0.0).unwrap(), WITHIN);
+    let comparison = compare(&new, &old, Floor::NONE, WITHIN);
     assert_eq!(
         found(&comparison),
         [("L2", Shift::Better), ("H1", Shift::Better)]
     );
-    assert_eq!(
-        compare(&old, &old, &rule(0.0).unwrap(), WITHIN).change,
-        Shift::Same
-    );
+    assert_eq!(compare(&old, &old, Floor::NONE, WITHIN).change, Shift::Same);
 }
 
 #[test]
@@ -147,7 +139,7 @@ fn a_difference_below_the_limit_is_none() {
         compare(
             &record(vec![sound("a")]),
             &record(vec![new()]),
-            &rule(0.0).unwrap(),
+            Floor::NONE,
             0.001
         )
         .change,
@@ -241,7 +233,7 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
         record(vec![sound("a"), sound("b")]),
         record(vec![sound("a"), sound("c")]),
     ];
-    let comparison = compare(&old, &new, &rule(0.0).unwrap(), WITHIN);
+    let comparison = compare(&old, &new, Floor::NONE, WITHIN);
     assert_eq!(
         (comparison.change, comparison.gained),
         (Shift::Lost, vec!["the study c".to_owned()])

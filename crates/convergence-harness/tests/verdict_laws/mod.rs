@@ -3,7 +3,8 @@
 mod numbers;
 
 use convergence_harness::judge::verdict::{
-    Aside, Judge, Level, RateVerdict, Reason, SetAside, Verdict, falls_away, judge, judge_pairs,
+    Aside, Band, Judge, Level, RateVerdict, Reason, SetAside, Verdict, falls_away, judge,
+    judge_pairs,
 };
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
@@ -308,7 +309,11 @@ fn a_verdict_says_on_what_it_rests() {
     let outcome = judge(&with_rates(&[0.4, 1.0, 1.0, 1.0]), 1.0, 0.05);
     let expected = "the rate agrees with the order: 1.0000 ± 0.00005 from levels 2 to 5 of 5, claimed 1 ± 0.05";
     assert_eq!(outcome.reason, expected);
-    assert_eq!((outcome.order, outcome.tolerance), (1.0, 0.05));
+    let band = Band {
+        order: 1.0,
+        tolerance: 0.05,
+    };
+    assert_eq!(outcome.claimed, Some(band));
     assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
     let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
     assert_eq!(

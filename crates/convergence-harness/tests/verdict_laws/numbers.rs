@@ -121,8 +121,11 @@ fn steps_that_do_not_decrease_are_inconclusive() {
         [1.0, 0.5, 0.25, 0.0],
     ] {
         let pairs = steps.into_iter().zip([1.0, 0.5, 0.25, 0.125]);
+        let levels: Vec<super::Level> = pairs
+            .map(|(step, error)| super::Level { step, error })
+            .collect();
         check(
-            &judge_pairs(pairs, 1.0, 0.05),
+            &judge(&levels, 1.0, 0.05),
             Reason::StepsNotDecreasing,
             Verdict::Inconclusive,
         );

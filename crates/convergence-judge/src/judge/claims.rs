@@ -7,19 +7,38 @@
 use std::fmt;
 
 use super::fit::Level;
-use super::verdict::{Judge, RateVerdict, Reason, against_claim};
+use super::verdict::{
+    Band, Floor, RateVerdict, Reason, against_claim, judge_band, judged_in_words,
+};
+use crate::text::number::{committed_rate, order_text};
 
 /// What theory claims about an error.
 ///
 /// ```
-/// use convergence_judge::{Claim, Judge, Level, Reason};
+/// use convergence_judge::{Claim, Floor, Interval, Level, Reason};
 ///
 /// let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
-/// let judge = Judge::default();
-/// let claim = Claim { constant: Some([2.9, 3.1]), ..Claim::new(2.0, 0.1) };
-/// assert_eq!(claim.judge(&judge, &levels).kind, Reason::Agrees);
+/// let between = Interval { low: 2.9, high: 3.1 };
+/// let claim = Claim { constant: Some(between), ..Claim::new(2.0, 0.1) };
+/// assert_eq!(claim.judge(&levels, Floor::NONE).kind, Reason::Agrees);
 /// let bound = Claim { at_least: true, ..Claim::new(1.0, 0.1) };
-/// assert_eq!(bound.judge(&judge, &levels).kind, Reason::Agrees);
+/// assert_eq!(bound.judge(&levels, Floor::NONE).kind, Reason::Agrees);
+/// ```
+///
+/// The tolerance is that of the claim. A rule with a tolerance of its own beside it is not accepted:
+///
+/// ```compile_fail
+/// # use convergence_judge::{Claim, Level, judge::verdict::Judge};
+/// # let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
+/// Claim::new(2.0, 0.01).judge(&Judge::default(), &levels);
+/// ```
+///
+/// No claim is no order: a rate that is observed has none.
+///
+/// ```compile_fail
+/// # use convergence_judge::{Floor, Level, observe};
+/// # let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
+/// let order: f64 = observe(&levels, Floor::NONE).order();
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Claim {
@@ -30,7 +49,7 @@ pub struct Claim {
     /// Whether the order is a lower bound, so that no rate is too high.
     pub at_least: bool,
     /// The two numbers between which the constant must lie, if that is claimed.
-    pub constant: Option<[f64; 2]>,
+    pub constant: Option<Interval>,
 }
 
 impl Claim {
@@ -44,20 +63,49 @@ impl Claim {
         }
     }
 
-    /// The rate of these levels, held against everything claimed. (The tolerance of `judge` is not
-    /// used.)
-    pub fn judge(&self, judge: &Judge, levels: &[Level]) -> RateVerdict {
-        self.judge_rounded(judge, levels, 0.0)
+    /// The rates that are accepted.
+    pub fn band(&self) -> Band {
+        Band {
+            order: self.order,
+            tolerance: self.tolerance,
+        }
     }
 
-    /// The same for a rate that is uncertain by `doubt`, see [`Judge::judge_rounded`].
-    pub fn judge_rounded(&self, judge: &Judge, levels: &[Level], doubt: f64) -> RateVerdict {
-        let rate = judge.judge_rounded(levels, self.order, doubt);
+    /// The rate of these levels, coarsest first, held against everything claimed. A claim with an
+    /// order or a tolerance that is no claim is inconclusive; the rate is still given.
+    pub fn judge(&self, levels: &[Level], floor: Floor) -> RateVerdict {
+        self.judge_rounded(levels, floor, 0.0)
+    }
+
+    /// The same for errors with few digits: these leave the rate uncertain by `doubt`, and its
+    /// interval is wider by that at either end.
+    pub fn judge_rounded(&self, levels: &[Level], floor: Floor, doubt: f64) -> RateVerdict {
+        let rate = judge_band(levels, self.band(), floor, doubt);
         let rate = if self.at_least { at_least(rate) } else { rate };
         match self.constant {
             Some(between) => with_constant(levels, rate, between),
             None => rate,
         }
+    }
+
+    /// The answer to this claim: the rate, the claim, and why it passes or does not.
+    ///
+    /// * `shown`: the rate in words.
+    pub fn answer(&self, rate: &RateVerdict, shown: &str) -> String {
+        let claim = if self.at_least {
+            self.to_string()
+        } else {
+            self.band().to_string()
+        };
+        let why = match rate.verdict.is_pass() {
+            true if self.at_least => {
+                let least = order_text(committed_rate(self.order - self.tolerance));
+                format!("at least {least}")
+            }
+            true => self.band().excludes(),
+            false => rate.because.clone(),
+        };
+        judged_in_words(shown, &claim, &why)
     }
 }
 
@@ -66,10 +114,19 @@ impl fmt::Display for Claim {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let least = if self.at_least { "at least " } else { "" };
         write!(f, "{least}{} ± {}", self.order, self.tolerance)?;
-        self.constant.map_or(Ok(()), |[least, most]| {
-            write!(f, ", constant {least} to {most}")
+        self.constant.map_or(Ok(()), |Interval { low, high }| {
+            write!(f, ", constant {low} to {high}")
         })
     }
+}
+
+/// Two numbers, and all between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// The lower end.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
 }
 
 /// An order as people write it: `2`, or `>= 2` for a lower bound; `None` if it is neither.
@@ -102,11 +159,12 @@ pub fn order_of_factor(factor: f64) -> f64 {
 ///
 /// The interval must lie above the band's lower end; rates that move upwards do not depart.
 pub fn at_least(rate: RateVerdict) -> RateVerdict {
-    let least = rate.order - rate.tolerance;
     let rates = &rate.pairwise[..rate.used.end.saturating_sub(1)];
-    let (Some([low, _]), [.., before, last]) = (rate.interval, rates) else {
+    let (Some(band), Some([low, _]), [.., before, last]) = (rate.claimed, rate.interval, rates)
+    else {
         return rate;
     };
+    let least = band.order - band.tolerance;
     let is_allowed = match rate.kind {
         Reason::TooHigh | Reason::AtTheEdge | Reason::IntervalTooWide => true,
         Reason::Departs => last > before,
@@ -119,43 +177,47 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
     }
 }
 
-/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` if
-/// there is no rate.
+/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` without
+/// a rate or a claim.
 ///
 /// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest,
 /// halving the remaining distance at each refinement by ρ, so that `log C` changes by
 /// `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower
 /// pollution and for scatter.
-pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<[f64; 2]> {
+pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<Interval> {
+    let order = rate.order()?;
     let [low, high] = rate.interval?;
     let [.., before, finest] = levels.get(rate.used.clone())? else {
         return None;
     };
     let ratio = (before.step / finest.step).ln();
     let last = (before.error / finest.error).ln() / ratio;
-    let middle = finest.error.ln() - rate.order * finest.step.ln() + (rate.order - last) * ratio;
+    let middle = finest.error.ln() - order * finest.step.ln() + (order - last) * ratio;
     let half = DOUBT_OF_A_CONSTANT * 0.5 * (high - low) * ratio;
-    Some([(middle - half).exp(), (middle + half).exp()])
+    Some(Interval {
+        low: (middle - half).exp(),
+        high: (middle + half).exp(),
+    })
 }
 
 /// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own
 /// order changes nothing else.
-pub fn with_constant(levels: &[Level], rate: RateVerdict, [least, most]: [f64; 2]) -> RateVerdict {
+pub fn with_constant(levels: &[Level], rate: RateVerdict, claimed: Interval) -> RateVerdict {
     if !rate.verdict.is_pass() {
         return rate;
     }
-    let Some([low, high]) = constant(levels, &rate) else {
+    let Some(Interval { low, high }) = constant(levels, &rate) else {
         return rate;
     };
-    let kind = if high < least || low > most {
+    let kind = if high < claimed.low || low > claimed.high {
         Reason::ConstantOff
-    } else if low < least || high > most {
+    } else if low < claimed.low || high > claimed.high {
         Reason::ConstantUnsure
     } else {
         return rate;
     };
     let interval = format!("{low:.4} to {high:.4}");
-    let numbers = against_claim(&interval, &format!("{least} to {most}"));
+    let numbers = against_claim(&interval, &format!("{} to {}", claimed.low, claimed.high));
     rate.with_reason(kind, &format!("{} ({numbers})", kind.text()))
 }
 
@@ -171,7 +233,7 @@ pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::verdict::{Judge, Verdict};
+    use super::super::verdict::{Verdict, judge, observe};
     use super::*;
 
     fn levels(error: impl Fn(f64) -> f64) -> Vec<Level> {
@@ -185,7 +247,7 @@ mod tests {
     }
 
     fn judged(levels: &[Level], order: f64) -> RateVerdict {
-        Judge::default().judge(levels, order)
+        judge(levels, order, 0.25)
     }
 
     #[test]
@@ -203,6 +265,17 @@ mod tests {
         assert_eq!(least(2.0, |h| h * h + 0.004 * h), Reason::Departs);
         assert_eq!(least(2.0, |h| h.powi(3) + 0.002 * h), Reason::FallsAway);
         assert_eq!(least(2.0, |_| f64::NAN), Reason::NonFiniteError);
+    }
+
+    #[test]
+    fn the_tolerance_of_a_claim_decides() {
+        let levels = levels(|h| h.powf(2.1));
+        let kind = |tolerance| Claim::new(2.0, tolerance).judge(&levels, Floor::NONE).kind;
+        assert_eq!(kind(0.25), Reason::Agrees);
+        assert_eq!(kind(0.01), Reason::TooHigh);
+        assert_eq!(kind(0.7), Reason::ToleranceTooWide);
+        assert_eq!(kind(f64::NAN), Reason::ClaimUnusable);
+        assert_eq!(observe(&levels, Floor::NONE).kind, Reason::NotClaimed);
     }
 
     #[test]
@@ -231,10 +304,14 @@ mod tests {
     #[test]
     fn a_constant_is_held_against_its_interval() {
         let with = |levels: &[Level], least: f64, most: f64| {
-            with_constant(levels, judged(levels, 2.0), [least, most]).kind
+            let between = Interval {
+                low: least,
+                high: most,
+            };
+            with_constant(levels, judged(levels, 2.0), between).kind
         };
         let smooth = levels(|h| 3.0 * h * h * (1.0 + 0.3 * h));
-        let [low, high] = constant(&smooth, &judged(&smooth, 2.0)).expect("a rate");
+        let Interval { low, high } = constant(&smooth, &judged(&smooth, 2.0)).expect("a rate");
         assert!(low < 3.0 && 3.0 < high && high / low < 1.1, "{low} {high}");
         assert_eq!(with(&smooth, 2.7, 3.3), Reason::Agrees);
         assert_eq!(with(&smooth, 3.3, 4.0), Reason::ConstantOff);

@@ -230,7 +230,7 @@ impl GridErrors<'_> {
         if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
             return Ok(both);
         }
-        let Remainder { share, uncertainty } = self.remainder(adding, &both);
+        let Remainder { share, uncertainty } = self.remainder(adding, &both, orders);
         let power = adding.power();
         let [none, most, limit] = REST;
         let share = share.abs();
@@ -254,11 +254,11 @@ impl GridErrors<'_> {
     }
 
     /// What is left of the finest error without h and dt.
-    fn remainder(&self, adding: Adding, judged: &[RateVerdict; 2]) -> Remainder {
+    fn remainder(&self, adding: Adding, judged: &[RateVerdict; 2], orders: [f64; 2]) -> Remainder {
         let power = adding.power();
         let mut share = 1.0 / power;
         let mut uncertainty = MISFITS_OF_REST * self.misfit(adding);
-        for (in_space, judged) in [true, false].into_iter().zip(judged) {
+        for ((in_space, judged), order) in [true, false].into_iter().zip(judged).zip(orders) {
             let [.., before, finest] = self.line(in_space, 0)[..] else {
                 return Remainder {
                     share: f64::NAN,
@@ -268,7 +268,7 @@ impl GridErrors<'_> {
             let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
             let distances: Vec<f64> = judged.pairwise[..judged.used.end - 1]
                 .iter()
-                .map(|rate| rate - judged.order)
+                .map(|rate| rate - order)
                 .collect();
             let fade = match distances[..] {
                 // Both rates equal the order: nothing fades.
@@ -277,8 +277,8 @@ impl GridErrors<'_> {
             };
             let last = distances.last().copied().unwrap_or(0.0);
             let ratio = before.step / finest.step;
-            let [correction, halved, constant] = [fade, 0.5, 0.0]
-                .map(|fade| difference * tail(ratio, power, judged.order, last, fade));
+            let [correction, halved, constant] =
+                [fade, 0.5, 0.0].map(|fade| difference * tail(ratio, power, order, last, fade));
             share -= correction;
             uncertainty += (correction - halved)
                 .abs()
@@ -313,8 +313,8 @@ impl GridErrors<'_> {
             reading.widen((fit.rate - other.rate).abs());
         }
         let judged = finest.judge_read(&reading, order);
-        let doubtful =
-            judged.verdict == Verdict::Pass && (turns(&lines[0], &judged) || leaves(&judged));
+        let doubtful = judged.verdict == Verdict::Pass
+            && (turns(&lines[0], &judged) || leaves(&judged, order, tolerance));
         Ok(if doubtful {
             finest.judge_as(&reading, order, Reason::NotAsymptotic)
         } else {
@@ -412,9 +412,9 @@ fn turns(errors: &[Level], judged: &RateVerdict) -> bool {
 }
 
 /// Whether there are only two rates, and the second is farther from the order.
-fn leaves(judged: &RateVerdict) -> bool {
+fn leaves(judged: &RateVerdict, order: f64, tolerance: f64) -> bool {
     let rates = &judged.pairwise[judged.used.start..judged.used.end - 1];
     let [first, second] = rates else { return false };
-    let [first, second] = [first, second].map(|rate| (rate - judged.order).abs());
-    judged.used.len() == FEWEST_LEVELS && second > first + DEPARTURE_OF_TWO_RATES * judged.tolerance
+    let [first, second] = [first, second].map(|rate| (rate - order).abs());
+    judged.used.len() == FEWEST_LEVELS && second > first + DEPARTURE_OF_TWO_RATES * tolerance
 }

@@ -89,11 +89,18 @@ pub fn rows(step: &str, columns: &[Shown<'_>]) -> Vec<Vec<String>> {
         head.extend([column.name.to_owned(), "rate".to_owned()]);
     }
     let mut rows = vec![head];
-    let levels = columns.first().map_or(&[][..], |column| column.levels);
+    let longest = columns.iter().map(|column| column.levels);
+    let levels = longest
+        .max_by_key(|levels| levels.len())
+        .unwrap_or_default();
     for (k, level) in levels.iter().enumerate() {
         let mut row = vec![plain_text(level.step)];
         for column in columns {
-            row.extend([column.error(k), column.pairwise(k)]);
+            // Some columns lack coarse levels.
+            row.extend(match (k + column.levels.len()).checked_sub(levels.len()) {
+                Some(k) => [column.error(k), column.pairwise(k)],
+                None => ["-", "-"].map(str::to_owned),
+            });
         }
         rows.push(row);
     }

@@ -14,7 +14,7 @@ mod trend;
 mod words;
 
 pub use cause::Cause;
-pub use outcome::{PowerLaw, RateVerdict, against_claim, judged_in_words};
+pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::Reading;
 pub use reason::Reason;
 pub use trend::{departs, falls_away};
@@ -49,10 +49,38 @@ pub enum JudgeError {
     Floor(f64),
 }
 
+/// Round-off, in the unit of the errors: fine levels with errors up to it are not used.
+///
+/// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
+/// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the
+/// data. [`RateVerdict::set_aside`] names the levels.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Floor(f64);
+
+impl Floor {
+    /// Every level is used.
+    pub const NONE: Self = Self(0.0);
+
+    /// # Errors
+    /// [`JudgeError::Floor`] for a number that is negative, infinite or NaN.
+    pub const fn new(floor: f64) -> Result<Self, JudgeError> {
+        if floor >= 0.0 && floor.is_finite() {
+            Ok(Self(floor))
+        } else {
+            Err(JudgeError::Floor(floor))
+        }
+    }
+
+    /// In the unit of the errors.
+    pub fn value(self) -> f64 {
+        self.0
+    }
+}
+
 /// The rule with its settings; make one and use it for many rates.
 ///
 /// ```
-/// use convergence_judge::{Judge, JudgeError, Level, Reason};
+/// use convergence_judge::{JudgeError, Level, Reason, judge::verdict::Judge};
 ///
 /// let judge = Judge::new(0.1)?;
 /// let steps = [0.4, 0.2, 0.1, 0.05];
@@ -71,7 +99,7 @@ pub enum JudgeError {
 #[must_use = "a rule decides nothing until it is given errors"]
 pub struct Judge {
     tolerance: f64,
-    floor: f64,
+    floor: Floor,
 }
 
 impl Default for Judge {
@@ -79,7 +107,7 @@ impl Default for Judge {
     fn default() -> Self {
         Self {
             tolerance: DEFAULT_TOLERANCE,
-            floor: 0.0,
+            floor: Floor::NONE,
         }
     }
 }
@@ -98,22 +126,14 @@ impl Judge {
         }
         Ok(Self {
             tolerance,
-            floor: 0.0,
+            floor: Floor::NONE,
         })
     }
 
-    /// The same rule with another floor, in the unit of the errors: fine levels with errors up to
-    /// the floor are not used. 0 drops no level.
-    ///
-    /// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as
-    /// much. [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated
-    /// from the data. [`RateVerdict::set_aside`] names the levels.
+    /// The same rule with another [`Floor`], in the unit of the errors.
     pub fn with_floor(self, floor: f64) -> Result<Self, JudgeError> {
-        if floor >= 0.0 && floor.is_finite() {
-            Ok(Self { floor, ..self })
-        } else {
-            Err(JudgeError::Floor(floor))
-        }
+        let floor = Floor::new(floor)?;
+        Ok(Self { floor, ..self })
     }
 
     /// Half-width of the band about the order.
@@ -121,9 +141,14 @@ impl Judge {
         self.tolerance
     }
 
+    /// The round-off.
+    pub fn as_floor(&self) -> Floor {
+        self.floor
+    }
+
     /// Errors up to this one are not used.
     pub fn floor(&self) -> f64 {
-        self.floor
+        self.floor.value()
     }
 
     /// Judges the levels, coarsest first, against the order that theory claims.
@@ -141,12 +166,7 @@ impl Judge {
 
     /// The same for levels that a judge with the same floor has [read](Self::read).
     pub fn judge_read(&self, reading: &Reading<'_>, order: f64) -> RateVerdict {
-        RateVerdict::new(
-            reading,
-            order,
-            self.tolerance,
-            reading.reason(order, self.tolerance),
-        )
+        self.judge_as(reading, order, reading.reason(order, self.tolerance))
     }
 
     /// The same with a reason found by another rule.
@@ -156,14 +176,15 @@ impl Judge {
         order: f64,
         reason: Reason,
     ) -> RateVerdict {
-        RateVerdict::new(reading, order, self.tolerance, reason)
+        let tolerance = self.tolerance;
+        RateVerdict::new(reading, Some(Band { order, tolerance }), reason)
     }
 
     /// What the levels, coarsest first, say by themselves. It depends on neither claim nor
     /// tolerance: [`Judge::judge_read`] and [`Judge::decide`] hold it against any claim, also those
     /// of judges with other tolerances.
     pub fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
-        Reading::new(levels, self.floor)
+        Reading::new(levels, self.floor.value())
     }
 
     /// The verdict alone on levels that a judge with the same floor has [read](Self::read).
@@ -171,23 +192,26 @@ impl Judge {
     pub fn decide(&self, reading: &Reading<'_>, order: f64) -> Verdict {
         reading.reason(order, self.tolerance).verdict()
     }
-
-    /// The same for (step, error) pairs from any source, such as a CSV file.
-    pub fn judge_pairs(
-        &self,
-        pairs: impl IntoIterator<Item = (f64, f64)>,
-        order: f64,
-    ) -> RateVerdict {
-        let levels: Vec<Level> = pairs
-            .into_iter()
-            .map(|(step, error)| Level { step, error })
-            .collect();
-        self.judge(&levels, order)
-    }
 }
 
-/// Judges with the default settings of [`Judge`]; a tolerance that [`Judge::new`] refuses is
-/// inconclusive, but the rate is still given.
+/// The rate of the levels, coarsest first, where nothing is claimed: nothing is confirmed.
+pub fn observe(levels: &[Level], floor: Floor) -> RateVerdict {
+    observe_rounded(levels, floor, 0.0)
+}
+
+/// The same for errors with few digits: these leave the rate uncertain by `doubt`, and its interval
+/// is wider by that at either end.
+pub fn observe_rounded(levels: &[Level], floor: Floor, doubt: f64) -> RateVerdict {
+    let mut reading = Reading::new(levels, floor.value());
+    reading.widen(doubt);
+    RateVerdict::new(
+        &reading,
+        None,
+        reading.defect().unwrap_or(Reason::NotClaimed),
+    )
+}
+
+/// Judges levels, coarsest first, against an order within a tolerance; see [`Claim::judge`].
 ///
 /// ```
 /// use convergence_judge::{Level, Verdict, judge};
@@ -196,33 +220,47 @@ impl Judge {
 /// assert_eq!(judge(&levels, 1.0, 0.1).verdict, Verdict::Pass);
 /// assert_eq!(judge(&levels, 2.0, 0.1).verdict, Verdict::Fail);
 /// ```
+///
+/// [`Claim::judge`]: crate::judge::claims::Claim::judge
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
-    let refused = match Judge::new(tolerance) {
-        Ok(judge) => return judge.judge(levels, order),
+    judge_band(levels, Band { order, tolerance }, Floor::NONE, 0.0)
+}
+
+/// The verdict on a claim that may be unusable: then it is inconclusive, but the rate is still
+/// given.
+///
+/// * `doubt`: errors with few digits leave the rate uncertain by as much; its interval is wider by
+///   that at either end.
+pub(crate) fn judge_band(levels: &[Level], band: Band, floor: Floor, doubt: f64) -> RateVerdict {
+    let mut reading = Reading::new(levels, floor.value());
+    reading.widen(doubt);
+    let kind = match Judge::new(band.tolerance) {
+        Ok(_) => reading.reason(band.order, band.tolerance),
         Err(JudgeError::ToleranceTooWide(_)) => Reason::ToleranceTooWide,
         Err(_) => Reason::ClaimUnusable,
     };
-    // The rate does not depend on the tolerance.
-    let reading = Reading::new(levels, 0.0);
-    RateVerdict::new(&reading, order, tolerance, refused)
+    RateVerdict::new(&reading, Some(band), kind)
 }
 
-/// [`judge`] for (step, error) pairs.
+/// [`judge`] for (step, error) pairs in any order.
 ///
 /// ```
-/// use convergence_judge::judge_pairs;
+/// use convergence_judge::{Reason, judge_pairs};
 ///
-/// let rate = judge_pairs([(0.4, 0.48), (0.2, 0.12), (0.1, 0.03)], 2.0, 0.1);
+/// let rate = judge_pairs([(0.1, 0.03), (0.4, 0.48), (0.2, 0.12)], 2.0, 0.1);
 /// assert!(rate.verdict.is_pass());
+/// let twice = judge_pairs([(0.4, 0.48), (0.2, 0.12), (0.2, 0.12), (0.1, 0.03)], 2.0, 0.1);
+/// assert_eq!(twice.kind, Reason::StepsNotDecreasing);
 /// ```
 pub fn judge_pairs(
     pairs: impl IntoIterator<Item = (f64, f64)>,
     order: f64,
     tolerance: f64,
 ) -> RateVerdict {
-    let levels: Vec<Level> = pairs
+    let mut levels: Vec<Level> = pairs
         .into_iter()
         .map(|(step, error)| Level { step, error })
         .collect();
+    levels.sort_by(|one, other| other.step.total_cmp(&one.step));
     judge(&levels, order, tolerance)
 }

@@ -36,7 +36,7 @@ fn rates_says_how_it_read_a_table() {
     let text = "spam,L2,other\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
     fs::write(root.path().join("t"), text).unwrap();
     let rates = |more: &[&str]| run(&root, &[&["rates", "t"], more].concat());
-    let reading = "step: `spam`, by its ratio 2; errors: `L2`; left out: `other` (whole numbers that do not fall)";
+    let reading = "step: `spam`, by its ratio 2; errors: `L2`; left out: `other` (a count)";
     let (status, out, _) = rates(&["--order", "2", "--quiet"]);
     assert_eq!(
         (status, out.as_str()),

@@ -7,7 +7,7 @@ pub(crate) use convergence_harness::input::{
 };
 pub(crate) use convergence_harness::judge::random::SplitMix;
 pub(crate) use convergence_harness::judge::richardson;
-pub(crate) use convergence_harness::judge::verdict::{Judge, Verdict};
+pub(crate) use convergence_harness::judge::verdict::{Floor, Judge, Verdict};
 pub(crate) use convergence_harness::plots;
 pub(crate) use convergence_harness::plots::xy::Xy;
 pub(crate) use convergence_harness::run::time_limit::Patience;

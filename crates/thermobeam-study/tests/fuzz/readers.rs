@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use convergence_harness::input::error_table::{Choice, RateTable};
-use convergence_harness::judge::{claims::Claim, verdict::Judge};
+use convergence_harness::judge::{claims::Claim, verdict::Floor};
 use convergence_harness::store::Baseline;
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
@@ -239,7 +239,7 @@ impl Bench {
                 let table = RateTable::read_with(&path, &Choice::default())
                     .map_err(|error| said(&error))?;
                 table.columns.iter().for_each(|column| {
-                    drop(column.judge(&Judge::default(), &Claim::new(1.0, 0.05)));
+                    drop(column.judge(&Claim::new(1.0, 0.05), Floor::NONE));
                 });
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),

@@ -1,6 +1,7 @@
 //! A text without colours, types and other signs that are not of its table.
 
 use super::forms::joined;
+use super::markup;
 
 /// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
 /// ended lines with \r.
@@ -21,7 +22,7 @@ pub(super) fn plain(text: &str) -> String {
     let marked = MARKS
         .iter()
         .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
-    let marked = joined(&marked);
+    let marked = joined(&markup::plain(&marked));
     let text = without_numpy_types(&without_colours(&marked));
     let text: String = text.lines().map(plain_line).collect();
     if is_list(&text, &['{']) {

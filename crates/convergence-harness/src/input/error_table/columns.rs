@@ -2,7 +2,9 @@
 
 use std::f64::consts::LN_2;
 
-use super::names::Word;
+use super::names::{self, Word};
+use super::number::is_dash;
+use super::stated::DIMENSIONS;
 
 /// Largest relative difference of two equal ratios, given their digits.
 const SAME: f64 = 1e-5;
@@ -36,6 +38,53 @@ impl Cells<'_> {
         self.values = order.iter().map(|row| self.values[*row]).collect();
         self.is_number = order.iter().map(|row| self.is_number[*row]).collect();
         self.halves = order.iter().map(|row| self.halves[*row]).collect();
+    }
+
+    /// What the cells hold.
+    pub(super) fn holdings(&self) -> Holdings {
+        let is = |cell: &str| names::is_failure(cell) || is_dash(cell);
+        let numbers = self
+            .is_number
+            .iter()
+            .filter(|is_number| **is_number)
+            .count();
+        let mut others = self
+            .texts
+            .iter()
+            .zip(&self.is_number)
+            .filter(|(_, is_number)| !**is_number);
+        if self.texts.iter().all(|cell| cell.is_empty()) {
+            Holdings::Nothing
+        } else if numbers == 0
+            && others
+                .clone()
+                .all(|(cell, _)| is_dash(cell) || names::state(cell).is_some())
+            && others
+                .clone()
+                .any(|(cell, _)| names::state(cell).is_some() && !names::is_failure(cell))
+        {
+            Holdings::States
+        } else if numbers == 0 && !others.clone().all(|(cell, _)| is(cell)) {
+            Holdings::Words
+        } else if others.all(|(cell, _)| is(cell)) {
+            Holdings::Numbers
+        } else {
+            Holdings::NumbersAndWords
+        }
+    }
+
+    /// The number of coarsest levels that have no number, as a dash or a blank says.
+    pub(super) fn missing(&self) -> usize {
+        let mut cells = self.texts.iter().zip(&self.is_number);
+        let first = cells.position(|(cell, is_number)| *is_number || !is_dash(cell));
+        first.unwrap_or(0)
+    }
+
+    /// Whether a level has no result in place of a number: only a blank may be a mistake of the
+    /// reader.
+    pub(super) fn has_failed(&self, row: usize) -> bool {
+        let cell = self.texts[row];
+        !self.is_number[row] && (names::is_failure(cell) || is_dash(cell) && !cell.is_empty())
     }
 
     pub(super) fn is_constant(&self) -> bool {
@@ -102,6 +151,40 @@ impl Cells<'_> {
                 .all(|product| product / least - 1.0 < SAME)
     }
 
+    /// Whether it has whole numbers that grow from level to level.
+    pub(super) fn is_count_over(&self, steps: &[f64]) -> bool {
+        self.is_whole()
+            && self.values.len() == steps.len()
+            && self.values.windows(2).all(|two| two[0] < two[1])
+    }
+
+    /// Whether it counts cells or nodes of meshes with these steps: its D-th root grows with 1/h along
+    /// a line, as n or n + 1 along an edge do.
+    pub(super) fn counts_meshes(&self, steps: &[f64]) -> bool {
+        const NEAR_LINE: f64 = 1e-3;
+        let is_line = |dim: &f64| {
+            let points = self.values.iter().zip(steps);
+            let points: Vec<[f64; 2]> = points
+                .map(|(count, step)| [step.recip(), count.powf(dim.recip())])
+                .collect();
+            let slopes = points
+                .windows(2)
+                .map(|two| (two[1][1] - two[0][1]) / (two[1][0] - two[0][0]));
+            let slopes: Vec<f64> = slopes.collect();
+            slopes
+                .iter()
+                .all(|slope| (slope / slopes[0] - 1.0).abs() < NEAR_LINE)
+        };
+        steps.len() > 2 && self.is_count_over(steps) && DIMENSIONS.iter().any(is_line)
+    }
+
+    /// Whether it holds zeros and ones.
+    pub(super) fn is_flag(&self) -> bool {
+        self.values
+            .iter()
+            .all(|value| *value == 0.0 || *value == 1.0)
+    }
+
     /// The number of steps in which both fall or both grow, minus those in which one falls and the
     /// other grows.
     pub(super) fn together(&self, other: &Self) -> f64 {
@@ -118,15 +201,23 @@ impl Cells<'_> {
     pub(super) fn derived_from(&self, error: &Self, steps: &[f64]) -> Option<Derived> {
         let last = steps.len() - 1;
         let errors = &error.values;
-        if last < 2 || !errors.iter().all(|value| *value > 0.0) || errors[last] >= 0.7 * errors[0] {
+        if last < 1 || !errors.iter().all(|value| *value > 0.0) || errors[last] >= 0.7 * errors[0] {
             return None;
         }
         let half = 1.2 * self.widest_half();
-        // Three rates are proof enough; two need a name, or an end without a rate.
+        // Three rates are proof enough; two need a name, or an end without a rate; one needs an end
+        // without a number.
         let is_proof = last > 2 || self.word == Word::Rate;
         // Each rate stands on the finer level of its pair, or on the coarser one.
-        let finer = is_proof || self.has_no_rate(0);
-        let coarser = is_proof || self.has_no_rate(last);
+        let is_end = |row: usize| {
+            if last < 2 {
+                !self.is_number[row]
+            } else {
+                self.has_no_rate(row)
+            }
+        };
+        let finer = is_proof && last > 1 || is_end(0);
+        let coarser = is_proof && last > 1 || is_end(last);
         [
             Derived::Rates,
             Derived::RatesOfHalvedSteps,
@@ -156,7 +247,7 @@ impl Cells<'_> {
             .filter(|value| !value.is_nan())
             .collect();
         let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
-        if is_whole && numbers.windows(2).all(|two| two[0] < two[1]) {
+        if is_whole && numbers.len() > 1 && numbers.windows(2).all(|two| two[0] < two[1]) {
             return Trend::Grows;
         }
         if is_whole {
@@ -222,6 +313,20 @@ impl Derived {
             }
         }
     }
+}
+
+/// What the cells of a column hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Holdings {
+    /// Blanks.
+    Nothing,
+    /// Words that say whether a level was solved.
+    States,
+    /// Other words.
+    Words,
+    /// Numbers, or what stands for a number that a code did not find.
+    Numbers,
+    NumbersAndWords,
 }
 
 /// What a column of unknown name may hold.

@@ -3,7 +3,7 @@
 use crate::judge::claims::Claim;
 use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
 use crate::judge::richardson::{Estimate, Estimator, Value};
-use crate::judge::verdict::{Cause, Judge, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{self, Cause, Floor, RateVerdict, Reason, Verdict};
 use crate::text::number::counted;
 
 /// Rounding below this share of a number changes no verdict.
@@ -25,12 +25,66 @@ pub struct Column {
     pub step_halves: Vec<f64>,
 }
 
+/// What rounding does to the rate of a column.
+struct Rounding {
+    /// Levels above the floor.
+    used: usize,
+    /// The rate between the finest of them.
+    finest_rate: f64,
+    /// Whether rounding changes nothing.
+    is_exact: bool,
+    /// By how much it may change the finest rate.
+    doubt: f64,
+}
+
 impl Column {
     /// Judges the errors. The interval, whatever is claimed, is wider by as much as rounding moves
     /// the finest rate. If without rounding there would be a verdict, or if other digits could turn
     /// another verdict into a pass, the reason is missing digits.
-    pub fn judge(&self, judge: &Judge, claim: &Claim) -> RateVerdict {
-        let used = asymptotic_range(&self.levels, judge.floor()).end;
+    pub fn judge(&self, claim: &Claim, floor: Floor) -> RateVerdict {
+        let Rounding {
+            used,
+            finest_rate,
+            is_exact,
+            doubt,
+        } = self.rounding(floor);
+        let mut judged = claim.judge_rounded(&self.levels, floor, doubt);
+        let needs_no_digits = matches!(
+            judged.kind,
+            Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels
+        );
+        if is_exact || needs_no_digits || judged.verdict == Verdict::Pass {
+            return judged;
+        }
+        judged.cause = judged.cause.or_else(|| {
+            Cause::of(&self.levels[..used], claim.order, |k| {
+                self.share(k, finest_rate)
+            })
+        });
+        let possible: Vec<Verdict> = self
+            .corners(finest_rate)
+            .iter()
+            .map(|levels| claim.judge(levels, floor).verdict)
+            .collect();
+        let is_undone = judged.verdict == Verdict::Inconclusive
+            && claim.judge(&self.levels, floor).verdict != Verdict::Inconclusive;
+        let is_poor = doubt > claim.tolerance
+            && (judged.verdict != Verdict::Fail || possible.contains(&Verdict::Inconclusive));
+        if is_undone || is_poor || possible.contains(&Verdict::Pass) {
+            self.without_digits(judged)
+        } else {
+            judged
+        }
+    }
+
+    /// The rate of the errors where nothing is claimed: nothing is confirmed.
+    pub fn observe(&self, floor: Floor) -> RateVerdict {
+        verdict::observe_rounded(&self.levels, floor, self.rounding(floor).doubt)
+    }
+
+    /// What rounding does to the rate of the errors above the floor.
+    fn rounding(&self, floor: Floor) -> Rounding {
+        let used = asymptotic_range(&self.levels, floor.value()).end;
         let finest_rate = pairwise_rates(&self.levels[..used])
             .last()
             .copied()
@@ -41,49 +95,28 @@ impl Column {
         let doubt = finest.map_or(0.0, |(k, pair)| {
             (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln()
         });
-        let doubt = if is_exact || !doubt.is_finite() {
-            0.0
-        } else {
-            doubt
-        };
-        let mut judged = claim.judge_rounded(judge, &self.levels, doubt);
-        let needs_no_digits = matches!(
-            judged.kind,
-            Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels
-        );
-        if is_exact || needs_no_digits || claim.order.is_nan() || judged.verdict == Verdict::Pass {
-            return judged;
-        }
-        judged.cause = judged
-            .cause
-            .or_else(|| Cause::of(&self.levels[..used], claim.order, share));
-        let possible: Vec<Verdict> = self
-            .corners(finest_rate)
-            .iter()
-            .map(|levels| claim.judge(judge, levels).verdict)
-            .collect();
-        let is_undone = judged.verdict == Verdict::Inconclusive
-            && claim.judge(judge, &self.levels).verdict != Verdict::Inconclusive;
-        let is_poor = doubt > judge.tolerance()
-            && (judged.verdict != Verdict::Fail || possible.contains(&Verdict::Inconclusive));
-        if is_undone || is_poor || possible.contains(&Verdict::Pass) {
-            self.without_digits(judged)
-        } else {
-            judged
+        let is_known = !is_exact && doubt.is_finite();
+        Rounding {
+            used,
+            finest_rate,
+            is_exact,
+            doubt: if is_known { doubt } else { 0.0 },
         }
     }
 
     /// Judges the differences of the values, and estimates their limit.
-    pub fn estimate(&self, estimator: &Estimator, order: f64) -> Estimate {
-        let mut estimate = estimator.estimate(&as_values(&self.levels), order);
+    ///
+    /// * `order`: claimed by theory; without one, nothing is confirmed.
+    pub fn estimate(&self, estimator: &Estimator, order: Option<f64>) -> Estimate {
+        let of = |levels: &[Level]| match order {
+            Some(order) => estimator.estimate(&as_values(levels), order),
+            None => estimator.estimate_unclaimed(&as_values(levels)),
+        };
+        let mut estimate = of(&self.levels);
         let rate = estimate.judged.finest_rate().unwrap_or(0.0);
-        let corners: Vec<Estimate> = self
-            .corners(rate)
-            .iter()
-            .map(|levels| estimator.estimate(&as_values(levels), order))
-            .collect();
+        let corners: Vec<Estimate> = self.corners(rate).iter().map(|levels| of(levels)).collect();
         let verdict = estimate.judged.verdict;
-        if !order.is_nan()
+        if order.is_some()
             && corners
                 .iter()
                 .any(|corner| corner.judged.verdict != verdict)

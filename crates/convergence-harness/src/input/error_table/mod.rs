@@ -17,15 +17,21 @@
 //! [`RateTable::reading`] says in a line how the table was read. `NaN` and `inf` are errors; a
 //! column with one of them fails.
 
-mod blocks;
 mod cleaned;
 mod columns;
+mod contents;
 mod digits;
+mod doubt;
+mod failed_run;
 mod forms;
 mod frame;
+mod groups;
+mod heads;
+mod markup;
 pub(crate) mod names;
 mod number;
 pub(crate) mod pairs;
+mod parts;
 mod reader;
 mod roles;
 mod stated;
@@ -39,6 +45,7 @@ use super::advice::{Argument, Setting, Surface, Value};
 use crate::input::{self, InputError};
 pub use columns::limit;
 pub use digits::Column;
+pub use doubt::Doubt;
 pub use frame::FrameColumn;
 use frame::Original;
 
@@ -46,13 +53,13 @@ use frame::Original;
 ///
 /// ```
 /// # use convergence_harness::input::error_table::{Choice, RateTable};
-/// # use convergence_harness::judge::{claims::Claim, verdict::Judge};
+/// # use convergence_harness::judge::{claims::Claim, verdict::Floor};
 /// let text = "h, L2, rate\n0.1, 1.01e-3, -\n0.05, 2.51e-4, 2.01\n0.025, 6.26e-5, 2.00\n";
 /// let table = RateTable::parse_with(text, "errors.csv", &Choice::default())?;
 /// let column = table.column("L2").expect("its name");
-/// let rate = column.judge(&Judge::default(), &Claim::new(2.0, 0.25));
+/// let rate = column.judge(&Claim::new(2.0, 0.25), Floor::NONE);
 /// assert!(rate.verdict.is_pass(), "{}", rate.reason);
-/// assert_eq!(table.not_errors[0].0, "rate");
+/// assert_eq!(table.not_errors[0].column, "rate");
 /// # Ok::<(), convergence_harness::input::InputError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -65,12 +72,25 @@ pub struct RateTable {
     pub columns: Vec<Column>,
     /// The columns chosen as values.
     pub values: Vec<Column>,
-    /// Columns that are not errors, each with the reason.
-    pub not_errors: Vec<(String, String)>,
+    /// Columns that are not errors.
+    pub not_errors: Vec<NotError>,
     /// How the table was read: the step, errors, values, and what was left out with the reason.
     pub reading: String,
     /// Whether numbers, not names, identified the step.
     pub is_guessed: bool,
+    /// Why none of its columns should pass.
+    pub doubts: Vec<Doubt>,
+}
+
+/// A column that is not an error.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotError {
+    /// Its name.
+    pub column: String,
+    /// Why it is not an error.
+    pub because: String,
+    /// Whether arithmetic shows this, and not the name of the column alone.
+    pub is_checked: bool,
 }
 
 /// Which columns of a table to use; by default their numbers decide.
@@ -117,7 +137,7 @@ impl RateTable {
     /// Reads a table from `text`; messages name `file_name`.
     ///
     /// # Errors
-    /// As [`RateTable::read_with`], except for the file.
+    /// As [`RateTable::read_with`], except for the file; also for several tables.
     pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
         roles::read(Original::of_text(&cleaned::plain(text), file_name), choice)
     }
@@ -137,33 +157,23 @@ impl RateTable {
 
     /// Reads all tables of `text`; messages name `file_name`.
     ///
-    /// Lines of words and blank lines between some rows, but not between all, part a text, and each
-    /// part is a table: two tables that are read as one could pass where one of them fails. Other
-    /// texts are one table if they can be read so, or else the tables between lines of words.
+    /// What stands between some rows, but not between all, parts a text: a heading, a ruler, names
+    /// that come again, a blank line. So does a step that returns, and a column such as `p` or
+    /// `method`: two tables that are read as one could pass where one of them fails.
     ///
     /// # Errors
-    /// As [`RateTable::parse_with`], about the whole text.
+    /// As [`RateTable::parse_with`], about the table that cannot be read.
     pub fn parse_all_with(
         text: &str,
         file_name: &str,
         choice: &Choice,
     ) -> Result<Vec<(String, Self)>, InputError> {
         let text = cleaned::plain(text);
-        let blocks = blocks::split(&text);
-        let is_parted = pairs::read(&text, true).is_none() && blocks::are_tables(&blocks);
-        let error = match roles::read(Original::of_text(&text, file_name), choice) {
-            Ok(table) if !is_parted => return Ok(vec![(String::new(), table)]),
-            Ok(_) => blocks::refusal(file_name),
-            Err(error) => error,
-        };
-        let tables: Result<Vec<_>, InputError> = blocks
-            .into_iter()
-            .map(|block| {
-                let table = roles::read(Original::of_text(block.text, file_name), choice)?;
-                Ok((block.heading, table))
-            })
-            .collect();
-        tables.ok().filter(|tables| tables.len() > 1).ok_or(error)
+        let mut tables = roles::read_all(Original::of_text(&text, file_name), choice)?;
+        if let [(heading, _)] = &mut tables[..] {
+            heading.clear();
+        }
+        Ok(tables)
     }
 
     /// The column of errors of this name, with or without its unit.

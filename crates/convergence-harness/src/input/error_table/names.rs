@@ -13,6 +13,14 @@ pub(super) enum Word {
     /// The cost of a level, or its number.
     Cost,
     Logarithm,
+    /// What is left of an equation that a solver has solved, and no error of its solution.
+    Residual,
+    /// A value, or its limit.
+    Value,
+    /// Whether the code has solved a level.
+    State,
+    /// What tells several tables in one apart.
+    Group,
     Error,
     Unknown,
 }
@@ -47,8 +55,38 @@ const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations itera
     cfl row index cycle level lvl refinement i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
     displacement temperature stress flux solution gradient";
-const NORMS: [&str; 12] = [
-    "err", "norm", "resid", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv",
+/// Names of values and of their limits.
+const VALUE_WORDS: [&str; 10] = [
+    "value",
+    "values",
+    "exact",
+    "analytical",
+    "analytic",
+    "limit",
+    "extrapolated",
+    "extrapolation",
+    "reference",
+    "computed",
+];
+/// Names of columns that say whether a level was solved.
+const STATE_WORDS: [&str; 12] = [
+    "converged",
+    "success",
+    "succeeded",
+    "ok",
+    "status",
+    "state",
+    "solved",
+    "failed",
+    "outcome",
+    "result",
+    "passed",
+    "convergedreason",
+];
+/// Words in the name of a step: `panel_size`.
+const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
+const NORMS: [&str; 11] = [
+    "err", "norm", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv",
 ];
 
 impl Word {
@@ -89,6 +127,9 @@ impl Word {
         if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") {
             return Self::Rate;
         }
+        if joined.contains("resid") {
+            return Self::Residual;
+        }
         if NORMS
             .iter()
             .any(|part| lower.contains(part) || joined.contains(part))
@@ -98,17 +139,48 @@ impl Word {
         if STEPS.contains_key(joined.as_str()) {
             return Self::Step;
         }
+        if words.iter().any(|word| VALUE_WORDS.contains(word)) {
+            return Self::Value;
+        }
         if has(&ERRORS) && !words.contains(&"time") {
             return Self::Error;
         }
+        if STATE_WORDS.contains(&joined.as_str()) {
+            return Self::State;
+        }
+        if joined.len() > 1 && is_group(name) {
+            return Self::Group;
+        }
+        Self::of_counts_and_costs(&words, &joined)
+    }
+
+    /// The meaning of a name that is not that of an error.
+    fn of_counts_and_costs(words: &[&str], joined: &str) -> Self {
+        let some = |list: &Words| words.iter().any(|word| list.contains_key(word));
         if !words.is_empty() && words.iter().all(|word| COSTS.contains_key(word)) {
             return Self::Cost;
         }
-        match count(&joined) {
-            Some(rank) => Self::Count(rank),
-            None if has(&COSTS) => Self::Cost,
-            None => Self::Unknown,
+        if let Some(rank) = count(joined) {
+            return Self::Count(rank);
         }
+        if some(&COSTS)
+            || joined
+                .strip_prefix('n')
+                .is_some_and(|rest| COSTS.contains_key(rest))
+        {
+            return Self::Cost;
+        }
+        // `inside_cells`, which may be some of them.
+        if words
+            .iter()
+            .any(|word| word.len() > 3 && COUNTS.contains_key(word))
+        {
+            return Self::Count(COUNTS.len());
+        }
+        if words.len() > 1 && words.iter().any(|word| SIZE_WORDS.contains(word)) {
+            return Self::Step;
+        }
+        Self::Unknown
     }
 
     /// What a column that is not an error holds; `None` if the name does not say so.
@@ -119,16 +191,111 @@ impl Word {
             Self::Rate => Some("a rate"),
             Self::Cost => Some("a cost"),
             Self::Logarithm => Some("a logarithm"),
+            Self::Residual => Some("a residual"),
+            Self::Value => Some("a value"),
+            Self::State => Some("a state"),
+            Self::Group => Some("a group"),
             Self::Error | Self::Unknown => None,
         }
     }
 }
 
+/// First letters of what a code says of a level that it has solved, and of one that it has not.
+const SOLVED: [&str; 7] = ["true", "yes", "ok", "converged", "pass", "success", "done"];
+const NOT_SOLVED: [&str; 14] = [
+    "false",
+    "no",
+    "not converged",
+    "diverged",
+    "div",
+    "fail",
+    "error",
+    "crash",
+    "abort",
+    "killed",
+    "timeout",
+    "unstable",
+    "stalled",
+    "unconverged",
+];
+
+/// Words of a cell that stands for a number that a code did not find.
+const FAILURES: [&str; 11] = [
+    "nan", "nanq", "nans", "inf", "infinity", "diverged", "failed", "fail", "error", "crashed",
+    "unstable",
+];
+
+/// Names of what tells several tables in one apart.
+const GROUP_WORDS: [&str; 14] = [
+    "p",
+    "q",
+    "deg",
+    "degree",
+    "polydeg",
+    "polynomialdegree",
+    "order",
+    "method",
+    "scheme",
+    "case",
+    "test",
+    "element",
+    "family",
+    "variant",
+];
+
+/// Whether a cell says that its level was solved, or that it was not; `None` if it says neither.
+pub(super) fn state(cell: &str) -> Option<bool> {
+    let lower = cell.to_lowercase();
+    let is_word = |word: &&str| {
+        lower.strip_prefix(*word).is_some_and(|rest| {
+            rest.is_empty() || word.len() > 3 && !rest.starts_with(' ') || rest.starts_with('_')
+        })
+    };
+    if NOT_SOLVED.iter().any(&is_word) {
+        return Some(false);
+    }
+    SOLVED.iter().any(is_word).then_some(true)
+}
+
+/// Whether a cell stands for a number that a code did not find: `-nan(ind)`, `1.#QNAN`, `****`,
+/// `diverged`.
+pub(super) fn is_failure(cell: &str) -> bool {
+    let lower = cell.to_lowercase();
+    let word = lower.trim_start_matches(['-', '+']);
+    let word = word.split(['(', ' ']).next().unwrap_or_default();
+    let is_stars = cell.len() > 1 && cell.chars().all(|c| c == '*');
+    let is_mark_of_c = ["#qnan", "#snan", "#ind", "#inf"]
+        .iter()
+        .any(|mark| lower.contains(mark));
+    is_stars || is_mark_of_c || FAILURES.contains(&word)
+}
+
+/// Whether a name is that of groups of rows: of a degree, a method.
+pub(super) fn is_group(name: &str) -> bool {
+    let lower = without_unit(name).to_lowercase();
+    let joined: String = lower.chars().filter(|c| c.is_alphanumeric()).collect();
+    GROUP_WORDS.contains(&&*joined)
+}
+
+/// Whether a name is that of the number of a level.
+pub(super) fn is_level(name: &str) -> bool {
+    let joined: String = name
+        .to_lowercase()
+        .chars()
+        .filter(|c| c.is_alphanumeric())
+        .collect();
+    ["level", "lvl", "cycle", "refinement", "refinements"].contains(&&*joined)
+}
+
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
-    ["", "numberof", "number", "num", "nr", "no", "n", "total"]
-        .iter()
-        .find_map(|prefix| COUNTS.get(name.strip_prefix(prefix)?).copied())
+    let find = |name: &str| {
+        ["", "numberof", "number", "num", "nr", "no", "n", "total"]
+            .iter()
+            .find_map(|prefix| COUNTS.get(name.strip_prefix(prefix)?).copied())
+    };
+    // `nx1` is that of the first direction.
+    find(name).or_else(|| find(name.trim_end_matches(|c: char| c.is_ascii_digit())))
 }
 
 /// Whether values are those of one row above the other: 1/h counts, 1/N is a step.
@@ -176,7 +343,7 @@ pub(crate) fn position<'n>(
     names: impl Iterator<Item = &'n str> + Clone,
     wanted: &str,
 ) -> Option<usize> {
-    for name in [wanted, &format!("column {wanted}")] {
+    for name in [wanted, &format!("column {wanted}"), &without_markup(wanted)] {
         let position = names.clone().position(|other| other == name);
         if position.is_some() {
             return position;

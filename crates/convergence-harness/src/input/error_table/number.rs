@@ -60,6 +60,21 @@ pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
     halves
 }
 
+/// The unit that stands behind the number of each cell, as in `0.5 µm`.
+pub(super) fn common_unit<'t>(cells: &[&'t str]) -> Option<&'t str> {
+    let unit = |cell: &&'t str| {
+        let (number, unit) = cell.split_once(' ')?;
+        let is_unit =
+            !unit.contains(char::is_whitespace) && unit.starts_with(|c: char| c.is_alphabetic());
+        (is_unit && real(number).is_some()).then_some(unit)
+    };
+    let first = cells.first().and_then(unit)?;
+    cells
+        .iter()
+        .all(|cell| unit(cell) == Some(first))
+        .then_some(first)
+}
+
 /// Whether a cell says that it has no number.
 pub(super) fn is_dash(cell: &str) -> bool {
     DASHES.contains(&cell.trim_matches('$'))

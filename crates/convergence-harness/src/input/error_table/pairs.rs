@@ -2,21 +2,56 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::names::Word;
+use super::names::{self, Word};
 use super::number::{is_dash, number};
 
 use crate::text::number::counted;
 
 /// A table as written. Names and cells are slices of the text, which give their places.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct RawTable<'t> {
     /// A name for each column, or an empty one.
     pub(super) names: Vec<&'t str>,
     pub(super) rows: Vec<Vec<&'t str>>,
+    /// For each column the name above its name; may be empty.
+    pub(super) groups: Vec<&'t str>,
     /// Whether a comma in a cell is a decimal comma.
     pub(super) decimal_comma: bool,
     /// What is not a column of the table.
     pub(super) left_out: Vec<LeftOut>,
+}
+
+/// The name of a column, and what it says.
+pub(super) struct ColumnName {
+    pub(super) name: String,
+    pub(super) word: Word,
+}
+
+impl RawTable<'_> {
+    /// The names of the columns, or those that the user has chosen. The errors of a variable have its
+    /// name.
+    pub(super) fn column_names(&self, chosen: Option<&[String]>) -> Vec<ColumnName> {
+        if let Some(names) = chosen {
+            let names = names.iter().map(|name| ColumnName {
+                name: name.clone(),
+                word: Word::of(name),
+            });
+            return names.collect();
+        }
+        let name = |(k, name): (usize, &&str)| {
+            let name = names::without_markup(name);
+            let word = Word::of(&name);
+            let group = self.groups.get(k).map(|group| names::without_markup(group));
+            let group = group.filter(|group| !group.is_empty());
+            let name = match group {
+                Some(group) if word == Word::Error => group,
+                Some(group) => format!("{group} {name}"),
+                None => name,
+            };
+            ColumnName { name, word }
+        };
+        self.names.iter().enumerate().map(name).collect()
+    }
 }
 
 /// A column, or a list of numbers, that is not an error.
@@ -24,6 +59,8 @@ pub(super) struct RawTable<'t> {
 pub(super) struct LeftOut {
     pub(super) name: String,
     pub(super) reason: String,
+    /// Whether its numbers show the reason, and not its name alone.
+    pub(super) is_checked: bool,
 }
 
 /// Longest text in which a name is looked for before its number, in bytes.
@@ -33,9 +70,9 @@ const LONGEST_LABEL: usize = 400;
 const LEVELS: [&str; 4] = ["INFO ", "DEBUG ", "WARNING ", "ERROR "];
 
 /// A name and the numbers after it.
-struct Pair<'t> {
-    name: &'t str,
-    values: Vec<&'t str>,
+pub(super) struct Pair<'t> {
+    pub(super) name: &'t str,
+    pub(super) values: Vec<&'t str>,
     /// Whether `=` or `:` separates them.
     is_marked: bool,
 }
@@ -56,7 +93,7 @@ impl<'t> Pair<'t> {
 }
 
 /// Characters around names and values.
-fn is_mark(c: char) -> bool {
+pub(super) fn is_mark(c: char) -> bool {
     c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
 }
 
@@ -67,17 +104,17 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     if must_mark && !text.contains([':', '=']) {
         return None;
     }
-    let PairedText { pairs, rows } = find_pairs(text);
-    let marked = pairs.iter().filter(|pair| pair.is_marked).count();
-    let longest = pairs.iter().map(|pair| pair.values.len()).max()?;
+    let found = find_pairs(text);
     let is_table_of_rows = if must_mark {
-        marked < 2 || marked <= rows
+        !found.is_log()
     } else {
-        rows > 0
+        !found.rows.is_empty()
     };
     if is_table_of_rows {
         return None;
     }
+    let pairs = found.pairs;
+    let longest = pairs.iter().map(|pair| pair.values.len()).max()?;
     Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
@@ -106,15 +143,102 @@ pub(crate) fn named_numbers(line: &str) -> Vec<(&str, f64)> {
 /// What a text holds.
 struct PairedText<'t> {
     pairs: Vec<Pair<'t>>,
-    /// The number of lines that begin with a nameless number.
-    rows: usize,
+    /// The lines that begin with a nameless number: that number.
+    rows: Vec<&'t str>,
+}
+
+impl PairedText<'_> {
+    /// Whether more numbers have a name and a mark than lines have none.
+    fn is_log(&self) -> bool {
+        let marked = self.pairs.iter().filter(|pair| pair.is_marked).count();
+        marked >= 2 && marked > self.rows.len()
+    }
+}
+
+/// The names and numbers of a log; `None` for a text of rows.
+pub(super) fn log(text: &str) -> Option<Vec<Pair<'_>>> {
+    let found = text.contains([':', '=']).then(|| find_pairs(text))?;
+    found.is_log().then_some(found.pairs)
+}
+
+/// How the numbers of a line or of a list are named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Naming {
+    /// A row of numbers.
+    Nameless,
+    /// A name and a mark before each number.
+    Each,
+    /// One name and several numbers.
+    List,
+}
+
+/// The first number of a row, or the one behind a name.
+pub(super) struct NamedPlace<'t> {
+    /// The byte of the number.
+    pub(super) offset: usize,
+    /// Its name; empty without.
+    pub(super) name: &'t str,
+    pub(super) naming: Naming,
+}
+
+/// Rows and named numbers in the order of the text.
+pub(super) fn namings(text: &str) -> Vec<NamedPlace<'_>> {
+    if !text.contains([':', '=']) {
+        return vec![];
+    }
+    let PairedText { pairs, rows } = find_pairs(text);
+    let offset = |cell: &str| cell.as_ptr() as usize - text.as_ptr() as usize;
+    let nameless = rows.into_iter().map(|cell| NamedPlace {
+        offset: offset(cell),
+        name: "",
+        naming: Naming::Nameless,
+    });
+    let named = pairs.iter().filter(|pair| pair.is_marked);
+    let named = named.map(|pair| NamedPlace {
+        offset: offset(pair.values[0]),
+        name: pair.name,
+        naming: if pair.values.len() > 1 {
+            Naming::List
+        } else {
+            Naming::Each
+        },
+    });
+    let mut places: Vec<NamedPlace<'_>> = nameless.chain(named).collect();
+    places.sort_by_key(|place| place.offset);
+    places
+}
+
+/// The first name of lists that are columns: one of them is a step or a count with at least three
+/// numbers. Such lists come again in another table; other lists that come again are the errors of
+/// one level each.
+pub(super) fn first_column<'t>(pairs: &[Pair<'t>]) -> Option<&'t str> {
+    let is_step = |pair: &Pair<'_>| {
+        pair.values.len() > 2
+            && matches!(
+                Word::of(&names::without_markup(pair.name)),
+                Word::Step | Word::Count(_)
+            )
+    };
+    let mut lists = pairs.iter().filter(|pair| pair.values.len() > 1);
+    let first = lists.next()?;
+    pairs.iter().any(is_step).then_some(first.name)
+}
+
+/// The name whose every occurrence begins a row.
+pub(super) fn key_of_records<'t>(pairs: &[Pair<'t>]) -> Option<&'t str> {
+    let repetitions = count_keys(pairs);
+    let levels = count_levels(&repetitions);
+    let first = repetitions
+        .iter()
+        .find(|repetition| repetition.count == levels);
+    first.map(|repetition| repetition.key.name)
 }
 
 /// Finds the pairs of a text.
 fn find_pairs(text: &str) -> PairedText<'_> {
     let mut pairs: Vec<Pair<'_>> = vec![];
     let mut known: HashSet<&str> = HashSet::new();
-    let mut rows = 0;
+    let mut rows = vec![];
     let mut is_row = false;
     let mut depth = 0_usize;
     let mut label = 0;
@@ -128,16 +252,21 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             .map_or(text.len(), |end| start + end);
         let before = &text[label..start];
         let word = &text[start..position];
-        let behind = text[position..].trim_start_matches([' ', '\t']);
+        let behind = text[position..].trim_start_matches([' ', '\t', '"', '\'']);
         let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
         let is_marked = before
             .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
             .ends_with([':', '=']);
         let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
         let is_number = (begins || is_last) && number(word, false).is_some();
-        // After a name that has a number elsewhere, a word means that the number is missing.
-        let is_value = is_number
-            || is_marked && is_last && (is_dash(word) || known.contains(name_before(before)));
+        let is_in_list = depth > 0 && label > 0 && !before.contains(']');
+        let is_state = names::state(word).is_some();
+        let stands_for_number = is_dash(word) || names::is_failure(word);
+        // After a name that has a number elsewhere, any word means that the number is missing.
+        let is_missing = is_last
+            && (is_in_list && (stands_for_number || is_state)
+                || is_marked && (stands_for_number || may_be_missing(before, is_state, &known)));
+        let is_value = is_number || is_missing;
         if !is_value {
             continue;
         }
@@ -161,12 +290,19 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             && (depth > 0 || !is_row)
         {
             last.values.push(word);
-        } else {
-            rows += usize::from(is_first);
+        } else if is_first {
+            rows.push(word);
         }
         label = position;
     }
     PairedText { pairs, rows }
+}
+
+/// Whether a word stands behind a name that has a number elsewhere, or says that a level was solved,
+/// or was not, behind a name that promises this.
+fn may_be_missing(before: &str, is_state: bool, known: &HashSet<&str>) -> bool {
+    let name = name_before(before);
+    known.contains(name) || is_state && Word::of(name) == Word::State
 }
 
 /// The name that a text ends with, before marks.
@@ -223,6 +359,7 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
                     "{} instead of {longest}",
                     counted(pair.values.len(), "number")
                 ),
+                is_checked: false,
             });
         }
     }
@@ -288,6 +425,7 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
             left_out.push(LeftOut {
                 name: key.name.to_owned(),
                 reason: format!("printed {count} times for {levels} levels"),
+                is_checked: false,
             });
             continue;
         }

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use super::columns::Cells;
 use super::frame::{Original, Rows};
 use super::names::{self, Word};
-use super::number::{halves, has_percent, in_percent, number};
-use super::pairs::{LeftOut, RawTable};
+use super::number::{common_unit, halves, has_percent, in_percent, number};
+use super::pairs::{ColumnName, LeftOut, RawTable};
 use super::text::counts_rows;
 use super::{Choice, Offer};
 use crate::input::advice::{Argument, Text};
@@ -29,6 +29,8 @@ pub(super) struct TableReader<'t> {
     pub(super) rows: Option<usize>,
     /// What is not an error.
     pub(super) left_out: Vec<LeftOut>,
+    /// For each row whether its level was solved, as a column of states says.
+    pub(super) is_solved: Vec<bool>,
 }
 
 /// The name of a column, with its unit if its numbers are in per cent.
@@ -37,6 +39,18 @@ fn named_in(name: String, percent: Option<bool>) -> String {
         Some(true) if !name.contains('%') => format!("{name} [%]"),
         _ => name,
     }
+}
+
+/// The cells of a column without the unit that stands in all of them.
+fn without_unit(cells: Vec<&str>) -> Vec<&str> {
+    let Some(unit) = common_unit(&cells) else {
+        return cells;
+    };
+    let number = |cell: &&'_ str| cell.len() - unit.len();
+    cells
+        .iter()
+        .map(|cell| cell[..number(cell)].trim_end())
+        .collect()
 }
 
 /// Names in a message, but not too many.
@@ -59,6 +73,7 @@ impl<'t> TableReader<'t> {
             columns: vec![],
             rows: None,
             left_out: table.left_out.clone(),
+            is_solved: vec![true; table.rows.len()],
         };
         reader.columns = reader.columns()?;
         let has_levels = reader.columns.iter().any(|column| column.is_index);
@@ -81,7 +96,7 @@ impl<'t> TableReader<'t> {
 
     /// The columns; refuses a text without a table, and names that do not fit its columns.
     fn columns(&self) -> Result<Vec<Cells<'t>>, InputError> {
-        let RawTable { names, rows, .. } = self.table;
+        let RawTable { rows, .. } = self.table;
         let width = rows.iter().map(Vec::len).max().unwrap_or(0);
         if width == 0 {
             let line = self
@@ -96,13 +111,7 @@ impl<'t> TableReader<'t> {
             let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
             return Err(self.refuse(expected, &found));
         }
-        let names: Vec<String> = match &self.choice.names {
-            Some(names) => names.clone(),
-            None => names
-                .iter()
-                .map(|name| names::without_markup(name))
-                .collect(),
-        };
+        let names = self.table.column_names(self.choice.names.as_deref());
         if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
             let example = (1..=width).map(|k| format!("c{k}")).collect();
             let offer = self.offer(|choice| choice.names = Some(example));
@@ -114,9 +123,9 @@ impl<'t> TableReader<'t> {
         }
         if let Some(k) = names
             .iter()
-            .position(|name| name.contains(char::is_control))
+            .position(|column| column.name.contains(char::is_control))
         {
-            let found = format!("`{}`", shorten(&names[k]));
+            let found = format!("`{}`", shorten(&names[k].name));
             let expected = "a name without control characters";
             return Err(self.error(self.head(k), None, expected, &found));
         }
@@ -149,19 +158,19 @@ impl<'t> TableReader<'t> {
         }
     }
 
-    fn columns_of(&self, names: Vec<String>) -> Vec<Cells<'t>> {
+    fn columns_of(&self, names: Vec<ColumnName>) -> Vec<Cells<'t>> {
         let RawTable {
             rows,
             decimal_comma,
             ..
         } = self.table;
         let mut names = names;
-        for (k, name) in names
+        for (k, column) in names
             .iter_mut()
             .enumerate()
-            .filter(|(_, name)| name.is_empty())
+            .filter(|(_, column)| column.name.is_empty())
         {
-            *name = format!("column {}", k + 1);
+            column.name = format!("column {}", k + 1);
         }
         let Choice {
             columns,
@@ -170,8 +179,9 @@ impl<'t> TableReader<'t> {
             ..
         } = self.choice;
         let claimed = columns.iter().flatten().chain(claimed).chain(values);
-        let claimed =
-            claimed.filter_map(|name| names::position(names.iter().map(String::as_str), name));
+        let claimed = claimed.filter_map(|name| {
+            names::position(names.iter().map(|column| column.name.as_str()), name)
+        });
         let claimed: HashSet<usize> = claimed.collect();
         // With decimal commas, `1.024` may be 1024.
         let has_comma = *decimal_comma
@@ -180,8 +190,8 @@ impl<'t> TableReader<'t> {
                 .flatten()
                 .any(|cell| cell.contains(',') && number(cell, true).is_some());
         let mut columns = Vec::with_capacity(names.len());
-        for (k, name) in names.into_iter().enumerate() {
-            let texts: Vec<&str> = rows.iter().map(|row| row[k]).collect();
+        for (k, ColumnName { name, word }) in names.into_iter().enumerate() {
+            let texts = without_unit(rows.iter().map(|row| row[k]).collect());
             let percent = in_percent(&texts);
             let numbers: Vec<_> = texts
                 .iter()
@@ -191,7 +201,6 @@ impl<'t> TableReader<'t> {
                     number(text, *decimal_comma).filter(|_| !is_ambiguous)
                 })
                 .collect();
-            let word = Word::of(&name);
             let name = named_in(name, percent);
             let may_count =
                 matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;

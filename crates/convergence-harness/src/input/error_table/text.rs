@@ -1,20 +1,20 @@
 //! Any text as rows of cells below names.
 
-use super::names::Word;
-use super::number::{is_dash, number};
+use super::heads::{self, Names};
+use super::number::number;
 use super::pairs::{self, RawTable};
 
-/// Types of columns and units, as data frames write them below the names.
-const TYPES: [&str; 8] = [
-    "double", "f64", "i64", "float64", "int64", "float", "int", "str",
-];
+/// First words of a row that sums up those above it.
+const CLOSING: [&str; 6] = ["mean", "average", "avg", "median", "overall", "total"];
 
 /// A row that is filled has at least one cell in this many columns.
 const FULL: usize = 4;
 
 /// Finds the table in a text that has been made [plain](super::cleaned::plain): names with numbers after them, or rows
 /// below names.
-pub(super) fn read(text: &str) -> RawTable<'_> {
+///
+/// * `earlier`: the names of the table above it in the same text, which it may share.
+pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
     if let Some(table) = pairs::read(text, true) {
         return table;
     }
@@ -32,8 +32,9 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
     if rows.is_empty() {
         return pairs::read(text, false).unwrap_or_default();
     }
+    let spans = spans(&rows);
     if separator.is_none() {
-        fill(&mut rows);
+        fill(&mut rows, &spans);
     }
     let rows: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
     let width = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -47,9 +48,14 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
         1 => Some([&[&text[..0]], names.as_slice()].concat()),
         _ => None,
     });
+    let with_names = |names| Names {
+        names,
+        groups: vec![],
+    };
     match quoted_names
-        .or_else(|| numbered(&heads, width))
-        .or_else(|| names(&heads, &rows, separator, width))
+        .map(with_names)
+        .or_else(|| heads::find(&heads, &rows, &spans, separator))
+        .or_else(|| heads::shared(earlier, &heads, separator, width).map(with_names))
     {
         None if is_turned(&rows) => transpose(&rows, width, table),
         names => {
@@ -59,9 +65,11 @@ pub(super) fn read(text: &str) -> RawTable<'_> {
                 .iter()
                 .map(|head| split(head, separator).len())
                 .rfind(|words| *words > 1);
-            let names = names.unwrap_or_else(|| vec![&text[..0]; words.unwrap_or(width)]);
+            let Names { names, groups } =
+                names.unwrap_or_else(|| with_names(vec![&text[..0]; words.unwrap_or(width)]));
             RawTable {
                 names,
+                groups,
                 rows,
                 ..table
             }
@@ -129,6 +137,7 @@ fn sort_lines(text: &str) -> Lines<'_> {
         let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
         let is_first = rows.is_empty();
         if !is_comment(&line)
+            && (is_first || !is_closing(line))
             && (is_row(&cells, separator) || !is_first && is_row_with_words(&cells))
         {
             rows.push((line, cells));
@@ -142,6 +151,13 @@ fn sort_lines(text: &str) -> Lines<'_> {
         quoted_names,
         separator,
     }
+}
+
+/// Whether a line closes a table: the mean of its rows.
+pub(super) fn is_closing(line: &str) -> bool {
+    let words = line.split(|c: char| !c.is_alphanumeric());
+    let first = words.into_iter().find(|word| !word.is_empty());
+    first.is_some_and(|word| CLOSING.contains(&&*word.to_lowercase()))
 }
 
 /// Whether cells begin with a number, or are numbers but for one word.
@@ -159,19 +175,17 @@ fn is_row(cells: &[&str], separator: Option<char>) -> bool {
     }
 }
 
-/// Whether at least half of the cells begin with a digit. Such a line is a row with a word in place
-/// of a number, and the word will be refused.
+/// Whether more than half of the cells begin with a digit, or half of them with the first. Such a
+/// line is a row with a word in place of a number, and the word will be refused.
 fn is_row_with_words(cells: &[&str]) -> bool {
-    let begin_with_digit = cells
-        .iter()
-        .filter(|cell| cell.starts_with(|c: char| c.is_ascii_digit()))
-        .count();
-    begin_with_digit > 0 && 2 * begin_with_digit >= cells.len()
+    let is_digit = |cell: &&str| cell.starts_with(|c: char| c.is_ascii_digit());
+    let digits = cells.iter().filter(|cell| is_digit(cell)).count();
+    2 * digits > cells.len() || 2 * digits == cells.len() && cells.first().is_some_and(is_digit)
 }
 
 /// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
 /// cells.
-fn split(line: &str, separator: Option<char>) -> Vec<&str> {
+pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     // A frame has an edge on either side; without one, the last cell may be blank.
     let framed = line
         .trim()
@@ -203,7 +217,7 @@ fn split_parenthesis(cell: &str) -> Vec<&str> {
 }
 
 /// A cell without surrounding blanks and quotes; the end of a text of blanks alone.
-fn cell(text: &str) -> &str {
+pub(super) fn cell(text: &str) -> &str {
     let text = text.trim_start().trim_end();
     text.strip_prefix('"')
         .and_then(|text| text.strip_suffix('"'))
@@ -243,7 +257,7 @@ fn is_quoted(line: &str, cell: &str) -> bool {
 }
 
 /// The byte at which a cell begins in its line.
-fn place(line: &str, cell: &str) -> usize {
+pub(super) fn place(line: &str, cell: &str) -> usize {
     cell.as_ptr() as usize - line.as_ptr() as usize
 }
 
@@ -260,7 +274,7 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
 }
 
 /// Whether the first word of a line is a number.
-fn begins_with_number(line: &&str) -> bool {
+pub(super) fn begins_with_number(line: &&str) -> bool {
     let line = line.trim_start_matches(|c: char| c.is_whitespace() || "|\"$".contains(c));
     let first = line
         .split(|c: char| c.is_whitespace() || ";,&|\"$".contains(c))
@@ -277,7 +291,7 @@ fn holds_two_numbers(cell: &&str) -> bool {
 }
 
 /// A line of dashes, or the border of a box.
-fn is_rule(line: &str) -> bool {
+pub(super) fn is_rule(line: &str) -> bool {
     line.chars().all(is_drawn)
         && line
             .chars()
@@ -292,7 +306,7 @@ fn is_drawn(c: char) -> bool {
 }
 
 /// The first byte of a cell in its line, and the byte after its last one.
-fn span(line: &str, cell: &str) -> [usize; 2] {
+pub(super) fn span(line: &str, cell: &str) -> [usize; 2] {
     let start = place(line, cell);
     [start, start + cell.len()]
 }
@@ -309,12 +323,8 @@ fn column_above(line: &str, cell: &str, spans: &[[usize; 2]]) -> Option<usize> {
         .then_some(column)
 }
 
-/// Moves the cells of short rows into the columns below which they stand: a blank in place of a
-/// rate makes a row shorter than the others.
-///
-/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many
-/// times as long as the text.
-fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
+/// The bytes of a line between which the cells of each column stand, in the longest rows.
+fn spans(rows: &[(&str, Vec<&str>)]) -> Vec<[usize; 2]> {
     let width = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let mut spans = vec![[usize::MAX, 0]; width];
     for (line, cells) in rows.iter().filter(|(_, cells)| cells.len() == width) {
@@ -325,13 +335,23 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
             *all = [all[0].min(start), all[1].max(end)];
         }
     }
+    spans
+}
+
+/// Moves the cells of short rows into the columns below which they stand: a blank in place of a
+/// rate makes a row shorter than the others.
+///
+/// A row with less than a [`FULL`]-th of the cells stays short: filled, such rows could be many
+/// times as long as the text.
+fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)], spans: &[[usize; 2]]) {
+    let width = spans.len();
     for (line, cells) in rows
         .iter_mut()
         .filter(|(_, cells)| (width..FULL * width).contains(&(FULL * cells.len())))
     {
         let columns: Vec<usize> = cells
             .iter()
-            .filter_map(|cell| column_above(line, cell, &spans))
+            .filter_map(|cell| column_above(line, cell, spans))
             .collect();
         if columns.len() == cells.len() && columns.is_sorted_by(|a, b| a < b) {
             let mut all = vec![&line[line.len()..]; width];
@@ -341,109 +361,6 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)]) {
             *cells = all;
         }
     }
-}
-
-/// Names in numbered lines, `# 1: cells`, `# 2: dofs`, ...
-fn numbered<'t>(heads: &[&'t str], width: usize) -> Option<Vec<&'t str>> {
-    let pairs = heads.iter().filter_map(|line| line.split_once(':'));
-    let numbered =
-        pairs.filter_map(|(k, name)| Some((k.trim().parse::<usize>().ok()?, cell(name))));
-    let (numbers, names): (Vec<usize>, Vec<&str>) = numbered.unzip();
-    numbers.into_iter().eq(1..=width).then_some(names)
-}
-
-/// Whether a cell holds the type of a column, as data frames write it below the name, or a unit.
-fn is_type(cell: &&str) -> bool {
-    TYPES.contains(&&*cell.to_lowercase()) || is_dash(cell) || cell.starts_with(['[', '<'])
-}
-
-/// Whether a cell cannot be a name.
-fn is_no_name(cell: &&str) -> bool {
-    let is_finite = number(cell, false).is_some_and(|number| number.value.is_finite());
-    is_finite
-        || cell.ends_with(',')
-        || !(matches!(*cell, "" | "#")
-            || cell.contains(|c: char| c.is_alphabetic() || c.is_control()))
-}
-
-/// A line cut at its separator, at commas, at semicolons, and where there are several blanks.
-fn splits(line: &str, separator: Option<char>) -> [Vec<&str>; 4] {
-    let wide = line
-        .split("  ")
-        .map(|cell| cell.trim_matches([' ', '|', '\t']))
-        .filter(|cell| !cell.is_empty());
-    [
-        split(line, separator),
-        split(line, Some(',')),
-        split(line, Some(';')),
-        wide.collect(),
-    ]
-}
-
-/// The nearest line above the rows with a name for each column. Columns of rates, which begin or
-/// end with a dash, and the first column may have none.
-fn names<'t>(
-    heads: &[&'t str],
-    rows: &[Vec<&str>],
-    separator: Option<char>,
-    width: usize,
-) -> Option<Vec<&'t str>> {
-    let firsts: Vec<&str> = rows.iter().map(|row| row[0]).collect();
-    let is_even = rows.iter().all(|row| row.len() == width);
-    let is_index = counts_rows(&firsts);
-    let ends = [&rows[0], &rows[rows.len() - 1]];
-    let is_rate: Vec<bool> = (0..width)
-        .map(|k| {
-            ends.iter().any(|row| {
-                row.get(k)
-                    .is_some_and(|cell| !cell.is_empty() && is_dash(cell))
-            })
-        })
-        .collect();
-    let masks = [(0, false), (0, true), (1, false), (1, true)].map(|(first, without_rates)| {
-        (first..width)
-            .filter(|k| !(without_rates && is_rate[*k]))
-            .collect::<Vec<usize>>()
-    });
-    let mut first = "";
-    for line in heads.iter().rev() {
-        let splits = splits(line, separator);
-        // Between words of several names there are single blanks: no word is the name of a rate
-        // then.
-        let is_worded = separator.is_none() && (2..splits[0].len()).contains(&splits[3].len());
-        let fits = |mask: &[usize], cells: &&Vec<&str>| {
-            let is_sure = !is_worded
-                || mask
-                    .iter()
-                    .zip(*cells)
-                    .all(|(k, cell)| !is_rate[*k] || Word::of(cell) == Word::Rate);
-            cells.len() == mask.len()
-                && is_sure
-                && !cells.iter().all(is_type)
-                && !cells.iter().any(is_no_name)
-        };
-        // A data frame writes the name of its index below the others.
-        let may_lack = is_even && (is_index || line.starts_with(' '));
-        for mask in masks
-            .iter()
-            .filter(|mask| mask.len() == width || is_even && mask.first() == Some(&0) || may_lack)
-        {
-            if let Some(cells) = splits.iter().find(|cells| fits(mask, cells)) {
-                let mut names = vec![&line[..0]; width];
-                names[0] = first;
-                for (k, cell) in mask.iter().zip(cells) {
-                    names[*k] = cell;
-                }
-                return Some(names);
-            }
-        }
-        first = if splits[0].len() == 1 {
-            splits[0][0]
-        } else {
-            ""
-        };
-    }
-    None
 }
 
 /// Whether numbers have a constant ratio, as those of a step do.

@@ -78,7 +78,7 @@ fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
     let wrong: Vec<(String, Option<[f64; 2]>)> = rates
         .filter(|named| !named.rate.verdict.is_pass())
         .map(|NamedRate { subject, rate, .. }| {
-            let orders = rate.fitted.map(|fitted| [fitted, rate.order]);
+            let orders = rate.fitted.zip(rate.order()).map(<[f64; 2]>::from);
             (subject.quantity.clone(), orders)
         })
         .collect();

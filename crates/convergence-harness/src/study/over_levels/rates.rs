@@ -52,7 +52,8 @@ fn row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
     );
     vec![
         name.clone(),
-        rate.order.to_string(),
+        rate.order()
+            .map_or_else(|| "-".to_owned(), |order| order.to_string()),
         pairwise.join(" "),
         rate_cell(rate),
         interval,

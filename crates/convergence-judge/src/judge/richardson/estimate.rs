@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::{Gci, growth, observed_order};
 use crate::judge::fit::{FLOOR_MARGIN, Level};
-use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason};
+use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
 
 /// The least uncertainty of the only rate of three values: half the distance between two integer
 /// orders.
@@ -156,18 +156,8 @@ impl Estimator {
     ///
     /// * `order`: claimed by theory.
     pub fn estimate(&self, values: &[Value], order: f64) -> Estimate {
-        let largest = values
-            .iter()
-            .map(|level| level.value.abs())
-            .filter(|size| size.is_finite())
-            .fold(0.0, f64::max);
-        let floor = self.floor.unwrap_or(FLOOR_MARGIN * ROUND_OFF * largest);
-        // A finite number >= 0, which no judge refuses.
-        let judge = self
-            .judge
-            .clone()
-            .with_floor(floor)
-            .unwrap_or_else(|_| self.judge.clone());
+        let judge = self.judge_of(values);
+        let floor = judge.floor();
         let levels = differences(&judge, values, order);
         let reading = judge.read(&levels);
         let judged = judge.judge_read(&reading, order);
@@ -185,12 +175,26 @@ impl Estimator {
     /// The same without a claimed order: limit and index use the observed one, and nothing is
     /// confirmed.
     pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
-        let judged = self.estimate(values, f64::NAN).judged;
+        let judge = self.judge_of(values);
+        let judged = observe(&differences(&judge, values, 1.0), judge.as_floor());
         let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
         Estimate {
             judged,
             ..self.estimate(values, observed)
         }
+    }
+
+    /// The rule with the floor that is set, or else that of these values.
+    fn judge_of(&self, values: &[Value]) -> Judge {
+        let largest = values
+            .iter()
+            .map(|level| level.value.abs())
+            .filter(|size| size.is_finite())
+            .fold(0.0, f64::max);
+        let floor = self.floor.unwrap_or(FLOOR_MARGIN * ROUND_OFF * largest);
+        // A finite number >= 0, which no judge refuses.
+        let judge = self.judge.clone().with_floor(floor);
+        judge.unwrap_or_else(|_| self.judge.clone())
     }
 }
 
@@ -331,7 +335,7 @@ fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate,
             return Err(Refusal::NotAsymptotic(judged.kind));
         }
         let rate = observed_order(values)?;
-        let order = judged.order;
+        let order = judged.order().unwrap_or(rate);
         return Ok(ObservedRate {
             rate,
             interval: [

@@ -52,17 +52,56 @@ pub fn judged_in_words(rate: &str, claim: &str, why: &str) -> String {
     format!("{}: {why}", against_claim(rate, claim))
 }
 
-/// The judgement of one sequence of errors.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[must_use = "a verdict that is not read lets a lost order pass"]
-#[non_exhaustive]
-pub struct RateVerdict {
-    /// What theory claims.
+/// The rates that a claim accepts: those within a tolerance of an order.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Band {
+    /// The order that theory claims.
     #[serde(deserialize_with = "nan")]
     pub order: f64,
     /// Half-width of the band about the order.
     #[serde(deserialize_with = "nan")]
     pub tolerance: f64,
+}
+
+impl Band {
+    /// How far a rate is from the order, in units of the tolerance: above 0 for a higher rate.
+    pub fn distance(self, rate: f64) -> f64 {
+        (rate - self.order) / self.tolerance
+    }
+
+    /// What a pass confirms, and the nearest orders that it excludes: `2, not 1.5 or 2.5`.
+    pub fn excludes(self) -> String {
+        let others = [-2.0, 2.0]
+            .map(|sides| self.order + sides * self.tolerance)
+            .into_iter()
+            .filter(|other| *other > 0.0);
+        let others: Vec<String> = others
+            .map(|other| order_text(committed_rate(other)))
+            .collect();
+        format!("{}, not {}", order_text(self.order), others.join(" or "))
+    }
+}
+
+impl std::fmt::Display for Band {
+    /// `2 ± 0.05`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{} ± {}",
+            order_text(self.order),
+            plain_text(self.tolerance)
+        )
+    }
+}
+
+/// The judgement of one sequence of errors.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[must_use = "a verdict that is not read lets a lost order pass"]
+#[non_exhaustive]
+pub struct RateVerdict {
+    /// What theory claims; `None` if nothing is claimed, and so nothing can be confirmed.
+    #[serde(flatten)]
+    pub claimed: Option<Band>,
     /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next
     /// to a level without a result.
     #[serde(deserialize_with = "nans")]
@@ -134,54 +173,40 @@ impl RateVerdict {
         })
     }
 
-    /// The claim: `2 ± 0.05`.
+    /// The order that theory claims.
+    pub fn order(&self) -> Option<f64> {
+        self.claimed.map(|band| band.order)
+    }
+
+    /// The claim in words: `2 ± 0.05`, or `none`.
     pub fn claim(&self) -> String {
-        format!(
-            "{} ± {}",
-            order_text(self.order),
-            plain_text(self.tolerance)
-        )
+        self.claimed
+            .map_or_else(|| "none".to_owned(), |band| band.to_string())
     }
 
-    /// What a pass confirms, and the nearest orders that it excludes: `2, not 1.5 or 2.5`.
-    pub fn excludes(&self) -> String {
-        let others = [-2.0, 2.0]
-            .map(|sides| self.order + sides * self.tolerance)
-            .into_iter()
-            .filter(|other| *other > 0.0);
-        let others: Vec<String> = others
-            .map(|other| order_text(committed_rate(other)))
-            .collect();
-        format!("{}, not {}", order_text(self.order), others.join(" or "))
-    }
-
-    /// The rate with a claim: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01`.
+    /// The rate with a claim: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01`; without one, the rate.
     ///
     /// * `most`: the largest number of decimals.
     pub fn against(&self, most: usize) -> String {
-        against_claim(&self.rate_in_words(most), &self.claim())
+        let rate = self.rate_in_words(most);
+        match self.claimed {
+            Some(band) => against_claim(&rate, &band.to_string()),
+            None => rate,
+        }
     }
 
     /// Rate, claim and reason on one line: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01: too low`.
     pub fn line(&self) -> String {
-        let rate = self.rate_in_words(RATE_PLACES);
-        judged_in_words(&rate, &self.claim(), &self.because)
+        format!("{}: {}", self.against(RATE_PLACES), self.because)
     }
 
-    /// The same where nothing else is claimed: a pass says which orders it excludes, and a rate
-    /// without a claim says that there is none.
+    /// The same where nothing else is claimed: a pass says which orders it excludes.
     ///
     /// * `most`: the largest number of decimals.
     pub fn answer(&self, most: usize) -> String {
-        let rate = self.rate_in_words(most);
-        if self.order.is_nan() {
-            return format!("{rate}: no order is claimed");
-        }
-        if self.verdict.is_pass() {
-            judged_in_words(&rate, &self.claim(), &self.excludes())
-        } else {
-            judged_in_words(&rate, &self.claim(), &self.because)
-        }
+        let excluded = self.claimed.filter(|_| self.verdict.is_pass());
+        let why = excluded.map_or_else(|| self.because.clone(), Band::excludes);
+        format!("{}: {why}", self.against(most))
     }
 
     /// The rate alone with its order: `1.001 (order 1)`.
@@ -192,7 +217,10 @@ impl RateVerdict {
             Some(fitted) => decimals(fitted, places),
             None => self.rate_in_words(RATE_PLACES),
         };
-        format!("{rate} (order {})", order_text(self.order))
+        match self.order() {
+            Some(order) => format!("{rate} (order {})", order_text(order)),
+            None => rate,
+        }
     }
 
     /// What the reason means, its cause if one is known, and what to do; `None` for a pass.
@@ -306,10 +334,11 @@ impl RateVerdict {
         };
         let interval = interval_text(interval, RATE_PLACES);
         let rate = format!("{interval} {}", self.levels_in_words());
-        if self.kind == Reason::ClaimUnusable {
-            format!(": {rate}")
-        } else {
-            format!(": {}", against_claim(&rate, &self.claim()))
+        match self.claimed {
+            Some(band) if self.kind != Reason::ClaimUnusable => {
+                format!(": {}", against_claim(&rate, &band.to_string()))
+            }
+            _ => format!(": {rate}"),
         }
     }
 
@@ -336,7 +365,11 @@ impl RateVerdict {
             Some(interval) => {
                 let interval = interval_text(interval, RATE_PLACES);
                 let rate = format!("{interval} {}", self.levels_in_words());
-                format!("{lacking}; {}", against_claim(&rate, &self.claim()))
+                let rate = match self.claimed {
+                    Some(band) => against_claim(&rate, &band.to_string()),
+                    None => rate,
+                };
+                format!("{lacking}; {rate}")
             }
             None => lacking.clone(),
         };
@@ -350,10 +383,10 @@ impl RateVerdict {
     }
 
     /// Builds the verdict, with the words that quote its numbers.
-    pub(super) fn new(reading: &Reading<'_>, order: f64, tolerance: f64, kind: Reason) -> Self {
+    pub(super) fn new(reading: &Reading<'_>, claimed: Option<Band>, kind: Reason) -> Self {
+        let cause = claimed.and_then(|band| reading.cause(band.order));
         let mut verdict = Self {
-            order,
-            tolerance,
+            claimed,
             pairwise: reading.pairwise.clone(),
             fitted: reading.fit.map(|fit| fit.rate),
             constant: reading.constant(),
@@ -365,7 +398,7 @@ impl RateVerdict {
             kind,
             because: kind.brief().to_owned(),
             reason: kind.text().to_owned(),
-            cause: reading.cause(order).filter(|_| !kind.verdict().is_pass()),
+            cause: cause.filter(|_| !kind.verdict().is_pass()),
         };
         verdict.reason += &verdict.numbers();
         verdict

@@ -120,6 +120,11 @@ impl<'a> Reading<'a> {
         set_aside
     }
 
+    /// What would fail any claim.
+    pub(super) fn defect(&self) -> Option<Reason> {
+        self.unusable.filter(|reason| reason.is_final())
+    }
+
     /// The reason for the verdict on a claim: the steps of the rule, in their order.
     pub(super) fn reason(&self, order: f64, tolerance: f64) -> Reason {
         if let Some(reason @ (Reason::NonFiniteError | Reason::NegativeError)) = self.unusable {

@@ -34,6 +34,8 @@ pub enum Reason {
     ZeroError,
     /// The steps are not positive, finite and decreasing.
     StepsNotDecreasing,
+    /// Nothing is claimed, so nothing is confirmed.
+    NotClaimed,
     /// The order or the tolerance is not a positive number.
     ClaimUnusable,
     /// The tolerance accepts neighbouring orders.
@@ -89,7 +91,7 @@ impl TryFrom<String> for Reason {
 
 impl Reason {
     /// Every reason, for listing.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 26] = [
         Self::Agrees,
         Self::NoResult,
         Self::NonFiniteError,
@@ -102,6 +104,7 @@ impl Reason {
         Self::ConstantOff,
         Self::ZeroError,
         Self::StepsNotDecreasing,
+        Self::NotClaimed,
         Self::ClaimUnusable,
         Self::ToleranceTooWide,
         Self::TooFewLevels,
@@ -132,6 +135,7 @@ impl Reason {
             | Self::ConstantOff => Verdict::Fail,
             Self::ZeroError
             | Self::StepsNotDecreasing
+            | Self::NotClaimed
             | Self::ClaimUnusable
             | Self::ToleranceTooWide
             | Self::TooFewLevels
@@ -326,11 +330,15 @@ impl Reason {
                 "the step sizes are not positive and decreasing",
                 "Levels must be given coarse to fine, each once.",
             ],
+            Self::NotClaimed => [
+                "unclaimed",
+                "no order is claimed",
+                "Where no order is claimed, none is confirmed. Claim what theory says.",
+            ],
             Self::ClaimUnusable => [
                 "claim",
                 "the order and the tolerance must be positive numbers",
-                "The order and the tolerance must be positive numbers. Where no order is claimed, none is \
-                 confirmed.",
+                "The order and the tolerance must be positive numbers.",
             ],
             Self::ToleranceTooWide => [
                 "tolerance",

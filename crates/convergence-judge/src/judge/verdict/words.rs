@@ -55,11 +55,12 @@ impl fmt::Display for Verdict {
 /// A level that is not used for the rate.
 ///
 /// ```
-/// use convergence_judge::{Aside, Judge, JudgeError, SetAside};
+/// use convergence_judge::{Aside, Claim, Floor, JudgeError, Level, SetAside};
 ///
 /// // The finest error is round-off.
 /// let errors = [(0.4, 1.6e-9), (0.2, 4e-10), (0.1, 1e-10), (0.05, 2e-11)];
-/// let rate = Judge::new(0.1)?.with_floor(5e-11)?.judge_pairs(errors, 2.0);
+/// let levels = errors.map(|(step, error)| Level { step, error });
+/// let rate = Claim::new(2.0, 0.1).judge(&levels, Floor::new(5e-11)?);
 /// assert_eq!(rate.set_aside, [SetAside::new(3, Aside::AtFloor)]);
 /// # Ok::<(), JudgeError>(())
 /// ```

@@ -214,7 +214,7 @@ impl Runs for EndStates {
         // Errors below the floor cannot be distinguished from the remaining motion.
         let bent = self
             .levels(scenes.iter().filter(|ends| !ends.is_straight()))
-            .with_floor(MOTION * self.speed);
+            .with_floor(Floor::new(MOTION * self.speed).unwrap_or_default());
         let rates = bent.judge();
         let caption =
             "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";

@@ -48,7 +48,10 @@ const ROUND_OFF: f64 = 2e-12;
 
 /// Below this error no rate is read: a thousand times about a hundred rounding errors of quantities
 /// of order 1.
-const FLOOR: f64 = FLOOR_MARGIN * 1e-13;
+const FLOOR: Floor = match Floor::new(FLOOR_MARGIN * 1e-13) {
+    Ok(floor) => floor,
+    Err(_) => Floor::NONE,
+};
 
 /// Allowed moments of the initial errors' slopes, which are zero but for rounding errors of the
 /// initial data divided by h: 4e-13 for 256 elements. A quadrature that is too coarse for the

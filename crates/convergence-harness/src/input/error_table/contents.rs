@@ -1,0 +1,316 @@
+//! What columns hold that nobody has chosen: an error, unless the name or arithmetic that can be
+//! checked says otherwise. Nothing is left out because its numbers look wrong.
+
+use super::Offer;
+use super::columns::{Derived, Holdings, Trend};
+use super::names::{self, Word};
+use super::pairs::LeftOut;
+use super::reader::{NEIGHBOURS, TableReader};
+use super::roles::reasons;
+use super::stated::DIMENSIONS;
+use super::step::Step;
+use crate::input::InputError;
+use crate::input::advice::{Argument, Text};
+use crate::text::number::plain_text;
+
+/// Rates are searched for over the steps and this many columns of counts.
+const COUNTS: usize = 3;
+
+/// What a column holds that nobody has chosen; if it is not an error, why.
+enum Content {
+    Error,
+    /// An error only if the table has no other.
+    Residual,
+    /// A value or an error that no longer falls: numbers that tend to this limit.
+    Limit(String),
+    /// A count or an error that grows: whole numbers that grow.
+    Growth,
+    /// Whether each level was solved.
+    States,
+    Other(Reason),
+}
+
+/// Why a column is not an error.
+struct Reason {
+    words: String,
+    /// Whether arithmetic has shown it, and not the name of the column alone.
+    is_checked: bool,
+}
+
+impl Content {
+    /// No error, as the numbers show.
+    fn checked(words: impl Into<String>) -> Self {
+        Self::Other(Reason {
+            words: words.into(),
+            is_checked: true,
+        })
+    }
+
+    /// No error, by its name alone.
+    fn named(words: impl Into<String>) -> Self {
+        Self::Other(Reason {
+            words: words.into(),
+            is_checked: false,
+        })
+    }
+}
+
+/// Columns of unknown name that are errors or something else: only the user can tell.
+#[derive(Default)]
+struct Undecided {
+    /// Numbers that tend to a limit.
+    limits: Vec<usize>,
+    /// Whole numbers that grow.
+    counts: Vec<usize>,
+}
+
+impl TableReader<'_> {
+    /// The levels that a column of states says not to be solved. No error of such a level counts.
+    pub(super) fn find_states(&mut self, step: usize, errors: &[usize], values: &[usize]) {
+        let is_chosen = |k: &usize| *k == step || errors.contains(k) || values.contains(k);
+        let others: Vec<usize> = (0..self.columns.len()).filter(|k| !is_chosen(k)).collect();
+        for cells in others.into_iter().map(|k| &self.columns[k]) {
+            let is_state = cells.word == Word::State && !cells.is_claimed;
+            for (row, is_solved) in self.is_solved.iter_mut().enumerate() {
+                let by_word = names::state(cells.texts[row]) == Some(false);
+                let by_number = is_state && cells.is_flag() && cells.values[row] == 0.0;
+                if (cells.holdings() == Holdings::States || is_state) && by_word || by_number {
+                    *is_solved = false;
+                }
+            }
+        }
+    }
+
+    /// The columns of errors; the others are left out, each with the reason. Refuses to judge
+    /// without errors, or if a column may be something else by its numbers. Nothing is left out
+    /// because it does not fall: a lost order looks like that.
+    pub(super) fn error_columns(
+        &mut self,
+        step: &Step,
+        steps: &[f64],
+        values: &[usize],
+    ) -> Result<Vec<usize>, InputError> {
+        let mut errors = vec![];
+        let mut residuals = vec![];
+        let mut undecided = Undecided::default();
+        for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
+            let reason = match self.content(k, step.column, steps)? {
+                Content::Error => {
+                    errors.push(k);
+                    continue;
+                }
+                Content::Residual => {
+                    residuals.push(k);
+                    continue;
+                }
+                Content::Limit(words) => {
+                    undecided.limits.push(k);
+                    Reason {
+                        words,
+                        is_checked: false,
+                    }
+                }
+                Content::Growth => {
+                    undecided.counts.push(k);
+                    let words = "whole numbers that grow".to_owned();
+                    Reason {
+                        words,
+                        is_checked: false,
+                    }
+                }
+                Content::States => Reason {
+                    words: "states".to_owned(),
+                    is_checked: true,
+                },
+                Content::Other(reason) => reason,
+            };
+            self.leave_out(k, reason);
+        }
+        if errors.is_empty() && values.is_empty() {
+            errors = std::mem::take(&mut residuals);
+        }
+        for k in residuals {
+            let words = "a residual".to_owned();
+            self.leave_out(
+                k,
+                Reason {
+                    words,
+                    is_checked: false,
+                },
+            );
+        }
+        if errors.is_empty() && values.is_empty() {
+            return Err(self.refuse_without_errors(&undecided.limits)?);
+        }
+        if undecided.limits.is_empty() && undecided.counts.is_empty() {
+            return Ok(errors);
+        }
+        Err(self.refuse_undecided(&errors, values, &undecided))
+    }
+
+    fn leave_out(&mut self, k: usize, Reason { words, is_checked }: Reason) {
+        let name = self.columns[k].name.clone();
+        self.left_out.push(LeftOut {
+            name,
+            reason: words,
+            is_checked,
+        });
+    }
+
+    /// The refusal of a table without errors and without chosen values: it offers the columns with
+    /// a limit as values.
+    fn refuse_without_errors(&self, limits: &[usize]) -> Result<InputError, InputError> {
+        let mut columns = self.columns.iter();
+        let unknown =
+            columns.position(|column| column.word.noun().is_none() && !column.is_number[0]);
+        if let Some(k) = unknown {
+            self.must(0, k)?;
+        }
+        let offer =
+            (!limits.is_empty()).then(|| self.offer(|choice| choice.values = self.names(limits)));
+        let expected = Text::from("a column of errors, or ") + Argument::Columns.with_placeholder();
+        Ok(self
+            .refuse(expected, &reasons(&self.left_out))
+            .offering(offer))
+    }
+
+    /// The refusal of columns that may be values, or counts, or errors that are lost: only the user
+    /// can tell. Left out, a lost order would pass.
+    fn refuse_undecided(
+        &self,
+        errors: &[usize],
+        values: &[usize],
+        Undecided { limits, counts }: &Undecided,
+    ) -> InputError {
+        let found = match limits.first() {
+            Some(limit) => format!(
+                "{}, which tends to a limit: a value, or an error that no longer falls",
+                self.quoted(&[*limit])
+            ),
+            None => format!(
+                "{}, whole numbers that grow: a count, or an error that grows",
+                self.quoted(&counts[..1])
+            ),
+        };
+        let expected = Argument::Values.with_placeholder()
+            + " or "
+            + Argument::Columns.with_placeholder()
+            + " to say what each column holds";
+        let mut as_others = self.offer(|choice| {
+            choice.values = self.names(&[values, limits].concat());
+            if !counts.is_empty() && !errors.is_empty() {
+                choice.columns = Some(self.names(errors));
+            }
+        });
+        as_others.comment = match (limits.len(), counts.len()) {
+            (1.., 1..) => "if they are values and counts",
+            (1.., _) => "if it is a value",
+            _ => "if it is a count",
+        };
+        let as_errors = Offer {
+            comment: "if it is an error",
+            ..self.with_columns(&[errors, limits, counts].concat())
+        };
+        self.refuse(expected, &found)
+            .offering([as_others, as_errors])
+    }
+
+    /// The command with these columns as errors.
+    fn with_columns(&self, columns: &[usize]) -> Offer {
+        self.offer(|choice| choice.columns = Some(self.names(columns)))
+    }
+
+    /// What a column holds, by what its cells are, by the rates that it may print, and by its name.
+    fn content(&self, k: usize, step: usize, steps: &[f64]) -> Result<Content, InputError> {
+        let column = &self.columns[k];
+        if column.is_claimed {
+            return Ok(Content::Error);
+        }
+        match column.holdings() {
+            Holdings::Nothing => return Ok(Content::checked("no number")),
+            Holdings::States => return Ok(Content::States),
+            Holdings::Words => return Ok(Content::checked("words")),
+            Holdings::Numbers | Holdings::NumbersAndWords => {}
+        }
+        if column.is_index {
+            return Ok(Content::checked("the number of the row"));
+        }
+        if let Some(derived) = self.derived(k, step, steps) {
+            return Ok(derived);
+        }
+        let is_whole = column.values.iter().all(|value| value.fract() == 0.0);
+        if names::is_group(&column.name) && is_whole && column.is_constant() {
+            return Ok(Content::checked("the same in each row"));
+        }
+        match (column.word, column.word.noun()) {
+            (Word::Residual, _) => Ok(Content::Residual),
+            // A pressure may be named like a degree.
+            (Word::Group, _) if !column.is_constant() => Ok(Content::Error),
+            (_, Some(_)) if column.is_constant() => Ok(Content::checked("the same in each row")),
+            (Word::Rate, _) if column.is_steep() => Ok(Content::Error),
+            (Word::Count(_), Some(noun)) if column.is_count_over(steps) => {
+                Ok(Content::checked(noun))
+            }
+            (Word::Step, Some(noun)) if column.is_in_proportion(&self.columns[step]) => {
+                Ok(Content::checked(noun))
+            }
+            (_, Some(noun)) => Ok(Content::named(noun)),
+            (Word::Error, None) => Ok(Content::Error),
+            _ if column.counts_meshes(steps) => Ok(Content::checked("a count")),
+            _ => Ok(match column.trend() {
+                Trend::Error => Content::Error,
+                Trend::Grows => Content::Growth,
+                Trend::Limit(limit) => Content::Limit(format!(
+                    "tends to {}: a value, not an error",
+                    plain_text(limit)
+                )),
+            }),
+        }
+    }
+
+    /// The rates or factors of another column, if a column has them: over the steps, or over any of
+    /// the counts.
+    fn derived(&self, k: usize, step: usize, steps: &[f64]) -> Option<Content> {
+        let column = &self.columns[k];
+        let over_counts = self.columns.iter().enumerate().filter(|(count, cells)| {
+            *count != k
+                && *count != step
+                && matches!(cells.word, Word::Count(_))
+                && cells.is_count_over(steps)
+        });
+        let over_counts = over_counts.take(COUNTS).flat_map(|(_, cells)| {
+            DIMENSIONS.map(|dim| {
+                cells
+                    .values
+                    .iter()
+                    .map(|count| count.powf(-1.0 / dim))
+                    .collect()
+            })
+        });
+        let mut all_steps = [steps.to_vec()].into_iter().chain(over_counts);
+        let (error, derived) = all_steps.find_map(|steps: Vec<f64>| {
+            // Errors before it, the nearest first, and those after it.
+            let near = (k.saturating_sub(NEIGHBOURS)..k)
+                .rev()
+                .chain(k + 1..(k + NEIGHBOURS).min(self.columns.len()));
+            let mut near = near
+                .filter(|near| *near != step)
+                .map(|near| &self.columns[near]);
+            near.find_map(|error| Some((error, column.derived_from(error, &steps)?)))
+        })?;
+        Some(match derived {
+            // Errors that are halved have the rate 1 and the factor 2.
+            Derived::Factors if column.word == Word::Rate => Content::checked(format!(
+                "factors by which `{}` falls, not its rates",
+                error.name
+            )),
+            Derived::Factors => {
+                Content::checked(format!("the factors by which `{}` falls", error.name))
+            }
+            _ if column.word.noun().is_some() && column.is_constant() => {
+                Content::checked("the same in each row")
+            }
+            _ => Content::checked(format!("the rates of `{}`", error.name)),
+        })
+    }
+}

@@ -1,0 +1,104 @@
+//! What speaks against a table that was read: nothing of it should pass.
+
+use std::fmt::{self, Display, Formatter};
+
+use super::Column;
+use crate::judge::fit::pairwise_rates;
+use crate::text::number::plain_text;
+use crate::text::visible::visible;
+
+/// Why no column of a table should pass.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// A line of the text says that the run has failed.
+    FailedRun {
+        /// Its number, from 1.
+        line: usize,
+        /// Its words.
+        words: String,
+    },
+    /// The errors fall by steady rates on either side of a jump, as those of two tables do.
+    Jump {
+        /// The name of the column.
+        column: String,
+        /// The step before it.
+        before: f64,
+        /// The step behind it.
+        behind: f64,
+    },
+}
+
+impl Display for Doubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FailedRun { line, words } => {
+                write!(f, "the run has failed: line {line} is `{}`", visible(words))
+            }
+            Self::Jump {
+                column,
+                before,
+                behind,
+            } => write!(
+                f,
+                "{} jumps between the steps {} and {}, as if another table began",
+                visible(column),
+                plain_text(*before),
+                plain_text(*behind)
+            ),
+        }
+    }
+}
+
+/// The jump of a column between two runs of steady rates.
+pub(super) fn jump(column: &Column) -> Option<Doubt> {
+    /// Largest difference between steady rates.
+    const STEADY: f64 = 0.25;
+    /// Least rate that is one of convergence.
+    const FALLS: f64 = 0.5;
+    /// Least difference between a jump and the rates on either side.
+    const JUMP: f64 = 1.0;
+    let rates = pairwise_rates(&column.levels);
+    let before = ranges(rates.iter());
+    let mut behind = ranges(rates.iter().rev());
+    behind.reverse();
+    let is_steady = |range: &Range, count: usize| {
+        count > 1 && range.most - range.least < STEADY && range.least > FALLS
+    };
+    let is_jump = |k: &usize| {
+        let sides = [&before[*k - 1], &behind[*k + 1]];
+        let are_steady = is_steady(sides[0], *k) && is_steady(sides[1], rates.len() - k - 1);
+        let least = sides[0].least.min(sides[1].least);
+        let most = sides[0].most.max(sides[1].most);
+        are_steady && (rates[*k] > most + JUMP || rates[*k] < least - JUMP)
+    };
+    let k = (1..rates.len().saturating_sub(1)).find(is_jump)?;
+    Some(Doubt::Jump {
+        column: column.name.clone(),
+        before: column.levels[k].step,
+        behind: column.levels[k + 1].step,
+    })
+}
+
+/// The least and the greatest of some rates.
+#[derive(Clone, Copy)]
+struct Range {
+    least: f64,
+    most: f64,
+}
+
+/// The range of the first rates, of one, of two and so on. NaN is no rate.
+fn ranges<'r>(rates: impl Iterator<Item = &'r f64>) -> Vec<Range> {
+    let mut range = Range {
+        least: f64::INFINITY,
+        most: f64::NEG_INFINITY,
+    };
+    let wider = |rate: &f64| {
+        range = Range {
+            least: range.least.min(*rate),
+            most: range.most.max(*rate),
+        };
+        range
+    };
+    rates.map(wider).collect()
+}

@@ -1,0 +1,228 @@
+//! The names of columns: a line above the rows, numbered lines, or names in two lines.
+
+use super::names::Word;
+use super::number::{is_dash, number};
+use super::text::{cell, counts_rows, span, split};
+
+/// Types of columns and units, as data frames write them below the names.
+const TYPES: [&str; 8] = [
+    "double", "f64", "i64", "float64", "int64", "float", "int", "str",
+];
+
+/// The names of columns.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Names<'t> {
+    /// One for each column, or an empty one.
+    pub(super) names: Vec<&'t str>,
+    /// The names in the line above them, for each column that of its group; may be empty.
+    pub(super) groups: Vec<&'t str>,
+}
+
+/// The names for columns of this width in the lines above them.
+pub(super) fn find<'t>(
+    heads: &[&'t str],
+    rows: &[Vec<&str>],
+    spans: &[[usize; 2]],
+    separator: Option<char>,
+) -> Option<Names<'t>> {
+    let width = rows.iter().map(Vec::len).max().unwrap_or(0);
+    if let Some(names) = numbered(heads, width) {
+        return Some(Names {
+            names,
+            groups: vec![],
+        });
+    }
+    if let Some(found) = names(heads, rows, separator, width) {
+        let groups = groups(&heads[..found.line], &found.names, separator);
+        return Some(Names {
+            names: found.names,
+            groups,
+        });
+    }
+    let names = heads
+        .iter()
+        .rev()
+        .find_map(|line| by_place(line, rows, spans))?;
+    Some(Names {
+        names,
+        groups: vec![],
+    })
+}
+
+/// The names of groups of columns, above names that come again in each group: those of variables
+/// above `error EOC`.
+fn groups<'t>(heads: &[&'t str], names: &[&str], separator: Option<char>) -> Vec<&'t str> {
+    let Some(line) = heads.last() else {
+        return vec![];
+    };
+    for groups in splits(line, separator) {
+        let count = groups.len();
+        if count == 0 || !names.len().is_multiple_of(count) || names.len() == count {
+            continue;
+        }
+        let size = names.len() / count;
+        let come_again = names.iter().zip(&names[size..]).all(|(a, b)| a == b);
+        if come_again && count > 1 && !groups.iter().any(is_no_name) {
+            return (0..names.len()).map(|k| groups[k / size]).collect();
+        }
+    }
+    vec![]
+}
+
+/// Names that stand above their columns and have several words, parted by several blanks: the only
+/// column below one that is no column of rates, or one for each word.
+fn by_place<'t>(line: &'t str, rows: &[Vec<&str>], spans: &[[usize; 2]]) -> Option<Vec<&'t str>> {
+    let is_rate = columns_of_rates(rows, spans.len());
+    let segments = line
+        .split("  ")
+        .map(str::trim)
+        .filter(|segment| !segment.is_empty());
+    let mut names = vec![&line[..0]; spans.len()];
+    let mut next = 0;
+    for segment in segments {
+        let [start, end] = span(line, segment);
+        let below = (next..spans.len())
+            .filter(|k| !is_rate[*k] && spans[*k][0] < end && start < spans[*k][1]);
+        let below: Vec<usize> = below.collect();
+        let words: Vec<&str> = segment.split_whitespace().collect();
+        match below.len() {
+            0 => return None,
+            1 => names[below[0]] = segment,
+            count if count == words.len() => {
+                for (k, word) in below.iter().zip(words) {
+                    names[*k] = word;
+                }
+            }
+            _ => return None,
+        }
+        next = below[below.len() - 1] + 1;
+    }
+    let has_all = (0..spans.len()).all(|k| is_rate[k] || !names[k].is_empty());
+    (has_all && !names.iter().any(is_no_name)).then_some(names)
+}
+
+/// The columns that begin or end with a dash, as rates do.
+fn columns_of_rates(rows: &[Vec<&str>], width: usize) -> Vec<bool> {
+    let ends = [rows.first(), rows.last()];
+    let is_rate = |k: usize| {
+        ends.iter().flatten().any(|row| {
+            row.get(k)
+                .is_some_and(|cell| !cell.is_empty() && is_dash(cell))
+        })
+    };
+    (0..width).map(is_rate).collect()
+}
+
+/// The names of an earlier table of this width, if no line has a word for each column.
+pub(super) fn shared<'t>(
+    earlier: &[&'t str],
+    heads: &[&str],
+    separator: Option<char>,
+    width: usize,
+) -> Option<Vec<&'t str>> {
+    let are_few = heads
+        .iter()
+        .all(|head| split(head, separator).len() < width.max(2));
+    (earlier.len() == width && are_few).then(|| earlier.to_vec())
+}
+
+/// Names in numbered lines, `# 1: cells`, `# 2: dofs`, ...
+fn numbered<'t>(heads: &[&'t str], width: usize) -> Option<Vec<&'t str>> {
+    let pairs = heads.iter().filter_map(|line| line.split_once(':'));
+    let numbered =
+        pairs.filter_map(|(k, name)| Some((k.trim().parse::<usize>().ok()?, cell(name))));
+    let (numbers, names): (Vec<usize>, Vec<&str>) = numbered.unzip();
+    numbers.into_iter().eq(1..=width).then_some(names)
+}
+
+/// Whether a cell holds the type of a column, as data frames write it below the name, or a unit.
+fn is_type(cell: &&str) -> bool {
+    TYPES.contains(&&*cell.to_lowercase()) || is_dash(cell) || cell.starts_with(['[', '<'])
+}
+
+/// Whether a cell cannot be a name.
+fn is_no_name(cell: &&str) -> bool {
+    let is_finite = number(cell, false).is_some_and(|number| number.value.is_finite());
+    is_finite
+        || cell.ends_with(',')
+        || !(matches!(*cell, "" | "#")
+            || cell.contains(|c: char| c.is_alphabetic() || c.is_control()))
+}
+
+/// A line cut at its separator, at commas, at semicolons, and where there are several blanks.
+fn splits(line: &str, separator: Option<char>) -> [Vec<&str>; 4] {
+    let wide = line
+        .split("  ")
+        .map(|cell| cell.trim_matches([' ', '|', '\t']))
+        .filter(|cell| !cell.is_empty());
+    [
+        split(line, separator),
+        split(line, Some(',')),
+        split(line, Some(';')),
+        wide.collect(),
+    ]
+}
+
+/// Names, and the number of their line.
+struct NamesInLine<'t> {
+    names: Vec<&'t str>,
+    line: usize,
+}
+
+/// The nearest line above the rows with a name for each column. Columns of rates, which begin or
+/// end with a dash, and the first column may have none.
+fn names<'t>(
+    heads: &[&'t str],
+    rows: &[Vec<&str>],
+    separator: Option<char>,
+    width: usize,
+) -> Option<NamesInLine<'t>> {
+    let firsts: Vec<&str> = rows.iter().map(|row| row[0]).collect();
+    let is_even = rows.iter().all(|row| row.len() == width);
+    let is_index = counts_rows(&firsts);
+    let is_rate = columns_of_rates(rows, width);
+    let masks = [(0, false), (0, true), (1, false), (1, true)].map(|(first, without_rates)| {
+        (first..width)
+            .filter(|k| !(without_rates && is_rate[*k]))
+            .collect::<Vec<usize>>()
+    });
+    let mut first = "";
+    for (k, line) in heads.iter().enumerate().rev() {
+        let splits = splits(line, separator);
+        // Between words of several names there are single blanks: no word is the name of a rate
+        // then.
+        let is_worded = separator.is_none() && (2..splits[0].len()).contains(&splits[3].len());
+        let fits = |mask: &[usize], cells: &&Vec<&str>| {
+            let is_sure = !is_worded
+                || mask
+                    .iter()
+                    .zip(*cells)
+                    .all(|(k, cell)| !is_rate[*k] || Word::of(cell) == Word::Rate);
+            cells.len() == mask.len()
+                && is_sure
+                && !cells.iter().all(is_type)
+                && !cells.iter().any(is_no_name)
+        };
+        // A data frame writes the name of its index below the others.
+        let may_lack = is_even && (is_index || line.starts_with(' '));
+        for mask in masks
+            .iter()
+            .filter(|mask| mask.len() == width || is_even && mask.first() == Some(&0) || may_lack)
+        {
+            if let Some(cells) = splits.iter().find(|cells| fits(mask, cells)) {
+                let mut names = vec![&line[..0]; width];
+                names[0] = first;
+                for (column, cell) in mask.iter().zip(cells) {
+                    names[*column] = cell;
+                }
+                return Some(NamesInLine { names, line: k });
+            }
+        }
+        first = if splits[0].len() == 1 {
+            splits[0][0]
+        } else {
+            ""
+        };
+    }
+    None
+}

@@ -1,0 +1,414 @@
+//! The tables of a text. Two tables that are read as one could pass where one of them fails, so a
+//! text is cut rather too often: a part with too few levels is inconclusive.
+//!
+//! What stands between rows has a shape: its text with `#` in place of numbers. A shape between
+//! every two rows parts nothing, such as rulers, or `Cycle 3`; one between some rows cuts the text,
+//! be it a blank line, a heading, a comment or names that come again. The same holds for a log of
+//! names and numbers, whose rows are the numbers from one step to the next.
+
+use std::collections::{HashMap, HashSet};
+
+use super::names;
+use super::number::number;
+use super::pairs::{self, NamedPlace, Naming, Pair, RawTable};
+use super::text::{self, begins_with_number, is_closing, is_rule};
+
+/// A table of a text.
+pub(super) struct Part<'t> {
+    /// The first of several lines above its rows, or its number.
+    pub(super) heading: String,
+    pub(super) table: RawTable<'t>,
+}
+
+/// How often a text is cut anew: a log may stand beside a table with headings.
+const DEPTH: usize = 3;
+
+/// The tables of a text that has been made [plain](super::cleaned::plain).
+pub(super) fn read(text: &str) -> Vec<Part<'_>> {
+    let mut parts: Vec<Part<'_>> = vec![];
+    for section in sections(text, DEPTH) {
+        let earlier = parts.last().map_or(&[][..], |part| &part.table.names);
+        let table = text::read(section, earlier);
+        let heading = heading(section, &table);
+        parts.push(Part {
+            heading: heading.unwrap_or_else(|| format!("table {}", parts.len() + 1)),
+            table,
+        });
+    }
+    parts
+}
+
+/// The text of each table.
+fn sections(text: &str, depth: usize) -> Vec<&str> {
+    let cuts = cuts(text);
+    if depth == 0 || cuts.is_empty() {
+        return vec![text];
+    }
+    let starts = [0].into_iter().chain(cuts.iter().copied());
+    let ends = cuts.iter().copied().chain([text.len()]);
+    let sections = starts.zip(ends).map(|(start, end)| &text[start..end]);
+    sections
+        .flat_map(|section| self::sections(section, depth - 1))
+        .collect()
+}
+
+/// The bytes at which a text is cut.
+fn cuts(text: &str) -> Vec<usize> {
+    let mixed = mixed_cuts(text);
+    if !mixed.is_empty() {
+        return mixed;
+    }
+    match pairs::log(text) {
+        Some(pairs) => log_cuts(text, &pairs),
+        None => gap_cuts(&row_gaps(text)),
+    }
+}
+
+/// Something between two rows.
+struct Piece {
+    /// Its byte in the text.
+    offset: usize,
+    shape: String,
+    /// The words behind a name and a mark, as in `scheme: upwind`; empty without.
+    value: String,
+    /// Whether it is a name with a number behind it.
+    is_named: bool,
+}
+
+impl Piece {
+    /// A line, or a piece of one between two numbers with names.
+    fn of_words(offset: usize, words: &str) -> Self {
+        let (name, value) = words.split_once([':', '=']).unwrap_or((words, ""));
+        let value = shape(value);
+        let is_pair = !value.is_empty() && value != "#" && !name.trim().is_empty();
+        Self {
+            offset,
+            shape: if is_pair {
+                shape(name) + "="
+            } else {
+                shape(words)
+            },
+            value: if is_pair { value } else { String::new() },
+            is_named: false,
+        }
+    }
+}
+
+/// A text with `#` in place of its numbers.
+fn shape(text: &str) -> String {
+    let mut shape = String::new();
+    for word in text.split_whitespace() {
+        if !shape.is_empty() {
+            shape.push(' ');
+        }
+        if number(word.trim_matches(pairs::is_mark), false).is_some() {
+            shape.push('#');
+            continue;
+        }
+        for c in word.chars() {
+            let is_digit = c.is_ascii_digit();
+            if !is_digit {
+                shape.push(c);
+            } else if !shape.ends_with('#') {
+                shape.push('#');
+            }
+        }
+    }
+    shape
+}
+
+/// What stands in the gaps with one shape.
+#[derive(Default)]
+struct Occurrences<'p> {
+    /// In how many gaps.
+    gaps: usize,
+    /// Whether the first gap is one of them.
+    is_in_first: bool,
+    /// The values, each once.
+    values: HashSet<&'p str>,
+}
+
+impl Occurrences<'_> {
+    /// Whether it stands in all gaps; a name with a number may be missing in the first one, as rates
+    /// are.
+    fn is_common(&self, piece: &Piece, gaps: usize) -> bool {
+        let is_late = piece.is_named && !self.is_in_first && self.gaps + 1 == gaps;
+        self.gaps == gaps || gaps > 2 && is_late
+    }
+
+    /// Whether it stands in all gaps, with words of which some come again.
+    fn is_group(&self, gaps: usize) -> bool {
+        let is_state = self
+            .values
+            .iter()
+            .all(|value| names::state(value).is_some());
+        self.gaps == gaps && (2..gaps).contains(&self.values.len()) && !is_state
+    }
+}
+
+/// Where gaps have a piece that others lack, or a name with other words behind it than in the gap
+/// before: the first such piece of each gap.
+fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
+    let mut occurrences: HashMap<&str, Occurrences<'_>> = HashMap::new();
+    for (k, gap) in gaps.iter().enumerate() {
+        let mut own = HashSet::new();
+        for piece in gap {
+            let shape = occurrences.entry(&piece.shape).or_default();
+            shape.values.insert(&piece.value);
+            if own.insert(&piece.shape) {
+                shape.gaps += 1;
+                shape.is_in_first |= k == 0;
+            }
+        }
+    }
+    let mut values: HashMap<&str, &str> = HashMap::new();
+    let mut cuts = vec![];
+    for gap in gaps {
+        let cut = gap.iter().find(|piece| {
+            let shape = &occurrences[piece.shape.as_str()];
+            let before = values.get(piece.shape.as_str());
+            let changes = before.is_some_and(|before| *before != piece.value);
+            !shape.is_common(piece, gaps.len()) || changes && shape.is_group(gaps.len())
+        });
+        cuts.extend(cut.map(|piece| piece.offset));
+        values.extend(
+            gap.iter()
+                .map(|piece| (piece.shape.as_str(), piece.value.as_str())),
+        );
+    }
+    cuts
+}
+
+/// What stands between the lines of rows.
+fn row_gaps(text: &str) -> Vec<Vec<Piece>> {
+    let table = text::read(text, &[]);
+    let mut starts: Vec<usize> = vec![];
+    for row in &table.rows {
+        starts.extend(row.iter().map(|cell| offset(text, cell)));
+    }
+    let first = starts.iter().copied().min().unwrap_or(text.len());
+    starts.sort_unstable();
+    let mut starts = starts.into_iter().peekable();
+    let mut gaps = vec![];
+    let mut gap = vec![];
+    let mut has_rows = false;
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let end = start + line.len();
+        let mut is_row = start > first && begins_with_number(&line) && !is_closing(line);
+        while starts.next_if(|cell| *cell < end).is_some() {
+            is_row = true;
+        }
+        if is_row {
+            if has_rows {
+                gaps.push(std::mem::take(&mut gap));
+            }
+            gap.clear();
+            has_rows = true;
+        } else if is_rule(line) {
+            gap.push(Piece::of_words(
+                start,
+                if line.trim().is_empty() { "" } else { "-" },
+            ));
+        } else {
+            gap.push(Piece::of_words(start, line));
+        }
+        // The rest of a gap belongs to the next table.
+        start = end;
+    }
+    for gap in &mut gaps {
+        let begin = gap.first().map(|piece| piece.offset);
+        gap.iter_mut()
+            .for_each(|piece| piece.offset = begin.unwrap_or(piece.offset));
+    }
+    gaps
+}
+
+/// The byte at which a piece begins in its text.
+fn offset(text: &str, piece: &str) -> usize {
+    (piece.as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
+}
+
+/// Where a log of names and numbers is cut: lists with their names come again, names end before
+/// others begin, or something stands between some of its rows.
+fn log_cuts(text: &str, pairs: &[Pair<'_>]) -> Vec<usize> {
+    if let Some(first) = pairs::first_column(pairs) {
+        let lists = pairs
+            .iter()
+            .filter(|pair| pair.name == first && pair.values.len() > 1);
+        return lists
+            .skip(1)
+            .map(|pair| line_or_name(text, pair.name))
+            .collect();
+    }
+    let ends = successive_names(pairs);
+    if !ends.is_empty() {
+        return ends
+            .into_iter()
+            .map(|k| after_number(text, pairs, k))
+            .collect();
+    }
+    gap_cuts(&log_gaps(text, pairs))
+}
+
+/// The beginning of the line of a name, if nothing but marks stands before it.
+fn line_or_name(text: &str, name: &str) -> usize {
+    let start = offset(text, name);
+    let line = text[..start].rfind('\n').map_or(0, |end| end + 1);
+    if text[line..start].chars().all(pairs::is_mark) {
+        line
+    } else {
+        start
+    }
+}
+
+/// The end of the number before the k-th name, or of its line.
+fn after_number(text: &str, pairs: &[Pair<'_>], k: usize) -> usize {
+    let start = offset(text, pairs[k].name);
+    let Some(last) = k
+        .checked_sub(1)
+        .and_then(|before| pairs[before].values.last())
+    else {
+        return start;
+    };
+    let end = offset(text, last) + last.len();
+    text[end..start]
+        .find('\n')
+        .map_or(end, |line| end + line + 1)
+}
+
+/// The pairs with which names begin after others that occur several times have ended.
+fn successive_names(pairs: &[Pair<'_>]) -> Vec<usize> {
+    struct Range {
+        first: usize,
+        last: usize,
+        count: usize,
+    }
+    let mut ranges: HashMap<&str, Range> = HashMap::new();
+    for (k, pair) in pairs.iter().enumerate() {
+        let range = ranges.entry(pair.name).or_insert(Range {
+            first: k,
+            last: k,
+            count: 0,
+        });
+        range.last = k;
+        range.count += 1;
+    }
+    let mut ranges: Vec<Range> = ranges
+        .into_values()
+        .filter(|range| range.count > 1)
+        .collect();
+    ranges.sort_by_key(|range| range.first);
+    let mut cuts = vec![];
+    let mut end = usize::MAX;
+    for Range { first, last, .. } in ranges {
+        if first > end {
+            cuts.push(first);
+            end = last;
+        }
+        end = end.min(last);
+    }
+    cuts
+}
+
+/// What stands in a log between one step and the next: other names, and words.
+fn log_gaps(text: &str, pairs: &[Pair<'_>]) -> Vec<Vec<Piece>> {
+    let mut gaps = vec![];
+    let Some(key) = pairs::key_of_records(pairs) else {
+        return gaps;
+    };
+    let mut gap = vec![];
+    let mut has_rows = false;
+    let mut end = 0;
+    for pair in pairs {
+        let start = offset(text, pair.name);
+        let between = text.get(end..start).unwrap_or_default();
+        gap.extend(pieces(end, between));
+        if pair.name == key {
+            if has_rows {
+                gaps.push(std::mem::take(&mut gap));
+            }
+            gap.clear();
+            has_rows = true;
+        } else {
+            gap.push(Piece {
+                offset: start,
+                shape: pair.name.to_owned(),
+                value: String::new(),
+                is_named: true,
+            });
+        }
+        let last = pair.values.last().copied().unwrap_or(pair.name);
+        end = offset(text, last) + last.len();
+    }
+    gaps
+}
+
+/// The words and blank lines between two numbers of a log.
+fn pieces(start: usize, between: &str) -> Vec<Piece> {
+    let mut pieces = vec![];
+    let mut offset = start;
+    let lines: Vec<&str> = between.split('\n').collect();
+    for (k, line) in lines.iter().enumerate() {
+        let words = line.trim_matches(|c| pairs::is_mark(c) || "-=_*#|".contains(c));
+        let is_blank_line = line.trim().is_empty() && 0 < k && k + 1 < lines.len();
+        let is_ruler = words.is_empty() && is_rule(line) && !line.trim().is_empty();
+        if is_blank_line || is_ruler || !words.is_empty() {
+            pieces.push(Piece::of_words(offset, if is_ruler { "-" } else { words }));
+        }
+        offset += line.len() + 1;
+    }
+    pieces
+}
+
+/// Where a log, rows of numbers without names and lists stand beside each other, each with several
+/// numbers.
+fn mixed_cuts(text: &str) -> Vec<usize> {
+    let places = pairs::namings(text);
+    let mut runs: Vec<&[NamedPlace<'_>]> = places.chunk_by(|a, b| a.naming == b.naming).collect();
+    runs.retain(|run| {
+        let mut names = HashSet::new();
+        let repeats = run.iter().any(|place| !names.insert(place.name));
+        run.len() > 1 && (run[0].naming != Naming::Each || repeats)
+    });
+    let changes = runs
+        .windows(2)
+        .filter(|two| two[0][0].naming != two[1][0].naming);
+    changes
+        .map(|two| {
+            let last = two[0][two[0].len() - 1].offset;
+            let line = text[last..].find('\n');
+            line.map_or(text.len(), |end| last + end + 1)
+        })
+        .collect()
+}
+
+/// The text above the first number of a table.
+fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
+    let cells = table.rows.iter().flatten().filter(|cell| !cell.is_empty());
+    let first = cells.map(|cell| offset(section, cell)).min().unwrap_or(0);
+    &section[..first.min(section.len())]
+}
+
+/// The first line of words above the rows, if there is another, which has the names, or if names
+/// stand beside the numbers.
+fn heading(section: &str, table: &RawTable<'_>) -> Option<String> {
+    let above = above(section, table);
+    let end = above.rfind('\n').map_or(0, |end| end + 1);
+    let is_name = |line: &str| {
+        let names = table.names.iter().filter(|name| !name.is_empty());
+        let start = offset(section, line);
+        names
+            .map(|name| offset(section, name))
+            .any(|name| (start..start + line.len()).contains(&name))
+    };
+    let mut lines = above[..end].lines().filter(|line| {
+        line.contains(char::is_alphabetic)
+            && !line.trim().starts_with('\\')
+            && !is_closing(line)
+            && !is_name(line)
+    });
+    let words = lines.next()?;
+    let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));
+    Some(words.to_owned()).filter(|words| !words.is_empty())
+}

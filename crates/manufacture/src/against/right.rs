@@ -158,31 +158,16 @@ impl<'m> Right<'m> {
         Some(column(self.model, &datum.tensor, place, &self.points))
     }
 
-    /// The component at other points.
-    pub(crate) fn at_points(&self, place: Place, points: &[Vec<f64>]) -> Column {
-        let tensor = &self.quantities[place.quantity].quantity.tensor;
-        column(self.model, tensor, place, points)
-    }
-
     /// The parameters with one of them changed; those that depend on it follow.
     pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
         let problem = &self.model.problem;
         problem.parameter_values(Some((parameter, value))).ok()
     }
 
-    /// The component with these parameters, at these points.
-    pub(crate) fn with_parameters(
-        &self,
-        place: Place,
-        parameters: &[f64],
-        points: &[Vec<f64>],
-    ) -> Column {
+    /// A quantity, to be evaluated at other points or with other parameters.
+    pub(crate) fn rows(&self, place: Place) -> Rows<'m> {
         let tensor = &self.quantities[place.quantity].quantity.tensor;
-        let rows = Rows::new(&self.model.graph, std::iter::once(tensor));
-        let points = points.iter();
-        points
-            .map(|point| rows.with(point, parameters).tensors[0][place.component].value)
-            .collect()
+        Rows::new(&self.model.graph, std::iter::once(tensor))
     }
 }
 

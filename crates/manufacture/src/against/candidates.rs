@@ -11,7 +11,7 @@ use crate::problem::{Problem, System, mentions};
 
 /// What an edit does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Change {
+pub(crate) enum Change {
     /// An unknown factor at a whole term of an equation, or at a whole datum.
     Term,
     /// An unknown factor at a summand.
@@ -60,29 +60,31 @@ pub(super) enum Change {
     Exchange,
     /// Two parameters exchanged.
     Parameters,
+    /// The normal of a face points inwards.
+    Normal,
 }
 
 /// An edit that is tried.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Candidate {
-    pub(super) change: Change,
-    pub(super) alteration: Alteration,
+pub(crate) struct Candidate {
+    pub(crate) change: Change,
+    pub(crate) alteration: Alteration,
     /// How far it is from a top-level term.
-    pub(super) depth: usize,
+    pub(crate) depth: usize,
     /// It is tried only if no other explains the values.
-    pub(super) is_rare: bool,
+    pub(crate) is_rare: bool,
 }
 
 impl Change {
     /// Whether a number belongs to it.
-    pub(super) fn has_factor(self) -> bool {
+    pub(crate) fn has_factor(self) -> bool {
         use Change::{Added, Exponent, Part, Summand, Term};
         matches!(self, Term | Summand | Part | Exponent | Added)
     }
 }
 
 impl Candidate {
-    pub(super) fn has_factor(&self) -> bool {
+    pub(crate) fn has_factor(&self) -> bool {
         self.change.has_factor()
     }
 }
@@ -121,7 +123,7 @@ struct Walk<'c> {
 /// All candidates in the expressions that a comparison is about.
 ///
 /// * `alike`: definitions of one shape, pair by pair.
-pub(super) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
+pub(crate) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
     let mut found = vec![];
     let mut homes = vec![];
     for (name, definition) in &problem.definitions {
@@ -178,6 +180,14 @@ pub(super) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<C
             });
         }
     }
+    if part != Part::Interior {
+        found.push(Candidate {
+            change: Change::Normal,
+            alteration: Alteration::Normal,
+            depth: 0,
+            is_rare: false,
+        });
+    }
     for names in alike {
         found.push(Candidate {
             change: Change::Exchange,
@@ -190,7 +200,7 @@ pub(super) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<C
 }
 
 /// A factor at the term with a label.
-pub(super) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<Candidate> {
+pub(crate) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<Candidate> {
     let mut equations = problem.equations.iter();
     let equation = equations.position(|entry| entry.name == equation)?;
     let mut terms = problem.equations[equation].terms.iter();
@@ -276,7 +286,7 @@ fn name(name: &str) -> Tree {
     node(Kind::Name(name.to_owned()))
 }
 
-pub(super) fn number(text: &str, value: f64) -> Tree {
+pub(crate) fn number(text: &str, value: f64) -> Tree {
     node(Kind::Number(value, text.to_owned()))
 }
 
@@ -292,12 +302,12 @@ fn operator(operator: Operator, parts: &[&Tree]) -> Tree {
     node(Kind::Call(Callee::Operator(operator), parts))
 }
 
-pub(super) fn held(tree: &Tree) -> Tree {
+pub(crate) fn held(tree: &Tree) -> Tree {
     operator(Operator::Altered(names::Alteration::Held), &[tree])
 }
 
 /// A part times an unknown factor.
-pub(super) fn times_factor(tree: &Tree) -> Tree {
+pub(crate) fn times_factor(tree: &Tree) -> Tree {
     binary(Binary::Multiply, tree, &name(FACTORS[0]))
 }
 
@@ -336,7 +346,7 @@ impl Walk<'_> {
             return;
         }
         self.factor(tree, route, role);
-        if role == Role::Factor && !matches!(tree.kind, Kind::Number(..)) {
+        if role == Role::Factor && !matches!(tree.kind, Kind::Number(..) | Kind::Negate(_)) {
             self.add(Change::Held, route, held(tree));
         }
         if role == Role::Root && matches!(self.home, Home::Definition { .. }) {
@@ -360,7 +370,9 @@ impl Walk<'_> {
             Kind::Index(of, indices) => self.index(of, indices, route),
             _ => (),
         }
+        let is_signed_factor = role == Role::Factor && matches!(tree.kind, Kind::Negate(_));
         for (place, (child, role)) in tree.children().into_iter().zip(roles(tree)).enumerate() {
+            let role = if is_signed_factor { Role::Factor } else { role };
             route.push(place);
             self.visit(child, route, role);
             route.pop();
@@ -389,17 +401,17 @@ impl Walk<'_> {
 
     /// Two names of one kind exchanged in all of an expression.
     fn exchanges(&mut self, tree: &Tree) {
-        let mut names: Vec<String> = vec![];
-        collect_names(tree, &mut names);
-        names.sort();
+        let mut names = vec![];
+        site::names(tree, &mut names);
+        names.sort_unstable();
         names.dedup();
         for (place, first) in names.iter().enumerate() {
             for second in self.others(first) {
-                if names[place..].contains(&second) {
+                if names[place..].contains(&second.as_str()) {
                     let mut new = tree.clone();
                     exchange(&mut new, first, &second);
                     let mut parameters = self.problem.parameters.iter();
-                    let change = match parameters.any(|parameter| parameter.name == *first) {
+                    let change = match parameters.any(|parameter| parameter.name == **first) {
                         true => Change::Parameters,
                         false => Change::Exchange,
                     };
@@ -674,15 +686,6 @@ impl Walk<'_> {
                 self.add(Change::TakenBelow, route, new);
             }
         }
-    }
-}
-
-fn collect_names(tree: &Tree, names: &mut Vec<String>) {
-    if let Kind::Name(name) = &tree.kind {
-        names.push(name.clone());
-    }
-    for child in tree.children() {
-        collect_names(child, names);
     }
 }
 

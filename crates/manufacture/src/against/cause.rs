@@ -24,13 +24,13 @@ pub struct Edit {
 
 /// An edit with its data.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Named {
+pub(crate) struct Named {
     pub(super) change: Change,
     /// The factor that fits, of an edit that has one.
     pub(super) factor: f64,
     /// The label of the term, if the edit is about all of it.
     pub(super) label: Option<String>,
-    pub(super) edit: Edit,
+    pub(crate) edit: Edit,
 }
 
 /// A term with another factor.
@@ -96,7 +96,7 @@ fn of_factors(mut factors: impl Iterator<Item = f64> + Clone) -> &'static str {
 }
 
 /// The name of an edit, by what it changes.
-pub(super) fn kind(change: Change, factor: f64) -> &'static str {
+pub(crate) fn kind(change: Change, factor: f64) -> &'static str {
     match change {
         Change::Term => of_factors(std::iter::once(factor)),
         Change::Exponent => "exponent",
@@ -116,6 +116,7 @@ pub(super) fn kind(change: Change, factor: f64) -> &'static str {
         Change::Basis => "basis",
         Change::Exchange => "exchange",
         Change::Parameters => "parameters",
+        Change::Normal => "normal",
         Change::Derivative => "derivative",
         Change::Index => "index",
         Change::Branch => "branch",
@@ -281,6 +282,23 @@ fn one_edit(named: &Named, file: &str, others: &str) -> String {
     }
 }
 
+/// What is said of an edit that no point sees.
+pub(crate) fn unseen(named: &Named, file: &str) -> String {
+    let Edit {
+        kind,
+        line,
+        column,
+        old,
+        new,
+        ..
+    } = &named.edit;
+    let what = match named.change {
+        Change::Held => format!("if `{old}` is not differentiated"),
+        _ => format!("with `{new}` in place of `{old}`"),
+    };
+    format!("{kind}: the source is the same {what} ({file}:{line}:{column})")
+}
+
 /// `stress.toml:12:9: in tau: your source has 1/2 where the file has 1/3`.
 pub(super) fn place_and_text(named: &Named, file: &str) -> String {
     let Edit { key, old, new, .. } = &named.edit;
@@ -291,6 +309,7 @@ pub(super) fn place_and_text(named: &Named, file: &str) -> String {
         Change::OneDifferentiated => {
             format!("your source differentiates only `{new}` of the product `{old}`")
         }
+        Change::Normal => "your normal points inwards".to_owned(),
         _ if old.is_empty() => format!("your source has another summand, `{}`", new.trim_start()),
         _ if new.is_empty() => format!("your source lacks `{old}`"),
         _ => format!("your source has `{new}` where the file has `{old}`"),

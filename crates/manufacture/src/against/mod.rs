@@ -2,16 +2,16 @@
 //! what is wrong with it?
 
 pub(crate) mod ask;
-mod bench;
-mod candidates;
-mod cause;
+pub(crate) mod bench;
+pub(crate) mod candidates;
+pub(crate) mod cause;
 mod pairs;
 mod right;
 mod search;
 mod sentence;
-mod site;
+pub(crate) mod site;
 mod solve;
-mod text;
+pub(crate) mod text;
 mod whole;
 
 pub use ask::{CommandWords, command_words};

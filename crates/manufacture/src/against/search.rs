@@ -569,6 +569,7 @@ fn cost(candidate: &Candidate, factor: f64) -> usize {
     match candidate.change {
         Change::Term | Change::Summand if is_lost => 10,
         Change::LostFactor | Change::LostDivisor | Change::LostOperator => 10,
+        Change::Normal => 5,
         Change::TransposedGradient | Change::MissingTranspose | Change::Held => 11,
         Change::Exponent if text::has_simple_number(candidate, factor) => 11,
         Change::TimesForOver | Change::Order | Change::Operator | Change::Function => 12,

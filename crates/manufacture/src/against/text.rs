@@ -13,7 +13,7 @@ use crate::problem::{Expression, Place, Problem};
 /// An edit with the factor that fits, in the words of the file.
 ///
 /// * `whole`: the place of the quantity, for an edit that is about all of it.
-pub(super) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, factor: f64) -> Named {
+pub(crate) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, factor: f64) -> Named {
     let change = candidate.change;
     let kind = kind(change, factor);
     let about_all = |old: String, new: String| Edit {
@@ -26,6 +26,7 @@ pub(super) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, fac
             let [first, second] = names;
             about_all(format!("{first}, {second}"), format!("{second}, {first}"))
         }
+        Alteration::Normal => about_all("n".to_owned(), "-n".to_owned()),
         Alteration::Basis(basis) => {
             let system = problem.system.name();
             let new = match basis {

@@ -48,10 +48,6 @@ impl Component<'_, '_> {
         if self.fits(&self.source) {
             return Some(Cause::Equal);
         }
-        let inward = self.right.with_inward_normal(self.place);
-        if inward.is_some_and(|inward| self.fits(&inward)) {
-            return Some(Cause::Normal);
-        }
         let opposite: Column = self.source.iter().map(|s| -s).collect();
         if self.fits(&opposite) {
             return Some(match self.right.part {

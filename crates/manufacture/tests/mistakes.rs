@@ -259,7 +259,27 @@ fn two_mistakes_together_are_named() {
         let found = answered(GAS, &other, &SAMPLING);
         for comparison in found.iter().filter(|c| c.cause != "equal") {
             assert_eq!(comparison.edits.len(), 2, "{}", comparison.sentence);
-            println!("{}", comparison.sentence);
         }
     }
+}
+
+/// The page shows what a reader would meet.
+#[test]
+fn the_mistake_of_the_page_is_found_as_it_says() {
+    let page = include_str!("../NOTES.md");
+    let section = page.split("# A mistake that is found").nth(1).unwrap();
+    let block = |language: &str| {
+        let block = section.split(&format!("```{language}\n")).nth(1).unwrap();
+        block.split("```").next().unwrap()
+    };
+    let file = block("toml");
+    let other = file.replace("div(v)/3", "div(v)/2");
+    let lines: String = answered(file, &other, &SAMPLING)
+        .iter()
+        .map(|c| format!("{}\n", c.sentence.replace("test.toml", "stress.toml")))
+        .collect();
+    assert_eq!(
+        lines + "fail: a cause is what fits, not a proof\n",
+        block("text")
+    );
 }

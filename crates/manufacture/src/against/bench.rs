@@ -1,5 +1,6 @@
 //! Quantities of the file after an edit: only what the edit reaches is derived anew.
 
+use std::cell::Cell;
 use std::collections::{HashMap, HashSet};
 
 use super::site::{self, Home, Route};
@@ -40,19 +41,29 @@ pub(crate) struct Bench {
     part: Part,
     graph: Graph,
     mark: Mark,
+    nodes_as_written: usize,
     /// The values of definitions as written.
     known: HashMap<String, Tensor<NodeId>>,
     /// For each definition those that its value is part of, and itself.
     reached: HashMap<String, HashSet<String>>,
     /// Of the file, then 1 for each unknown factor.
     parameters: Vec<f64>,
+    /// Nodes that were derived or evaluated.
+    work: Cell<usize>,
 }
+
+/// To derive a node takes as long as to evaluate so many.
+const NEW_NODE: usize = 10;
+
+/// A search ends when it has derived and evaluated so many nodes: some ten seconds.
+const MOST_WORK: usize = 400_000_000;
 
 /// A quantity that may have been changed.
 pub(crate) struct Altered<'b> {
     graph: &'b Graph,
     pub(crate) tensor: Tensor<NodeId>,
     parameters: &'b [f64],
+    work: &'b Cell<usize>,
 }
 
 impl Altered<'_> {
@@ -61,6 +72,7 @@ impl Altered<'_> {
         Evaluation {
             tape: Tape::new(self.graph, &self.tensor.parts),
             parameters: self.parameters,
+            work: self.work,
         }
     }
 }
@@ -69,11 +81,13 @@ impl Altered<'_> {
 pub(crate) struct Evaluation<'b> {
     tape: Tape<'b>,
     parameters: &'b [f64],
+    work: &'b Cell<usize>,
 }
 
 impl Evaluation<'_> {
     /// All components at a point, with these unknown factors.
     pub(crate) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<Measured> {
+        self.work.set(self.work.get() + self.tape.work());
         let mut parameters = self.parameters.to_vec();
         let known = parameters.len() - factors.len();
         parameters[known..].copy_from_slice(&factors);
@@ -100,13 +114,20 @@ impl Bench {
         let graph = elaborator.algebra;
         Some(Self {
             reached: reached(&problem),
+            nodes_as_written: graph.len(),
             mark: graph.mark(),
             parameters,
+            work: Cell::new(0),
             graph,
             known,
             part,
             problem,
         })
+    }
+
+    /// Whether the limit of work is reached.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.work.get() > MOST_WORK
     }
 
     /// Whether a quantity may change if an expression does.
@@ -191,8 +212,11 @@ impl Bench {
                 graph: &self.graph,
                 tensor,
                 parameters: &self.parameters,
+                work: &self.work,
             })
         });
+        let nodes = self.graph.len() - self.nodes_as_written;
+        self.work.set(self.work.get() + NEW_NODE * nodes);
         self.graph.rewind(self.mark);
         seen
     }

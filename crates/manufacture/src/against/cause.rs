@@ -55,6 +55,8 @@ pub(super) struct Unexplained {
     /// How many edits were tried, and how many pairs.
     pub(super) edits: usize,
     pub(super) pairs: usize,
+    /// The limit of work was reached.
+    pub(super) is_cut: bool,
 }
 
 /// What explains the values of another program.
@@ -250,7 +252,13 @@ impl Unexplained {
             true => String::new(),
             false => format!("; nearest, but no explanation: {}", nearest.join("; ")),
         };
-        format!("no explanation found by {edits} edit(s) and {pairs} pair(s) of the best{nearest}")
+        let cut = match self.is_cut {
+            true => ", where the limit of work was reached",
+            false => "",
+        };
+        format!(
+            "no explanation found by {edits} edit(s) and {pairs} pair(s) of the best{cut}{nearest}"
+        )
     }
 }
 

@@ -47,6 +47,9 @@ impl Effect {
 /// The best edits, which are tried together with all others.
 const BEST: usize = 60;
 
+/// Pairs that are held against all points.
+const MOST_CONFIRMED: usize = 20;
+
 /// What a pair may leave of the difference, before it is held against all points.
 const LEFT: f64 = 1e-7;
 
@@ -110,6 +113,7 @@ pub(super) fn search(
     });
     let mut confirmed = fitting
         .iter()
+        .take(MOST_CONFIRMED)
         .filter_map(|pair| confirmed(search, quantity, trial, pair));
     pairs.found.extend(confirmed.next());
     pairs

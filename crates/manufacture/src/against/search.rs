@@ -166,6 +166,7 @@ impl<'a, 'm> Search<'a, 'm> {
                             nearest: self.nearest(quantity, &tried),
                             edits: tried.count,
                             pairs: pair.count,
+                            is_cut: self.bench.is_exhausted(),
                         }),
                     })
                 }
@@ -186,6 +187,9 @@ impl<'a, 'm> Search<'a, 'm> {
             };
             if !reaches || candidate.is_rare != is_rare {
                 continue;
+            }
+            if self.bench.is_exhausted() {
+                break;
             }
             let seen = self
                 .bench

@@ -3,6 +3,7 @@
 mod bench;
 mod references;
 mod regressions;
+mod tables;
 
 use std::process::ExitCode;
 
@@ -56,6 +57,7 @@ enum Command {
 enum Dev {
     References(references::Arguments),
     Regressions(regressions::Arguments),
+    Tables(tables::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
         Command::Dev(Dev::References(arguments)) => references::run(&arguments),
         Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
+        Command::Dev(Dev::Tables(arguments)) => tables::run(&arguments),
     })
 }
 

@@ -175,6 +175,34 @@ fn a_text_is_read_in_time_proportional_to_its_lines_names_and_columns() {
     assert!(slow.is_empty(), "{slow:?}");
 }
 
+#[test]
+fn a_text_beyond_the_limits_is_refused() {
+    let tables = |count: usize| "# more\nh L2\n0.2 0.04\n0.1 0.01\n".repeat(count);
+    for (text, words) in [
+        (
+            "0.1 1\n".repeat(10_001),
+            "at most 10000 rows, found 10001 rows",
+        ),
+        (
+            format!("h{}\n0.1{}\n", ",a".repeat(5_000), ",1".repeat(5_000)),
+            "at most 5000 columns, found 5001",
+        ),
+        (tables(1_001), "at most 1000 tables, found 1001"),
+        (
+            format!("h,{}\n0.1,1\n", "x".repeat(65_536)),
+            "a name of at most 200 characters, found 65536",
+        ),
+        (
+            "h,L2\u{202e}\n0.1,1\n".to_owned(),
+            "a name without control characters",
+        ),
+    ] {
+        let message = refused(&text);
+        assert!(message.contains(words), "{message}");
+        assert!(message.len() < 500, "{} bytes", message.len());
+    }
+}
+
 /// The error in a table of one row.
 fn read(cell: &str) -> Option<f64> {
     let table = parsed(&format!("h;e\n1;{cell}\n")).ok()?;

@@ -40,7 +40,7 @@ pub use judge::{
     richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},
     verdict::{
         Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, PowerLaw,
-        RateVerdict, Reading, Reason, SetAside, Verdict, WIDEST_TOLERANCE, judge, judge_pairs,
-        observe,
+        RateVerdict, Reading, Reason, SetAside, Tendency, Verdict, WIDEST_TOLERANCE, judge,
+        judge_pairs, observe,
     },
 };

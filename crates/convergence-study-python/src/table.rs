@@ -1,6 +1,7 @@
 //! Tables of several errors, read as `convergence-study rates` reads them.
 
 use convergence_harness::input::error_table::{Choice, Column, RateTable};
+use convergence_harness::judge::verdict::observe;
 use convergence_harness::study::Claim;
 use pyo3::prelude::*;
 
@@ -67,7 +68,7 @@ pub(crate) fn judge_table(
         step: table.step.clone(),
         rate: match &claim {
             Some(claim) => claim.judge(&column.levels, floor),
-            None => column.observe(floor),
+            None => observe(&column.levels, floor),
         },
         levels: column.levels.clone(),
         claim,

@@ -95,8 +95,8 @@ def test_offers_are_the_call_as_it_was_made_with_other_arguments(convergence):
     assert text.splitlines() == ["h: expected one of dim=... and ratio=..., found both", "  judge(table, order=2, ratio=2)"]
     values = {"h": STEPS, "it's": [3.1, 3.04, 3.01, 3.0025]}
     assert "expected a column of errors, or columns=LIST, found `it's` (tends to 3" in refusal(values, order=2)
-    doubtful = {"h": STEPS, "it's": [1.0, 3.0, 2.0, 4.0], "2": SQUARES}
-    assert refusal(doubtful, order=2).splitlines()[1:] == ["  judge(table, order=2, columns=[2])", "  judge(table, order=2, columns=[2, \"it's\"])"]
+    doubtful = {"h": STEPS, "it's": [3.1, 3.04, 3.01, 3.0025], "2": SQUARES}
+    assert refusal(doubtful, order=2).splitlines()[1:] == ["  judge(table, order=2, columns=[2, \"it's\"])  # if it is an error"]
     for function, name in [(cs.assert_order, "assert_order"), (convergence.assert_order, "convergence.assert_order")]:
         assert f"\n  {name}(table, order=2, dim=1)  # along an edge" in refusal({"n": N, "L2": E}, function=function, order=2)
 
@@ -309,3 +309,12 @@ def test_rates_returns_what_the_program_prints(tmp_path):
 def test_the_package_has_its_version():
     metadata = pytest.importorskip("importlib.metadata")
     assert cs.__version__ == metadata.version("convergence-study")
+
+
+def test_a_name_or_a_step_that_is_given_twice_is_refused():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame([[h, h * h, h] for h in STEPS], columns=["h", "e", "e"])
+    assert refusal(table, order=2) == "expected each name of a column once, found `e` twice"
+    assert refusal([0.4, 0.2, 0.2, 0.1], SQUARES, order=2) == "h: expected each step once, found 0.2 twice"
+    with pytest.raises(ValueError, match="each name of an error once, found `1` twice"):
+        cs.study(lambda n: {1: n**-2.0, "1": 1 / n}, [4, 8, 16], order=2)

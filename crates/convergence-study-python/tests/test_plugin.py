@@ -69,7 +69,7 @@ def test_numbers_are_guarded_once_they_are_blessed(project):
     tests.write_text(TESTS.replace('n**-2.0}, order={"L2": 2}', '1.01 * n**-2.0}, order={"L2": 2}, tolerance=0.4'))
     moved = project.runpytest_subprocess()
     assert moved.ret == 1
-    moved.assert_outcomes(passed=2)
+    moved.assert_outcomes(passed=2, errors=1)
     moved.stdout.fnmatch_lines(["*expect.L2.tolerance*0.25*0.4*", "*error L2, n = 8*"])
     refused = project.runpytest_subprocess("--convergence-bless")
     assert refused.ret == 1
@@ -93,7 +93,7 @@ def test_a_guarded_test_that_is_deleted_is_named_by_a_whole_run(project):
     bless(project)
     (project.path / "tests/test_orders.py").write_text(TESTS)
     whole = project.runpytest_subprocess("--convergence-report", "out")
-    whole.assert_outcomes(passed=2)
+    whole.assert_outcomes(passed=2, errors=1)
     assert whole.ret == 1
     whole.stdout.fnmatch_lines(["1 guarded test is gone: test_b", "  restore what was deleted, or accept it with --convergence-bless*"])
     assert "2 studies deleted" in (project.path / "out/README.md").read_text()
@@ -160,7 +160,7 @@ def test_workers_of_xdist_report_bless_and_guard(project):
     tests.write_text(tests.read_text().replace('n**-2.0}', '1.01 * n**-2.0}'))
     moved = project.runpytest_subprocess("-n", "2")
     assert moved.ret == 1
-    moved.assert_outcomes(passed=6)
+    moved.assert_outcomes(passed=6, errors=1)
     moved.stdout.fnmatch_lines(["baseline: test-orders-test-study: error L2, n = 8 moved*"])
 
 

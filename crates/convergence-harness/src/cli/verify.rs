@@ -268,7 +268,10 @@ fn text(
         ..
     } = arguments;
     let verdict = screen::verdict(found.record.verdict);
-    let sentence = sentence(&found.record.studies, found.record.changes.as_deref());
+    // Numbers that have just become the baseline are not "unchanged".
+    let is_blessed = matches!(found.blessing, Blessing::Taken);
+    let changes = found.record.changes.as_deref().filter(|_| !is_blessed);
+    let sentence = sentence(&found.record.studies, changes);
     let table = if *quiet {
         String::new()
     } else {

@@ -108,6 +108,12 @@ impl Invocation {
         CaseFailure::new(format!("{} {what}", visible(&self.words[0])))
     }
 
+    /// Why the program is not there: a relative path is one of its folder.
+    fn not_started(&self, error: &io::Error) -> String {
+        let folder = visible(&self.directory.display().to_string());
+        format!("cannot be started in the folder {folder}: {error}")
+    }
+
     /// Runs the command to its end with status 0.
     ///
     /// * `read`: reads its standard output, in a thread of its own.
@@ -123,8 +129,7 @@ impl Invocation {
             CaseFailure::new(format!("the guard of {program} cannot be started: {error}"))
         })?;
         let child = group.start(&mut self.command());
-        let mut child =
-            child.map_err(|error| self.failed(&format!("cannot be started: {error}")))?;
+        let mut child = child.map_err(|error| self.failed(&self.not_started(&error)))?;
         let printed = in_background(child.stdout.take(), read);
         let words = in_background(child.stderr.take(), read_last_words);
         let input = self.input.clone();

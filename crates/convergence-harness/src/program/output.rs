@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Read};
 
 use serde_json::{Map, Value};
 
-use super::answer;
+use super::answer::{self, STEPS_AND_WORK};
 use crate::input::error_table::pairs::named_numbers;
 use crate::text::visible::visible;
 
@@ -15,6 +15,9 @@ const LONGEST_LINE: usize = 1 << 20;
 /// Number of lines of standard error that are shown, and of characters of each.
 const LAST_LINES: usize = 3;
 const LAST_CHARACTERS: usize = 160;
+
+/// Most names that are listed where none of them is expected.
+const MOST_OTHERS: usize = 8;
 
 /// Why a program has not answered.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -37,6 +40,7 @@ pub(super) fn read_output(
     let mut near_miss = None;
     let mut is_broken = false;
     let mut numbers: Vec<(String, f64)> = vec![];
+    let mut others: Vec<String> = vec![];
     let mut last = String::new();
     for_each_line(stream, |line, is_whole| {
         match answer::object(line) {
@@ -58,6 +62,10 @@ pub(super) fn read_output(
                     if names.iter().any(|known| known == name) {
                         numbers.retain(|(known, _)| known != name);
                         numbers.push((name.to_owned(), number));
+                    } else if others.len() < MOST_OTHERS
+                        && !others.iter().any(|other| other == name)
+                    {
+                        others.push(visible(name));
                     }
                 }
             }
@@ -71,6 +79,14 @@ pub(super) fn read_output(
     object.ok_or_else(|| NoAnswer {
         reason: match near_miss {
             _ if last.is_empty() => "its standard output is empty".to_owned(),
+            None if !others.is_empty() => {
+                let found = others.iter().map(|name| format!("`{name}`"));
+                format!(
+                    "found {}; the study has {}",
+                    found.collect::<Vec<_>>().join(", "),
+                    wanted(names)
+                )
+            }
             None => format!("no line of its standard output is a JSON object; {quoted}"),
             Some(error) => {
                 let what = "its last line that begins with a brace is no JSON object";
@@ -80,6 +96,15 @@ pub(super) fn read_output(
         last_line,
         numbers: if is_broken { vec![] } else { numbers },
     })
+}
+
+/// The names that a study expects, without those of steps and work, which may be absent.
+fn wanted(names: &[String]) -> String {
+    let names = names
+        .iter()
+        .filter(|name| !STEPS_AND_WORK.contains(&name.as_str()));
+    let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+    names.join(", ")
 }
 
 /// Reads standard error to its end and joins its last lines that are not blank.

@@ -3,18 +3,14 @@
 use std::slice;
 
 use super::{JudgedColumn, Judgement};
-use crate::input::error_table::{Doubt, NotError, limit};
+use crate::input::error_table::{Doubt, NotError};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{RateVerdict, Reason, Verdict};
-use crate::text::number::{counted, error_text, pair_text, plain_text, short_text};
+use crate::judge::verdict::{Tendency, Verdict};
+use crate::text::number::{counted, pair_text, plain_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
 
-/// Largest difference between two steady rates.
-const STEADY: f64 = 0.2;
-/// Least fall, in orders, of a steady rate where the error stops falling.
-const STOP: f64 = 0.5;
 /// Most columns that a verdict names as left out.
 const LISTED: usize = 12;
 /// Most levels that are predicted.
@@ -211,74 +207,21 @@ pub(super) fn advice_of_claim(
     (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged, findings))
 }
 
-/// What the reason means for a column, and what to do, using its numbers if they show more than the
-/// reason.
+/// What the errors tend to, or what the reason means, and what to do; for a value that looks like an
+/// error, how it is judged as one.
 fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
     let rate = &judged.rate;
-    let name = &judged.column.name;
-    let step = &findings.source.table.step;
     let general = rate.advice().unwrap_or_default();
-    let errors: Vec<f64> = judged
-        .column
-        .levels
-        .iter()
-        .map(|level| level.error)
-        .collect();
-    let grows = |rates: &[f64]| rates.len() > 1 && rates.iter().all(|rate| *rate < 0.0);
-    let stays = matches!(
-        rate.kind,
-        Reason::ErrorGrows | Reason::FallsAway | Reason::TooLow | Reason::ZeroError
-    );
-    if judged.estimate.is_some() || rate.cause.is_some() || !(stays || rate.kind.wants_a_level()) {
-        general
-    } else if errors
-        .iter()
-        .position(|error| *error == 0.0)
-        .is_some_and(|zero| zero + 1 == errors.len())
-    {
-        format!(
-            "{name} is zero on the finest level only. Is that level its own reference? Leave it out."
-        )
-    } else if findings
-        .columns
-        .iter()
-        .all(|column| !column.is_claimed() || grows(&column.rate.pairwise))
-    {
-        format!("The errors fall as `{step}` grows. Do they stand beside their own steps?")
-    } else if let Some(level) = stop(&rate.pairwise) {
-        let rate = rate.pairwise[level - 1];
-        let error = error_text(errors[level]);
-        let causes = "the solver's tolerance, the reference solution, round-off (--floor), the error of the other axis?";
-        format!(
-            "{name} falls with rate {rate:.2} down to {error}, then stops. What stays there: {causes}"
-        )
-    } else if let Some(limit) = limit(&errors).filter(|_| may_be_zero(rate)).map(plain_text) {
-        let would = format!(
-            "{name} would tend to {limit}, not to zero, if its differences went on falling as the last two"
-        );
-        format!("{would}. If it is a value and no error: --values '{name}'. {general}")
-    } else {
-        general + &next_level(judged, findings).unwrap_or_default()
+    match rate.tendency {
+        _ if judged.estimate.is_some() => general,
+        Some(Tendency::Constant { .. }) => {
+            let name = &judged.column.name;
+            format!("{general} If `{name}` is a value and no error: --values '{name}'.")
+        }
+        Some(_) => general,
+        None if rate.cause.is_some() => general,
+        None => general + &next_level(judged, findings).unwrap_or_default(),
     }
-}
-
-/// Whether the rate may be 0, within the tolerance, and the finest levels do not say otherwise.
-fn may_be_zero(rate: &RateVerdict) -> bool {
-    let tolerance = rate.claimed.map_or(0.0, |band| band.tolerance);
-    rate.interval.is_none_or(|[low, _]| low <= tolerance)
-        && rate.finest_rate().is_none_or(|rate| rate < STOP)
-}
-
-/// The level down to which the error falls at a steady rate, if it stops falling there.
-fn stop(rates: &[f64]) -> Option<usize> {
-    let last = rates.last()?;
-    (2..rates.len()).find(|&k| {
-        let steady = rates[k - 1];
-        let stops = rates[k..].iter().all(|rate| *rate < steady - STOP)
-            && *last < 0.5 * steady
-            && steady > STOP;
-        stops && (rates[k - 2] - steady).abs() <= STEADY
-    })
 }
 
 /// The level that would decide if the rates continued: their changes shrink as the last two did.
@@ -322,21 +265,8 @@ fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<Str
         } else {
             plain_text(1.0 / parts)
         };
-        let (which, are) = if ahead == 1 {
-            ("Another level,", "is")
-        } else {
-            ("Levels down to", "are")
-        };
-        let half = |interval: [f64; 2]| short_text(0.5 * (interval[1] - interval[0]));
-        let now = judged.rate.interval.map_or(String::new(), |now| {
-            format!("interval ± {} now, ", half(now))
-        });
-        let then = format!(
-            "{name}: {now}about ± {} then",
-            next.interval.map_or(String::new(), half)
-        );
         return Some(format!(
-            " {which} {step} = {at}, {are} likely to decide ({then})."
+            " If the rates of {name} change on as the last ones do, a level at {step} = {at} decides."
         ));
     }
     None

@@ -3,9 +3,10 @@
 use std::cmp::Reverse;
 use std::collections::HashSet;
 use std::fmt;
+use std::mem::{Discriminant, discriminant};
 
 use super::Finished;
-use crate::judge::verdict::{Cause, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{Cause, RateVerdict, Reason, Tendency, Verdict};
 use crate::study::kind::cases_in_words;
 use crate::study::{Check, NamedRate, Origin, Outcome};
 use crate::text::lists::grouped;
@@ -160,7 +161,8 @@ impl<'f> NotPassed<'f> {
         self.study.outcome.verdict
     }
 
-    /// What the reasons of its rates mean, each once, then what their causes are.
+    /// What the errors tend to, or what the reasons of its rates mean, each once, then what their
+    /// causes are. Of errors that tend to several constants the first is given.
     pub fn advice(&self) -> Vec<String> {
         let mut rates = vec![];
         for item in &self.items {
@@ -170,8 +172,11 @@ impl<'f> NotPassed<'f> {
         }
         let mut advice = vec![];
         for reason in Reason::ALL {
-            if rates.iter().any(|rate| rate.kind == reason) {
-                advice.push(format!("{}: {}", reason.code(), reason.advice()));
+            let of_reason = rates.iter().filter(|rate| rate.kind == reason);
+            let tendencies = of_reason.map(|rate| (rate.tendency.map(kind_of), rate.tendency));
+            for (_, alike) in grouped(tendencies) {
+                let words = alike[0].map_or_else(|| reason.advice().to_owned(), Tendency::advice);
+                advice.push(format!("{}: {words}", reason.code()));
             }
         }
         for cause in Cause::ALL {
@@ -181,6 +186,11 @@ impl<'f> NotPassed<'f> {
         }
         advice
     }
+}
+
+/// The tendency without its numbers.
+fn kind_of(tendency: Tendency) -> Discriminant<Tendency> {
+    discriminant(&tendency)
 }
 
 /// The studies that did not pass: failed ones first, then inconclusive ones, and last those that

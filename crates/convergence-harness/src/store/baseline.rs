@@ -40,6 +40,7 @@ use crate::study::{Header, Quantity};
 use crate::text::{json, visible};
 
 use change::Claims;
+pub(crate) use change::signed_percent;
 pub use change::{BlessedClaim, Change, Movement, without_baseline};
 
 /// Version of the file format.

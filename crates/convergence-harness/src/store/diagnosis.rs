@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{Change, Movement};
+use crate::store::{Change, Movement, baseline::signed_percent};
 use crate::study::{Check, Header, NamedRate, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
-use crate::text::number::short_text;
+use crate::text::number::{decimals, short_text};
 use contrast::{Vote, contrast};
 
 pub use contrast::Contrast;
@@ -336,8 +336,12 @@ fn groups_of_moved_numbers(finished: &[Finished], changes: &[Change]) -> Vec<Str
 fn movement_in_words(movement: &Movement) -> String {
     match movement {
         Movement::Moved { from, to, .. } => {
-            let change = 100.0 * (to - from) / from.abs();
-            format!("by {}{change:.0e} %", if change > 0.0 { "+" } else { "" })
+            let change = (to - from) / from.abs();
+            if change.is_finite() {
+                format!("by {}", signed_percent(change))
+            } else {
+                format!("from {} to {}", short_text(*from), short_text(*to))
+            }
         }
         Movement::Vanished { .. } => "gone".to_owned(),
         _ => "another tolerance".to_owned(),
@@ -391,7 +395,7 @@ impl Diagnosis {
                     count => format!("{claim} ({count} times)"),
                 });
             }
-            lines.push(("not so", list_of_first(claims, "")));
+            lines.push(("also fails", list_of_first(claims, "")));
         }
         for (
             count,
@@ -467,13 +471,12 @@ impl Field {
     fn words(&self) -> String {
         let rate = self
             .rate
-            .map(|[rate, order]| format!("rate {rate:.3} for {order}"));
-        let times = if self.factor.is_finite() {
-            short_text(self.factor)
-        } else {
-            "infinity".to_owned()
+            .map(|[rate, order]| format!("rate {} for {order}", decimals(rate, 3)));
+        let times = short_text(self.factor);
+        let factor = match self.factor.is_finite() {
+            true => (times != "1").then(|| format!("by a factor up to {times}")),
+            false => Some("no longer zero".to_owned()),
         };
-        let factor = (times != "1").then(|| format!("by a factor up to {times}"));
         let words: Vec<String> = rate.into_iter().chain(factor).collect();
         if words.is_empty() {
             self.name.clone()

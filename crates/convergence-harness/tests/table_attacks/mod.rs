@@ -1,6 +1,7 @@
 //! Attacks on the reader of tables: texts that look like tables that pass, and must not.
 
 mod forms;
+mod laws;
 
 use convergence_harness::input::error_table::Choice;
 use convergence_harness::rates::{self, Claimed, Request, Sheet, claimed};

@@ -126,7 +126,7 @@ impl Gci {
 /// much the larger (4 and 1.2 with p = 1). The equation is equivalent to
 /// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p,
 /// from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
-fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
+pub(crate) fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
     let [.., coarse, middle, fine] = values else {
         return Err(Refusal::TooFewValues(values.len()));
     };

@@ -10,6 +10,7 @@ mod cause;
 mod outcome;
 mod reading;
 mod reason;
+mod tendency;
 mod trend;
 mod words;
 
@@ -17,6 +18,7 @@ pub use cause::Cause;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::Reading;
 pub use reason::Reason;
+pub use tendency::Tendency;
 pub use trend::{departs, falls_away};
 pub use words::{Aside, SetAside, Verdict};
 

@@ -3,11 +3,18 @@
 
 use std::path::Path;
 
-/// Text on one line: every control character, line ends included, is replaced by U+FFFD.
+/// Whether a character controls a terminal, or shows nothing and may turn the text behind it round:
+/// the marks of the direction of writing, and blanks without width.
+pub fn is_hidden(c: char) -> bool {
+    let is_mark = matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
+    c.is_control() || is_mark
+}
+
+/// Text on one line: every [hidden](is_hidden) character, line ends included, is replaced by U+FFFD.
 pub fn visible(text: &str) -> String {
     text.chars()
         .map(|c| {
-            if c.is_control() {
+            if is_hidden(c) {
                 char::REPLACEMENT_CHARACTER
             } else {
                 c
@@ -21,11 +28,11 @@ pub fn path(path: &Path) -> String {
     visible(&path.display().to_string())
 }
 
-/// Text of several lines without control characters other than line ends and tabs.
+/// Text of several lines without [hidden](is_hidden) characters other than line ends and tabs.
 pub fn lines(text: &str) -> String {
     text.chars()
         .map(|c| {
-            if c.is_control() && c != '\n' && c != '\t' {
+            if is_hidden(c) && c != '\n' && c != '\t' {
                 char::REPLACEMENT_CHARACTER
             } else {
                 c

@@ -106,6 +106,7 @@ class Run:
         self.studies, self._lines = [], []
         self._passed, self._not_collected = set(), []
         self._is_selection = False
+        self._is_well = True
 
     def free_id(self, test):
         """An id for the next study of a test."""
@@ -142,6 +143,7 @@ class Run:
         except (OSError, ValueError) as error:
             self._lines.append(str(error))
             is_well = False
+        self._is_well = is_well
         if not is_well and session.exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
             session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
@@ -193,6 +195,16 @@ class Run:
             terminalreporter.section("convergence")
             for line in self._lines:
                 terminalreporter.write_line(line)
+        if not self._is_well:
+            # The last line of pytest counts it: a run that ends with status 1 is not "1 passed".
+            terminalreporter.stats.setdefault("error", []).append(not_well(self._lines))
+
+
+def not_well(lines):
+    """The report of an error that no test has: numbers or claims moved, or a file could not be written."""
+    why = lines[0] if lines else "studies are not as the baseline has them"
+    place = "tests/convergence.json"
+    return pytest.TestReport(place, (place, None, "convergence"), {}, "failed", why, "teardown")
 
 
 def in_words(gone):

@@ -61,7 +61,7 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
         ),
         (
             "print \"maximal error = 1e-3\"",
-            "awk answered nothing: no line of its standard output is a JSON object",
+            "awk answered nothing: found `maximal error`; the study has `max error`",
         ),
         (
             "print \"max error 1e-3\"",

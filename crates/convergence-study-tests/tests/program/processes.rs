@@ -60,7 +60,8 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     let (status, out, _) = place.study(&[]);
     assert!(
         status == Some(1)
-            && out.contains("n = 4 and 4 more: ./nowhere cannot be started: No such file"),
+            && out.contains("n = 4 and 4 more: ./nowhere cannot be started in the folder /")
+            && out.contains(": No such file"),
         "{out}"
     );
     // Children that outlive their program, inside or outside its group, harm neither this case nor

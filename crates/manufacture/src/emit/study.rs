@@ -16,7 +16,7 @@ pub(super) fn study(model: &Model) -> Option<EmittedFile> {
     let claim = orders.collect::<Vec<_>>().join(", ");
     let mut text = format!(
         "[study]\nid = \"{id}\"\nclaim = \"orders of the errors against the manufactured solution: {claim}\"\n\
-         kind = \"program\"\ntier = \"quick\"\n\n[program]\ncommand = {:?}\n\n[refine]\nn = {:?}\n",
+         kind = \"program\"\ntier = \"quick\"\n\n[program]\ncommand = {:?}\n# The folder of the program, as seen from this file: change it with the place of the file.\ndirectory = \".\"\n\n[refine]\nn = {:?}\n",
         study.command, study.n
     );
     for (error, order) in &study.orders {

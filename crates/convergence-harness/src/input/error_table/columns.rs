@@ -340,7 +340,7 @@ pub(super) enum Trend {
 }
 
 /// The limit of numbers, if it is near the last of them and not zero.
-pub fn limit(numbers: &[f64]) -> Option<f64> {
+pub(super) fn limit(numbers: &[f64]) -> Option<f64> {
     let [.., a, b, c] = *numbers else { return None };
     let shrinks = (c - b) / (b - a);
     let limit = if shrinks.abs() < 0.95 {

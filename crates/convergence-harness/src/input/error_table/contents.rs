@@ -9,8 +9,8 @@ use super::reader::{NEIGHBOURS, TableReader};
 use super::roles::reasons;
 use super::stated::DIMENSIONS;
 use super::step::Step;
-use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
+use crate::input::{InputError, shorten};
 use crate::text::number::plain_text;
 
 /// Rates are searched for over the steps and this many columns of counts.
@@ -62,6 +62,14 @@ struct Undecided {
     limits: Vec<usize>,
     /// Whole numbers that grow.
     counts: Vec<usize>,
+    /// A name in a log with more numbers or fewer than there are levels, and why it is no column.
+    uneven: Option<LeftOut>,
+}
+
+impl Undecided {
+    fn is_empty(&self) -> bool {
+        self.limits.is_empty() && self.counts.is_empty() && self.uneven.is_none()
+    }
 }
 
 impl TableReader<'_> {
@@ -92,7 +100,10 @@ impl TableReader<'_> {
     ) -> Result<Vec<usize>, InputError> {
         let mut errors = vec![];
         let mut residuals = vec![];
-        let mut undecided = Undecided::default();
+        let mut undecided = Undecided {
+            uneven: self.uneven(),
+            ..Undecided::default()
+        };
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
             let reason = match self.content(k, step.column, steps)? {
                 Content::Error => {
@@ -142,10 +153,20 @@ impl TableReader<'_> {
         if errors.is_empty() && values.is_empty() {
             return Err(self.refuse_without_errors(&undecided.limits)?);
         }
-        if undecided.limits.is_empty() && undecided.counts.is_empty() {
+        if undecided.is_empty() {
             return Ok(errors);
         }
         Err(self.refuse_undecided(&errors, values, &undecided))
+    }
+
+    /// The first name with a number of numbers of its own that may be an error under a claim for all
+    /// columns.
+    fn uneven(&self) -> Option<LeftOut> {
+        let mut left_out = self.left_out.iter().filter(|one| one.may_be_error());
+        left_out
+            .next()
+            .filter(|_| self.choice.claimed.is_empty())
+            .cloned()
     }
 
     fn leave_out(&mut self, k: usize, Reason { words, is_checked }: Reason) {
@@ -180,14 +201,24 @@ impl TableReader<'_> {
         &self,
         errors: &[usize],
         values: &[usize],
-        Undecided { limits, counts }: &Undecided,
+        Undecided {
+            limits,
+            counts,
+            uneven,
+        }: &Undecided,
     ) -> InputError {
-        let found = match limits.first() {
-            Some(limit) => format!(
+        let found = match (limits.first(), uneven) {
+            (None, Some(LeftOut { name, reason, .. })) => {
+                format!(
+                    "`{}`, {reason}: a table of its own, or no error",
+                    shorten(name)
+                )
+            }
+            (Some(limit), _) => format!(
                 "{}, which tends to a limit: a value, or an error that no longer falls",
                 self.quoted(&[*limit])
             ),
-            None => format!(
+            (None, None) => format!(
                 "{}, whole numbers that grow: a count, or an error that grows",
                 self.quoted(&counts[..1])
             ),
@@ -198,21 +229,23 @@ impl TableReader<'_> {
             + " to say what each column holds";
         let mut as_others = self.offer(|choice| {
             choice.values = self.names(&[values, limits].concat());
-            if !counts.is_empty() && !errors.is_empty() {
+            if (!counts.is_empty() || uneven.is_some()) && !errors.is_empty() {
                 choice.columns = Some(self.names(errors));
             }
         });
         as_others.comment = match (limits.len(), counts.len()) {
             (1.., 1..) => "if they are values and counts",
             (1.., _) => "if it is a value",
-            _ => "if it is a count",
+            (_, 1..) => "if it is a count",
+            _ => "if it is no error",
         };
         let as_errors = Offer {
             comment: "if it is an error",
             ..self.with_columns(&[errors, limits, counts].concat())
         };
+        let as_errors = (!limits.is_empty() || !counts.is_empty()).then_some(as_errors);
         self.refuse(expected, &found)
-            .offering([as_others, as_errors])
+            .offering([as_others].into_iter().chain(as_errors))
     }
 
     /// The command with these columns as errors.

@@ -27,6 +27,7 @@ mod forms;
 mod frame;
 mod groups;
 mod heads;
+mod limits;
 mod markup;
 pub(crate) mod names;
 mod number;
@@ -43,7 +44,7 @@ use std::path::Path;
 
 use super::advice::{Argument, Setting, Surface, Value};
 use crate::input::{self, InputError};
-pub use columns::limit;
+
 pub use digits::Column;
 pub use doubt::Doubt;
 pub use frame::FrameColumn;

@@ -63,6 +63,15 @@ pub(super) struct LeftOut {
     pub(super) is_checked: bool,
 }
 
+impl LeftOut {
+    /// Whether its name does not say that it is something else.
+    pub(super) fn may_be_error(&self) -> bool {
+        Word::of(&names::without_markup(&self.name))
+            .noun()
+            .is_none()
+    }
+}
+
 /// Longest text in which a name is looked for before its number, in bytes.
 const LONGEST_LABEL: usize = 400;
 

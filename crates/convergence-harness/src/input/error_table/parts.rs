@@ -277,7 +277,8 @@ fn after_number(text: &str, pairs: &[Pair<'_>], k: usize) -> usize {
         .map_or(end, |line| end + line + 1)
 }
 
-/// The pairs with which names begin after others that occur several times have ended.
+/// The pairs with which rows begin whose names come after others that occur several times have
+/// ended.
 fn successive_names(pairs: &[Pair<'_>]) -> Vec<usize> {
     struct Range {
         first: usize,
@@ -299,11 +300,16 @@ fn successive_names(pairs: &[Pair<'_>]) -> Vec<usize> {
         .filter(|range| range.count > 1)
         .collect();
     ranges.sort_by_key(|range| range.first);
+    // A row begins with the name that begins the first one.
+    let Some(begins) = ranges.first().map(|range| pairs[range.first].name) else {
+        return vec![];
+    };
     let mut cuts = vec![];
     let mut end = usize::MAX;
     for Range { first, last, .. } in ranges {
         if first > end {
-            cuts.push(first);
+            let mut between = (end + 1)..first;
+            cuts.push(between.find(|k| pairs[*k].name == begins).unwrap_or(first));
             end = last;
         }
         end = end.min(last);

@@ -13,6 +13,7 @@ use crate::input::advice::{Argument, Text};
 use crate::input::{Complaint, InputError, Source, failed, shorten};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::counted;
+use crate::text::visible::is_hidden;
 
 /// Most names that a message lists.
 const LISTED: usize = 12;
@@ -123,7 +124,7 @@ impl<'t> TableReader<'t> {
         }
         if let Some(k) = names
             .iter()
-            .position(|column| column.name.contains(char::is_control))
+            .position(|column| column.name.contains(is_hidden))
         {
             let found = format!("`{}`", shorten(&names[k].name));
             let expected = "a name without control characters";

@@ -9,6 +9,7 @@ use super::doubt;
 use super::failed_run;
 use super::frame::Original;
 use super::groups;
+use super::limits;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
 use super::parts::{self, Part};
@@ -37,6 +38,7 @@ pub(super) fn read_all(
     choice: &Choice,
 ) -> Result<Vec<(String, RateTable)>, InputError> {
     let parts = parts::read(original.text);
+    limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {
@@ -135,7 +137,8 @@ fn attempt_all(
 /// Whether some name of a grid is not that of a step, a count, a rate or a cost.
 fn may_have_errors(grid: &RawTable<'_>, choice: &Choice) -> bool {
     let names = grid.column_names(choice.names.as_deref());
-    names.iter().any(|column| column.word.noun().is_none())
+    let is_uneven = grid.left_out.iter().any(LeftOut::may_be_error);
+    is_uneven || names.iter().any(|column| column.word.noun().is_none())
 }
 
 /// The k-th column over the steps.

@@ -148,7 +148,7 @@ impl TableReader<'_> {
             {
                 let expected =
                     Text::from("one column of steps, or ") + Argument::Step.with_placeholder();
-                let refusal = self.refuse(expected, &self.names(&steps).join(", "));
+                let refusal = self.refuse(expected, &listed(self.names(&steps).into_iter()));
                 return Err(refusal.offering([*first, *other].map(|k| self.with_step(k))));
             }
             let how = if others.is_empty() {

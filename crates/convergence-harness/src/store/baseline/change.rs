@@ -296,9 +296,8 @@ fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt:
     if change.is_finite() {
         write!(
             f,
-            ", by {}{}, tolerated {}",
-            if change > 0.0 { "+" } else { "" },
-            percent(change),
+            ", by {}, tolerated {}",
+            signed_percent(change),
             percent(tolerance)
         )
     } else if from == 0.0 && to.is_finite() {
@@ -306,6 +305,12 @@ fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt:
     } else {
         write!(f, ", which is not finite and matches nothing")
     }
+}
+
+/// The same with its sign.
+pub(crate) fn signed_percent(share: f64) -> String {
+    let sign = if share > 0.0 { "+" } else { "" };
+    format!("{sign}{}", percent(share))
 }
 
 /// A share as a percentage with two significant digits.

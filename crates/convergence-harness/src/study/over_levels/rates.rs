@@ -44,7 +44,7 @@ fn row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
     let pairwise: Vec<String> = rate
         .pairwise
         .iter()
-        .map(|rate| format!("{rate:.3}"))
+        .map(|rate| decimals(*rate, 3))
         .collect();
     let interval = rate.interval.map_or_else(
         || "-".to_owned(),

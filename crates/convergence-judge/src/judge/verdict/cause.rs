@@ -65,6 +65,9 @@ impl Cause {
         {
             return None;
         }
+        if is_plain(levels, &doubt) {
+            return None;
+        }
         // In units of h^p: a + b x(h).
         let heights: Vec<f64> = levels
             .iter()
@@ -97,6 +100,14 @@ impl Cause {
         }
         None
     }
+}
+
+/// Whether a plain power `C h^q`, of any order, explains the errors within their digits: then no
+/// other law is needed.
+fn is_plain(levels: &[Level], doubt: impl Fn(usize) -> f64) -> bool {
+    let steps: Vec<f64> = levels.iter().map(|level| level.step.ln()).collect();
+    let errors: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
+    explains(&steps, &errors, |k| EXPLAINED + doubt(k))
 }
 
 /// Whether error and step have logarithms.
@@ -170,6 +181,13 @@ mod tests {
         }
         let zero = [1.0, 0.5, 0.25, 0.125].map(|step| Level { step, error: 0.0 });
         assert_eq!(Cause::of(&zero, 2.0, |_| 0.0), None);
+    }
+
+    #[test]
+    fn a_plain_law_needs_no_cause_however_few_its_digits() {
+        let levels = [(0.1, 0.1), (0.05, 0.05), (0.025, 0.02), (0.0125, 0.01)];
+        let levels = levels.map(|(step, error)| Level { step, error });
+        assert_eq!(Cause::of(&levels, 2.0, |_| 0.25), None);
     }
 
     #[test]

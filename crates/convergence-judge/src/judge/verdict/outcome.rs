@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::cause::Cause;
 use super::reading::Reading;
 use super::reason::Reason;
+use super::tendency::Tendency;
 use super::words::{Aside, SetAside, Verdict};
 use crate::text::json::{nan, nan_pair, nans};
 use crate::text::number::{
@@ -139,6 +140,9 @@ pub struct RateVerdict {
     pub because: String,
     /// The reason in words, with its numbers.
     pub reason: String,
+    /// What the errors tend to where the claim does not pass, if that is known: advice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tendency: Option<Tendency>,
     /// A law that explains why the claim does not pass, if one is known: advice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cause: Option<Cause>,
@@ -223,12 +227,19 @@ impl RateVerdict {
         }
     }
 
-    /// What the reason means, its cause if one is known, and what to do; `None` for a pass.
+    /// What the errors tend to, or else what the reason means, with its cause if one is known, and
+    /// what to do; `None` for a pass.
     pub fn advice(&self) -> Option<String> {
+        if self.verdict.is_pass() {
+            return None;
+        }
+        if let Some(tendency) = self.tendency {
+            return Some(tendency.advice());
+        }
         let cause = self
             .cause
             .map_or(String::new(), |cause| format!(" {}", cause.advice()));
-        (!self.verdict.is_pass()).then(|| self.kind.advice().to_owned() + &cause)
+        Some(self.kind.advice().to_owned() + &cause)
     }
 
     /// The last rate between neighbouring levels that is a number.
@@ -317,11 +328,13 @@ impl RateVerdict {
     pub fn with_reason(self, kind: Reason, because: &str) -> Self {
         let reason = format!("{because}{}", self.numbers());
         let cause = self.cause.filter(|_| !kind.verdict().is_pass());
+        let tendency = self.tendency.filter(|_| kind.is_about_the_errors());
         Self {
             verdict: kind.verdict(),
             kind,
             because: because.to_owned(),
             reason,
+            tendency,
             cause,
             ..self
         }
@@ -338,7 +351,8 @@ impl RateVerdict {
             Some(band) if self.kind != Reason::ClaimUnusable => {
                 format!(": {}", against_claim(&rate, &band.to_string()))
             }
-            _ => format!(": {rate}"),
+            Some(_) => format!(": {rate}"),
+            None => String::new(),
         }
     }
 
@@ -398,6 +412,7 @@ impl RateVerdict {
             kind,
             because: kind.brief().to_owned(),
             reason: kind.text().to_owned(),
+            tendency: reading.tendency().filter(|_| kind.is_about_the_errors()),
             cause: cause.filter(|_| !kind.verdict().is_pass()),
         };
         verdict.reason += &verdict.numbers();

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::cause::Cause;
 use super::reason::Reason;
+use super::tendency::Tendency;
 use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, trend};
 use crate::judge::fit::{
@@ -89,6 +90,15 @@ impl<'a> Reading<'a> {
     pub(super) fn cause(&self, order: f64) -> Option<Cause> {
         self.fit
             .and_then(|_| Cause::of(&self.sequence[..self.range.end], order, |_| 0.0))
+    }
+
+    /// What the errors above the floor tend to.
+    pub(super) fn tendency(&self) -> Option<Tendency> {
+        match self.unusable {
+            None => Tendency::of(&self.sequence[..self.range.end]),
+            Some(Reason::ZeroError) => Tendency::of(self.sequence),
+            Some(_) => None,
+        }
     }
 
     /// The levels that the fit leaves out.

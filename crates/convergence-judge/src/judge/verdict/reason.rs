@@ -152,6 +152,15 @@ impl Reason {
         }
     }
 
+    /// Whether what the errors tend to says more than the reason: where they do not fall as claimed.
+    pub(super) fn is_about_the_errors(self) -> bool {
+        self.wants_a_level()
+            || matches!(
+                self,
+                Self::ErrorGrows | Self::FallsAway | Self::TooLow | Self::ZeroError
+            )
+    }
+
     /// Whether a finer level would probably decide.
     pub fn wants_a_level(self) -> bool {
         matches!(

@@ -1,5 +1,14 @@
 //! A source, or data of a face, that another program computes: is it the right one, and if not,
 //! what is wrong with it?
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `ask.rs`, `right.rs` | the other program's values, and the right ones |
+//! | `candidates/`, `site.rs` | all single edits of the file, by their places in its trees and its text |
+//! | `bench.rs` | what becomes of a quantity after an edit |
+//! | `solve.rs`, `trial.rs` | the factor of an edit, and whether it fits at a few points |
+//! | `search.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
+//! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
 pub(crate) mod ask;
 pub(crate) mod bench;
@@ -12,6 +21,7 @@ mod sentence;
 pub(crate) mod site;
 mod solve;
 pub(crate) mod text;
+mod trial;
 mod whole;
 
 pub use ask::{CommandWords, command_words};

@@ -3,9 +3,10 @@
 use super::bench::{Alteration, FACTORS, Rewrite};
 use super::cause::Named;
 use super::right::Place;
-use super::search::{Search, Trial, position};
+use super::search::{Search, position};
 use super::site;
 use super::solve::{difference, simple};
+use super::trial::Trial;
 use crate::fit::{self, Column};
 use crate::language::tree::{Kind, Tree};
 use crate::problem::Problem;

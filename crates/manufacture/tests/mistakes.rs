@@ -283,3 +283,57 @@ fn the_mistake_of_the_page_is_found_as_it_says() {
         block("text")
     );
 }
+
+/// Flow with swirl, in a basis that turns.
+const SWIRL: &str = "[manufacture]\nname = \"swirl\"\nsystem = \"axisymmetric\"\ncoordinates = [\"r\", \"z\"]\ntime = \"t\"\n\
+[domain]\nr = [0.5, 2]\nz = [0, 1]\nt = [0, 1]\n[parameters]\na = 1.3\nb = 0.4\n\
+[exact]\nv = [\"r^2*cos(z + t)\", \"r*sin(z)*exp(-t)\", \"r*z + cos(r)*t\"]\np = \"sin(r)*exp(z*t)\"\n\
+[define]\nmu = \"a + b*p^2\"\ntau = \"2*mu*sym(grad(v)) - p*identity\"\n\
+[equations.momentum]\nstorage = \"dt(v)\"\nstress = \"-div(tau)\"\n[equations]\nmass = \"div(v)\"\nenergy = \"dt(p) + v[r]*d(p, r) + max(p - a, b)*b\"\n";
+
+#[test]
+fn other_kinds_of_mistakes_are_named() {
+    let cases = [
+        ("- p*identity", "- p*identity + a*p*identity", "coefficient"),
+        ("v[r]*d(p, r)", "v[z]*d(p, r)", "index"),
+        ("v[r]*d(p, r)", "v[r]*d(p, z)", "derivative"),
+        ("max(p - a, b)", "(p - a)", "branch"),
+        ("max(p - a, b)*b", "max(p - a, a)*b", "name"),
+        ("+ max(p", "+ 2*mu + max(p", "added-term"),
+        ("a + b*p^2", "b + a*p^2", "parameters"),
+        ("div(v)\"", "d(v[r], r) + d(v[z], z)\"", "basis"),
+    ];
+    for (old, new, kind) in cases {
+        let other = SWIRL.replacen(old, new, 1);
+        assert_ne!(SWIRL, other);
+        all_are(&answered(SWIRL, &other, &SAMPLING), kind);
+    }
+}
+
+#[test]
+fn a_time_that_is_too_early_is_named() {
+    let mut other = SWIRL.to_owned();
+    for [old, new] in [
+        ["+ t)", "+ (t - 0.1))"],
+        ["-t)", "-(t - 0.1))"],
+        ["*t\"", "*(t - 0.1)\""],
+        ["z*t", "z*(t - 0.1)"],
+    ] {
+        other = other.replace(old, new);
+    }
+    let found = answered(SWIRL, &other, &SAMPLING);
+    all_are(&found, "time-shift");
+    assert_eq!(found.len(), 5);
+    assert!(found.iter().all(|c| c.factors == [-0.1]), "{found:?}");
+}
+
+/// Whether all components that are wrong have this cause, and an edit with a line.
+#[track_caller]
+fn all_are(found: &[Comparison], cause: &str) {
+    let mut wrong = found.iter().filter(|c| c.cause != "equal").peekable();
+    assert!(wrong.peek().is_some());
+    for comparison in wrong {
+        assert_eq!(comparison.cause, cause, "{}", comparison.sentence);
+        assert!(comparison.edits[0].line > 0, "{}", comparison.sentence);
+    }
+}

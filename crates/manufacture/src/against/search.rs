@@ -7,7 +7,7 @@ use super::pairs::{self, Effect};
 use super::right::{Place, Right};
 use super::solve::{Curve, Sample};
 use super::text;
-use super::trial::{FAR_FETCHED, Near, Trial, attempt, columns, cost, sample};
+use super::trial::{FAR_FETCHED, NEW_NUMBER, Near, Trial, attempt, columns, cost, sample};
 use super::whole::Component;
 use crate::derive::Role;
 use crate::fit::Column;
@@ -220,10 +220,10 @@ impl<'a, 'm> Search<'a, 'm> {
         }
     }
 
-    /// Whether each component that is wrong has an edit that is not far-fetched.
+    /// Whether each component that is wrong has an edit without a new number.
     fn are_explained(&self, tried: &Tried, trial: &Trial) -> bool {
         let near =
-            |found: &&Match| cost(&self.candidates[found.candidate], found.factor) < FAR_FETCHED;
+            |found: &&Match| cost(&self.candidates[found.candidate], found.factor) < NEW_NUMBER;
         let is_wrong = trial.is_wrong.iter().enumerate();
         let mut wrong = is_wrong.filter(|entry| *entry.1).map(|entry| entry.0);
         wrong.all(|place| {

@@ -129,6 +129,9 @@ pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<Measured>)
     columns
 }
 
+/// The cost of an edit with a simple number that the file does not have there.
+pub(super) const NEW_NUMBER: usize = 20;
+
 /// The cost of an edit with a number that nobody writes.
 pub(super) const FAR_FETCHED: usize = 40;
 
@@ -153,7 +156,7 @@ pub(super) fn cost(candidate: &Candidate, factor: f64) -> usize {
         Change::Exchange | Change::Parameters | Change::Basis => 13,
         Change::Part if is_lost => 14,
         Change::OneDifferentiated | Change::TakenBelow | Change::Square => 15,
-        _ if candidate.has_factor() && is_simple => 20,
+        _ if candidate.has_factor() && is_simple => NEW_NUMBER,
         _ => FAR_FETCHED,
     }
 }

@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | `language/`, `problem/` | text to tree; a file, read and checked, each message with its place |
 //! | `arithmetic/` | the graph of expressions with its derivatives, its evaluation with sizes, Taylor jets, quadrature |
-//! | `derive/` | tensors, four coordinate systems, operators, slips: generic in the arithmetic; the quantities of a file |
+//! | `derive/` | tensors, four coordinate systems, operators: generic in the arithmetic; the quantities of a file |
 //! | `model.rs`, `sample.rs`, `fit.rs` | a file as one graph and as jets; points of domains and faces; least squares |
 //! | `check/`, `against/` | what is right, wrong, or not noticed; foreign sources and their causes |
 //! | `emit/`, `at.rs` | printers as tables, with templates of each language; values at points as JSON |

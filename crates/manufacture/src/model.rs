@@ -7,7 +7,7 @@ use crate::arithmetic::jet::{Jet, Jets, Monomials};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::{Measured, Tape};
 use crate::arithmetic::{Depth, Graph, Node};
-use crate::derive::{Elaborator, Part, Quantity, Role, Slip};
+use crate::derive::{Elaborator, Part, Quantity, Role};
 use crate::problem::{InputError, Problem};
 
 /// A file, derived.
@@ -16,10 +16,6 @@ pub(crate) struct Model {
     pub(crate) problem: Problem,
     pub(crate) graph: Graph,
     pub(crate) parts: Vec<(Part, Vec<Quantity<NodeId>>)>,
-    /// The sources with a slip made throughout.
-    pub(crate) slips: Vec<(Slip, Vec<Quantity<NodeId>>)>,
-    /// The data of each face with the normal that points inwards.
-    pub(crate) inward: Vec<Vec<Quantity<NodeId>>>,
     /// The largest number of derivatives one inside the other.
     order: usize,
     /// The largest number of panels of an integral.
@@ -30,25 +26,13 @@ impl Model {
     pub(crate) fn new(problem: Problem) -> Result<Self, InputError> {
         let parameters = problem.parameter_values(None)?;
         let graph = Graph::new(problem.intervals.clone(), parameters);
-        let mut elaborator = Elaborator::new(&problem, graph, Slip::None);
+        let mut elaborator = Elaborator::new(&problem, graph);
         let mut parts = vec![];
         for part in Part::all(&problem) {
             parts.push((part, elaborator.part(part)?));
         }
-        let mut graph = elaborator.algebra;
-        let mut slips = vec![];
-        for slip in Slip::ALL {
-            let mut elaborator = Elaborator::new(&problem, graph, slip);
-            slips.push((slip, elaborator.sources()?));
-            graph = elaborator.algebra;
-        }
-        let mut elaborator = Elaborator::new(&problem, graph, Slip::InwardNormal);
-        let mut inward = vec![];
-        for face in 0..problem.faces.len() {
-            inward.push(elaborator.part(Part::Face(face))?);
-        }
         let graph = elaborator.algebra;
-        let mut depth = Elaborator::new(&problem, Depth, Slip::None);
+        let mut depth = Elaborator::new(&problem, Depth);
         let mut order = 0;
         for part in Part::all(&problem) {
             for quantity in depth.part(part)? {
@@ -58,8 +42,6 @@ impl Model {
         let panels = most_panels(&graph);
         Ok(Self {
             parts,
-            slips,
-            inward,
             order,
             panels,
             graph,
@@ -121,7 +103,7 @@ impl JetsAt<'_> {
             parameters: Rc::clone(&self.parameters),
             rules: Rc::clone(&self.rules),
         };
-        Elaborator::new(&self.model.problem, jets, Slip::None).part(part)
+        Elaborator::new(&self.model.problem, jets).part(part)
     }
 }
 

@@ -10,6 +10,7 @@ use std::process::Command;
 use manufacture::{Comparison, Language, Manufacture, Sampling};
 
 use crate::files::{LIMIT, read};
+use crate::mistakes;
 
 /// SplitMix64.
 struct Random(u64);
@@ -337,4 +338,117 @@ fn named(built: &Built<'_>, slip: &Slip, count: &mut Count, file: &str) {
         );
     }
     assert!(is_found, "a slip is missed:\n{}\n{file}", slip.library);
+}
+
+/// Texts of equations and definitions, each with what a mistake makes of it.
+const EDITS: [[&str; 2]; 22] = [
+    [" + ", " - "],
+    [" - ", " + "],
+    ["*", "/"],
+    ["/", "*"],
+    ["^2", "^3"],
+    ["^2", ""],
+    ["2*", ""],
+    ["2*", "3*"],
+    ["/3", "/2"],
+    ["/2", ""],
+    ["sym(", "("],
+    ["transpose(", "("],
+    ["grad(v)", "transpose(grad(v))"],
+    ["\"-", "\""],
+    ["a*", "b*"],
+    ["b*", "a*"],
+    ["sqrt(", "("],
+    ["k*", ""],
+    ["rho*", ""],
+    ["exp(", "sin("],
+    ["dot(grad(v), v)", "div(outer(v, v))"],
+    ["0.3*T^2", "0.3*T"],
+];
+
+/// A file with one mistake in its definitions or equations; `None` if there is no room for it.
+fn mistaken(random: &mut Random, text: &str) -> Option<String> {
+    let starts = ["[define]", "[equations"].map(|table| text.find(table));
+    let start = starts.into_iter().flatten().min()?;
+    let end = ["[boundary", "[require]"].map(|table| text.find(table));
+    let end = end.into_iter().flatten().min().unwrap_or(text.len());
+    let mut places = vec![];
+    for [old, new] in EDITS {
+        let found = text[start..end].match_indices(old);
+        let found = found.map(|(place, _)| (start + place, old, new));
+        // A rare text is drawn as often as a common one.
+        let found: Vec<_> = found.collect();
+        if !found.is_empty() {
+            places.push(found);
+        }
+    }
+    let kind = &places[random.below(places.len())];
+    let (place, old, new) = kind[random.below(kind.len())];
+    Some(format!(
+        "{}{new}{}",
+        &text[..place],
+        &text[place + old.len()..]
+    ))
+}
+
+/// What is named is what was done, or an edit that has the same values at other points.
+#[test]
+fn no_edit_is_named_that_was_not_made() {
+    let files = setting("MANUFACTURE_FILES", 12);
+    let seed = setting("MANUFACTURE_SEED", 1);
+    let [mut named, mut unnamed] = [0, 0];
+    for number in 0..files {
+        let mut random = Random(seed * 2_000_003 + number);
+        let fixed = mistakes::FILES.get(random.below(2 * mistakes::FILES.len()));
+        let text = fixed.map_or_else(|| random.file(), |text| (*text).to_owned());
+        let Some(other) = mistaken(&mut random, &text) else {
+            continue;
+        };
+        if Manufacture::parse(&other, "other.toml").is_err() {
+            continue;
+        }
+        let Some(comparisons) = mistakes::compared(&text, &other, &POINTS) else {
+            continue;
+        };
+        for comparison in comparisons {
+            match comparison.cause {
+                "equal" => continue,
+                "none" => {
+                    unnamed += 1;
+                    println!("unnamed: {comparison:?}\n{}", difference(&text, &other));
+                    continue;
+                }
+                _ => named += 1,
+            }
+            let edits = &comparison.edits;
+            assert!(!edits.is_empty(), "{comparison:?}");
+            if !edits.iter().all(mistakes::is_text) {
+                continue;
+            }
+            // From the last to the first: an edit moves what is behind it.
+            let mut last_first: Vec<_> = edits.iter().collect();
+            last_first.sort_by_key(|edit| (edit.line, edit.column));
+            let corrected = last_first
+                .iter()
+                .rev()
+                .fold(text.clone(), |text, edit| mistakes::applied(&text, edit));
+            let again = mistakes::compared(&corrected, &other, &OTHER_POINTS).unwrap();
+            let again = again.iter().find(|c| c.quantity == comparison.quantity);
+            assert_eq!(
+                again.unwrap().cause,
+                "equal",
+                "{comparison:?}\n{}",
+                difference(&text, &other)
+            );
+        }
+    }
+    println!("{named} components named, {unnamed} not");
+    assert!(named > 4 * unnamed, "{named} named, {unnamed} not");
+}
+
+/// The lines that differ.
+fn difference(text: &str, other: &str) -> String {
+    let pairs = text.lines().zip(other.lines());
+    let pairs = pairs.filter(|(a, b)| a != b);
+    pairs.map(|(a, b)| format!("- {a}\n+ {b}\n")).collect()
 }

@@ -1,77 +1,93 @@
 //! Quantities of the file after an edit: only what the edit reaches is derived anew.
 
+use std::cell::Cell;
 use std::collections::{HashMap, HashSet};
 
 use super::site::{self, Home, Route};
 use crate::arithmetic::graph::Mark;
 use crate::arithmetic::tape::{Measured, Tape};
 use crate::arithmetic::{Graph, NodeId};
-use crate::derive::{Basis, Elaborator, Part, Role, Slip, Tensor};
+use crate::derive::{Basis, Elaborator, Part, Role, Tensor};
 use crate::language::tree::{Kind, Tree};
 use crate::model::Model;
 use crate::problem::{Expression, Parameter, Place, Problem, mentions};
 
 /// The names of unknown factors; no file can contain them.
-pub(super) const FACTORS: [&str; 2] = [" first factor", " second factor"];
+pub(crate) const FACTORS: [&str; 2] = [" first factor", " second factor"];
 
 /// A part of the file replaced by another.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Rewrite {
-    pub(super) home: Home,
-    pub(super) route: Route,
-    pub(super) new: Tree,
+pub(crate) struct Rewrite {
+    pub(crate) home: Home,
+    pub(crate) route: Route,
+    pub(crate) new: Tree,
 }
 
 /// What is done to the file.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Alteration {
+pub(crate) enum Alteration {
     Rewrite(Rewrite),
     /// Two definitions of one shape change their places.
     Exchange([String; 2]),
     /// All derivatives in the equation, and in what it names.
     Basis(Basis),
+    /// The normal of the face points inwards.
+    Normal,
 }
 
 /// A file that edits are tried on.
-pub(super) struct Bench {
+pub(crate) struct Bench {
     problem: Problem,
     part: Part,
     graph: Graph,
     mark: Mark,
+    nodes_as_written: usize,
     /// The values of definitions as written.
     known: HashMap<String, Tensor<NodeId>>,
     /// For each definition those that its value is part of, and itself.
     reached: HashMap<String, HashSet<String>>,
     /// Of the file, then 1 for each unknown factor.
     parameters: Vec<f64>,
+    /// Nodes that were derived or evaluated.
+    work: Cell<usize>,
 }
 
+/// To derive a node takes as long as to evaluate so many.
+const NEW_NODE: usize = 10;
+
+/// A search ends when it has derived and evaluated so many nodes: some ten seconds.
+const MOST_WORK: usize = 400_000_000;
+
 /// A quantity that may have been changed.
-pub(super) struct Altered<'b> {
+pub(crate) struct Altered<'b> {
     graph: &'b Graph,
-    pub(super) tensor: Tensor<NodeId>,
+    pub(crate) tensor: Tensor<NodeId>,
     parameters: &'b [f64],
+    work: &'b Cell<usize>,
 }
 
 impl Altered<'_> {
     /// All components at a point, with these unknown factors.
-    pub(super) fn evaluation(&self) -> Evaluation<'_> {
+    pub(crate) fn evaluation(&self) -> Evaluation<'_> {
         Evaluation {
             tape: Tape::new(self.graph, &self.tensor.parts),
             parameters: self.parameters,
+            work: self.work,
         }
     }
 }
 
 /// A quantity as steps of its evaluation.
-pub(super) struct Evaluation<'b> {
+pub(crate) struct Evaluation<'b> {
     tape: Tape<'b>,
     parameters: &'b [f64],
+    work: &'b Cell<usize>,
 }
 
 impl Evaluation<'_> {
     /// All components at a point, with these unknown factors.
-    pub(super) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<Measured> {
+    pub(crate) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<Measured> {
+        self.work.set(self.work.get() + self.tape.work());
         let mut parameters = self.parameters.to_vec();
         let known = parameters.len() - factors.len();
         parameters[known..].copy_from_slice(&factors);
@@ -81,7 +97,7 @@ impl Evaluation<'_> {
 
 impl Bench {
     /// `None` if the file with unknown factors has no values; it has, if it has without.
-    pub(super) fn new(model: &Model, part: Part) -> Option<Self> {
+    pub(crate) fn new(model: &Model, part: Part) -> Option<Self> {
         let mut problem = model.problem.clone();
         for name in FACTORS {
             problem.parameters.push(Parameter {
@@ -91,17 +107,17 @@ impl Bench {
         }
         let parameters = problem.parameter_values(None).ok()?;
         let graph = Graph::new(problem.intervals.clone(), parameters.clone());
-        let mut elaborator = Elaborator::new(&problem, graph, Slip::None);
+        let mut elaborator = Elaborator::new(&problem, graph);
         elaborator.part(Part::Interior).ok()?;
         elaborator.part(part).ok()?;
         let known = std::mem::take(&mut elaborator.known);
         let graph = elaborator.algebra;
-        let names = problem.definitions.keys();
-        let reached = names.map(|name| (name.clone(), reached(&problem, name)));
         Some(Self {
-            reached: reached.collect(),
+            reached: reached(&problem),
+            nodes_as_written: graph.len(),
             mark: graph.mark(),
             parameters,
+            work: Cell::new(0),
             graph,
             known,
             part,
@@ -109,8 +125,13 @@ impl Bench {
         })
     }
 
+    /// Whether the limit of work is reached.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.work.get() > MOST_WORK
+    }
+
     /// Whether a quantity may change if an expression does.
-    pub(super) fn reaches(&self, home: &Home, quantity: &str) -> bool {
+    pub(crate) fn reaches(&self, home: &Home, quantity: &str) -> bool {
         match home {
             Home::Term { equation, .. } => self.problem.equations[*equation].name == quantity,
             Home::Datum { face, datum, .. } => {
@@ -148,7 +169,7 @@ impl Bench {
     }
 
     /// What becomes of a quantity, given to `see`; `None` if the altered file has no such values.
-    pub(super) fn altered<R>(
+    pub(crate) fn altered<R>(
         &mut self,
         alterations: &[&Alteration],
         quantity: &str,
@@ -157,6 +178,7 @@ impl Bench {
         let mut undo: Vec<Rewrite> = vec![];
         let mut known = self.known.clone();
         let mut basis = Basis::Turning;
+        let mut is_inward = false;
         for alteration in alterations {
             match alteration {
                 Alteration::Rewrite(rewrite) => {
@@ -178,9 +200,10 @@ impl Bench {
                     basis = *other;
                     known.clear();
                 }
+                Alteration::Normal => is_inward = true,
             }
         }
-        let tensor = self.derived(known, basis, quantity);
+        let tensor = self.derived(known, basis, is_inward, quantity);
         for rewrite in undo.iter().rev() {
             self.rewrite(rewrite);
         }
@@ -189,8 +212,11 @@ impl Bench {
                 graph: &self.graph,
                 tensor,
                 parameters: &self.parameters,
+                work: &self.work,
             })
         });
+        let nodes = self.graph.len() - self.nodes_as_written;
+        self.work.set(self.work.get() + NEW_NODE * nodes);
         self.graph.rewind(self.mark);
         seen
     }
@@ -210,12 +236,14 @@ impl Bench {
         &mut self,
         known: HashMap<String, Tensor<NodeId>>,
         basis: Basis,
+        is_inward: bool,
         quantity: &str,
     ) -> Option<Tensor<NodeId>> {
         let graph = std::mem::take(&mut self.graph);
-        let mut elaborator = Elaborator::new(&self.problem, graph, Slip::None);
+        let mut elaborator = Elaborator::new(&self.problem, graph);
         elaborator.known = known;
         elaborator.space.basis = basis;
+        elaborator.is_inward = is_inward;
         let tensor = match self.part {
             Part::Face(_) => elaborator.part(self.part).ok().and_then(|quantities| {
                 let mut data = quantities.into_iter();
@@ -235,7 +263,7 @@ impl Bench {
     }
 
     /// The definitions and fields of the same shape, pair by pair.
-    pub(super) fn of_one_shape(&self) -> Vec<[String; 2]> {
+    pub(crate) fn of_one_shape(&self) -> Vec<[String; 2]> {
         let mut names: Vec<&String> = self.known.keys().collect();
         names.sort();
         let mut pairs = vec![];
@@ -252,22 +280,31 @@ impl Bench {
     }
 }
 
-/// The definitions that a definition is part of, and itself.
-fn reached(problem: &Problem, name: &str) -> HashSet<String> {
-    let mut reached = HashSet::from([name.to_owned()]);
-    loop {
-        let before = reached.len();
-        for (other, definition) in &problem.definitions {
-            let mut trees = site::parts(&definition.value).map(|part| &part.tree);
-            let is_reached = trees.any(|tree| reached.iter().any(|name| mentions(tree, name)));
-            if is_reached {
-                reached.insert(other.clone());
-            }
+/// For each definition those that it is part of, and itself.
+fn reached(problem: &Problem) -> HashMap<String, HashSet<String>> {
+    let mut users: HashMap<&str, Vec<&str>> = HashMap::new();
+    for (user, definition) in &problem.definitions {
+        let mut names = vec![];
+        for part in site::parts(&definition.value) {
+            site::names(&part.tree, &mut names);
         }
-        if reached.len() == before {
-            return reached;
+        for name in names {
+            users.entry(name).or_default().push(user);
         }
     }
+    let all = problem.definitions.keys().map(|name| {
+        let mut reached = HashSet::from([name.clone()]);
+        let mut open = vec![name.as_str()];
+        while let Some(next) = open.pop() {
+            for user in users.get(next).into_iter().flatten() {
+                if reached.insert((*user).to_owned()) {
+                    open.push(user);
+                }
+            }
+        }
+        (name.clone(), reached)
+    });
+    all.collect()
 }
 
 /// The number 1, as an expression of the file.

@@ -24,13 +24,13 @@ pub struct Edit {
 
 /// An edit with its data.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Named {
+pub(crate) struct Named {
     pub(super) change: Change,
     /// The factor that fits, of an edit that has one.
     pub(super) factor: f64,
     /// The label of the term, if the edit is about all of it.
     pub(super) label: Option<String>,
-    pub(super) edit: Edit,
+    pub(crate) edit: Edit,
 }
 
 /// A term with another factor.
@@ -55,6 +55,8 @@ pub(super) struct Unexplained {
     /// How many edits were tried, and how many pairs.
     pub(super) edits: usize,
     pub(super) pairs: usize,
+    /// The limit of work was reached.
+    pub(super) is_cut: bool,
 }
 
 /// What explains the values of another program.
@@ -96,7 +98,7 @@ fn of_factors(mut factors: impl Iterator<Item = f64> + Clone) -> &'static str {
 }
 
 /// The name of an edit, by what it changes.
-pub(super) fn kind(change: Change, factor: f64) -> &'static str {
+pub(crate) fn kind(change: Change, factor: f64) -> &'static str {
     match change {
         Change::Term => of_factors(std::iter::once(factor)),
         Change::Exponent => "exponent",
@@ -115,6 +117,14 @@ pub(super) fn kind(change: Change, factor: f64) -> &'static str {
         Change::Held | Change::OneDifferentiated => "product-rule",
         Change::Basis => "basis",
         Change::Exchange => "exchange",
+        Change::Parameters => "parameters",
+        Change::Normal => "normal",
+        Change::Derivative => "derivative",
+        Change::Index => "index",
+        Change::Branch => "branch",
+        Change::LostBracket => "bracket",
+        Change::Name => "name",
+        Change::Added => "added-term",
     }
 }
 
@@ -242,7 +252,13 @@ impl Unexplained {
             true => String::new(),
             false => format!("; nearest, but no explanation: {}", nearest.join("; ")),
         };
-        format!("no explanation found by {edits} edit(s) and {pairs} pair(s) of the best{nearest}")
+        let cut = match self.is_cut {
+            true => ", where the limit of work was reached",
+            false => "",
+        };
+        format!(
+            "no explanation found by {edits} edit(s) and {pairs} pair(s) of the best{cut}{nearest}"
+        )
     }
 }
 
@@ -274,6 +290,23 @@ fn one_edit(named: &Named, file: &str, others: &str) -> String {
     }
 }
 
+/// What is said of an edit that no point sees.
+pub(crate) fn unseen(named: &Named, file: &str) -> String {
+    let Edit {
+        kind,
+        line,
+        column,
+        old,
+        new,
+        ..
+    } = &named.edit;
+    let what = match named.change {
+        Change::Held => format!("if `{old}` is not differentiated"),
+        _ => format!("with `{new}` in place of `{old}`"),
+    };
+    format!("{kind}: the source is the same {what} ({file}:{line}:{column})")
+}
+
 /// `stress.toml:12:9: in tau: your source has 1/2 where the file has 1/3`.
 pub(super) fn place_and_text(named: &Named, file: &str) -> String {
     let Edit { key, old, new, .. } = &named.edit;
@@ -284,6 +317,8 @@ pub(super) fn place_and_text(named: &Named, file: &str) -> String {
         Change::OneDifferentiated => {
             format!("your source differentiates only `{new}` of the product `{old}`")
         }
+        Change::Normal => "your normal points inwards".to_owned(),
+        _ if old.is_empty() => format!("your source has another summand, `{}`", new.trim_start()),
         _ if new.is_empty() => format!("your source lacks `{old}`"),
         _ => format!("your source has `{new}` where the file has `{old}`"),
     };

@@ -1,17 +1,27 @@
 //! A source, or data of a face, that another program computes: is it the right one, and if not,
 //! what is wrong with it?
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `ask.rs`, `right.rs` | the other program's values, and the right ones |
+//! | `candidates/`, `site.rs` | all single edits of the file, by their places in its trees and its text |
+//! | `bench.rs` | what becomes of a quantity after an edit |
+//! | `solve.rs`, `trial.rs` | the factor of an edit, and whether it fits at a few points |
+//! | `search.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
+//! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
 pub(crate) mod ask;
-mod bench;
-mod candidates;
-mod cause;
+pub(crate) mod bench;
+pub(crate) mod candidates;
+pub(crate) mod cause;
 mod pairs;
 mod right;
 mod search;
 mod sentence;
-mod site;
+pub(crate) mod site;
 mod solve;
-mod text;
+pub(crate) mod text;
+mod trial;
 mod whole;
 
 pub use ask::{CommandWords, command_words};

@@ -147,52 +147,17 @@ impl<'m> Right<'m> {
         terms.map(|term| term.0.as_str()).collect()
     }
 
-    /// The component with a normal that points inwards; `None` inside the domain.
-    pub(crate) fn with_inward_normal(&self, place: Place) -> Option<Column> {
-        let Part::Face(face) = self.part else {
-            return None;
-        };
-        let name = &self.quantities[place.quantity].quantity.name;
-        let mut data = self.model.inward[face].iter();
-        let datum = data.find(|datum| datum.role == Role::Datum && datum.name == *name)?;
-        Some(column(self.model, &datum.tensor, place, &self.points))
-    }
-
-    /// The component at other points.
-    pub(crate) fn at_points(&self, place: Place, points: &[Vec<f64>]) -> Column {
-        let tensor = &self.quantities[place.quantity].quantity.tensor;
-        column(self.model, tensor, place, points)
-    }
-
     /// The parameters with one of them changed; those that depend on it follow.
     pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
         let problem = &self.model.problem;
         problem.parameter_values(Some((parameter, value))).ok()
     }
 
-    /// The component with these parameters, at these points.
-    pub(crate) fn with_parameters(
-        &self,
-        place: Place,
-        parameters: &[f64],
-        points: &[Vec<f64>],
-    ) -> Column {
+    /// A quantity, to be evaluated at other points or with other parameters.
+    pub(crate) fn rows(&self, place: Place) -> Rows<'m> {
         let tensor = &self.quantities[place.quantity].quantity.tensor;
-        let rows = Rows::new(&self.model.graph, std::iter::once(tensor));
-        let points = points.iter();
-        points
-            .map(|point| rows.with(point, parameters).tensors[0][place.component].value)
-            .collect()
+        Rows::new(&self.model.graph, std::iter::once(tensor))
     }
-}
-
-/// A component at points.
-fn column(model: &Model, tensor: &Tensor<NodeId>, place: Place, points: &[Vec<f64>]) -> Column {
-    let values = at(model, tensor, points);
-    values
-        .iter()
-        .map(|values| values[place.component].value)
-        .collect()
 }
 
 /// A component, with zeros where only rounding is left: that is no column to fit with.

@@ -5,8 +5,9 @@ use super::candidates::{self, Candidate, Change};
 use super::cause::{Cause, Named, Nearest, Unexplained, place_and_text};
 use super::pairs::{self, Effect};
 use super::right::{Place, Right};
-use super::solve::{self, Curve, Sample, Solved, difference};
+use super::solve::{Curve, Sample};
 use super::text;
+use super::trial::{FAR_FETCHED, NEW_NUMBER, Near, Trial, attempt, columns, cost, sample};
 use super::whole::Component;
 use crate::derive::Role;
 use crate::fit::Column;
@@ -68,14 +69,8 @@ impl<'a, 'm> Search<'a, 'm> {
         fresh: Vec<Vec<f64>>,
     ) -> Option<Self> {
         let bench = Bench::new(right.model, right.part)?;
-        let mut candidates = candidates::all(&right.model.problem, right.part);
-        for names in bench.of_one_shape() {
-            candidates.push(Candidate {
-                change: Change::Exchange,
-                alteration: Alteration::Exchange(names),
-                depth: 0,
-            });
-        }
+        let alike = bench.of_one_shape();
+        let candidates = candidates::all(&right.model.problem, right.part, &alike);
         Some(Self {
             right,
             components,
@@ -140,7 +135,12 @@ impl<'a, 'm> Search<'a, 'm> {
             samples,
             is_wrong,
         };
-        let mut tried = self.singles(quantity, &trial);
+        let mut tried = Tried::default();
+        for is_rare in [false, true] {
+            if !self.are_explained(&tried, &trial) {
+                self.singles(quantity, &trial, is_rare, &mut tried);
+            }
+        }
         for found in &mut tried.matches {
             found.breadth = self.breadth(quantity, found);
         }
@@ -167,6 +167,7 @@ impl<'a, 'm> Search<'a, 'm> {
                             nearest: self.nearest(quantity, &tried),
                             edits: tried.count,
                             pairs: pair.count,
+                            is_cut: self.bench.is_exhausted(),
                         }),
                     })
                 }
@@ -176,9 +177,8 @@ impl<'a, 'm> Search<'a, 'm> {
     }
 
     /// All single edits of a quantity.
-    fn singles(&mut self, quantity: usize, trial: &Trial) -> Tried {
+    fn singles(&mut self, quantity: usize, trial: &Trial, is_rare: bool, tried: &mut Tried) {
         let name = self.name(quantity);
-        let mut tried = Tried::default();
         let fresh = self.fresh.clone();
         for place in 0..self.candidates.len() {
             let candidate = self.candidates[place].clone();
@@ -186,8 +186,11 @@ impl<'a, 'm> Search<'a, 'm> {
                 Alteration::Rewrite(rewrite) => self.bench.reaches(&rewrite.home, name),
                 _ => true,
             };
-            if !reaches {
+            if !reaches || candidate.is_rare != is_rare {
                 continue;
+            }
+            if self.bench.is_exhausted() {
+                break;
             }
             let seen = self
                 .bench
@@ -215,7 +218,21 @@ impl<'a, 'm> Search<'a, 'm> {
                 ..near
             }));
         }
-        tried
+    }
+
+    /// Whether each component that is wrong has an edit without a new number.
+    fn are_explained(&self, tried: &Tried, trial: &Trial) -> bool {
+        let near =
+            |found: &&Match| cost(&self.candidates[found.candidate], found.factor) < NEW_NUMBER;
+        let is_wrong = trial.is_wrong.iter().enumerate();
+        let mut wrong = is_wrong.filter(|entry| *entry.1).map(|entry| entry.0);
+        wrong.all(|place| {
+            tried
+                .matches
+                .iter()
+                .filter(near)
+                .any(|found| found.fits[place])
+        })
     }
 
     /// The number of all components that an edit explains, or leaves right.
@@ -261,12 +278,8 @@ impl<'a, 'm> Search<'a, 'm> {
     /// Those that explain most first; of these the smallest, then those nearest to a term.
     fn order(&self, matches: &mut [Match]) {
         let key = |found: &Match| {
-            let candidate = &self.candidates[found.candidate];
-            (
-                usize::MAX - found.breadth,
-                cost(candidate, found.factor),
-                candidate.depth,
-            )
+            let size = self.size(found.candidate, found.factor);
+            (usize::MAX - found.breadth, size)
         };
         matches.sort_by_key(key);
     }
@@ -400,38 +413,6 @@ pub(super) fn place_of(right: &Right<'_>, quantity: usize) -> problem::Place {
     )
 }
 
-/// The points of a trial, and the values there.
-pub(super) struct Trial {
-    pub(super) points: Vec<Vec<f64>>,
-    /// Of each component that is answered.
-    pub(super) samples: Vec<Sample>,
-    pub(super) is_wrong: Vec<bool>,
-}
-
-impl Trial {
-    fn fits(&self, columns: &[Column]) -> Vec<bool> {
-        let samples = self.samples.iter();
-        samples
-            .map(|sample| sample.fits(&columns[sample.component]))
-            .collect()
-    }
-
-    pub(super) fn wrong(&self) -> impl Iterator<Item = &Sample> {
-        let pairs = self.samples.iter().zip(&self.is_wrong);
-        pairs.filter(|pair| *pair.1).map(|pair| pair.0)
-    }
-}
-
-fn sample(component: &Component<'_, '_>, places: &[usize]) -> Sample {
-    let of = |column: &[f64]| places.iter().map(|place| column[*place]).collect();
-    Sample {
-        component: component.place.component,
-        right: of(&component.source),
-        foreign: of(component.foreign),
-        allowed: of(&component.allowed),
-    }
-}
-
 /// What all single edits gave.
 #[derive(Default)]
 struct Tried {
@@ -439,98 +420,6 @@ struct Tried {
     matches: Vec<Match>,
     effects: Vec<Effect>,
     near: Vec<Near>,
-}
-
-/// How near an edit comes.
-#[derive(Debug, Clone, Copy)]
-struct Near {
-    candidate: usize,
-    factor: f64,
-    left: f64,
-}
-
-#[derive(Default)]
-struct Outcome {
-    /// The factors with which a component fits.
-    factors: Vec<f64>,
-    effect: Option<Effect>,
-    near: Option<Near>,
-}
-
-/// Tries one edit on all components that are wrong.
-fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Trial) -> Outcome {
-    let mut outcome = Outcome::default();
-    if !candidate.has_factor() {
-        let columns = curve.at(1.0).to_vec();
-        let mut change = vec![];
-        let mut left = 0.0_f64;
-        for sample in trial.wrong() {
-            let values = &columns[sample.component];
-            if sample.fits(values) {
-                outcome.factors = vec![1.0];
-            }
-            left = left.max(sample.left_by(values));
-            change.extend(difference(values, &sample.right));
-        }
-        outcome.effect = Some(Effect::fixed(change));
-        outcome.near = Some(Near {
-            candidate: 0,
-            factor: 1.0,
-            left,
-        });
-        return outcome;
-    }
-    let solved: Vec<Option<Solved>> = trial
-        .wrong()
-        .map(|sample| solve::factor(curve, sample))
-        .collect();
-    for solved in solved.iter().flatten() {
-        outcome.factors.extend(solved.factor);
-    }
-    outcome.factors.sort_by(f64::total_cmp);
-    outcome.factors.dedup();
-    if let Some(first) = solved.iter().flatten().next() {
-        let left = solved.iter().map(|solved| match solved {
-            Some(solved) => solved.left,
-            None => 1.0,
-        });
-        outcome.near = Some(Near {
-            candidate: 0,
-            factor: first.nearest,
-            left: left.fold(0.0, f64::max),
-        });
-    }
-    outcome.effect = slopes(&solved, trial).map(Effect::free);
-    outcome
-}
-
-/// What one more of a factor adds to all components that are wrong; `None` if that is not one number
-/// for all values of the factor.
-fn slopes(solved: &[Option<Solved>], trial: &Trial) -> Option<Column> {
-    let mut all = vec![];
-    for (solved, sample) in solved.iter().zip(trial.wrong()) {
-        match solved {
-            Some(solved) => all.extend(solved.slope.clone()?),
-            None => all.extend(vec![0.0; sample.right.len()]),
-        }
-    }
-    Some(all)
-}
-
-/// Of each component its values at points.
-fn columns(
-    points: &[Vec<f64>],
-    at: impl Fn(&[f64]) -> Vec<crate::arithmetic::tape::Measured>,
-) -> Vec<Column> {
-    let mut columns: Vec<Column> = vec![];
-    for point in points {
-        let values = at(point);
-        columns.resize(values.len(), vec![]);
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value.value);
-        }
-    }
-    columns
 }
 
 /// Whether two edits have the same values at fresh points.
@@ -543,29 +432,11 @@ fn is_same(first: &[f64], second: &[f64]) -> bool {
     pairs.all(|(a, b)| (a - b).abs() <= SAME * largest)
 }
 
-/// The cost of an edit with a number that nobody writes.
-const FAR_FETCHED: usize = 40;
-
-/// How much an edit changes; those that people make most often are cheapest.
-fn cost(candidate: &Candidate, factor: f64) -> usize {
-    let is_lost = factor == -1.0 || factor == 0.0;
-    let is_simple = solve::complexity(factor) < 1000.0;
-    match candidate.change {
-        Change::Term | Change::Summand if is_lost => 10,
-        Change::LostFactor | Change::LostDivisor | Change::LostOperator => 10,
-        Change::TransposedGradient | Change::MissingTranspose | Change::Held => 11,
-        Change::Exponent if text::has_simple_number(candidate, factor) => 11,
-        Change::TimesForOver | Change::Order | Change::Operator | Change::Function => 12,
-        Change::Term | Change::Summand | Change::Part
-            if text::has_simple_number(candidate, factor) =>
-        {
-            12
-        }
-        Change::Exchange | Change::Basis => 13,
-        Change::Part if is_lost => 14,
-        Change::OneDifferentiated | Change::TakenBelow | Change::Square => 15,
-        _ if candidate.has_factor() && is_simple => 20,
-        _ => FAR_FETCHED,
+impl Search<'_, '_> {
+    /// The size of an edit, then how far it is from a term: the smaller, the more likely.
+    pub(super) fn size(&self, candidate: usize, factor: f64) -> (usize, usize) {
+        let candidate = &self.candidates[candidate];
+        (cost(candidate, factor), candidate.depth)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::problem::{Expression, Problem, Value};
 
 /// The expression that a part stands in.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Home {
+pub(crate) enum Home {
     /// A term of an equation, both by their places.
     Term { equation: usize, term: usize },
     /// A component of a definition, counted row by row.
@@ -19,7 +19,7 @@ pub(super) enum Home {
 }
 
 impl Home {
-    pub(super) fn expression<'p>(&self, problem: &'p Problem) -> Option<&'p Expression> {
+    pub(crate) fn expression<'p>(&self, problem: &'p Problem) -> Option<&'p Expression> {
         match self {
             Home::Term { equation, term } => {
                 let terms = &problem.equations.get(*equation)?.terms;
@@ -34,7 +34,15 @@ impl Home {
         }
     }
 
-    pub(super) fn expression_mut<'p>(
+    /// Whether it belongs to the solution.
+    pub(crate) fn is_exact(&self, problem: &Problem) -> bool {
+        match self {
+            Home::Definition { name, .. } => problem.definitions[name].is_exact,
+            _ => false,
+        }
+    }
+
+    pub(crate) fn expression_mut<'p>(
         &self,
         problem: &'p mut Problem,
     ) -> Option<&'p mut Expression> {
@@ -57,7 +65,7 @@ impl Home {
 }
 
 /// The expressions of a value, row by row.
-pub(super) fn parts(value: &Value) -> Box<dyn Iterator<Item = &Expression> + '_> {
+pub(crate) fn parts(value: &Value) -> Box<dyn Iterator<Item = &Expression> + '_> {
     match value {
         Value::One(expression) => Box::new(std::iter::once(expression)),
         Value::List(_, values) => Box::new(values.iter().flat_map(parts)),
@@ -72,31 +80,41 @@ fn parts_mut(value: &mut Value) -> Vec<&mut Expression> {
 }
 
 /// A part of an expression: which child of which child.
-pub(super) type Route = Vec<usize>;
+pub(crate) type Route = Vec<usize>;
 
-pub(super) fn at<'t>(tree: &'t Tree, route: &[usize]) -> Option<&'t Tree> {
+pub(crate) fn at<'t>(tree: &'t Tree, route: &[usize]) -> Option<&'t Tree> {
     match route.split_first() {
         None => Some(tree),
         Some((first, rest)) => at(tree.children().get(*first)?, rest),
     }
 }
 
-pub(super) fn at_mut<'t>(tree: &'t mut Tree, route: &[usize]) -> Option<&'t mut Tree> {
+pub(crate) fn at_mut<'t>(tree: &'t mut Tree, route: &[usize]) -> Option<&'t mut Tree> {
     match route.split_first() {
         None => Some(tree),
         Some((first, rest)) => at_mut(tree.children_mut().into_iter().nth(*first)?, rest),
     }
 }
 
+/// The names in a tree.
+pub(crate) fn names<'t>(tree: &'t Tree, found: &mut Vec<&'t str>) {
+    if let Kind::Name(name) = &tree.kind {
+        found.push(name);
+    }
+    for child in tree.children() {
+        names(child, found);
+    }
+}
+
 /// The bytes of an expression's text that a part of it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Span {
-    pub(super) start: usize,
-    pub(super) end: usize,
+pub(crate) struct Span {
+    pub(crate) start: usize,
+    pub(crate) end: usize,
 }
 
 impl Span {
-    pub(super) fn of(tree: &Tree, text: &str) -> Self {
+    pub(crate) fn of(tree: &Tree, text: &str) -> Self {
         Self {
             start: start(tree),
             end: end(tree, text),
@@ -135,14 +153,14 @@ fn closed(text: &str, from: usize) -> usize {
 
 /// A place in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct LineColumn {
-    pub(super) line: usize,
+pub(crate) struct LineColumn {
+    pub(crate) line: usize,
     /// In characters, from 1.
-    pub(super) column: usize,
+    pub(crate) column: usize,
 }
 
 /// The place of a byte of an expression's text.
-pub(super) fn line_and_column(problem: &Problem, within: &Expression, byte: usize) -> LineColumn {
+pub(crate) fn line_and_column(problem: &Problem, within: &Expression, byte: usize) -> LineColumn {
     let file = &problem.text;
     let value = file.get(within.place.start..).unwrap_or("");
     // A number is its own text; the others begin with one or three quotes.

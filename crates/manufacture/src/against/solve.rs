@@ -22,8 +22,12 @@ impl Sample {
 
     /// What another value leaves, as a share of the difference from the right values.
     pub(super) fn left_by(&self, values: &[f64]) -> f64 {
-        fit::norm(&difference(&self.foreign, values))
-            / fit::norm(&difference(&self.foreign, &self.right))
+        // Values that are not finite leave everything.
+        if values.iter().any(|value| !value.is_finite()) {
+            return f64::INFINITY;
+        }
+        let left = fit::norm(&difference(&self.foreign, values));
+        left / fit::norm(&difference(&self.foreign, &self.right))
     }
 }
 

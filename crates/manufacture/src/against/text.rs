@@ -13,7 +13,7 @@ use crate::problem::{Expression, Place, Problem};
 /// An edit with the factor that fits, in the words of the file.
 ///
 /// * `whole`: the place of the quantity, for an edit that is about all of it.
-pub(super) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, factor: f64) -> Named {
+pub(crate) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, factor: f64) -> Named {
     let change = candidate.change;
     let kind = kind(change, factor);
     let about_all = |old: String, new: String| Edit {
@@ -26,6 +26,7 @@ pub(super) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, fac
             let [first, second] = names;
             about_all(format!("{first}, {second}"), format!("{second}, {first}"))
         }
+        Alteration::Normal => about_all("n".to_owned(), "-n".to_owned()),
         Alteration::Basis(basis) => {
             let system = problem.system.name();
             let new = match basis {
@@ -92,6 +93,22 @@ fn rewritten(
             with_factor(expression, rewrite, part, factor)
         }
         Change::Exponent => exponent(expression, rewrite, part, factor),
+        Change::Added => Texts {
+            span: Span {
+                start: own.end,
+                ..own
+            },
+            new: added(&rewrite.new, factor),
+        },
+        Change::Basis => Texts {
+            span: own,
+            new: match &rewrite.new.kind {
+                Kind::Call(Callee::Operator(Operator::Altered(names::Alteration::Flat)), _) => {
+                    format!("{part} as in Cartesian coordinates")
+                }
+                _ => format!("{part} without the derivatives of the basis"),
+            },
+        },
         Change::Held => Texts {
             span: own,
             new: format!("{part}, held constant"),
@@ -114,6 +131,20 @@ fn rewritten(
         column: place.column,
         old: expression.text.get(start..end).unwrap_or("").to_owned(),
         new: texts.new,
+    }
+}
+
+/// A summand with a factor: the last one of a sum, whose own factor is unknown.
+fn added(sum: &Tree, factor: f64) -> String {
+    let Kind::Binary(_, operands) = &sum.kind else {
+        return String::new();
+    };
+    let summand = operands[1].children().first().map(|name| name.to_string());
+    let summand = summand.unwrap_or_default();
+    let sign = if factor < 0.0 { '-' } else { '+' };
+    match factor.abs() {
+        1.0 => format!(" {sign} {summand}"),
+        size => format!(" {sign} {}*{summand}", written(size)),
     }
 }
 
@@ -195,15 +226,22 @@ fn with_factor(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: 
 /// simple.
 fn times(part: &Tree, factor: f64) -> String {
     let size = factor.abs();
-    let text = match (size == 1.0, with_number(part, size)) {
-        (true, _) => bracketed(part),
-        (false, Some(new)) => new.to_string(),
-        (false, None) => format!("{}*{}", written(size), bracketed(part)),
+    let text = bracketed(part);
+    // The sign of a product stands before all of it.
+    let (is_negative, positive) = match text.strip_prefix('-') {
+        Some(positive) => (true, positive.to_owned()),
+        None => (false, text),
     };
-    match (factor < 0.0, text.strip_prefix('-')) {
-        (false, _) => text,
-        (true, Some(positive)) => positive.to_owned(),
-        (true, None) => format!("-{text}"),
+    let new = with_number(part, size).map(|new| new.to_string());
+    let positive = match (size == 1.0, new) {
+        (true, _) => positive,
+        (false, Some(new)) => new.strip_prefix('-').unwrap_or(&new).to_owned(),
+        (false, None) => format!("{}*{positive}", written(size)),
+    };
+    if is_negative == (factor < 0.0) {
+        positive
+    } else {
+        format!("-{positive}")
     }
 }
 
@@ -249,9 +287,28 @@ pub(super) fn with_number(part: &Tree, factor: f64) -> Option<Tree> {
         }
         let mut tree = part.clone();
         *site::at_mut(&mut tree, &route)? = number(&format!("{new}"), new);
+        if new == 1.0 {
+            drop_one(&mut tree, &route);
+        }
         return Some(tree);
     }
     None
+}
+
+/// Drops a factor or a divisor of 1.
+fn drop_one(tree: &mut Tree, route: &[usize]) {
+    let Some((place, above)) = route.split_last() else {
+        return;
+    };
+    let Some(product) = site::at_mut(tree, above) else {
+        return;
+    };
+    let other = match (&product.kind, place) {
+        (Kind::Binary(Binary::Multiply, operands), place) => operands[1 - place].clone(),
+        (Kind::Binary(Binary::Divide, operands), 1) => operands[0].clone(),
+        _ => return,
+    };
+    *product = other;
 }
 
 /// A number of a product.

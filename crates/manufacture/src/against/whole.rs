@@ -6,6 +6,7 @@ use super::right::{Place, Right};
 use super::solve::{difference, simple};
 use crate::derive::Part;
 use crate::fit::{self, Column};
+use crate::model::Rows;
 
 /// A term depends on others if less than this share of it is left.
 const DEPENDENT: f64 = 1e-9;
@@ -46,10 +47,6 @@ impl Component<'_, '_> {
     pub(super) fn of_source(&self) -> Option<Cause> {
         if self.fits(&self.source) {
             return Some(Cause::Equal);
-        }
-        let inward = self.right.with_inward_normal(self.place);
-        if inward.is_some_and(|inward| self.fits(&inward)) {
-            return Some(Cause::Normal);
         }
         let opposite: Column = self.source.iter().map(|s| -s).collect();
         if self.fits(&opposite) {
@@ -114,38 +111,65 @@ impl Component<'_, '_> {
         problem.time.as_ref()?;
         let ends = problem.intervals.last()?;
         for time in ends {
-            if self.fits(&self.at_times(|_| *time)) {
+            if self.fits_at(|_| *time) {
                 return Some(Cause::Time(*time));
             }
         }
-        let shifted = |shift: f64| self.at_times(|time| time + shift);
+        let rows = self.right.rows(self.place);
+        let parameters = &self.right.model.graph.parameters;
+        let shifted = |shift: f64| {
+            let points = self.few().iter();
+            let points = points.map(|point| at_time(point, |time| time + shift));
+            Some(self.column(&rows, points, parameters))
+        };
         let length = ends[1] - ends[0];
-        for start in [
-            0.0,
-            0.01 * length,
-            -0.01 * length,
-            0.1 * length,
-            -0.1 * length,
-        ] {
-            let shift = self.newton(start, 0.1 * length, |shift| Some(shifted(shift)));
+        for start in [0.0, 0.1 * length, -0.1 * length] {
+            let shift = self.newton(start, 0.1 * length, shifted);
             let Some(shift) = shift.map(simple) else {
                 continue;
             };
-            if shift != 0.0 && self.fits(&shifted(shift)) {
+            if shift != 0.0 && self.fits_at(|time| time + shift) {
                 return Some(Cause::TimeShift(shift));
             }
         }
         None
     }
 
-    fn at_times(&self, time: impl Fn(f64) -> f64) -> Column {
-        let mut points = self.right.points.clone();
-        for point in &mut points {
-            if let Some(t) = point.last_mut() {
-                *t = time(*t);
-            }
-        }
-        self.right.at_points(self.place, &points)
+    /// Whether the values at other times explain all points; the first few are tried first.
+    fn fits_at(&self, time: impl Fn(f64) -> f64) -> bool {
+        let points = self.right.points.iter();
+        let points: Vec<Vec<f64>> = points.map(|point| at_time(point, &time)).collect();
+        self.fits_everywhere(&points, &self.right.model.graph.parameters)
+    }
+
+    /// Points for numbers that are found step by step.
+    fn few(&self) -> &[Vec<f64>] {
+        const FEW: usize = 8;
+        let points = &self.right.points;
+        &points[..points.len().min(FEW)]
+    }
+
+    fn column(
+        &self,
+        rows: &Rows<'_>,
+        points: impl Iterator<Item = Vec<f64>>,
+        parameters: &[f64],
+    ) -> Column {
+        let component = self.place.component;
+        points
+            .map(|point| rows.with(&point, parameters).tensors[0][component].value)
+            .collect()
+    }
+
+    /// Whether the values at these points, one for each of the question, and with these parameters
+    /// are those of the foreign source, from point to point.
+    fn fits_everywhere(&self, points: &[Vec<f64>], parameters: &[f64]) -> bool {
+        let rows = self.right.rows(self.place);
+        let component = self.place.component;
+        points.iter().enumerate().all(|(place, point)| {
+            let value = rows.with(point, parameters).tensors[0][component].value;
+            (self.foreign[place] - value).abs() <= self.allowed[place]
+        })
     }
 
     /// Another component, or two coordinates exchanged.
@@ -164,7 +188,7 @@ impl Component<'_, '_> {
                 points
                     .iter_mut()
                     .for_each(|point| point.swap(first, second));
-                if self.fits(&right.at_points(self.place, &points)) {
+                if self.fits_everywhere(&points, &right.model.graph.parameters) {
                     let names = [first, second].map(|place| coordinates[place].clone());
                     return Some(Cause::Coordinates(names));
                 }
@@ -187,11 +211,11 @@ impl Component<'_, '_> {
                 }
             }
         }
+        let rows = self.right.rows(self.place);
         for (index, parameter) in parameters.iter().enumerate() {
-            let few = &self.right.points[..self.right.points.len().min(FEW)];
             let with = |value: f64| {
                 let values = self.right.parameters(index, value)?;
-                Some(self.right.with_parameters(self.place, &values, few))
+                Some(self.column(&rows, self.few().iter().cloned(), &values))
             };
             for start in [values[index], 0.0, 1.0] {
                 let Some(value) = self.newton(start, f64::INFINITY, with).map(simple) else {
@@ -207,16 +231,8 @@ impl Component<'_, '_> {
         None
     }
 
-    /// Whether these parameters explain all points; the first few are tried first.
     fn fits_with(&self, parameters: &[f64]) -> bool {
-        let points = &self.right.points;
-        [points.len().min(FEW), points.len()].iter().all(|count| {
-            let values = self
-                .right
-                .with_parameters(self.place, parameters, &points[..*count]);
-            let mut triples = self.foreign.iter().zip(&values).zip(&self.allowed);
-            triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
-        })
+        self.fits_everywhere(&self.right.points, parameters)
     }
 
     /// Gauss-Newton on one number; the slope is a central difference.
@@ -228,7 +244,7 @@ impl Component<'_, '_> {
         longest: f64,
         with: impl Fn(f64) -> Option<Column>,
     ) -> Option<f64> {
-        const STEPS: usize = 25;
+        const STEPS: usize = 15;
         let mut value = start;
         for _ in 0..STEPS {
             let step = 1e-6 * value.abs().max(1e-3);
@@ -251,5 +267,11 @@ impl Component<'_, '_> {
     }
 }
 
-/// Points for numbers that are found step by step.
-const FEW: usize = 50;
+/// A point at another time.
+fn at_time(point: &[f64], time: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut point = point.to_vec();
+    if let Some(last) = point.last_mut() {
+        *last = time(*last);
+    }
+    point
+}

@@ -462,10 +462,6 @@ impl Algebra for Graph {
         }
     }
 
-    fn is_zero(&self, number: &NodeId) -> bool {
-        self.constant(*number) == Some(0.0)
-    }
-
     fn nodes(&self) -> usize {
         self.len()
     }

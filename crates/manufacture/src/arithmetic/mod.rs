@@ -58,10 +58,6 @@ pub(crate) trait Algebra {
     fn held(&mut self, number: &Self::Number) -> Self::Number {
         number.clone()
     }
-    /// Whether it is zero wherever it is evaluated, as far as the arithmetic knows.
-    fn is_zero(&self, _number: &Self::Number) -> bool {
-        false
-    }
     /// The number of nodes that exist; 0 in an arithmetic without.
     fn nodes(&self) -> usize {
         0

@@ -77,6 +77,13 @@ impl<'g> Tape<'g> {
         }
     }
 
+    /// The number of nodes that one evaluation takes.
+    pub(crate) fn work(&self) -> usize {
+        let inner = self.integrals.iter();
+        let inner = inner.map(|inner| inner.panels * self.rule.len() * inner.body.work());
+        self.steps.len() + inner.sum::<usize>()
+    }
+
     /// The roots at a point, with the parameters of the file.
     pub(crate) fn at(&self, point: &[f64]) -> Evaluated {
         self.with(point, &self.graph.parameters)

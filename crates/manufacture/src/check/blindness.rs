@@ -1,7 +1,6 @@
 //! What a test with this solution would not notice, apart from terms and symmetries.
 
-use super::general::General;
-use super::{Finding, Sampled, finding, is_same, is_zero};
+use super::{Finding, Sampled, finding, is_same, is_zero, unseen};
 use std::collections::HashMap;
 
 use crate::arithmetic::tape::nodes_below;
@@ -13,7 +12,7 @@ use crate::problem::InputError;
 use crate::sample::Sampler;
 
 pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
-    let mut findings = slips(model, sampled);
+    let mut findings = unseen::edits(model, sampled);
     for (index, quantity) in sampled.quantities.iter().enumerate() {
         let key = &quantity.key;
         match quantity.role {
@@ -56,45 +55,6 @@ fn kink(model: &Model, sampled: &Sampled<'_>, index: usize) -> Option<Finding> {
          and a jump of a flux there is no source"
     );
     (inside > 0).then(|| finding("kink", &quantity.key, text, Some(inside as f64)))
-}
-
-/// Slips that change an expression but not its value, although they change it for other fields: a
-/// slip that changes nothing for any fields, as a gradient transposed inside a symmetric form, is no
-/// mistake.
-fn slips(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = vec![];
-    let mut general: Option<General> = None;
-    for (slip, sources) in &model.slips {
-        let rows = Rows::new(&model.graph, sources.iter().map(|source| &source.tensor));
-        let values: Vec<_> = sampled
-            .points
-            .iter()
-            .map(|point| rows.at(point).tensors)
-            .collect();
-        for (place, source) in sources.iter().enumerate() {
-            let mut quantities = sampled.quantities.iter();
-            let index = quantities.position(|q| q.role == Role::Source && q.name == source.name);
-            let Some(index) = index else {
-                continue;
-            };
-            if sampled.quantities[index].tensor == source.tensor {
-                continue;
-            }
-            let right = sampled.over(index).map(|entry| entry.1);
-            let is_invisible = right.zip(&values).all(|(right, values)| {
-                right.iter().zip(&values[place]).all(|(a, b)| is_same(a, b))
-            });
-            if is_invisible
-                && general
-                    .get_or_insert_with(|| General::of(sampled, model))
-                    .sees(*slip, &source.name)
-            {
-                let text = format!("{}: the source {} is the same", slip.cause(), slip.words());
-                findings.push(finding("slip-invisible", &source.key, text, None));
-            }
-        }
-    }
-    findings
 }
 
 /// The degree in space, if all components are polynomials as they are written.

@@ -1,8 +1,9 @@
-//! The same equations with other fields: what a slip changes for any solution.
+//! The same equations with other fields: what an edit changes for any solution.
 
 use super::{Sampled, is_same, is_zero};
+use crate::against::bench::{Alteration, Bench};
 use crate::arithmetic::tape::Measured;
-use crate::derive::{Role, Slip};
+use crate::derive::{Part, Role};
 use crate::language::parse;
 use crate::model::{Model, Rows};
 use crate::problem::{Expression, Value};
@@ -13,7 +14,7 @@ const POINTS: usize = 20;
 /// A file with general fields for its exact solution, which cannot be made the same by chance.
 pub(super) struct General {
     /// `None` if the equations have no values for such fields.
-    model: Option<Model>,
+    bench: Option<Bench>,
     points: Vec<Vec<f64>>,
 }
 
@@ -44,29 +45,32 @@ impl General {
             }
         }
         Self {
-            model: Model::new(problem).ok(),
+            bench: Model::new(problem)
+                .ok()
+                .and_then(|model| Bench::new(&model, Part::Interior)),
             points,
         }
     }
 
-    /// Whether the slip changes a source for these fields. Without values nothing is known, and the
-    /// slip counts.
-    pub(super) fn sees(&self, slip: Slip, source: &str) -> bool {
-        let Some(model) = &self.model else {
+    /// Whether an edit changes a source for these fields. Without values nothing is known, and the
+    /// edit counts.
+    pub(super) fn sees(&mut self, edit: &Alteration, source: &str) -> bool {
+        let Some(bench) = &mut self.bench else {
             return true;
         };
-        let slipped = model.slips.iter().find(|entry| entry.0 == slip);
-        let slipped = slipped.and_then(|entry| entry.1.iter().find(|q| q.name == source));
-        let mut sources = model.of_role(Role::Source);
-        let right = sources.find(|q| q.name == source);
-        let (Some(slipped), Some(right)) = (slipped, right) else {
+        let mut values = |edits: &[&Alteration]| {
+            bench.altered(edits, source, |altered| {
+                let evaluation = altered.evaluation();
+                let points = self.points.iter();
+                let values = points.map(|point| evaluation.at(point, [1.0; 2]));
+                values.collect::<Vec<_>>()
+            })
+        };
+        let (Some(right), Some(edited)) = (values(&[]), values(&[edit])) else {
             return true;
         };
-        let rows = Rows::new(&model.graph, [&right.tensor, &slipped.tensor].into_iter());
-        !self.points.iter().all(|point| {
-            let values = rows.at(point).tensors;
-            values[0].iter().zip(&values[1]).all(|(a, b)| is_same(a, b))
-        })
+        let mut pairs = right.iter().flatten().zip(edited.iter().flatten());
+        !pairs.all(|(a, b)| is_same(a, b))
     }
 }
 

@@ -6,6 +6,7 @@ mod general;
 mod second_way;
 mod symmetry;
 mod terms;
+mod unseen;
 
 use serde::Serialize;
 

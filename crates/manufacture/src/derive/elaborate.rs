@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use super::Slip;
 use super::space::{Basis, Space};
 use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::Algebra;
@@ -19,15 +18,12 @@ pub(crate) struct Elaborator<'p, A: Algebra> {
     pub(crate) problem: &'p Problem,
     pub(crate) algebra: A,
     pub(crate) space: Space,
-    pub(super) slip: Slip,
-    /// How often the slip has changed something.
-    pub(super) slips: usize,
+    /// A mistake: the normal of a face points inwards.
+    pub(crate) is_inward: bool,
     /// On a face: the outward unit normal.
     pub(super) normal: Option<Tensor<A::Number>>,
     /// The values of definitions.
     pub(crate) known: HashMap<String, Tensor<A::Number>>,
-    /// Whether a derivative occurs in a definition.
-    pub(super) differential: HashMap<String, bool>,
     /// Definitions that are being evaluated.
     open: Vec<String>,
 }
@@ -35,7 +31,7 @@ pub(crate) struct Elaborator<'p, A: Algebra> {
 pub(super) type Elaborated<A> = Result<Tensor<<A as Algebra>::Number>, InputError>;
 
 impl<'p, A: Algebra> Elaborator<'p, A> {
-    pub(crate) fn new(problem: &'p Problem, algebra: A, slip: Slip) -> Self {
+    pub(crate) fn new(problem: &'p Problem, algebra: A) -> Self {
         Self {
             space: Space {
                 system: problem.system,
@@ -44,18 +40,11 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             },
             problem,
             algebra,
-            slip,
-            slips: 0,
+            is_inward: false,
             normal: None,
             known: HashMap::new(),
-            differential: HashMap::new(),
             open: vec![],
         }
-    }
-
-    /// Forgets the values of definitions.
-    pub(super) fn forget(&mut self) {
-        self.known.clear();
     }
 
     pub(crate) fn expression(&mut self, expression: &Expression) -> Elaborated<A> {

@@ -14,59 +14,6 @@ pub(crate) use elaborate::Elaborator;
 pub(crate) use space::Basis;
 pub(crate) use tensor::Tensor;
 
-/// A mistake that is made throughout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Slip {
-    None,
-    /// Coefficients are not differentiated inside a `div` or `d`.
-    ProductRule,
-    TransposedGradient,
-    /// `sym(A)` is A.
-    PlainSymmetric,
-    /// `sym(A)` is A/2.
-    HalfSymmetric,
-    /// `transpose(A)` is A.
-    PlainTranspose,
-    /// The normal of a face points inwards.
-    InwardNormal,
-}
-
-impl Slip {
-    /// The slips in an equation.
-    pub(crate) const ALL: [Slip; 5] = [
-        Slip::ProductRule,
-        Slip::TransposedGradient,
-        Slip::PlainSymmetric,
-        Slip::HalfSymmetric,
-        Slip::PlainTranspose,
-    ];
-
-    /// The name of the cause.
-    pub(crate) fn cause(self) -> &'static str {
-        match self {
-            Slip::None => "equal",
-            Slip::ProductRule => "product-rule",
-            Slip::TransposedGradient => "transposed-gradient",
-            Slip::PlainSymmetric | Slip::HalfSymmetric | Slip::PlainTranspose => {
-                "missing-transpose"
-            }
-            Slip::InwardNormal => "normal",
-        }
-    }
-
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Slip::None => "as written",
-            Slip::ProductRule => "without the derivative of a coefficient that varies",
-            Slip::TransposedGradient => "with each gradient of a vector transposed",
-            Slip::PlainSymmetric => "with A in place of sym(A)",
-            Slip::HalfSymmetric => "with A/2 in place of sym(A)",
-            Slip::PlainTranspose => "with A in place of transpose(A)",
-            Slip::InwardNormal => "with a normal that points inwards",
-        }
-    }
-}
-
 /// What a quantity is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
@@ -170,7 +117,9 @@ impl<A: Algebra> Elaborator<'_, A> {
             }
             quantities.push(quantity(Role::Exact, name, &key, tensor));
         }
-        quantities.extend(self.sources()?);
+        for equation in &problem.equations {
+            quantities.push(self.source(equation)?);
+        }
         let required = [
             (Role::Positive, &problem.positive),
             (Role::Zero, &problem.zero),
@@ -197,23 +146,6 @@ impl<A: Algebra> Elaborator<'_, A> {
             }
         }
         Ok(quantities)
-    }
-
-    /// The sources alone, with their terms; with a slip those that have room for it.
-    pub(crate) fn sources(&mut self) -> Result<Vec<Quantity<A::Number>>, InputError> {
-        let mut sources = vec![];
-        for equation in &self.problem.equations {
-            if self.slip != Slip::None {
-                // Definitions are evaluated anew, so that a slip in them counts for each equation.
-                self.forget();
-            }
-            let before = self.slips;
-            let source = self.source(equation)?;
-            if self.slip == Slip::None || self.slips > before {
-                sources.push(source);
-            }
-        }
-        Ok(sources)
     }
 
     /// The source of an equation, with its terms.
@@ -290,11 +222,7 @@ impl<A: Algebra> Elaborator<'_, A> {
         };
         let key = format!("boundary.{}", face.name);
         let mut quantities = vec![quantity(Role::Normal, &face.name, &key, normal.clone())];
-        let sign = if self.slip == Slip::InwardNormal {
-            -1.0
-        } else {
-            1.0
-        };
+        let sign = if self.is_inward { -1.0 } else { 1.0 };
         let sign = self.algebra.number(sign);
         let normal = tensor::scale(&mut self.algebra, Binary::Multiply, &normal, &sign);
         self.normal = Some(normal);

@@ -1,13 +1,12 @@
-//! The operators of the language on tensors, with the slips that people make in them.
+//! The operators of the language on tensors.
 
-use super::Slip;
 use super::elaborate::{Elaborated, Elaborator, matrix, refused};
 use super::space::Basis;
 use super::tensor::{self, Tensor, combine, scale, sum_of_products};
 use crate::arithmetic::Algebra;
-use crate::language::names::{Alteration, Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
-use crate::problem::{Expression, InputError, Value};
+use crate::language::names::{Alteration, Operator};
+use crate::language::tree::{Binary, Tree};
+use crate::problem::Expression;
 
 impl<A: Algebra> Elaborator<'_, A> {
     pub(super) fn operator(
@@ -23,7 +22,9 @@ impl<A: Algebra> Elaborator<'_, A> {
                     .iter()
                     .map(|part| self.variable(part, within))
                     .collect();
-                self.outer_derivative(&Outer::Partial(by?), &parts[0], tree, within)
+                let by = by?;
+                let of = self.tree(&parts[0], within)?;
+                Ok(self.partial(&of, &by))
             }
             Operator::TimeDerivative => {
                 if self.problem.time.is_none() {
@@ -33,9 +34,6 @@ impl<A: Algebra> Elaborator<'_, A> {
                 let time = self.problem.coordinates.len();
                 let of = self.tree(&parts[0], within)?;
                 Ok(self.partial(&of, &[time]))
-            }
-            Operator::Divergence => {
-                self.outer_derivative(&Outer::Divergence, &parts[0], tree, within)
             }
             Operator::Integral => self.integral(parts, within),
             Operator::Altered(alteration) => self.altered(alteration, &parts[0], within),
@@ -139,17 +137,18 @@ impl<A: Algebra> Elaborator<'_, A> {
                 "as many components as the space has"
             }
             Operator::Gradient => {
-                let gradient = self.space.gradient(algebra, &of);
-                let is_transposed = self.slip == Slip::TransposedGradient && of.rank() == 1;
-                if is_transposed && gradient.square().is_some() {
-                    self.slips += 1;
-                    return Ok(gradient.transposed());
-                }
-                return Ok(gradient);
+                return Ok(self.space.gradient(algebra, &of));
             }
             Operator::Laplacian => {
                 let gradient = self.space.gradient(algebra, &of);
                 return Ok(self.space.divergence(algebra, &gradient));
+            }
+            Operator::Divergence => {
+                let is_fit = of.shape.last() == Some(&components);
+                if is_fit && !self.space.refuses(&of) {
+                    return Ok(self.space.divergence(algebra, &of));
+                }
+                &format!("a last index of {components} components")
             }
             Operator::Curl => {
                 let is_vector = of.shape == [components] && components > 1;
@@ -160,9 +159,7 @@ impl<A: Algebra> Elaborator<'_, A> {
             }
             Operator::Transpose => {
                 if of.rank() == 2 {
-                    let is_plain = self.slip == Slip::PlainTranspose && of.square().is_some();
-                    self.slips += usize::from(is_plain);
-                    return Ok(if is_plain { of } else { of.transposed() });
+                    return Ok(of.transposed());
                 }
                 "a tensor"
             }
@@ -190,173 +187,12 @@ impl<A: Algebra> Elaborator<'_, A> {
             return Tensor::scalar(sum);
         }
         let half = algebra.number(0.5);
-        let is_slip = matches!(self.slip, Slip::PlainSymmetric | Slip::HalfSymmetric);
-        self.slips += usize::from(is_slip && operator == Operator::Symmetric);
-        let sum = match (operator, self.slip) {
-            (Operator::Symmetric, Slip::PlainSymmetric) => return of.clone(),
-            (Operator::Symmetric, Slip::HalfSymmetric) => of.clone(),
-            (Operator::Symmetric, _) => combine(algebra, Binary::Add, of, &of.transposed()),
-            _ => combine(algebra, Binary::Subtract, of, &of.transposed()),
+        let sign = if operator == Operator::Symmetric {
+            Binary::Add
+        } else {
+            Binary::Subtract
         };
+        let sum = combine(algebra, sign, of, &of.transposed());
         scale(algebra, Binary::Multiply, &sum, &half)
     }
-
-    /// `div` or `d`, as written or, with that slip, without the derivatives of coefficients.
-    fn outer_derivative(
-        &mut self,
-        outer: &Outer,
-        of: &Tree,
-        tree: &Tree,
-        within: &Expression,
-    ) -> Elaborated<A> {
-        if self.slip == Slip::ProductRule
-            && let Some(value) = self.without_product_rule(outer, of, tree, within)?
-        {
-            return Ok(value);
-        }
-        let value = self.tree(of, within)?;
-        self.apply(outer, value, tree, within)
-    }
-
-    fn apply(
-        &mut self,
-        outer: &Outer,
-        of: Tensor<A::Number>,
-        tree: &Tree,
-        within: &Expression,
-    ) -> Elaborated<A> {
-        let by = match outer {
-            Outer::Partial(by) => by,
-            Outer::Divergence => {
-                let is_fit = of.shape.last() == Some(&self.space.components);
-                if is_fit && !self.space.refuses(&of) {
-                    return Ok(self.space.divergence(&mut self.algebra, &of));
-                }
-                let expected = format!("a last index of {} components", self.space.components);
-                return Err(self.operand_error(
-                    Operator::Divergence,
-                    &expected,
-                    &[of],
-                    tree,
-                    within,
-                ));
-            }
-        };
-        Ok(self.partial(&of, by))
-    }
-
-    /// The outer derivative of `k*grad(T)` with k before it, also where a definition hides the
-    /// product; `None` where no factor stands out as the coefficient, because it alone has no
-    /// derivative.
-    fn without_product_rule(
-        &mut self,
-        outer: &Outer,
-        of: &Tree,
-        tree: &Tree,
-        within: &Expression,
-    ) -> Result<Option<Tensor<A::Number>>, InputError> {
-        match &of.kind {
-            Kind::Bracket(inner) => self.without_product_rule(outer, inner, tree, within),
-            Kind::Name(name) => match self.problem.definitions.get(name) {
-                Some(definition) if !definition.is_exact => match &definition.value {
-                    Value::One(inner) => self.without_product_rule(outer, &inner.tree, tree, inner),
-                    Value::List(..) => Ok(None),
-                },
-                _ => Ok(None),
-            },
-            Kind::Negate(inner) => {
-                let value = self.outer_derivative(outer, inner, tree, within)?;
-                let minus = self.algebra.number(-1.0);
-                let value = scale(&mut self.algebra, Binary::Multiply, &value, &minus);
-                Ok(Some(value))
-            }
-            Kind::Binary(operator @ (Binary::Add | Binary::Subtract), operands) => {
-                let left = self.outer_derivative(outer, &operands[0], tree, within)?;
-                let right = self.outer_derivative(outer, &operands[1], tree, within)?;
-                Ok(Some(combine(&mut self.algebra, *operator, &left, &right)))
-            }
-            Kind::Binary(operator @ (Binary::Multiply | Binary::Divide), operands) => {
-                let [left, right] = operands.as_ref();
-                let has = [left, right].map(|side| self.has_derivative(side));
-                let [coefficient, rest] = match (operator, has) {
-                    (_, [true, false]) => [right, left],
-                    (Binary::Multiply, [false, true]) => [left, right],
-                    _ => return Ok(None),
-                };
-                let coefficient = self.tree(coefficient, within)?;
-                if !self.varies(outer, &coefficient) {
-                    return Ok(None);
-                }
-                self.slips += 1;
-                let rest = self.outer_derivative(outer, rest, tree, within)?;
-                let value = self.binary(*operator, &rest, &coefficient);
-                Ok(value.ok())
-            }
-            _ => Ok(None),
-        }
-    }
-
-    /// Whether the product rule gives a coefficient a derivative.
-    fn varies(&mut self, outer: &Outer, coefficient: &Tensor<A::Number>) -> bool {
-        let variables = match outer {
-            Outer::Divergence => (0..self.problem.coordinates.len()).collect(),
-            Outer::Partial(by) => by.clone(),
-        };
-        let mut slopes = vec![];
-        for variable in variables {
-            for part in &coefficient.parts {
-                slopes.push(self.algebra.derivative(part, variable));
-            }
-        }
-        slopes.iter().any(|slope| !self.algebra.is_zero(slope))
-    }
-
-    /// Whether a derivative occurs in it, also in a definition that it names.
-    fn has_derivative(&mut self, tree: &Tree) -> bool {
-        match &tree.kind {
-            Kind::Call(
-                Callee::Operator(
-                    Operator::Derivative
-                    | Operator::TimeDerivative
-                    | Operator::Gradient
-                    | Operator::Divergence
-                    | Operator::Laplacian
-                    | Operator::Curl,
-                ),
-                _,
-            ) => true,
-            Kind::Name(name) => {
-                if let Some(known) = self.differential.get(name) {
-                    return *known;
-                }
-                let definition = self.problem.definitions.get(name);
-                let has = match definition {
-                    Some(definition) if !definition.is_exact => {
-                        self.value_has_derivative(&definition.value)
-                    }
-                    _ => false,
-                };
-                self.differential.insert(name.clone(), has);
-                has
-            }
-            _ => tree
-                .children()
-                .iter()
-                .any(|child| self.has_derivative(child)),
-        }
-    }
-
-    fn value_has_derivative(&mut self, value: &Value) -> bool {
-        match value {
-            Value::One(expression) => self.has_derivative(&expression.tree),
-            Value::List(_, parts) => parts.iter().any(|part| self.value_has_derivative(part)),
-        }
-    }
-}
-
-/// The derivatives that a product stands in.
-enum Outer {
-    Divergence,
-    /// By these variables, one after the other.
-    Partial(Vec<usize>),
 }

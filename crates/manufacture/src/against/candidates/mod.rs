@@ -1,0 +1,242 @@
+//! All single edits of a file: what people do to an expression by mistake.
+
+mod operators;
+mod products;
+mod trees;
+mod walk;
+
+use std::collections::HashMap;
+
+use super::bench::{Alteration, Rewrite};
+use super::site::{self, Home};
+use crate::derive::{Basis, Part};
+use crate::language::tree::Tree;
+use crate::problem::{Problem, System, mentions};
+
+pub(crate) use trees::number;
+use trees::times_factor;
+use walk::{Role, Walk};
+
+/// What an edit does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Change {
+    /// An unknown factor at a whole term of an equation, or at a whole datum.
+    Term,
+    /// An unknown factor at a summand.
+    Summand,
+    /// An unknown factor at another part that is not a factor of a product.
+    Part,
+    /// An unknown factor at an exponent.
+    Exponent,
+    LostFactor,
+    LostDivisor,
+    /// A product in place of a quotient, or the other way round.
+    TimesForOver,
+    /// A square in place of a number.
+    Square,
+    /// The argument in place of a function or an operator of it.
+    LostOperator,
+    /// A function by its neighbour.
+    Function,
+    TransposedGradient,
+    MissingTranspose,
+    /// The other order of two operands, or of two indices.
+    Order,
+    /// An operator by its neighbour.
+    Operator,
+    /// A part is a constant for the derivatives that act on it.
+    Held,
+    /// Only one factor of a product is differentiated.
+    OneDifferentiated,
+    /// A factor before a derivative is taken below it.
+    TakenBelow,
+    /// Derivatives as in Cartesian coordinates.
+    Basis,
+    /// A derivative by another variable, or by one fewer.
+    Derivative,
+    /// A component by another.
+    Index,
+    /// One of the values of a choice at all points.
+    Branch,
+    /// The factor before a bracket, or the divisor behind it, reaches one summand only.
+    LostBracket,
+    /// A name by another of its kind.
+    Name,
+    /// Another summand, with an unknown factor.
+    Added,
+    /// Two definitions exchanged.
+    Exchange,
+    /// Two parameters exchanged.
+    Parameters,
+    /// The normal of a face points inwards.
+    Normal,
+}
+
+/// An edit that is tried.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Candidate {
+    pub(crate) change: Change,
+    pub(crate) alteration: Alteration,
+    /// How far it is from a top-level term.
+    pub(crate) depth: usize,
+    /// It is tried only if no other explains the values.
+    pub(crate) is_rare: bool,
+}
+
+impl Change {
+    /// Whether a number belongs to it.
+    pub(crate) fn has_factor(self) -> bool {
+        use Change::{Added, Exponent, Part, Summand, Term};
+        matches!(self, Term | Summand | Part | Exponent | Added)
+    }
+}
+
+impl Candidate {
+    pub(crate) fn has_factor(&self) -> bool {
+        self.change.has_factor()
+    }
+}
+
+/// A definition is so much further from a term than what names it.
+const DEFINITION: usize = 20;
+
+/// The solution is further from all terms than any definition.
+const EXACT: usize = 1000;
+
+/// All candidates in the expressions that a comparison is about.
+///
+/// * `alike`: definitions of one shape, pair by pair.
+pub(crate) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
+    let homes = homes(problem, part);
+    let mut found = in_expressions(problem, alike, &homes);
+    found.extend(of_all(problem, part, alike));
+    found
+}
+
+/// The definitions, and the terms of equations or the data of a face.
+fn homes(problem: &Problem, part: Part) -> Vec<Home> {
+    let mut homes = vec![];
+    for (name, definition) in &problem.definitions {
+        let parts = site::parts(&definition.value);
+        homes.extend(parts.enumerate().map(|(part, _)| Home::Definition {
+            name: name.clone(),
+            part,
+        }));
+    }
+    if let Part::Face(face) = part {
+        for (datum, entry) in problem.faces[face].data.iter().enumerate() {
+            let parts = site::parts(&entry.value).enumerate();
+            homes.extend(parts.map(|(part, _)| Home::Datum { face, datum, part }));
+        }
+    } else {
+        for (equation, entry) in problem.equations.iter().enumerate() {
+            let terms = 0..entry.terms.len();
+            homes.extend(terms.map(|term| Home::Term { equation, term }));
+        }
+    }
+    homes
+}
+
+fn in_expressions(problem: &Problem, alike: &[[String; 2]], homes: &[Home]) -> Vec<Candidate> {
+    let mut found = vec![];
+    let distances = distances(problem, homes);
+    for home in homes {
+        let Some(expression) = home.expression(problem) else {
+            continue;
+        };
+        let distance = match home {
+            // What no term needs cannot be wrong.
+            Home::Definition { name, .. } => match distances.get(name) {
+                Some(distance) => *distance,
+                None => continue,
+            },
+            _ => 0,
+        };
+        let mut walk = Walk {
+            problem,
+            alike,
+            home,
+            depth: distance,
+            found: &mut found,
+        };
+        walk.visit(&expression.tree, &mut vec![], Role::Root);
+        walk.exchanges(&expression.tree);
+        if matches!(home, Home::Term { term: 0, .. } | Home::Datum { .. }) {
+            walk.added(&expression.tree);
+        }
+    }
+    found
+}
+
+/// Edits that are about all of a quantity.
+fn of_all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
+    let mut found = vec![];
+    let mut add = |change: Change, alteration: Alteration| {
+        found.push(Candidate {
+            change,
+            alteration,
+            depth: 0,
+            is_rare: change == Change::Exchange,
+        });
+    };
+    if problem.system != System::Cartesian {
+        for basis in [Basis::Unturned, Basis::Flat] {
+            add(Change::Basis, Alteration::Basis(basis));
+        }
+    }
+    if part != Part::Interior {
+        add(Change::Normal, Alteration::Normal);
+    }
+    for names in alike {
+        add(Change::Exchange, Alteration::Exchange(names.clone()));
+    }
+    found
+}
+
+/// A factor at the term with a label.
+pub(crate) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<Candidate> {
+    let mut equations = problem.equations.iter();
+    let equation = equations.position(|entry| entry.name == equation)?;
+    let mut terms = problem.equations[equation].terms.iter();
+    let term = terms.position(|term| term.label == label)?;
+    let home = Home::Term { equation, term };
+    let new = times_factor(&home.expression(problem)?.tree);
+    Some(Candidate {
+        change: Change::Term,
+        alteration: Alteration::Rewrite(Rewrite {
+            home,
+            route: vec![],
+            new,
+        }),
+        depth: 0,
+        is_rare: false,
+    })
+}
+
+/// How far each definition is from a term, or from a datum.
+fn distances(problem: &Problem, homes: &[Home]) -> HashMap<String, usize> {
+    let mut distances = HashMap::new();
+    let tops = homes
+        .iter()
+        .filter(|home| !matches!(home, Home::Definition { .. }));
+    let mut level: Vec<&Tree> = tops
+        .filter_map(|home| home.expression(problem))
+        .map(|expression| &expression.tree)
+        .collect();
+    for distance in 1.. {
+        let mut next = vec![];
+        for (name, definition) in &problem.definitions {
+            let is_named = level.iter().any(|tree| mentions(tree, name));
+            if is_named && !distances.contains_key(name) {
+                let exact = if definition.is_exact { EXACT } else { 0 };
+                distances.insert(name.clone(), DEFINITION * distance + exact);
+                next.extend(site::parts(&definition.value).map(|part| &part.tree));
+            }
+        }
+        if next.is_empty() {
+            break;
+        }
+        level = next;
+    }
+    distances
+}

@@ -1,0 +1,148 @@
+//! Products: factors that are lost or stand elsewhere, and what derivatives act on.
+
+use super::super::site::{self, Route};
+use super::Change;
+use super::trees::{binary, gradient, held, is_chain, node, number, operator};
+use super::walk::Walk;
+use crate::language::names::{Callee, Operator};
+use crate::language::tree::{Binary, Kind, Tree};
+
+impl Walk<'_> {
+    pub(super) fn binary(&mut self, operator: Binary, operands: &[Tree; 2], route: &Route) {
+        let [left, right] = operands;
+        match operator {
+            Binary::Multiply => {
+                self.add(Change::LostFactor, route, left.clone());
+                self.add(
+                    Change::TimesForOver,
+                    route,
+                    binary(Binary::Divide, left, right),
+                );
+                self.brackets(operator, operands, route);
+                if !is_chain(left) {
+                    self.add(Change::LostFactor, route, right.clone());
+                }
+            }
+            Binary::Divide => {
+                self.add(Change::LostDivisor, route, left.clone());
+                self.brackets(operator, operands, route);
+                let product = binary(Binary::Multiply, left, right);
+                self.add(Change::TimesForOver, route, product);
+                if !is_chain(left) && !matches!(left.kind, Kind::Number(..)) {
+                    let inverse = binary(Binary::Divide, &number("1", 1.0), right);
+                    self.add(Change::LostFactor, route, inverse);
+                }
+            }
+            _ => (),
+        }
+    }
+
+    /// `a*b + c` for `a*(b + c)`, `a + b/c` for `(a + b)/c`.
+    fn brackets(&mut self, of: Binary, [left, right]: &[Tree; 2], route: &Route) {
+        let sum = |tree: &Tree| match &tree.kind {
+            Kind::Bracket(inner) => match &inner.kind {
+                Kind::Binary(sign @ (Binary::Add | Binary::Subtract), parts) => {
+                    Some((*sign, (**parts).clone()))
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        let bracket = |tree: Tree| node(Kind::Bracket(Box::new(tree)));
+        if let Some((sign, [first, last])) = sum(left) {
+            let last = binary(of, &last, right);
+            self.add(
+                Change::LostBracket,
+                route,
+                bracket(binary(sign, &first, &last)),
+            );
+        }
+        if let (Binary::Multiply, Some((sign, [first, last]))) = (of, sum(right)) {
+            let first = binary(of, left, &first);
+            self.add(
+                Change::LostBracket,
+                route,
+                bracket(binary(sign, &first, &last)),
+            );
+        }
+    }
+
+    /// Products: all factors but one are constants for derivatives; a factor goes below a derivative
+    /// that it stands before.
+    pub(super) fn chain(&mut self, tree: &Tree, route: &Route) {
+        let mut factors = vec![];
+        collect(tree, &mut vec![], &mut factors);
+        if factors.len() > 2 {
+            for kept in &factors {
+                let mut new = tree.clone();
+                for other in factors.iter().filter(|other| *other != kept) {
+                    if let Some(part) = site::at_mut(&mut new, other) {
+                        *part = held(part);
+                    }
+                }
+                self.add(Change::OneDifferentiated, route, new);
+            }
+        }
+        for factor in &factors {
+            let Some(part) = site::at(tree, factor) else {
+                continue;
+            };
+            if let Some(new) = below(tree, factor, part) {
+                self.add(Change::TakenBelow, route, new);
+            }
+        }
+    }
+}
+
+/// The same product with the derivative, which is one of its factors, acting on all of it.
+fn below(tree: &Tree, factor: &Route, derivative: &Tree) -> Option<Tree> {
+    let Kind::Call(callee @ Callee::Operator(of), parts) = &derivative.kind else {
+        return None;
+    };
+    let mut inside = tree.clone();
+    let (callee, inner, marks) = match of {
+        Operator::Derivative | Operator::TimeDerivative | Operator::Divergence => {
+            (*callee, parts[0].clone(), &parts[1..])
+        }
+        Operator::Dot => {
+            let product = operator(Operator::Outer, &[gradient(&parts[0])?, &parts[1]]);
+            (Callee::Operator(Operator::Divergence), product, &parts[..0])
+        }
+        _ => return None,
+    };
+    let inner = match inner.kind {
+        Kind::Binary(..) | Kind::Negate(_) => node(Kind::Bracket(Box::new(inner))),
+        _ => inner,
+    };
+    *site::at_mut(&mut inside, factor)? = inner;
+    let parts = std::iter::once(inside).chain(marks.to_vec()).collect();
+    Some(node(Kind::Call(callee, parts)))
+}
+
+/// The factors of a product that are no numbers: of quotients, and of products of tensors, too.
+fn collect(tree: &Tree, route: &mut Route, found: &mut Vec<Route>) {
+    let is_product = match &tree.kind {
+        Kind::Binary(Binary::Multiply | Binary::Divide, _) => true,
+        Kind::Call(Callee::Operator(of), parts) => {
+            let is_gradient = gradient(&parts[0]).is_some();
+            matches!(
+                of,
+                Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross
+            ) && !is_gradient
+        }
+        Kind::Bracket(inner) => is_chain(inner),
+        Kind::Negate(_) => true,
+        _ => false,
+    };
+    if !is_product {
+        if !matches!(tree.kind, Kind::Number(..)) {
+            found.push(route.clone());
+        }
+        return;
+    }
+    for (place, child) in tree.children().into_iter().enumerate() {
+        route.push(place);
+        collect(child, route, found);
+        route.pop();
+    }
+}

@@ -1,0 +1,54 @@
+//! Trees that no text is parsed to.
+
+use super::super::bench::FACTORS;
+use crate::language::names::{self, Callee, Operator};
+use crate::language::tree::{Binary, Kind, Tree};
+
+pub(super) fn node(kind: Kind) -> Tree {
+    Tree { kind, at: 0 }
+}
+
+pub(super) fn name(name: &str) -> Tree {
+    node(Kind::Name(name.to_owned()))
+}
+
+pub(crate) fn number(text: &str, value: f64) -> Tree {
+    node(Kind::Number(value, text.to_owned()))
+}
+
+pub(super) fn binary(operator: Binary, left: &Tree, right: &Tree) -> Tree {
+    node(Kind::Binary(
+        operator,
+        Box::new([left.clone(), right.clone()]),
+    ))
+}
+
+pub(super) fn operator(operator: Operator, parts: &[&Tree]) -> Tree {
+    let parts = parts.iter().map(|part| (*part).clone()).collect();
+    node(Kind::Call(Callee::Operator(operator), parts))
+}
+
+pub(super) fn held(tree: &Tree) -> Tree {
+    operator(Operator::Altered(names::Alteration::Held), &[tree])
+}
+
+/// A part times an unknown factor.
+pub(super) fn times_factor(tree: &Tree) -> Tree {
+    binary(Binary::Multiply, tree, &name(FACTORS[0]))
+}
+
+/// Whether brackets around it change nothing.
+pub(super) fn is_chain(tree: &Tree) -> bool {
+    matches!(
+        tree.kind,
+        Kind::Binary(Binary::Multiply | Binary::Divide, _)
+    )
+}
+
+/// The operand of a gradient.
+pub(super) fn gradient(tree: &Tree) -> Option<&Tree> {
+    match &tree.kind {
+        Kind::Call(Callee::Operator(Operator::Gradient), parts) => parts.first(),
+        _ => None,
+    }
+}

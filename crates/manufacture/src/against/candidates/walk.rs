@@ -1,0 +1,231 @@
+//! The walk over the parts of an expression.
+
+use super::super::bench::{Alteration, Rewrite};
+use super::super::site::{self, Home, Route};
+use super::trees::{binary, held, is_chain, name, node, number, times_factor};
+use super::{Candidate, Change};
+use crate::language::names::{Callee, Operator};
+use crate::language::tree::{Binary, Kind, Tree};
+use crate::problem::Problem;
+
+/// How a part stands in the expression around it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    Root,
+    Summand,
+    /// A factor of a product, or below a fraction line: one of them stands for all.
+    Factor,
+    Exponent,
+    /// What is around it is linear in it.
+    Linear,
+    Argument,
+    /// A coordinate, or an index.
+    Mark,
+}
+
+pub(super) struct Walk<'c> {
+    pub(super) problem: &'c Problem,
+    /// Definitions of one shape, pair by pair.
+    pub(super) alike: &'c [[String; 2]],
+    pub(super) home: &'c Home,
+    /// How far the expression is from a top-level term.
+    pub(super) depth: usize,
+    pub(super) found: &'c mut Vec<Candidate>,
+}
+
+/// The roles of the parts directly below.
+fn roles(tree: &Tree) -> Vec<Role> {
+    match &tree.kind {
+        Kind::Number(..) | Kind::Name(_) => vec![],
+        Kind::Negate(_) | Kind::Bracket(_) => vec![Role::Linear],
+        Kind::Binary(operator, _) => match operator {
+            Binary::Add | Binary::Subtract => vec![Role::Summand; 2],
+            Binary::Multiply | Binary::Divide => vec![Role::Factor; 2],
+            Binary::Power => vec![Role::Argument, Role::Exponent],
+        },
+        Kind::Call(callee, parts) => match callee {
+            Callee::Operator(Operator::Derivative | Operator::Integral) => {
+                let marks = std::iter::repeat_n(Role::Mark, parts.len() - 1);
+                std::iter::once(Role::Linear).chain(marks).collect()
+            }
+            Callee::Operator(
+                Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross,
+            ) => vec![Role::Factor; 2],
+            Callee::Operator(Operator::Determinant) => vec![Role::Argument],
+            Callee::Operator(_) => vec![Role::Linear; parts.len()],
+            Callee::Function(_) | Callee::Piecewise(_) => vec![Role::Argument; parts.len()],
+        },
+        Kind::Compare(..) => vec![Role::Argument; 2],
+        Kind::List(parts) => vec![Role::Argument; parts.len()],
+        Kind::Index(_, indices) => {
+            let marks = std::iter::repeat_n(Role::Mark, indices.len());
+            std::iter::once(Role::Linear).chain(marks).collect()
+        }
+    }
+}
+
+impl Walk<'_> {
+    pub(super) fn add(&mut self, change: Change, route: &Route, new: Tree) {
+        self.found.push(Candidate {
+            change,
+            alteration: Alteration::Rewrite(Rewrite {
+                home: self.home.clone(),
+                route: route.clone(),
+                new,
+            }),
+            depth: self.depth + route.len(),
+            is_rare: false,
+        });
+    }
+
+    /// An edit that is tried only if others do not explain the values.
+    pub(super) fn add_rare(&mut self, change: Change, route: &Route, new: Tree) {
+        self.add(change, route, new);
+        if let Some(last) = self.found.last_mut() {
+            last.is_rare = true;
+        }
+    }
+
+    pub(super) fn visit(&mut self, tree: &Tree, route: &mut Route, role: Role) {
+        if role == Role::Mark {
+            return;
+        }
+        self.factor(tree, route, role);
+        if role == Role::Factor && !matches!(tree.kind, Kind::Number(..) | Kind::Negate(_)) {
+            self.add(Change::Held, route, held(tree));
+        }
+        if role == Role::Root && matches!(self.home, Home::Definition { .. }) {
+            self.add(Change::Held, route, held(tree));
+        }
+        if is_chain(tree) && role != Role::Factor {
+            self.chain(tree, route);
+        }
+        match &tree.kind {
+            Kind::Binary(operator, operands) => self.binary(*operator, operands, route),
+            Kind::Call(callee, parts) => self.call(*callee, parts, route),
+            Kind::Name(named) => {
+                if role == Role::Factor {
+                    let two = number("2", 2.0);
+                    self.add(Change::Square, route, binary(Binary::Power, tree, &two));
+                }
+                for other in self.others(named) {
+                    self.add_rare(Change::Name, route, name(&other));
+                }
+            }
+            Kind::Index(of, indices) => self.index(of, indices, route),
+            _ => (),
+        }
+        let is_signed_factor = role == Role::Factor && matches!(tree.kind, Kind::Negate(_));
+        for (place, (child, role)) in tree.children().into_iter().zip(roles(tree)).enumerate() {
+            let role = if is_signed_factor { Role::Factor } else { role };
+            route.push(place);
+            self.visit(child, route, role);
+            route.pop();
+        }
+    }
+
+    /// Names of the same kind: variables, parameters, definitions of the same shape.
+    pub(super) fn others(&self, named: &str) -> Vec<String> {
+        let parameters = self.problem.parameters.iter();
+        let parameters: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
+        for kind in [self.problem.variables(), parameters] {
+            if kind.contains(&named) {
+                let others = kind.into_iter().filter(|other| *other != named);
+                return others.map(str::to_owned).collect();
+            }
+        }
+        let pairs = self.alike.iter();
+        pairs
+            .filter_map(|[first, second]| match [first == named, second == named] {
+                [true, _] => Some(second.clone()),
+                [_, true] => Some(first.clone()),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Two names of one kind exchanged in all of an expression.
+    pub(super) fn exchanges(&mut self, tree: &Tree) {
+        let mut names = vec![];
+        site::names(tree, &mut names);
+        names.sort_unstable();
+        names.dedup();
+        for (place, first) in names.iter().enumerate() {
+            for second in self.others(first) {
+                if names[place..].contains(&second.as_str()) {
+                    let mut new = tree.clone();
+                    exchange(&mut new, first, &second);
+                    let mut parameters = self.problem.parameters.iter();
+                    let change = match parameters.any(|parameter| parameter.name == **first) {
+                        true => Change::Parameters,
+                        false => Change::Exchange,
+                    };
+                    self.add_rare(change, &vec![], new);
+                }
+            }
+        }
+    }
+
+    /// A field, or another definition, as another summand.
+    pub(super) fn added(&mut self, tree: &Tree) {
+        let names: Vec<String> = self.problem.definitions.keys().cloned().collect();
+        for named in names {
+            let summand = times_factor(&name(&named));
+            let sum = binary(Binary::Add, tree, &summand);
+            self.add_rare(Change::Added, &vec![], sum);
+        }
+    }
+
+    /// Another component.
+    pub(super) fn index(&mut self, of: &Tree, indices: &[Tree], route: &Route) {
+        let indexed = |indices: Vec<Tree>| node(Kind::Index(Box::new(of.clone()), indices));
+        if let [first, second] = indices {
+            let swapped = indexed(vec![second.clone(), first.clone()]);
+            self.add(Change::Index, route, swapped);
+        }
+        for (place, index) in indices.iter().enumerate() {
+            let others: Vec<Tree> = match index.kind {
+                Kind::Number(..) => (1..=3)
+                    .map(|other| number(&other.to_string(), f64::from(other)))
+                    .collect(),
+                _ => self.problem.axes().iter().map(|axis| name(axis)).collect(),
+            };
+            for other in others.into_iter().filter(|other| other.kind != index.kind) {
+                let mut indices = indices.to_vec();
+                indices[place] = other;
+                self.add_rare(Change::Index, route, indexed(indices));
+            }
+        }
+    }
+
+    /// An unknown factor, where it is not that of another part as well.
+    pub(super) fn factor(&mut self, tree: &Tree, route: &Route, role: Role) {
+        let change = match role {
+            Role::Root if matches!(self.home, Home::Term { .. }) => Change::Term,
+            Role::Root | Role::Argument => Change::Part,
+            Role::Summand => Change::Summand,
+            Role::Exponent => Change::Exponent,
+            Role::Factor | Role::Linear | Role::Mark => return,
+        };
+        let is_sum = matches!(tree.kind, Kind::Binary(Binary::Add | Binary::Subtract, _));
+        if is_sum && role == Role::Summand {
+            return;
+        }
+        if !matches!(tree.kind, Kind::Compare(..) | Kind::List(_)) {
+            self.add(change, route, times_factor(tree));
+        }
+    }
+}
+
+fn exchange(tree: &mut Tree, first: &str, second: &str) {
+    if let Kind::Name(name) = &mut tree.kind {
+        if name == first {
+            second.clone_into(name);
+        } else if name == second {
+            first.clone_into(name);
+        }
+    }
+    for child in tree.children_mut() {
+        exchange(child, first, second);
+    }
+}

@@ -1,0 +1,162 @@
+//! One edit, tried at a few points.
+
+use super::candidates::{Candidate, Change};
+use super::pairs::Effect;
+use super::solve::{self, Curve, Sample, Solved, difference};
+use super::text;
+use super::whole::Component;
+use crate::arithmetic::tape::Measured;
+use crate::fit::Column;
+
+/// The points of a trial, and the values there.
+pub(super) struct Trial {
+    pub(super) points: Vec<Vec<f64>>,
+    /// Of each component that is answered.
+    pub(super) samples: Vec<Sample>,
+    pub(super) is_wrong: Vec<bool>,
+}
+
+impl Trial {
+    pub(super) fn fits(&self, columns: &[Column]) -> Vec<bool> {
+        let samples = self.samples.iter();
+        samples
+            .map(|sample| sample.fits(&columns[sample.component]))
+            .collect()
+    }
+
+    pub(super) fn wrong(&self) -> impl Iterator<Item = &Sample> {
+        let pairs = self.samples.iter().zip(&self.is_wrong);
+        pairs.filter(|pair| *pair.1).map(|pair| pair.0)
+    }
+}
+
+pub(super) fn sample(component: &Component<'_, '_>, places: &[usize]) -> Sample {
+    let of = |column: &[f64]| places.iter().map(|place| column[*place]).collect();
+    Sample {
+        component: component.place.component,
+        right: of(&component.source),
+        foreign: of(component.foreign),
+        allowed: of(&component.allowed),
+    }
+}
+
+/// How near an edit comes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Near {
+    pub(super) candidate: usize,
+    pub(super) factor: f64,
+    pub(super) left: f64,
+}
+
+#[derive(Default)]
+pub(super) struct Outcome {
+    /// The factors with which a component fits.
+    pub(super) factors: Vec<f64>,
+    pub(super) effect: Option<Effect>,
+    pub(super) near: Option<Near>,
+}
+
+/// Tries one edit on all components that are wrong.
+pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Trial) -> Outcome {
+    let mut outcome = Outcome::default();
+    if !candidate.has_factor() {
+        let columns = curve.at(1.0).to_vec();
+        let mut change = vec![];
+        let mut left = 0.0_f64;
+        for sample in trial.wrong() {
+            let values = &columns[sample.component];
+            if sample.fits(values) {
+                outcome.factors = vec![1.0];
+            }
+            left = left.max(sample.left_by(values));
+            change.extend(difference(values, &sample.right));
+        }
+        outcome.effect = Some(Effect::fixed(change));
+        outcome.near = Some(Near {
+            candidate: 0,
+            factor: 1.0,
+            left,
+        });
+        return outcome;
+    }
+    let solved: Vec<Option<Solved>> = trial
+        .wrong()
+        .map(|sample| solve::factor(curve, sample))
+        .collect();
+    for solved in solved.iter().flatten() {
+        outcome.factors.extend(solved.factor);
+    }
+    outcome.factors.sort_by(f64::total_cmp);
+    outcome.factors.dedup();
+    if let Some(first) = solved.iter().flatten().next() {
+        let left = solved.iter().map(|solved| match solved {
+            Some(solved) => solved.left,
+            None => 1.0,
+        });
+        outcome.near = Some(Near {
+            candidate: 0,
+            factor: first.nearest,
+            left: left.fold(0.0, f64::max),
+        });
+    }
+    outcome.effect = slopes(&solved, trial).map(Effect::free);
+    outcome
+}
+
+/// What one more of a factor adds to all components that are wrong; `None` if that is not one number
+/// for all values of the factor.
+fn slopes(solved: &[Option<Solved>], trial: &Trial) -> Option<Column> {
+    let mut all = vec![];
+    for (solved, sample) in solved.iter().zip(trial.wrong()) {
+        match solved {
+            Some(solved) => all.extend(solved.slope.clone()?),
+            None => all.extend(vec![0.0; sample.right.len()]),
+        }
+    }
+    Some(all)
+}
+
+/// Of each component its values at points.
+pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<Measured>) -> Vec<Column> {
+    let mut columns: Vec<Column> = vec![];
+    for point in points {
+        let values = at(point);
+        columns.resize(values.len(), vec![]);
+        for (column, value) in columns.iter_mut().zip(values) {
+            column.push(value.value);
+        }
+    }
+    columns
+}
+
+/// The cost of an edit with a simple number that the file does not have there.
+pub(super) const NEW_NUMBER: usize = 20;
+
+/// The cost of an edit with a number that nobody writes.
+pub(super) const FAR_FETCHED: usize = 40;
+
+/// How much an edit changes; those that people make most often are cheapest.
+pub(super) fn cost(candidate: &Candidate, factor: f64) -> usize {
+    let is_lost = factor == -1.0 || factor == 0.0;
+    let is_simple = solve::complexity(factor) < 1000.0;
+    match candidate.change {
+        Change::Term | Change::Summand if is_lost => 10,
+        Change::LostFactor | Change::LostDivisor | Change::LostOperator => 10,
+        Change::Normal => 5,
+        Change::TransposedGradient | Change::MissingTranspose | Change::Held => 11,
+        Change::Exponent if text::has_simple_number(candidate, factor) => 11,
+        Change::TimesForOver | Change::Order | Change::Operator | Change::Function => 12,
+        Change::Derivative | Change::Index | Change::Branch | Change::LostBracket => 13,
+        Change::Name => 16,
+        Change::Term | Change::Summand | Change::Part
+            if text::has_simple_number(candidate, factor) =>
+        {
+            12
+        }
+        Change::Exchange | Change::Parameters | Change::Basis => 13,
+        Change::Part if is_lost => 14,
+        Change::OneDifferentiated | Change::TakenBelow | Change::Square => 15,
+        _ if candidate.has_factor() && is_simple => NEW_NUMBER,
+        _ => FAR_FETCHED,
+    }
+}

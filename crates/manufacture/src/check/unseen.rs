@@ -1,0 +1,155 @@
+//! Edits that no point sees: mistakes in an equation that leave the source of this solution as it
+//! is.
+
+use std::collections::HashSet;
+
+use super::general::General;
+use super::{Finding, Sampled, finding, is_same};
+use crate::against::bench::{Alteration, Bench, Rewrite};
+use crate::against::candidates::{self, Candidate, Change};
+use crate::against::{cause, site, text};
+use crate::derive::{Part, Role};
+use crate::language::names::{Callee, Operator};
+use crate::language::tree::{Binary, Kind, Tree};
+use crate::model::Model;
+use crate::problem::Problem;
+
+/// One finding for each equation and kind of edit: the first edit that changes the expression and,
+/// for other fields, the source, but not the source of this solution.
+///
+/// An edit that changes nothing for any fields, as a gradient transposed inside a symmetric form, is
+/// no mistake.
+pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let problem = &model.problem;
+    let Some(mut bench) = Bench::new(model, Part::Interior) else {
+        return vec![];
+    };
+    let mut candidates = candidates::all(problem, Part::Interior, &[]);
+    let differential = differential(problem);
+    candidates.retain(|candidate| is_common(problem, candidate, &differential));
+    let mut findings: Vec<Finding> = vec![];
+    let mut general: Option<General> = None;
+    for equation in &problem.equations {
+        let mut kinds: Vec<&'static str> = vec![];
+        for candidate in &candidates {
+            let kind = cause::kind(candidate.change, 1.0);
+            let is_new = !kinds.contains(&kind) && reaches(&bench, candidate, &equation.name);
+            if !is_new || !is_unseen(&mut bench, candidate, sampled, &equation.name) {
+                continue;
+            }
+            let general = general.get_or_insert_with(|| General::of(sampled, model));
+            if general.sees(&candidate.alteration, &equation.name) {
+                kinds.push(kind);
+                let named = text::named(problem, &equation.place, candidate, 1.0);
+                let key = format!("equations.{}", equation.name);
+                let text = cause::unseen(&named, &problem.file);
+                findings.push(finding("slip-invisible", &key, text, None));
+            }
+        }
+    }
+    findings
+}
+
+fn reaches(bench: &Bench, candidate: &Candidate, equation: &str) -> bool {
+    match &candidate.alteration {
+        Alteration::Rewrite(rewrite) => bench.reaches(&rewrite.home, equation),
+        _ => false,
+    }
+}
+
+/// Mistakes that people often make: the product rule, a gradient by its transpose, a transpose that
+/// is missing.
+fn is_common(problem: &Problem, candidate: &Candidate, differential: &HashSet<&str>) -> bool {
+    let Alteration::Rewrite(rewrite) = &candidate.alteration else {
+        return false;
+    };
+    match candidate.change {
+        _ if rewrite.home.is_exact(problem) => false,
+        Change::TransposedGradient | Change::MissingTranspose => true,
+        Change::Held => is_coefficient(problem, rewrite, differential),
+        _ => false,
+    }
+}
+
+/// Whether a factor without a derivative stands in a product that has one.
+fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&str>) -> bool {
+    let Some(expression) = rewrite.home.expression(problem) else {
+        return false;
+    };
+    let is_product = |tree: &Tree| {
+        matches!(
+            tree.kind,
+            Kind::Binary(Binary::Multiply | Binary::Divide, _) | Kind::Negate(_) | Kind::Bracket(_)
+        )
+    };
+    let part = |length: usize| site::at(&expression.tree, &rewrite.route[..length]);
+    let mut length = rewrite.route.len();
+    while length > 0 && part(length - 1).is_some_and(is_product) {
+        length -= 1;
+    }
+    let [factor, product] = [rewrite.route.len(), length].map(part);
+    let has = |tree: Option<&Tree>| tree.is_some_and(|tree| has_derivative(tree, differential));
+    has(product) && !has(factor)
+}
+
+/// The definitions with a derivative, their own or that of another definition that they name.
+fn differential(problem: &Problem) -> HashSet<&str> {
+    let mut found = HashSet::new();
+    loop {
+        let before = found.len();
+        for (name, definition) in &problem.definitions {
+            let mut parts = site::parts(&definition.value);
+            if !definition.is_exact && parts.any(|part| has_derivative(&part.tree, &found)) {
+                found.insert(name.as_str());
+            }
+        }
+        if found.len() == before {
+            return found;
+        }
+    }
+}
+
+/// Whether a derivative occurs in it, or the name of a definition with one.
+fn has_derivative(tree: &Tree, differential: &HashSet<&str>) -> bool {
+    let is_derivative = match &tree.kind {
+        Kind::Name(name) => differential.contains(name.as_str()),
+        Kind::Call(Callee::Operator(operator), _) => matches!(
+            operator,
+            Operator::Derivative
+                | Operator::TimeDerivative
+                | Operator::Gradient
+                | Operator::Divergence
+                | Operator::Laplacian
+                | Operator::Curl
+        ),
+        _ => false,
+    };
+    let mut children = tree.children().into_iter();
+    is_derivative || children.any(|child| has_derivative(child, differential))
+}
+
+/// Whether an edit changes the expression, but its value at no point.
+fn is_unseen(
+    bench: &mut Bench,
+    candidate: &Candidate,
+    sampled: &Sampled<'_>,
+    equation: &str,
+) -> bool {
+    let mut sources = sampled.quantities.iter();
+    let is_source = |q: &crate::derive::Quantity<_>| q.role == Role::Source && q.name == equation;
+    let Some(index) = sources.position(is_source) else {
+        return false;
+    };
+    let Some(right) = bench.altered(&[], equation, |right| right.tensor.clone()) else {
+        return false;
+    };
+    let unseen = bench.altered(&[&candidate.alteration], equation, |altered| {
+        let evaluation = altered.evaluation();
+        altered.tensor != right
+            && sampled.over(index).all(|(point, right)| {
+                let values = evaluation.at(point, [1.0; 2]);
+                right.iter().zip(&values).all(|(a, b)| is_same(a, b))
+            })
+    });
+    unseen == Some(true)
+}

@@ -62,7 +62,16 @@ const FRONT: Front = Front {
             "experiments-error",
             "",
         ),
-        ("Theorem 3.4, in h", "theorem-3.4-space", "theorem-3.4"),
+        (
+            "Theorem 3.4, in h: the scheme, to the interpolant",
+            "theorem-3.4-space",
+            "superclose",
+        ),
+        (
+            "Theorem 3.4, in h: its own norm, which is interpolation",
+            "theorem-3.4-space",
+            "theorem-3.4",
+        ),
         ("Theorem 3.4, in dt", "theorem-3.4-time", "theorem-3.4"),
         (
             "Theorem 3.4, over a grid, in h",

@@ -60,6 +60,31 @@ impl Tridiagonal {
         product
     }
 
+    /// The solution of `A y = right` in the rows and columns from `first` to `last`, zero elsewhere.
+    ///
+    /// Elimination without pivoting: for a matrix that is positive definite.
+    pub fn solve_between(&self, first: usize, last: usize, right: &[f64]) -> Vec<f64> {
+        let mut solution = vec![0.0; right.len()];
+        let mut pivots = self.diagonal.clone();
+        if first <= last {
+            solution[first..=last].copy_from_slice(&right[first..=last]);
+        }
+        for i in first + 1..=last {
+            let factor = self.lower[i] / pivots[i - 1];
+            pivots[i] -= factor * self.upper[i - 1];
+            solution[i] -= factor * solution[i - 1];
+        }
+        for i in (first..=last).rev() {
+            let right = if i < last {
+                self.upper[i] * solution[i + 1]
+            } else {
+                0.0
+            };
+            solution[i] = (solution[i] - right) / pivots[i];
+        }
+        solution
+    }
+
     /// Aᵀ.
     pub fn transpose(&self) -> Self {
         let mut lower = self.upper.clone();
@@ -155,6 +180,19 @@ mod tests {
             form(&coupling(&mesh).transpose(), &p, &q),
             integral(&mesh, |x| (2.0 * x - 0.3) * -1.5),
         );
+    }
+
+    #[test]
+    fn a_part_of_the_mass_matrix_is_solved() {
+        let mesh = graded();
+        let matrix = mass(&mesh);
+        let right = interpolate(&mesh, 1.5, -0.4);
+        let solution = matrix.solve_between(1, 5, &right);
+        assert_eq!([solution[0], solution[6], solution[7]], [0.0; 3]);
+        let product = matrix.multiply(&solution);
+        for i in 1..=5 {
+            assert!((product[i] - right[i]).abs() < 1e-15, "row {i}");
+        }
     }
 
     #[test]

@@ -18,6 +18,7 @@
 //! * [`quadrature`]: the rule for loads and errors.
 //! * [`formulas`]: N(u), the contact law and the formulas of the time schemes, not those of the
 //!   solver.
+//! * [`constants`]: the constants of Theorem 3.4, known before a run.
 //! * [`defect`]: deliberate mistakes in the loads.
 //!
 //! Of the solver this crate uses data types (coefficients, meshes, levels, initial data), the basis
@@ -32,6 +33,7 @@
 
 pub mod any_order;
 pub mod assembly;
+pub mod constants;
 pub mod defect;
 pub mod equilibrium;
 pub mod errors;

@@ -122,7 +122,7 @@ impl Nodal {
 }
 
 /// The sum of products at the nodes, with their factors.
-fn sum(nodes: usize, products: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
+pub(crate) fn sum(nodes: usize, products: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
     let mut values = vec![0.0; nodes];
     for (product, factor) in products.iter().zip(factors) {
         for (value, x) in values.iter_mut().zip(product) {

@@ -67,6 +67,7 @@ fn in_rust() -> Result<Orders<Convergence>, ExpressionError> {
         exact,
         refine,
         expect: vec![(Norm::Superclose, Claim::new(2.0, 0.02))],
+        constant: None,
         formulas: None,
     }))
 }

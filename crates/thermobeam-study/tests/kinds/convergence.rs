@@ -7,7 +7,7 @@ use convergence_harness::run::run_one;
 use convergence_harness::study::{CaseFailure, Check, FromFile, Kind, Outcome, run_cases_here};
 use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
-use thermobeam_study::kinds::orders::manufactured::Convergence;
+use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};
 
 /// The study of Theorem 3.4 in h.
 fn file() -> PathBuf {
@@ -24,6 +24,8 @@ fn outcome(elements: &str, tolerance: &str) -> Outcome {
     assert!(text.contains("tolerance = 0.002"));
     let text = text
         .replace(listed, elements)
+        // The constant is claimed of the finest mesh that the file lists.
+        .replace("within = 1e-6", "within = 0.1")
         .replace("tolerance = 0.002", tolerance);
     run_one(&Orders::<Convergence>::parse(&text, &file()).unwrap())
 }
@@ -191,4 +193,71 @@ fn a_claim_that_is_no_order_is_refused() {
         message.contains("constant") && message.contains("the smaller first"),
         "{message}"
     );
+}
+
+/// The outcome of the study of Theorem 3.4 over this axis, with a viscosity that is wrong by ζ
+/// times the step: a mistake that keeps every first order.
+fn with_viscosity_off_by_the_step(axis: &str) -> Outcome {
+    let name = format!("theorem-3.4-{axis}.toml");
+    let study = Orders::<Convergence>::read(file().with_file_name(name)).unwrap();
+    let mut runs: Vec<_> = run_cases_here(&study);
+    for run in &mut runs {
+        let (elements, steps) = run.case.data;
+        let mut solver = study.solver;
+        solver.beam.zeta *= 1.0 + 1.0 / elements.max(steps) as f64;
+        run.found = Prepared::new(&study, elements)
+            .unwrap()
+            .run(steps, solver, None);
+    }
+    study.judge(&runs)
+}
+
+#[test]
+fn the_constant_sees_a_mistake_that_keeps_the_order() {
+    for axis in ["space", "time"] {
+        let outcome = with_viscosity_off_by_the_step(axis);
+        let rate = outcome
+            .rates
+            .iter()
+            .find(|rate| rate.name == "theorem-3.4")
+            .unwrap();
+        assert_eq!(
+            rate.rate.verdict,
+            Verdict::Pass,
+            "{axis}: {}",
+            outcome.summary
+        );
+        let failed: Vec<_> = failed_claims(&outcome);
+        assert_eq!(failed.len(), 1, "{axis}: {failed:?}");
+        assert!(
+            failed[0].contains("known before the run"),
+            "{axis}: {failed:?}"
+        );
+    }
+}
+
+#[test]
+fn a_constant_is_refused_where_none_is_known() {
+    let text = std::fs::read_to_string(file()).unwrap();
+    for (from, to) in [
+        ("isolate = true", "isolate = false"),
+        ("isolate = true", "isolate = true\nmap = \"s^2\""),
+    ] {
+        let message = Orders::<Convergence>::parse(&text.replace(from, to), &file())
+            .unwrap_err()
+            .to_string();
+        assert!(
+            message.contains("constant: found a study whose constant is not known"),
+            "{message}"
+        );
+    }
+}
+
+fn failed_claims(outcome: &Outcome) -> Vec<String> {
+    outcome
+        .checks
+        .iter()
+        .filter(|check| check.verdict != Verdict::Pass)
+        .map(|check| check.claim.clone())
+        .collect()
 }

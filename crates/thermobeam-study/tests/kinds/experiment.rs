@@ -1,11 +1,12 @@
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::study::kind::run_cases_here;
-use convergence_harness::study::{Case, FromFile, Kind, Origin, Outcome};
+use convergence_harness::study::{Case, Check, FromFile, Kind, Origin, Outcome};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::experiment::{
     self, AtRest, Found, Measured, Nearest, PaperRun, ROW, Task,
 };
+use thermobeam_study::scene::Scene;
 
 use super::planted::verdict_with;
 use super::refused::refusal;
@@ -60,6 +61,24 @@ fn each_claim_of_section_5_can_fail() {
         (straight, run(|run| run.trace.frequency = Some(0.9))),
         (straight, run(|run| run.trace.frequency = Some(0.1))),
         (straight, run(|run| run.trace.frequency = None)),
+        // Numbers that keep every order and every contact.
+        (
+            straight,
+            run(|run| run.trace.frequency = Some(0.413_616 + 2e-4)),
+        ),
+        (straight, run(|run| run.trace.phi_amplitude += 2e-4)),
+        (
+            straight,
+            run(|run| run.trace.first_upper = Some(0.203_413 + 2e-4)),
+        ),
+        (
+            straight,
+            run(|run| run.trace.first_lower = Some(0.858_234 - 2e-4)),
+        ),
+        (
+            "paper-1-beta-0, 2 x p = 7, q = 2",
+            run(|run| run.trace.phi_amplitude -= 2e-4),
+        ),
         (straight, run(|run| run.trace.phi_amplitude = 0.5)),
         (resting, run(|run| run.contact_force = 0.0)),
         (
@@ -189,21 +208,84 @@ fn the_full_study_has_the_cases_of_the_quick_one_and_the_papers_algorithm() {
     assert!(cost(&by_the_paper) > cost(&others));
 }
 
-/// The full study on ten elements and with 20,000 steps, from a folder of its own.
-fn coarse_full_study(tolerance: &str) -> Experiments {
+/// The full study, whose scenes `change` changes, from a folder of its own.
+fn full_study_with(tolerance: &str, change: impl Fn(String) -> String) -> Experiments {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::create_dir(folder.path().join("scenes")).expect("a folder");
     let study = text("section-5-full.toml").replace("tolerance = 1e-7", tolerance);
     let names = study.split('"').filter(|name| name.starts_with("scenes/"));
     for name in names {
-        let scene = text(name)
-            .replace("elements = 100", "elements = 10")
-            .replace("dt = 1e-4", "dt = 5e-4");
-        std::fs::write(folder.path().join(name), scene).expect("a scene");
+        std::fs::write(folder.path().join(name), change(text(name))).expect("a scene");
     }
     let path = folder.path().join("section-5-full.toml");
     std::fs::write(&path, &study).expect("a study");
     Experiments::read(path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The full study on ten elements and with 20,000 steps.
+fn coarse_full_study(tolerance: &str) -> Experiments {
+    full_study_with(tolerance, |scene| {
+        scene
+            .replace("elements = 100", "elements = 10")
+            .replace("dt = 1e-4", "dt = 5e-4")
+    })
+}
+
+/// What the study says of the data of its scenes, which needs no run.
+fn data_of(study: &Experiments) -> Check {
+    let checks = study.judge(&[]).checks;
+    let is_of_data = |check: &Check| check.subject.quantity == "data of the scenes";
+    checks
+        .into_iter()
+        .find(is_of_data)
+        .expect("a check of the data")
+}
+
+/// Each change, which leaves all statements about the motion as they are, and the data that it
+/// concerns.
+#[test]
+fn scenes_with_other_data_than_the_papers_fail() {
+    let unchanged = full_study_with("tolerance = 1e-7", |scene| scene);
+    assert_eq!(data_of(&unchanged).verdict, Verdict::Pass);
+    for (from, to, named) in [
+        ("rho = 1.0", "rho = 2.0", "rho"),
+        ("a = 0.017", "a = 0.03", "a"),
+        ("epsilon = 1e-3", "epsilon = 1e-2", "epsilon"),
+        ("g1 = -0.01", "g1 = -0.02", "g1"),
+        ("g2 = 0.1", "g2 = 0.12", "g2"),
+        ("zeta = 0.1", "zeta = 0.1000001", "zeta"),
+        ("beta = 5.0", "beta = 5.5", "beta"),
+        ("\"sin(pi*x)\"", "\"2*sin(pi*x)\"", "θ_0"),
+        ("20*cos(5*pi*x/2)", "20*cos(3*pi*x/2)+20*(x-1)^2*x", "θ_0"),
+        ("20*x*(x-1)^2", "10*x*(x-1)^2", "u_1"),
+        ("0.01*x*(x-2)", "0.02*x*(x-2)", "u_0"),
+        ("[mesh]", "phi = \"0.01*x\"\n[mesh]", "φ_0"),
+        ("t_end = 10.0", "t_end = 20.0", "the end of the figures"),
+    ] {
+        let study = full_study_with("tolerance = 1e-7", |scene| scene.replace(from, to));
+        let check = data_of(&study);
+        assert_eq!(check.verdict, Verdict::Fail, "{to}");
+        assert!(
+            check.evidence.contains(&format!(": {named}")),
+            "{}",
+            check.evidence
+        );
+    }
+}
+
+/// (5.2): the discretisation parameters of the paper's algorithm.
+#[test]
+fn the_scenes_of_the_full_study_have_the_papers_resolution() {
+    let study = text("section-5-full.toml");
+    assert!(study.contains("tolerance = 1e-7"));
+    for name in study.split('"').filter(|name| name.starts_with("scenes/")) {
+        let scene = Scene::read(file(name)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(
+            (scene.mesh.elements(), scene.steps()),
+            (100, 100_000),
+            "{name}"
+        );
+    }
 }
 
 fn paper(change: fn(&mut PaperRun)) -> Box<dyn Fn(&mut Found)> {
@@ -304,7 +386,7 @@ fn the_headline_counts_statements_by_whose_they_are() {
     let refuted = "1 is refuted: several steady states for β < -1/2, where there are several only for β < -0.7116";
     assert_eq!(
         outcome.headline,
-        format!("the paper's 12 statements: 11 hold as printed, {refuted}; 2 of 2 of ours hold")
+        format!("the paper's 12 statements: 11 hold as printed, {refuted}; 4 of 4 of ours hold")
     );
     let origins = |origin: Origin| {
         outcome
@@ -321,7 +403,7 @@ fn the_headline_counts_statements_by_whose_they_are() {
             Origin::Own
         ]
         .map(origins),
-        [1, 11, 1, 2]
+        [1, 11, 1, 4]
     );
     let counts: Vec<&str> = outcome.tables[1]
         .rows

@@ -24,12 +24,16 @@
 //! [control]                   # optional: coefficients in which the solver differs from the sources
 //! zeta = 0.101
 //!
+//! [constant]                  # optional: C_h or C_t, computed before the runs, judged at the finest level
+//! within = 1e-3
+//!
 //! [[expect]]
 //! norm = "theorem-3.4"
 //! order = 1.0                 # or ">= 1"; with `constant = [0.9, 1.1]`: C of C h^p
 //! tolerance = 0.05
 //! ```
 
+mod constant;
 pub(in crate::kinds) mod design;
 
 use convergence_harness::study::grid::{Grid, GridColumn};
@@ -59,6 +63,9 @@ pub struct Convergence {
     pub exact: Manufactured,
     /// What is refined, and how.
     pub refine: Refine,
+    /// How far the measured constant of (3.14) may be from the predicted one, relatively; `None` if
+    /// that is not claimed.
+    pub constant: Option<f64>,
     /// The expected orders: at least one, and each norm at most once.
     pub expect: Vec<(Norm, Claim)>,
     /// The formulas of a scheme that files do not know; `None` for one that they name.
@@ -74,6 +81,7 @@ impl Source for Convergence {
             EXACT,
             REFINE,
             CONTROL,
+            constant::CONSTANT,
             EXPECT,
         ]]],
         read: reader::<Orders<Self>>,
@@ -110,6 +118,7 @@ impl Source for Convergence {
             return Err(root.refuse("expect", "a least order or a constant", allowed));
         }
         Ok(Self {
+            constant: constant::read(root, &refine)?,
             theory,
             solver,
             exact,
@@ -152,6 +161,7 @@ impl Source for Convergence {
         };
         Measured {
             series: vec![series],
+            checks: self.constant_check(runs.last()).into_iter().collect(),
             ..Measured::default()
         }
     }

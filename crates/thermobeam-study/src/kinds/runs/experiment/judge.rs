@@ -2,7 +2,7 @@
 
 use super::group::{OfExperiment, OfGroup, SectionFive};
 use super::plotted::{Plotted, U_TIP, largest_difference};
-use super::{Experiments, Measured, SectionGroup, rests, straight_energy};
+use super::{Experiments, Measured, SectionGroup, paper, rests, straight_energy};
 use crate::kinds::prelude::*;
 use crate::kinds::runs::checks::{Condition, all, at_most, increasing};
 use crate::kinds::runs::steady::name_of;
@@ -47,6 +47,8 @@ pub(super) fn checks(
         .collect();
     let complete = runs.rests.len() == study.rest.betas.len();
     checks.extend(rests::checks(&runs.rests, complete));
+    checks.push(paper::data(study));
+    checks.push(paper::motion(&runs.first));
     checks.push(thin_lines(plotted));
     if study.fixed_point.is_some() {
         checks.push(solved(&runs.all));

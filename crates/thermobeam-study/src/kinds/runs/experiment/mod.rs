@@ -30,20 +30,15 @@
 //! # Where the paper's text goes too far
 //!
 //! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But
-//! between -0.7116 and -1/2 it is wrong. With B = π²/4 / (1 + π²/4) = 0.711600 and without heating,
-//! steady states are the critical points of
-//!
-//! ```text
-//! ½ (‖u_x - φ‖² + ‖φ_x‖² + β ‖u_x‖²) + ρ/4 ‖u_x‖⁴ + G(u(1)),
-//! ```
-//!
-//! and `‖u_x - φ‖² + ‖φ_x‖² >= B ‖u_x‖²`: for β > -B this is strictly convex, so the straight beam
-//! is the only one. The study shows this twice: by the list of all exact steady states, and by
+//! between -0.7116 and -1/2 it is wrong: without heating the straight beam is the only steady state
+//! there (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of all
+//! exact steady states, and by
 //! where moving beams come to rest.
 
 mod group;
 mod judge;
 mod numbers;
+mod paper;
 mod plotted;
 mod report;
 mod rests;

@@ -1,0 +1,84 @@
+//! The constant of Theorem 3.4, computed before any run and held against the finest error.
+
+use super::Convergence;
+use crate::exact::constants;
+use crate::kinds::prelude::*;
+use crate::kinds::tables::{Layout, Refine};
+
+/// The table `[constant]`.
+pub(super) const CONSTANT: Key = Key::new(
+    "constant",
+    Form::Table(&[&[&[Key::new(
+        "within",
+        Form::Positive,
+        "how far measured over predicted may be from 1, at the finest level",
+    )]]]),
+    "the constant of the norm of (3.14) is computed before the runs and judged",
+)
+.or("not judged");
+
+/// Steps by which the equations of the error of order dt are integrated, a unit of time.
+const STEPS: f64 = 4096.0;
+
+/// Reads the table `[constant]`: how far measured over predicted may be from 1.
+///
+/// # Errors
+/// A table where no constant is known: a coupled study, a mesh that is not uniform, another scheme.
+pub(super) fn read(root: &Section<'_>, refine: &Refine) -> Result<Option<f64>, InputError> {
+    let Some(section) = root.section("constant")? else {
+        return Ok(None);
+    };
+    let is_uniform = refine.layout == Layout::default();
+    let is_papers = refine.scheme.name == EULER_CRANK_NICOLSON.name;
+    if refine.isolates(Axis::Space) && is_uniform || refine.isolates(Axis::Time) && is_papers {
+        section.positive("within").map(Some)
+    } else {
+        let found = "a study whose constant is not known";
+        let allowed =
+            "a study that isolates space on uniform meshes, or time by euler-crank-nicolson";
+        Err(root.refuse("constant", found, allowed))
+    }
+}
+
+impl Convergence {
+    /// C_h or C_t, with its name.
+    ///
+    /// # Errors
+    /// [`MeshError`] of the study's mesh.
+    fn predicted(&self) -> Result<(&'static str, f64), MeshError> {
+        let refine = &self.refine;
+        if refine.isolates(Axis::Space) {
+            let steps = refine.steps.first().copied().unwrap_or(1);
+            let times = (1..=steps).map(|n| n as f64 * refine.dt(steps));
+            return Ok(("C_h", constants::in_space(&self.exact, times)));
+        }
+        let elements = refine.elements.first().copied().unwrap_or(1);
+        let mesh = refine.layout.mesh(elements)?;
+        let steps = (STEPS * refine.t_end).ceil() as usize;
+        let problem = (&self.theory.beam, self.theory.obstacles.as_ref());
+        let constant = constants::in_time(&self.exact, problem, &mesh, refine.t_end, steps);
+        Ok(("C_t", constant))
+    }
+
+    /// The finest error is the predicted constant times its step; `None` if that is not claimed.
+    pub(super) fn constant_check(
+        &self,
+        finest: Option<&Ran<(usize, usize), Norms>>,
+    ) -> Option<Check> {
+        let within = self.constant?;
+        let (name, predicted) = self.predicted().unwrap_or(("C", f64::NAN));
+        let measured = finest.map_or(f64::NAN, |run| {
+            let (elements, steps) = run.case.data;
+            let error = run.ok().map_or(f64::NAN, |errors| errors[Norm::Theorem34]);
+            error / self.step_size(elements, steps)
+        });
+        let ratio = measured / predicted;
+        let step = if name == "C_h" { "h" } else { "dt" };
+        let claim = format!(
+            "the error in the norm of (3.14) is {name} {step}, {name} known before the run, within {within:e}"
+        );
+        let evidence = format!("{name} = {predicted:.6}, measured {measured:.6}, ratio {ratio:.6}");
+        let subject = Subject::of(Norm::Theorem34.name()).by(ItemMethod::OneStep);
+        Some(Check::that((ratio - 1.0).abs() <= within, claim, evidence).about(subject))
+    }
+}

@@ -1,6 +1,7 @@
 //! The unknown factor of an edit, from the values of another program at a few points.
 
 use super::bench::Evaluation;
+use crate::arithmetic::tape::Measured;
 use crate::fit::{self, Column};
 
 /// The values of a component at a few points.
@@ -55,23 +56,25 @@ impl<'c> Curve<'c> {
     pub(super) fn at(&mut self, factor: f64) -> &[Column] {
         let place = self.known.iter().position(|entry| entry.0 == factor);
         let place = place.unwrap_or_else(|| {
-            self.known.push((factor, self.columns(factor)));
+            let at = |point: &[f64]| self.evaluation.at(point, [factor, 1.0]);
+            self.known.push((factor, columns(self.points, at)));
             self.known.len() - 1
         });
         &self.known[place].1
     }
+}
 
-    fn columns(&self, factor: f64) -> Vec<Column> {
-        let mut columns: Vec<Column> = vec![];
-        for point in self.points {
-            let values = self.evaluation.at(point, [factor, 1.0]);
-            columns.resize(values.len(), vec![]);
-            for (column, value) in columns.iter_mut().zip(values) {
-                column.push(value.value);
-            }
+/// Of each component its values at points.
+pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<Measured>) -> Vec<Column> {
+    let mut columns: Vec<Column> = vec![];
+    for point in points {
+        let values = at(point);
+        columns.resize(values.len(), vec![]);
+        for (column, value) in columns.iter_mut().zip(values) {
+            column.push(value.value);
         }
-        columns
     }
+    columns
 }
 
 /// What became of the search for a factor.

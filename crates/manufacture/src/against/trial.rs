@@ -5,7 +5,6 @@ use super::pairs::Effect;
 use super::solve::{self, Curve, Sample, Solved, difference};
 use super::text;
 use super::whole::Component;
-use crate::arithmetic::tape::Measured;
 use crate::fit::Column;
 
 /// The points of a trial, and the values there.
@@ -114,19 +113,6 @@ fn slopes(solved: &[Option<Solved>], trial: &Trial) -> Option<Column> {
         }
     }
     Some(all)
-}
-
-/// Of each component its values at points.
-pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<Measured>) -> Vec<Column> {
-    let mut columns: Vec<Column> = vec![];
-    for point in points {
-        let values = at(point);
-        columns.resize(values.len(), vec![]);
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value.value);
-        }
-    }
-    columns
 }
 
 /// The cost of an edit with a simple number that the file does not have there.

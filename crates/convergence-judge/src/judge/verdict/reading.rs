@@ -182,7 +182,9 @@ impl<'a> Reading<'a> {
             // could agree.
             _ if grows => Reason::IntervalTooWide,
             Reason::Agrees if trend::emerges(rates, order, tolerance) => Reason::NotAsymptotic,
-            Reason::Agrees if scatter::hides(&self.sequence[..self.range.end], order) => {
+            Reason::Agrees
+                if scatter::hides(&self.sequence[..self.range.end], order, tolerance) =>
+            {
                 Reason::LowerOrderLikely
             }
             reason => reason,

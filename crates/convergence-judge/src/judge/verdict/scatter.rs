@@ -13,6 +13,9 @@ const FEWEST: usize = 4;
 const BELOW: [f64; 2] = [0.5, 1.0];
 /// A lower order must leave less than this share of what the claimed order leaves.
 const SHARE: f64 = 0.2;
+/// A term of lower order counts if it changes the finest rate by more than this share of the
+/// tolerance: as for departures of three changes in a row.
+const LEAST_CHANGE: f64 = 1.0 / 40.0;
 /// Squares of residuals below this are round-off of logarithms.
 const ROUND_OFF: f64 = 1e-24;
 
@@ -27,13 +30,17 @@ const ROUND_OFF: f64 = 1e-24;
 /// A coarser level never removes the reason: the finest four, five, ... levels are looked at one
 /// after another.
 ///
+/// The term b h^-d changes the finest rate by b d, h being 1 there.
+///
 /// * `levels`: above the floor, coarsest first.
-pub(super) fn hides(levels: &[Level], order: f64) -> bool {
+pub(super) fn hides(levels: &[Level], order: f64, tolerance: f64) -> bool {
     let most = levels.len().min(MOST);
-    (FEWEST..=most).any(|count| hides_among(&levels[levels.len() - count..], order))
+    let least = LEAST_CHANGE * tolerance;
+    (FEWEST..=most).any(|count| hides_among(&levels[levels.len() - count..], order, least))
 }
 
-fn hides_among(levels: &[Level], order: f64) -> bool {
+/// * `least`: the change of the finest rate below which a term of lower order counts for nothing.
+fn hides_among(levels: &[Level], order: f64, least: f64) -> bool {
     let finest = levels[levels.len() - 1].step;
     // In units of the finest step, so that no power overflows.
     let x: Vec<f64> = levels
@@ -54,8 +61,9 @@ fn hides_among(levels: &[Level], order: f64) -> bool {
     let lower = BELOW
         .iter()
         .chain(std::iter::once(&order))
-        .map(|d| fitted(&x, &heights, -d))
-        .filter(|fit| fit.slope > 0.0)
+        .map(|d| (d, fitted(&x, &heights, -d)))
+        .filter(|(d, fit)| *d * fit.slope > least)
+        .map(|(_, fit)| fit)
         .map(|fit| fit.squares)
         .fold(f64::INFINITY, f64::min);
     lower + ROUND_OFF * count < SHARE * other
@@ -112,9 +120,12 @@ mod tests {
 
     #[test]
     fn a_lower_order_is_found_behind_scatter_and_scatter_alone_is_not() {
-        assert!(hides(&levels(|h, k| scattered(h, k, 0.11), 8), 2.0));
-        assert!(!hides(&levels(|h, k| scattered(h, k, 0.0), 8), 2.0));
-        assert!(hides(&levels(|h, _| h * h + 1e-6, 8), 2.0), "a plateau");
+        assert!(hides(&levels(|h, k| scattered(h, k, 0.11), 8), 2.0, 0.25));
+        assert!(!hides(&levels(|h, k| scattered(h, k, 0.0), 8), 2.0, 0.25));
+        assert!(
+            hides(&levels(|h, _| h * h + 1e-6, 8), 2.0, 0.25),
+            "a plateau"
+        );
     }
 
     #[test]
@@ -122,20 +133,23 @@ mod tests {
         for r in [0.5, 1.0, 1.5, 4.0] {
             for a in [-0.5, 0.3, 3.0] {
                 let polluted = levels(|h, _| h * h * (1.0 + a * h.powf(r)), 8);
-                assert!(!hides(&polluted, 2.0), "{a} {r}");
+                assert!(!hides(&polluted, 2.0, 0.25), "{a} {r}");
             }
         }
-        assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0));
-        assert!(!hides(&levels(|h, _| h, 3), 2.0), "three levels");
+        assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0, 0.25));
+        assert!(!hides(&levels(|h, _| h, 3), 2.0, 0.25), "three levels");
+        // A plateau that changes the finest rate by 0.003.
+        let hardly = levels(|h, _| h * h + 1e-7, 8);
+        assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.05));
     }
 
     #[test]
     fn a_coarser_level_never_removes_the_reason() {
         let hidden = levels(|h, k| scattered(h, k, 0.11), 8);
         for from in 0..8 {
-            let coarser_too = (0..from).any(|other| hides(&hidden[other..], 2.0));
-            assert!(from == 0 || coarser_too || !hides(&hidden[from..], 2.0));
+            let coarser_too = (0..from).any(|other| hides(&hidden[other..], 2.0, 0.25));
+            assert!(from == 0 || coarser_too || !hides(&hidden[from..], 2.0, 0.25));
         }
-        assert!((1..5).any(|from| hides(&hidden[from..], 2.0)));
+        assert!((1..5).any(|from| hides(&hidden[from..], 2.0, 0.25)));
     }
 }

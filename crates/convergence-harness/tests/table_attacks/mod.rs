@@ -317,3 +317,19 @@ fn a_line_of_a_failed_run_is_quoted_and_nothing_passes() {
         }
     }
 }
+
+#[test]
+fn a_name_that_comes_more_often_than_the_step_is_not_left_out_in_silence() {
+    let mut text = String::new();
+    for (h, error) in LAW.steps().into_iter().zip(LAW.errors()) {
+        text += &format!("h = {h}\nT = 0.7\nT = 0.5\nT = 0.4\nL2 = {error:e}\n");
+    }
+    // It may be an error under a claim for all columns, and is none under a claim for another.
+    assert!(answer(&text, &["2"]).is_none(), "{text}");
+    let named = answer(&text, &["L2=2"]).expect("a table");
+    assert!(
+        named.verdict.is_pass() && named.sentence.contains("T (printed 15 times for 5 levels)"),
+        "{}",
+        named.sentence
+    );
+}

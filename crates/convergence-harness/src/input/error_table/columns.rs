@@ -151,8 +151,8 @@ impl Cells<'_> {
             && self.values.windows(2).all(|two| two[0] < two[1])
     }
 
-    /// Whether it counts cells or nodes of meshes with these steps: its D-th root grows with 1/h along
-    /// a line, as n or n + 1 along an edge do.
+    /// Whether it counts cells or nodes of meshes with these steps: its D-th root grows with 1/h
+    /// along a line, as n or n + 1 along an edge do.
     pub(super) fn counts_meshes(&self, steps: &[f64]) -> bool {
         const NEAR_LINE: f64 = 1e-3;
         let is_line = |dim: &f64| {

@@ -159,8 +159,8 @@ impl TableReader<'_> {
         Err(self.refuse_undecided(&errors, values, &undecided))
     }
 
-    /// The first name with a number of numbers of its own that may be an error under a claim for all
-    /// columns.
+    /// The first name with more numbers or fewer than there are levels, which may be an error under a
+    /// claim for all columns.
     fn uneven(&self) -> Option<LeftOut> {
         let mut left_out = self.left_out.iter().filter(|one| one.may_be_error());
         left_out

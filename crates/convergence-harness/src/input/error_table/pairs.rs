@@ -28,8 +28,8 @@ pub(super) struct ColumnName {
 }
 
 impl RawTable<'_> {
-    /// The names of the columns, or those that the user has chosen. The errors of a variable have its
-    /// name.
+    /// The names of the columns, or those that the user has chosen. The errors of a variable have
+    /// its name.
     pub(super) fn column_names(&self, chosen: Option<&[String]>) -> Vec<ColumnName> {
         if let Some(names) = chosen {
             let names = names.iter().map(|name| ColumnName {

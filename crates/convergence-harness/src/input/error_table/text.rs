@@ -11,8 +11,8 @@ const CLOSING: [&str; 6] = ["mean", "average", "avg", "median", "overall", "tota
 /// A row that is filled has at least one cell in this many columns.
 const FULL: usize = 4;
 
-/// Finds the table in a text that has been made [plain](super::cleaned::plain): names with numbers after them, or rows
-/// below names.
+/// Finds the table in a text that has been made [plain](super::cleaned::plain): names with numbers
+/// after them, or rows below names.
 ///
 /// * `earlier`: the names of the table above it in the same text, which it may share.
 pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {

@@ -19,6 +19,8 @@
 //! * *benign*: the same under a smooth power with small pollution; *differences*: finite differences
 //!   of random smooth problems; see [`benign`].
 //! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].
+//! * *compared*: this rule and what people do today on nine [laws](fresh) written for it, each with
+//!   the band that lets as many wrong claims pass.
 //! * *three*: three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the
 //!   finest error.
 //! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often
@@ -64,7 +66,9 @@
 pub mod bars;
 pub mod benign;
 pub mod claims;
+mod compared;
 mod draw;
+pub mod fresh;
 pub mod grids;
 pub mod held_out;
 pub mod hidden;
@@ -80,6 +84,7 @@ use convergence_harness::judge::verdict::{Judge, JudgeError};
 
 use benign::{BENIGN, differences};
 use claims::{limits, other_claims, three};
+use compared::compared;
 use draw::Draw;
 use held_out::HELD_OUT;
 use intervals::intervals;
@@ -104,7 +109,8 @@ fn wrong(table: &Table, off: f64) -> [f64; 2] {
 }
 
 /// The sheets of the rule: *rules* on two sets of meshes, *levels*, *held-out*, *three*, *laws*,
-/// *hidden* three times, *limits*, *claims*, *benign*, *differences*, *noisy*.
+/// *hidden* three times, *limits*, *claims*, *benign*, *differences*, *noisy*,
+/// *compared*.
 ///
 /// * `tables`: number of tables for each law and mesh.
 ///
@@ -129,6 +135,7 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         levels("benign", &BENIGN, 25 * tables, &mut draw(seed, 9))?,
         differences(3 * tables, &mut draw(seed, 10))?,
         noisy(20 * tables, &mut draw(seed, 11))?,
+        compared(40 * tables, &mut draw(seed, 12))?,
     ])
 }
 

@@ -14,8 +14,8 @@ const BELOW: [f64; 2] = [0.5, 1.0];
 /// A lower order must leave less than this share of what the claimed order leaves.
 const SHARE: f64 = 0.2;
 /// A term of lower order counts if it changes the finest rate by more than this share of the
-/// tolerance: as for departures of three changes in a row.
-const LEAST_CHANGE: f64 = 1.0 / 40.0;
+/// tolerance.
+const LEAST_CHANGE: f64 = 1.0 / 60.0;
 /// Squares of residuals below this are round-off of logarithms.
 const ROUND_OFF: f64 = 1e-24;
 
@@ -138,9 +138,9 @@ mod tests {
         }
         assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0, 0.25));
         assert!(!hides(&levels(|h, _| h, 3), 2.0, 0.25), "three levels");
-        // A plateau that changes the finest rate by 0.003.
-        let hardly = levels(|h, _| h * h + 1e-7, 8);
-        assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.05));
+        // A plateau that changes the finest rate by 0.0003.
+        let hardly = levels(|h, _| h * h + 1e-8, 8);
+        assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.02));
     }
 
     #[test]

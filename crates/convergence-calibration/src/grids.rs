@@ -126,8 +126,8 @@ impl Orders {
         self.pass.count(both_pass(rates));
         for (rate, order) in rates.iter().zip(orders) {
             self.fail.count(rate.verdict == Verdict::Fail);
-            if let Some([low, high]) = rate.interval {
-                self.interval_holds.count(low <= order && order <= high);
+            if let Some(interval) = rate.interval {
+                self.interval_holds.count(interval.holds(order));
             }
         }
     }

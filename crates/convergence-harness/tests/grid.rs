@@ -95,8 +95,7 @@ fn a_hidden_order_and_pollution_are_seen_on_four_levels() {
         for (NamedRate { name, rate, .. }, order) in verdict.rates.iter().zip(claims) {
             assert_ne!(rate.verdict, Verdict::Fail, "{name}: {}", rate.reason);
             assert!(
-                rate.interval
-                    .is_some_and(|[low, high]| low <= order && order <= high),
+                rate.interval.is_some_and(|interval| interval.holds(order)),
                 "{name}: {}",
                 rate.reason
             );

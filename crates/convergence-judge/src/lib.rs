@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 #[doc(hidden)]
+pub mod interval;
+#[doc(hidden)]
 pub mod time_limit;
 
 /// From steps and errors to a rate with an interval, and from a rate and a claim to a verdict: all
@@ -33,8 +35,10 @@ pub mod text {
 pub mod rule {}
 
 #[doc(inline)]
+pub use interval::Interval;
+#[doc(inline)]
 pub use judge::{
-    claims::{Claim, Interval},
+    claims::Claim,
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
     grid::{Adding, GridErrors},
     richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},

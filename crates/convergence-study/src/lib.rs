@@ -61,8 +61,9 @@
 
 #[doc(inline)]
 pub use convergence_harness::{
+    interval::Interval,
     judge::{
-        claims::{Claim, Interval},
+        claims::Claim,
         richardson::{Estimator, Value},
         verdict::{
             Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs,

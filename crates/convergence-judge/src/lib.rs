@@ -40,7 +40,7 @@ pub use interval::Interval;
 pub use judge::{
     claims::Claim,
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
-    grid::{Adding, GridErrors},
+    grid::{Adding, GridErrors, SpaceTime},
     richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},
     verdict::{
         Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, PowerLaw,

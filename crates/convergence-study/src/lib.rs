@@ -64,6 +64,7 @@ pub use convergence_harness::{
     interval::Interval,
     judge::{
         claims::Claim,
+        grid::SpaceTime,
         richardson::{Estimator, Value},
         verdict::{
             Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs,

@@ -1,6 +1,7 @@
 //! Error bars of values whose limit is known: how often they hold the error, alongside the grid
 //! convergence index.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::richardson::{Estimator, Value};
 use convergence_harness::judge::verdict::FEWEST_LEVELS;
 
@@ -30,13 +31,13 @@ struct Bars {
 
 impl Bars {
     /// * `error`: the true error.
-    fn count(&mut self, bar: Option<[f64; 2]>, index: Option<f64>, error: f64) {
+    fn count(&mut self, bar: Option<Interval>, index: Option<f64>, error: f64) {
         self.refused.count(bar.is_none());
-        let Some([low, high]) = bar else { return };
-        self.bar_holds.count(low <= error && error <= high);
+        let Some(bar) = bar else { return };
+        self.bar_holds.count(bar.holds(error));
         if let Some(half) = index {
             self.index_holds.count(error.abs() <= half);
-            self.bar_lengths.push(0.5 * (high - low) / error.abs());
+            self.bar_lengths.push(0.5 * bar.width() / error.abs());
             self.index_lengths.push(half / error.abs());
         }
     }
@@ -136,7 +137,7 @@ fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet,
             let bar = estimator.estimate(&values, 2.0).bar;
             refused.count(bar.is_err());
             if let Ok(bar) = bar {
-                holds.count(bar.limit[0] <= 1.0 && 1.0 <= bar.limit[1]);
+                holds.count(bar.limit.holds(1.0));
             }
         }
         let cells = vec![

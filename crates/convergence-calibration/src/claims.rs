@@ -1,6 +1,7 @@
 //! Claims other than an order, and wrong claims that few levels or a wrong limit suggest.
 
-use convergence_harness::judge::claims::{self, Interval};
+use convergence_harness::interval::Interval;
+use convergence_harness::judge::claims;
 use convergence_harness::judge::verdict::{
     DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading, Reason, Verdict,
 };

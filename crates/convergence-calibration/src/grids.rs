@@ -7,7 +7,7 @@
 //! from 0.01 to 1, and p + 1 is claimed. A constant is 10 to 300 % of the finest error, and is
 //! added to the errors, of either sign, or its square to their squares.
 
-use convergence_harness::judge::grid::{Adding, GridErrors};
+use convergence_harness::judge::grid::{Adding, GridErrors, SpaceTime};
 use convergence_harness::judge::random::SplitMix;
 use convergence_harness::judge::verdict::{RateVerdict, Verdict};
 
@@ -23,8 +23,8 @@ const TOLERANCE: f64 = 0.2;
 struct Law {
     h: Vec<f64>,
     dt: Vec<f64>,
-    orders: [f64; 2],
-    pollution: [f64; 2],
+    orders: SpaceTime<f64>,
+    pollution: SpaceTime<f64>,
     exponent: f64,
     /// f of h^(p + 1) + f h^p; `None` if the grid is smooth.
     hidden: Option<f64>,
@@ -45,11 +45,14 @@ impl Law {
         let mut law = Self {
             h: halved_steps(levels, random),
             dt: halved_steps(levels, random),
-            orders: [
-                ORDERS[random.below(ORDERS.len())],
-                ORDERS[random.below(ORDERS.len())],
-            ],
-            pollution: [random.within([-0.8, 2.0]), random.within([-0.8, 2.0])],
+            orders: SpaceTime {
+                space: ORDERS[random.below(ORDERS.len())],
+                time: ORDERS[random.below(ORDERS.len())],
+            },
+            pollution: SpaceTime {
+                space: random.within([-0.8, 2.0]),
+                time: random.within([-0.8, 2.0]),
+            },
             exponent: [1.0, random.within([0.5, 2.0])][random.below(2)],
             hidden: hidden.then(|| 10.0_f64.powf(random.within([-2.0, 0.0]))),
             constant: 1.0,
@@ -61,15 +64,17 @@ impl Law {
     }
 
     fn space(&self, h: f64) -> f64 {
-        let [p, _] = self.orders;
+        let p = self.orders.space;
         match self.hidden {
             Some(share) => h.powf(p + 1.0) + share * h.powf(p),
-            None => h.powf(p) * (1.0 + self.pollution[0] * h.powf(self.exponent)),
+            None => h.powf(p) * (1.0 + self.pollution.space * h.powf(self.exponent)),
         }
     }
 
     fn time(&self, dt: f64) -> f64 {
-        self.constant * dt.powf(self.orders[1]) * (1.0 + self.pollution[1] * dt.powf(self.exponent))
+        self.constant
+            * dt.powf(self.orders.time)
+            * (1.0 + self.pollution.time * dt.powf(self.exponent))
     }
 
     /// The errors, each of them changed.
@@ -86,17 +91,17 @@ impl Law {
     }
 
     /// Both orders, judged by the way of adding that describes the errors better.
-    fn judge(&self, errors: &[f64]) -> Result<[RateVerdict; 2], CalibrationError> {
+    fn judge(&self, errors: &[f64]) -> Result<SpaceTime<RateVerdict>, CalibrationError> {
         let grid = GridErrors {
             h: &self.h,
             dt: &self.dt,
             errors,
         };
         let squares = grid.misfit(Adding::Squares) <= grid.misfit(Adding::Plain);
-        let claims = [
-            self.orders[0] + if self.hidden.is_some() { 1.0 } else { 0.0 },
-            self.orders[1],
-        ];
+        let claims = SpaceTime {
+            space: self.orders.space + if self.hidden.is_some() { 1.0 } else { 0.0 },
+            time: self.orders.time,
+        };
         Ok(grid.judge(
             if squares {
                 Adding::Squares
@@ -109,8 +114,8 @@ impl Law {
     }
 }
 
-fn both_pass(rates: &[RateVerdict; 2]) -> bool {
-    rates.iter().all(|rate| rate.verdict.is_pass())
+fn both_pass(rates: &SpaceTime<RateVerdict>) -> bool {
+    rates.both().iter().all(|rate| rate.verdict.is_pass())
 }
 
 /// Verdicts on both orders of a grid, and how often an interval holds its order.
@@ -122,12 +127,12 @@ struct Orders {
 }
 
 impl Orders {
-    fn count(&mut self, rates: &[RateVerdict; 2], orders: [f64; 2]) {
+    fn count(&mut self, rates: &SpaceTime<RateVerdict>, orders: SpaceTime<f64>) {
         self.pass.count(both_pass(rates));
-        for (rate, order) in rates.iter().zip(orders) {
+        for (rate, order) in rates.both().into_iter().zip(orders.both()) {
             self.fail.count(rate.verdict == Verdict::Fail);
-            if let Some([low, high]) = rate.interval {
-                self.interval_holds.count(low <= order && order <= high);
+            if let Some(interval) = rate.interval {
+                self.interval_holds.count(interval.holds(*order));
             }
         }
     }
@@ -151,8 +156,9 @@ impl Grids {
         let sound = law.errors(|error| error);
         let constant = size * sound[sound.len() - 1];
         self.sound.count(&law.judge(&sound)?, law.orders);
-        let [in_h, _] = hidden.judge(&hidden.errors(|error| error))?;
-        self.hidden_order_passes.count(in_h.verdict.is_pass());
+        let rates = hidden.judge(&hidden.errors(|error| error))?;
+        self.hidden_order_passes
+            .count(rates.space.verdict.is_pass());
         let shifted = law.errors(|error| (error + constant).abs());
         self.constant_passes.count(both_pass(&law.judge(&shifted)?));
         let in_squares = law.errors(|error| error.hypot(constant));

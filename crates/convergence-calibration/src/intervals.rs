@@ -71,8 +71,7 @@ impl Verdicts {
         self.true_fail.count(verdict == Verdict::Fail);
         self.inconclusive.count(verdict == Verdict::Inconclusive);
         if let Some(fit) = reading.fit {
-            let [low, high] = fit.interval;
-            self.interval_holds.count(low <= order && order <= high);
+            self.interval_holds.count(fit.interval.holds(order));
         }
     }
 

@@ -280,8 +280,7 @@ impl AtLevels {
                 && !is_added
                 && law.group != Group::Emerging
             {
-                let [low, high] = fit.interval;
-                self.interval_holds.count(low <= order && order <= high);
+                self.interval_holds.count(fit.interval.holds(order));
             }
         }
         for claim in wrong(table, 2.0 * DEFAULT_TOLERANCE) {

@@ -24,6 +24,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::interval::Interval;
 use crate::judge::verdict::{Floor, Verdict};
 use crate::run::Finished;
 use crate::store::Record;
@@ -96,12 +97,12 @@ pub struct Order {
     /// The rate.
     pub order: f64,
     /// Its interval.
-    pub interval: [f64; 2],
+    pub interval: Interval,
 }
 
 impl fmt::Display for Order {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [low, high] = self.interval;
+        let Interval { low, high } = self.interval;
         write!(f, "{:.3} ({low:.3} to {high:.3})", self.order)
     }
 }

@@ -53,6 +53,6 @@ pub mod study;
 #[cfg(feature = "reports")]
 pub mod verify;
 
-pub use convergence_judge::{judge, text};
+pub use convergence_judge::{interval, judge, text};
 pub use run::assert_order;
 pub use study::levels;

@@ -3,6 +3,7 @@
 
 use std::panic::catch_unwind;
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::verdict::{Verdict, judge_pairs};
 use convergence_harness::{assert_order, levels};
 
@@ -124,7 +125,10 @@ fn the_bits_of_a_rate_are_those_that_python_has() {
         (rate.fitted, rate.interval),
         (
             Some(1.9993524479350304),
-            Some([1.9921437580830135, 2.0065611377870476])
+            Some(Interval {
+                low: 1.9921437580830135,
+                high: 2.0065611377870476
+            })
         )
     );
 }

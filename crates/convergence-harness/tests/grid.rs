@@ -1,7 +1,7 @@
 //! Orders over a grid of h and dt, also for errors that do not add; `convergence-calibration`
 //! measures how often they are right.
 
-use convergence_harness::judge::grid::{Adding, GridErrors};
+use convergence_harness::judge::grid::{Adding, GridErrors, SpaceTime};
 use convergence_harness::judge::verdict::{Reason, Verdict};
 use convergence_harness::study::grid::{Grid, GridColumn};
 use convergence_harness::study::{Claim, NamedRate, Outcome};
@@ -20,11 +20,14 @@ fn judged(
     tolerance: f64,
     error: impl Fn(f64, f64) -> f64,
 ) -> Outcome {
-    let points: Vec<[f64; 2]> = h
+    let points: Vec<SpaceTime<f64>> = h
         .iter()
-        .flat_map(|&h| dt.iter().map(move |&dt| [h, dt]))
+        .flat_map(|&h| dt.iter().map(move |&dt| SpaceTime { space: h, time: dt }))
         .collect();
-    let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
+    let errors = points
+        .iter()
+        .map(|point| error(point.space, point.time))
+        .collect();
     let space = Claim::new(claims[0], tolerance);
     let columns = vec![GridColumn {
         name: "L2".to_owned(),
@@ -95,8 +98,7 @@ fn a_hidden_order_and_pollution_are_seen_on_four_levels() {
         for (NamedRate { name, rate, .. }, order) in verdict.rates.iter().zip(claims) {
             assert_ne!(rate.verdict, Verdict::Fail, "{name}: {}", rate.reason);
             assert!(
-                rate.interval
-                    .is_some_and(|[low, high]| low <= order && order <= high),
+                rate.interval.is_some_and(|interval| interval.holds(order)),
                 "{name}: {}",
                 rate.reason
             );
@@ -328,7 +330,17 @@ fn an_error_that_is_nan_fails_and_tolerances_that_tell_nothing_are_refused() {
         dt: &dt,
         errors: &errors,
     };
-    assert!(grid.judge(Adding::Plain, [1.0, 1.0], 0.5).is_err());
+    assert!(
+        grid.judge(
+            Adding::Plain,
+            SpaceTime {
+                space: 1.0,
+                time: 1.0
+            },
+            0.5
+        )
+        .is_err()
+    );
     let refused = judged(&h, &dt, [1.0, 1.0], 0.7, |h, dt| h + dt);
     assert!(
         refused.rates.is_empty() && refused.checks[0].verdict == Verdict::Fail,
@@ -339,12 +351,15 @@ fn an_error_that_is_nan_fails_and_tolerances_that_tell_nothing_are_refused() {
 #[test]
 fn steps_that_differ_within_a_row_are_no_grid() {
     let (h, dt) = (halved(0.25, 5), halved(0.1, 5));
-    let mut points: Vec<[f64; 2]> = h
+    let mut points: Vec<SpaceTime<f64>> = h
         .iter()
-        .flat_map(|&h| dt.iter().map(move |&dt| [h, dt]))
+        .flat_map(|&h| dt.iter().map(move |&dt| SpaceTime { space: h, time: dt }))
         .collect();
-    let errors = points.iter().map(|[h, dt]| h + dt).collect();
-    points[7][1] *= 1.01;
+    let errors = points
+        .iter()
+        .map(|point| point.space + point.time)
+        .collect();
+    points[7].time *= 1.01;
     let space = Claim::new(1.0, 0.1);
     let columns = vec![GridColumn {
         name: "L2".to_owned(),
@@ -372,12 +387,15 @@ fn steps_that_differ_within_a_row_are_no_grid() {
 #[test]
 fn squares_that_theory_claims_must_fit_better_than_the_sum() {
     let (h, dt) = (halved(0.25, 5), halved(0.1, 5));
-    let points: Vec<[f64; 2]> = h
+    let points: Vec<SpaceTime<f64>> = h
         .iter()
-        .flat_map(|&h| dt.iter().map(move |&dt| [h, dt]))
+        .flat_map(|&h| dt.iter().map(move |&dt| SpaceTime { space: h, time: dt }))
         .collect();
     let model = |error: fn(f64, f64) -> f64| {
-        let errors = points.iter().map(|&[h, dt]| error(h, dt)).collect();
+        let errors = points
+            .iter()
+            .map(|point| error(point.space, point.time))
+            .collect();
         let space = Claim::new(1.0, 0.1);
         let columns = vec![GridColumn {
             name: "L2".to_owned(),

@@ -1,5 +1,6 @@
 //! Error bars of values without an exact solution.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::richardson::{
     Estimate, Estimator, Refusal, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED, Value,
 };
@@ -38,11 +39,11 @@ fn a_power_law_gives_its_rate_and_its_limit_on_any_steps() {
                     "{p}: {bar:?}"
                 );
                 assert!(
-                    bar.error_interval[0] < error && error < bar.error_interval[1],
+                    bar.error_interval.low < error && error < bar.error_interval.high,
                     "{p}: {bar:?}"
                 );
                 assert!(
-                    bar.limit[0] < 3.0 && 3.0 < bar.limit[1] && bar.limit[1] - bar.limit[0] < 1e-5,
+                    bar.limit.low < 3.0 && 3.0 < bar.limit.high && bar.limit.width() < 1e-5,
                     "{p}: {bar:?}"
                 );
                 assert_eq!(found.judged.verdict, Verdict::Pass);
@@ -63,7 +64,7 @@ fn the_bar_holds_the_error_that_pollution_leaves() {
         ] {
             let error = |h: f64| h.powf(p) * (1.0 + c * h.powf(r));
             let bar = estimate(p, &values(steps, |h| 1.0 - error(h))).bar.unwrap();
-            let [low, high] = bar.error_interval;
+            let Interval { low, high } = bar.error_interval;
             let error = -error(steps[5]);
             assert!(
                 low < error && error < high,
@@ -88,11 +89,11 @@ fn three_values_lean_on_the_claim() {
         (Verdict::Inconclusive, Reason::TooFewLevels)
     );
     assert!(
-        bar.rate_interval[0] == 1.5 && (bar.rate_interval[1] - bar.rate - 0.5).abs() < 1e-12,
+        bar.rate_interval.low == 1.5 && (bar.rate_interval.high - bar.rate - 0.5).abs() < 1e-12,
         "{bar:?}"
     );
     let error = 0.0625 + 0.5 * 0.25_f64.powi(4);
-    assert!(bar.error_interval[0] < error && error < bar.error_interval[1]);
+    assert!(bar.error_interval.low < error && error < bar.error_interval.high);
     let slow = estimate(0.4, &values(&RATIO_2[..3], |h| h.powf(0.4))).bar;
     assert!(
         matches!(slow, Err(Refusal::RateMayBeZero(low)) if (low + 0.1).abs() < 1e-12),
@@ -236,7 +237,7 @@ fn values_without_a_claim_have_a_limit_and_no_verdict() {
         .estimate_unclaimed(&values);
     let bar = found.bar.expect("a limit");
     assert!(
-        bar.limit[0] <= 3.0 && 3.0 <= bar.limit[1] && (bar.rate - 2.0).abs() < 1e-6,
+        bar.limit.holds(3.0) && (bar.rate - 2.0).abs() < 1e-6,
         "{bar:?}"
     );
     assert_eq!(

@@ -1,5 +1,6 @@
 //! Tables that the rule once judged wrongly, or without a rate.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::fit::Level;
 use convergence_harness::judge::verdict::{
     Aside, Judge, RateVerdict, Reason, SetAside, Verdict, judge, judge_pairs,
@@ -19,7 +20,7 @@ fn with_error(levels: i32, ratio: f64, error: impl Fn(f64) -> f64) -> Vec<Level>
 
 #[track_caller]
 fn check_rate(outcome: &RateVerdict, expected: f64) {
-    let (rate, [low, high]) = (
+    let (rate, Interval { low, high }) = (
         outcome.fitted.expect("a rate"),
         outcome.interval.expect("an interval"),
     );
@@ -126,7 +127,7 @@ fn a_rate_is_shown_whatever_the_verdict() {
     ] {
         let outcome = judge(&with_rates(rates), order, 0.05);
         assert_eq!(outcome.kind, kind, "{outcome:?}");
-        let (rate, [low, high]) = (
+        let (rate, Interval { low, high }) = (
             outcome.fitted.expect("a rate"),
             outcome.interval.expect("an interval"),
         );

@@ -298,7 +298,7 @@ mod units {
             prop_assert_eq!(a.cause, b.cause);
             if let (Some(a), Some(b)) = (a.interval, b.interval) {
                 // Logarithms of size 600 have round-off of 1e-13.
-                prop_assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9, "{:?} {:?}", a, b);
+                prop_assert!((a.low - b.low).abs() < 1e-9 && (a.high - b.high).abs() < 1e-9, "{:?} {:?}", a, b);
             }
             let passes = |levels: &[Level]| {
                 let steps: Vec<f64> = levels.iter().map(|level| level.step).collect();

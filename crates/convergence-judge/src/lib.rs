@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 #[doc(hidden)]
+pub mod interval;
+#[doc(hidden)]
 pub mod time_limit;
 
 /// From steps and errors to a rate with an interval, and from a rate and a claim to a verdict: all
@@ -33,10 +35,12 @@ pub mod text {
 pub mod rule {}
 
 #[doc(inline)]
+pub use interval::Interval;
+#[doc(inline)]
 pub use judge::{
-    claims::{Claim, Interval},
+    claims::Claim,
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
-    grid::{Adding, GridErrors},
+    grid::{Adding, GridErrors, SpaceTime},
     richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},
     verdict::{
         Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, PowerLaw,

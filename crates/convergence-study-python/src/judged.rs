@@ -1,5 +1,6 @@
 //! Judges tables of errors.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::fit::Level;
 use convergence_harness::judge::shown::{self, MOST_PLACES, Shown};
 use convergence_harness::judge::verdict::{
@@ -174,7 +175,7 @@ impl Judgement {
 
     #[getter]
     fn interval(&self) -> Option<(f64, f64)> {
-        self.rate.interval.map(|[low, high]| (low, high))
+        self.rate.interval.map(|Interval { low, high }| (low, high))
     }
 
     #[getter]

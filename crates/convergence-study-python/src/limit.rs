@@ -41,7 +41,7 @@ impl Limit {
         let bar = bar.ok();
         Self {
             value: bar.as_ref().map(|bar| bar.extrapolated),
-            interval: bar.as_ref().map(|bar| bar.limit.into()),
+            interval: bar.as_ref().map(|bar| (bar.limit.low, bar.limit.high)),
             error: bar.as_ref().map(|bar| bar.error),
             order: judged.fitted,
             gci: gci.ok().map(|gci| gci.half_width),

@@ -61,8 +61,10 @@
 
 #[doc(inline)]
 pub use convergence_harness::{
+    interval::Interval,
     judge::{
-        claims::{Claim, Interval},
+        claims::Claim,
+        grid::SpaceTime,
         richardson::{Estimator, Value},
         verdict::{
             Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs,

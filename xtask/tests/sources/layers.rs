@@ -40,7 +40,7 @@ const ORDER: [&str; 13] = [
 ];
 
 /// The modules of the judge, which every module may use under the harness's name.
-const BELOW: [&str; 2] = ["text", "judge"];
+const BELOW: [&str; 3] = ["interval", "text", "judge"];
 
 /// Libraries that only some modules may use.
 const LIBRARIES: [(&str, &[&str]); 13] = [

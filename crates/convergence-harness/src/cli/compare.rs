@@ -6,6 +6,7 @@ use super::exit::{Outcome, Unusable};
 use super::flags::{Flags, number};
 use crate::cli::screen;
 use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare};
+use crate::interval::Interval;
 use crate::judge::verdict::{Floor, Verdict};
 use crate::store::Record;
 use crate::text::visible::{self, visible};
@@ -110,7 +111,7 @@ fn orders(comparison: &Comparison) -> String {
     let order = |order: &Option<Order>| {
         let words = |Order {
                          order,
-                         interval: [low, high],
+                         interval: Interval { low, high },
                      }: Order| format!("{order:.4} ({low:.4} to {high:.4})");
         order.map_or_else(|| "-".to_owned(), words)
     };

@@ -86,7 +86,8 @@ impl Both<'_> {
     /// Another order, or a claim that no longer passes.
     fn change_of_order(&self) -> Option<Answer> {
         if let (Some(old), Some(new)) = (self.old.order, self.new.order) {
-            let apart = old.interval[1] < new.interval[0] || new.interval[1] < old.interval[0];
+            let apart =
+                old.interval.high < new.interval.low || new.interval.high < old.interval.low;
             if apart && (new.order - old.order).abs() > ORDER_SHIFT {
                 let is_lower = new.order < old.order;
                 let change = if is_lower {

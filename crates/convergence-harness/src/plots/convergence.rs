@@ -8,6 +8,7 @@ use super::look::{Look, Marks, look};
 use super::ruler::{Ruler, on_scale};
 use super::xy::{Curve, Outline, OutlineText, Xy};
 use super::{Axis, Scale, Series, style};
+use crate::interval::Interval;
 use crate::judge::verdict::PowerLaw;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
 
@@ -37,7 +38,7 @@ pub struct ErrorSeries {
     pub fit: Option<PowerLaw>,
     /// Interval of that rate, which says how many of its digits are known. If it is wider than
     /// [`WIDEST_INTERVAL`], neither rate nor line is drawn. `None`: not known.
-    pub interval: Option<[f64; 2]>,
+    pub interval: Option<Interval>,
     /// Indices of the fitted points, over which the line is drawn; the others get open markers.
     /// `None`: all.
     pub used: Option<Range<usize>>,
@@ -49,7 +50,7 @@ impl ErrorSeries {
     /// The line, if its rate is known.
     pub(crate) fn line(&self) -> Option<PowerLaw> {
         match self.interval {
-            Some([low, high]) if !(high - low <= WIDEST_INTERVAL) => None,
+            Some(interval) if !(interval.width() <= WIDEST_INTERVAL) => None,
             _ => self.fit,
         }
     }

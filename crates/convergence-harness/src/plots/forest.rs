@@ -4,6 +4,7 @@ use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
 use super::style::{
     self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, elide, text_width,
 };
+use crate::interval::Interval;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use plotters::style::RGBColor;
 
@@ -146,10 +147,10 @@ fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {
     let interval = rate
         .interval
         .map(|ends| ends.map(|end| relative(rate, end)));
-    if let Some([low, high]) = interval
-        && low.is_finite()
-        && high.is_finite()
+    if let Some(ends) = interval
+        && ends.is_finite()
     {
+        let Interval { low, high } = ends;
         pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 2.4);
         // An interval that extends beyond the frame; if the rate does too, it has its own arrow.
         let is_within = value.is_some_and(|value| value.abs() <= REACH);
@@ -214,7 +215,7 @@ mod tests {
     fn row(label: &str, rate: f64, half: f64, verdict: Verdict) -> ForestRow {
         let mut judged = missing(verdict);
         judged.fitted = Some(rate);
-        judged.interval = Some([rate - half, rate + half]);
+        judged.interval = Some(Interval::around(rate, half));
         ForestRow {
             label: label.into(),
             numbers: format!("numbers of {label}"),

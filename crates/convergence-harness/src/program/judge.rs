@@ -4,6 +4,7 @@
 use super::answer::{Answer, Expectation};
 use super::{Program, Run, values};
 use crate::judge::claims;
+use crate::judge::grid::SpaceTime;
 use crate::plots::{self, Series};
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
@@ -48,7 +49,10 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let grid = Grid {
         points: ran
             .iter()
-            .map(|ran| [step(ran, Axis::Space), step(ran, Axis::Time)])
+            .map(|ran| SpaceTime {
+                space: step(ran, Axis::Space),
+                time: step(ran, Axis::Time),
+            })
             .collect(),
         times: study.refine.times(),
         columns: study.expect.iter().map(column).collect(),

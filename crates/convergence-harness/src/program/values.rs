@@ -185,9 +185,9 @@ fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
 }
 
 fn bar_cells(bar: &Bar) -> [String; 4] {
-    let width = bar.limit[1] - bar.limit[0];
-    let [low, high] = bar.limit.map(|end| digits(end, width));
-    let [least, most] = bar.error_interval.map(error_text);
+    let width = bar.limit.width();
+    let [low, high] = <[f64; 2]>::from(bar.limit).map(|end| digits(end, width));
+    let [least, most] = <[f64; 2]>::from(bar.error_interval).map(error_text);
     [
         digits(bar.extrapolated, width),
         format!("{low} to {high}"),
@@ -201,7 +201,7 @@ fn width(estimate: &Estimate) -> f64 {
     estimate
         .bar
         .as_ref()
-        .map_or(f64::NAN, |bar| bar.limit[1] - bar.limit[0])
+        .map_or(f64::NAN, |bar| bar.limit.width())
 }
 
 /// A number with enough decimals to show two digits of `width`; with an exponent if that takes more
@@ -262,8 +262,8 @@ fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
         .as_ref()
         .ok()
         .filter(|_| estimate.judged.verdict == Verdict::Pass)?;
-    let width = bar.limit[1] - bar.limit[0];
-    let [low, high] = bar.limit.map(|end| digits(end, width));
+    let width = bar.limit.width();
+    let [low, high] = <[f64; 2]>::from(bar.limit).map(|end| digits(end, width));
     Some(format!(
         "{} tends to {} ({low} to {high})",
         column.name,

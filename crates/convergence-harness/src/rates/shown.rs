@@ -29,13 +29,13 @@ impl JudgedColumn<'_> {
             .map(|estimate| (&estimate.bar, &estimate.gci))
         {
             Some((Ok(bar), gci)) => {
-                let [low, high] = pair_text(bar.limit);
+                let [low, high] = pair_text(bar.limit.into());
                 let gci = gci.map_or(String::new(), |gci| {
                     format!(", GCI ± {}", short_text(gci.half_width))
                 });
                 rate + &format!(
                     "; limit {} ({low} to {high}){gci}",
-                    pair_text([bar.extrapolated, bar.limit[1]])[0]
+                    pair_text([bar.extrapolated, bar.limit.high])[0]
                 )
             }
             Some((Err(refusal), _)) => rate + &format!("; no limit: {refusal}"),

@@ -67,7 +67,7 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
 /// The width of a rate's interval in units of its tolerance; infinite without one.
 fn width(rate: &RateVerdict) -> f64 {
     match (rate.interval, rate.claimed) {
-        (Some([low, high]), Some(band)) => (high - low) / band.tolerance,
+        (Some(interval), Some(band)) => interval.width() / band.tolerance,
         _ => f64::INFINITY,
     }
 }

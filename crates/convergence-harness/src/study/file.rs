@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::{Described, Kind, Study, erased};
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
-use crate::judge::claims::{Claim, Interval, order_from_text};
+use crate::interval::Interval;
+use crate::judge::claims::{Claim, order_from_text};
 use crate::judge::verdict::DEFAULT_TOLERANCE;
 use crate::text::visible;
 

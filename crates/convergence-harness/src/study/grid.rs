@@ -6,7 +6,7 @@ use super::outcome::Figure;
 use super::outcome::{Check, NamedRate, Outcome};
 use super::over_levels::{Claim, summary};
 use super::subject::Subject;
-use crate::judge::grid::{Adding, GridErrors};
+use crate::judge::grid::{Adding, GridErrors, SpaceTime};
 use crate::judge::verdict::Verdict;
 #[cfg(feature = "reports")]
 use crate::plots::{self, ErrorSeries, xy::Xy};
@@ -41,15 +41,18 @@ pub struct GridColumn {
 /// Errors on all pairs of mesh widths and time steps.
 ///
 /// ```
-/// use convergence_study::{Claim, Grid, GridColumn};
+/// use convergence_study::{Claim, Grid, GridColumn, SpaceTime};
 ///
 /// let steps = [0.4, 0.2, 0.1, 0.05, 0.025];
-/// let points: Vec<[f64; 2]> = steps.iter().flat_map(|h| steps.map(|dt| [*h, dt])).collect();
+/// let mut points = vec![];
+/// for h in steps {
+///     points.extend(steps.map(|dt| SpaceTime { space: h, time: dt }));
+/// }
 /// let column = GridColumn {
 ///     name: "L2".to_owned(),
 ///     space: Claim::new(2.0, 0.2),
 ///     time: 1.0,
-///     errors: points.iter().map(|[h, dt]| h * h + 0.5 * dt).collect(),
+///     errors: points.iter().map(|point| point.space * point.space + 0.5 * point.time).collect(),
 /// };
 /// let grid = Grid { points, times: steps.len(), columns: vec![column], squares_add: false };
 /// let outcome = grid.judge();
@@ -59,7 +62,7 @@ pub struct GridColumn {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Mesh widths and time steps of all points, time steps first; both coarse to fine.
-    pub points: Vec<[f64; 2]>,
+    pub points: Vec<SpaceTime<f64>>,
     /// The number of time steps for each mesh width.
     pub times: usize,
     /// The errors.
@@ -70,12 +73,19 @@ pub struct Grid {
     pub squares_add: bool,
 }
 
+/// How far the errors are from a sum of contributions, and their squares from a sum of squares.
+#[derive(Clone, Copy)]
+struct Misfits {
+    plain: f64,
+    squares: f64,
+}
+
 impl Grid {
     /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
     /// [`judge::grid`](crate::judge::grid); for each error a check of how the contributions add.
     pub fn judge(&self) -> Outcome {
-        let [h, dt] = self.steps();
-        if let Some(different) = self.off_grid(&h, &dt) {
+        let steps = self.steps();
+        if let Some(different) = self.off_grid(&steps) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
             let check = Check {
                 verdict: Verdict::Inconclusive,
@@ -87,12 +97,15 @@ impl Grid {
         let mut checks = vec![];
         for column in &self.columns {
             let errors = GridErrors {
-                h: &h,
-                dt: &dt,
+                h: &steps.space,
+                dt: &steps.time,
                 errors: &column.errors,
             };
-            let misfits = [Adding::Plain, Adding::Squares].map(|adding| errors.misfit(adding));
-            let squares = self.squares_add || misfits[1] <= misfits[0];
+            let misfits = Misfits {
+                plain: errors.misfit(Adding::Plain),
+                squares: errors.misfit(Adding::Squares),
+            };
+            let squares = self.squares_add || misfits.squares <= misfits.plain;
             let adding = if squares {
                 Adding::Squares
             } else {
@@ -103,9 +116,13 @@ impl Grid {
             } = column.space;
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
-            match errors.judge(adding, [order, column.time], tolerance) {
-                Ok(judged) => {
-                    for (name, mut rate) in names.into_iter().zip(judged) {
+            let orders = SpaceTime {
+                space: order,
+                time: column.time,
+            };
+            match errors.judge(adding, orders, tolerance) {
+                Ok(SpaceTime { space, time }) => {
+                    for (name, mut rate) in names.into_iter().zip([space, time]) {
                         if !missing.is_empty() {
                             rate = rate.without_result(self.points.len(), &missing);
                         }
@@ -133,36 +150,36 @@ impl Grid {
             .zip(&column.errors)
             .filter(|(_, error)| error.is_nan());
         missing
-            .map(|([h, dt], _)| format!("h = {}, dt = {}", plain_text(*h), plain_text(*dt)))
+            .map(|(SpaceTime { space, time }, _)| {
+                format!("h = {}, dt = {}", plain_text(*space), plain_text(*time))
+            })
             .collect()
     }
 
     /// The mesh widths at the finest time step, and the time steps on the finest mesh.
-    fn steps(&self) -> [Vec<f64>; 2] {
+    fn steps(&self) -> SpaceTime<Vec<f64>> {
         let times = self.times.max(1);
         let finest = self.points.chunks(times).last().unwrap_or_default();
-        [
-            self.points
-                .chunks(times)
+        let rows = self.points.chunks(times);
+        SpaceTime {
+            space: rows
                 .filter_map(|row| row.last())
-                .map(|[h, _]| *h)
+                .map(|point| point.space)
                 .collect(),
-            finest.iter().map(|[_, dt]| *dt).collect(),
-        ]
+            time: finest.iter().map(|point| point.time).collect(),
+        }
     }
 
     /// The first point whose mesh width or time step differs from that of its row and column.
-    fn off_grid(&self, h: &[f64], dt: &[f64]) -> Option<String> {
+    fn off_grid(&self, steps: &SpaceTime<Vec<f64>>) -> Option<String> {
         self.points.iter().enumerate().find_map(|(index, point)| {
-            let expected = [
-                h[index / self.times.max(1)],
-                *dt.get(index % self.times.max(1))?,
-            ];
-            let off = differ(point[0], expected[0]) || differ(point[1], expected[1]);
+            let h = steps.space[index / self.times.max(1)];
+            let dt = *steps.time.get(index % self.times.max(1))?;
+            let off = differ(point.space, h) || differ(point.time, dt);
             off.then(|| {
                 format!(
-                    "expected h = {}, dt = {}, found h = {}, dt = {}",
-                    expected[0], expected[1], point[0], point[1]
+                    "expected h = {h}, dt = {dt}, found h = {}, dt = {}",
+                    point.space, point.time
                 )
             })
         })
@@ -208,16 +225,17 @@ impl Grid {
     fn line(&self, column: &GridColumn, k: usize) -> ErrorSeries {
         let points = self.points.iter().zip(&column.errors);
         let points = points.skip(k).step_by(self.times.max(1));
-        let dt = self.points.get(k).map_or(f64::NAN, |[_, dt]| *dt);
+        let dt = self.points.get(k).map_or(f64::NAN, |point| point.time);
         ErrorSeries {
             label: format!("dt = {}", short_text(dt)),
-            points: points.map(|([h, _], error)| (*h, *error)).collect(),
+            points: points.map(|(point, error)| (point.space, *error)).collect(),
             ..ErrorSeries::default()
         }
     }
 
     /// Judges whether the contributions of space and time add as the fit assumes.
-    fn judge_model(&self, name: &str, [plain, squares]: [f64; 2]) -> Check {
+    fn judge_model(&self, name: &str, misfits: Misfits) -> Check {
+        let Misfits { plain, squares } = misfits;
         let evidence = format!(
             "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"
         );

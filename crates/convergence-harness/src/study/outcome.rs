@@ -245,7 +245,12 @@ impl Outcome {
             for (j, rate) in rate.pairwise.iter().enumerate() {
                 list.check(*rate, || format!("rates[{i}].pairwise[{j}]"));
             }
-            for (j, end) in rate.interval.into_iter().flatten().enumerate() {
+            for (j, end) in rate
+                .interval
+                .into_iter()
+                .flat_map(<[f64; 2]>::from)
+                .enumerate()
+            {
                 list.check(end, || format!("rates[{i}].interval[{j}]"));
             }
             if let Some(fitted) = rate.fitted {

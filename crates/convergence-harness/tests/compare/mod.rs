@@ -3,6 +3,7 @@
 mod larger;
 
 use convergence_harness::compare::{Comparison, Shift, WITHIN, compare};
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::verdict::{Floor, Verdict, judge_pairs};
 use convergence_harness::run::{Finished, Spent};
 use convergence_harness::store::{Record, json};
@@ -379,7 +380,10 @@ fn grids_and_records_without_steps_are_compared_by_their_parameters() {
 fn a_record_is_read_as_it_was_written() {
     let mut written = record(vec![sound("a")]);
     written.studies[0].outcome.levels[0].errors[0].1 = f64::NAN;
-    written.studies[0].outcome.rates[0].rate.interval = Some([f64::NAN, 1.0]);
+    written.studies[0].outcome.rates[0].rate.interval = Some(Interval {
+        low: f64::NAN,
+        high: 1.0,
+    });
     let text = json(&written).unwrap();
     let read = Record::parse(&text, Path::new("r.json")).unwrap();
     assert_eq!(json(&read).unwrap(), text);

@@ -75,7 +75,7 @@ fn every_reading_of_a_pure_power_is_its_order() {
         let line = fit_line(&data).expect("regular");
         assert!((line.slope - 1.7).abs() < 1e-12 && (line.intercept - 3.0_f64.ln()).abs() < 1e-12);
         let fit = rate_interval(&data).expect("regular");
-        assert!((fit.rate - 1.7).abs() < 1e-10 && fit.interval[0] <= 1.7 && 1.7 <= fit.interval[1]);
+        assert!((fit.rate - 1.7).abs() < 1e-10 && fit.interval.holds(1.7));
         assert!((extrapolated_rate(&data).expect("regular") - 1.7).abs() < 1e-9);
     }
 }
@@ -96,7 +96,7 @@ fn the_interval_of_a_line_is_that_of_the_textbook() {
     let half = 4.302_652_73 * (0.009_f64 / 5.0).sqrt();
     assert!((line.slope - 0.98).abs() < 1e-12);
     assert!(
-        (line.interval[1] - line.slope - half).abs() < 1e-8,
+        (line.interval.high - line.slope - half).abs() < 1e-8,
         "{line:?} {half}"
     );
 }

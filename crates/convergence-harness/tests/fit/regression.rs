@@ -1,6 +1,7 @@
 //! Lines and candidates compared with multiple linear regression over the same columns, by a
 //! general library.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::fit::{
     FACTOR, FACTOR_OF_THREE, Level, POLLUTION_EXPONENTS, fit_line, rate_interval, student_t,
 };
@@ -134,8 +135,8 @@ fn lines_are_those_of_linear_regression() {
                 line.slope,
                 line.intercept,
                 line.deviation,
-                line.interval[0],
-                line.interval[1],
+                line.interval.low,
+                line.interval.high,
             ];
             for (found, expected) in found.iter().zip(expected) {
                 assert!(
@@ -153,7 +154,14 @@ fn two_levels_make_a_line_that_says_nothing_and_one_makes_none() {
     let line = fit_line(&levels(&HALVED[..2], |h| h)).expect("a line");
     assert_eq!(
         (line.slope, line.dof, line.interval),
-        (1.0, 0, [f64::NEG_INFINITY, f64::INFINITY])
+        (
+            1.0,
+            0,
+            Interval {
+                low: f64::NEG_INFINITY,
+                high: f64::INFINITY
+            }
+        )
     );
     assert_eq!(fit_line(&levels(&HALVED[..1], |h| h)), None);
     assert_eq!(
@@ -184,11 +192,8 @@ fn models_are_those_of_multiple_regression() {
                 "{m} levels, case {case}: {found:?}, {rate}"
             );
             assert_eq!(found.pollution, pollution, "{m} levels, case {case}");
-            let ends = found
-                .interval
-                .iter()
-                .zip(interval)
-                .all(|(&found, expected)| close(found, expected));
+            let ends =
+                close(found.interval.low, interval[0]) && close(found.interval.high, interval[1]);
             assert!(ends, "{m} levels, case {case}: {found:?}, {interval:?}");
             chosen[usize::from(pollution.is_some())] += 1;
         }
@@ -218,7 +223,7 @@ fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
             FACTOR * student_t(m - 2) * round_off * inverse[(1, 1)].sqrt()
         };
         let found = rate_interval(&data).expect("regular");
-        for ratio in found.interval.map(|end| (end - 1.0).abs() / half) {
+        for ratio in <[f64; 2]>::from(found.interval).map(|end| (end - 1.0).abs() / half) {
             assert!(
                 (0.7..10.0).contains(&ratio),
                 "{m} levels, unit {unit}: {found:?}, {half:e}"

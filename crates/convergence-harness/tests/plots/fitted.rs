@@ -1,5 +1,6 @@
 //! Lines of fitted rates: where they end, their markers, their digits.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::verdict::PowerLaw;
 use convergence_harness::plots::*;
 
@@ -75,7 +76,7 @@ fn levels_without_a_say_have_open_markers_and_a_note() {
 }
 
 /// The legend's text, and whether a line is drawn, for a rate with this interval.
-fn rate_known_as(interval: Option<[f64; 2]>) -> (String, bool) {
+fn rate_known_as(interval: Option<Interval>) -> (String, bool) {
     let svg = over_h(&[ErrorSeries {
         order: Some(2.0),
         interval,
@@ -105,7 +106,7 @@ fn a_rate_has_the_digits_of_its_interval_and_none_with_its_line_where_that_says_
         (Some([f64::NAN, 2.0]), "L2, order 2, no rate", false),
     ] {
         assert_eq!(
-            rate_known_as(interval),
+            rate_known_as(interval.map(|[low, high]| Interval { low, high })),
             (label.to_owned(), has_line),
             "{interval:?}"
         );

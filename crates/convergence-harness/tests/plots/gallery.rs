@@ -1,5 +1,6 @@
 //! Made-up data that look like the real thing, one set per figure.
 
+use convergence_harness::interval::Interval;
 use convergence_harness::judge::verdict::{PowerLaw, RateVerdict, Verdict, judge_pairs};
 use convergence_harness::plots::xy::Xy;
 use convergence_harness::plots::*;
@@ -390,7 +391,7 @@ pub(crate) fn all_rates() -> Vec<ForestRow> {
     let rate = |rate: f64, half: f64, verdict| {
         let mut judged = none(verdict);
         judged.fitted = Some(rate);
-        judged.interval = Some([rate - half, rate + half]);
+        judged.interval = Some(Interval::around(rate, half));
         judged
     };
     let row = |label: &str, rate: RateVerdict| ForestRow {

@@ -407,6 +407,7 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
 }
 
 mod whatever_is_measured {
+    use convergence_harness::interval::Interval;
     use proptest::prelude::*;
 
     use super::{Verdict, judge, judge_pairs, with_rates};
@@ -419,7 +420,7 @@ mod whatever_is_measured {
         ) {
             let outcome = judge_pairs(pairs, order, 0.05);
             if outcome.verdict == Verdict::Pass {
-                let [low, high] = outcome.interval.expect("a pass rests on an interval");
+                let Interval { low, high } = outcome.interval.expect("a pass rests on an interval");
                 prop_assert!(order - 0.05 <= low && low <= high && high <= order + 0.05);
             }
         }
@@ -433,7 +434,7 @@ mod whatever_is_measured {
             let scaled = levels.iter().map(|l| (l.step * 10.0_f64.powi(step), l.error * 10.0_f64.powi(error)));
             let (a, b) = (judge(&levels, 1.0, 0.05), judge_pairs(scaled, 1.0, 0.05));
             let (a, b) = (a.interval.expect("regular"), b.interval.expect("regular"));
-            prop_assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9, "{a:?} {b:?}");
+            prop_assert!((a.low - b.low).abs() < 1e-9 && (a.high - b.high).abs() < 1e-9, "{a:?} {b:?}");
         }
     }
 }

@@ -10,6 +10,7 @@ use super::fit::Level;
 use super::verdict::{
     Band, Floor, RateVerdict, Reason, against_claim, judge_band, judged_in_words,
 };
+use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
 
 /// What theory claims about an error.
@@ -120,15 +121,6 @@ impl fmt::Display for Claim {
     }
 }
 
-/// Two numbers, and all between them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
-    /// The lower end.
-    pub low: f64,
-    /// The upper end.
-    pub high: f64,
-}
-
 /// An order as people write it: `2`, or `>= 2` for a lower bound; `None` if it is neither.
 pub fn order_from_text(text: &str) -> Option<(f64, bool)> {
     let least = text.trim().strip_prefix(">=");
@@ -160,7 +152,7 @@ pub fn order_of_factor(factor: f64) -> f64 {
 /// The interval must lie above the band's lower end; rates that move upwards do not depart.
 pub fn at_least(rate: RateVerdict) -> RateVerdict {
     let rates = &rate.pairwise[..rate.used.end.saturating_sub(1)];
-    let (Some(band), Some([low, _]), [.., before, last]) = (rate.claimed, rate.interval, rates)
+    let (Some(band), Some(interval), [.., before, last]) = (rate.claimed, rate.interval, rates)
     else {
         return rate;
     };
@@ -170,7 +162,7 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
         Reason::Departs => last > before,
         _ => false,
     };
-    if low >= least && is_allowed {
+    if interval.low >= least && is_allowed {
         rate.with_reason(Reason::Agrees, Reason::Agrees.text())
     } else {
         rate
@@ -186,18 +178,15 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
 /// pollution and for scatter.
 pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<Interval> {
     let order = rate.order()?;
-    let [low, high] = rate.interval?;
+    let interval = rate.interval?;
     let [.., before, finest] = levels.get(rate.used.clone())? else {
         return None;
     };
     let ratio = (before.step / finest.step).ln();
     let last = (before.error / finest.error).ln() / ratio;
     let middle = finest.error.ln() - order * finest.step.ln() + (order - last) * ratio;
-    let half = DOUBT_OF_A_CONSTANT * 0.5 * (high - low) * ratio;
-    Some(Interval {
-        low: (middle - half).exp(),
-        high: (middle + half).exp(),
-    })
+    let half = DOUBT_OF_A_CONSTANT * 0.5 * interval.width() * ratio;
+    Some(Interval::around(middle, half).map(f64::exp))
 }
 
 /// The same rate, whose constant must also lie between two numbers: a mistake of the scheme's own

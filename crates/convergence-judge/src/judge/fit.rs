@@ -26,6 +26,8 @@ use std::sync::LazyLock;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use crate::interval::Interval;
+
 pub use interval::{
     CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION,
     rate_interval,
@@ -106,7 +108,7 @@ pub struct LineFit {
     /// Degrees of freedom, levels - 2.
     pub dof: usize,
     /// `slope ± t deviation / √Σ(log h - mean)²`; the whole real line when dof is 0.
-    pub interval: [f64; 2],
+    pub interval: Interval,
 }
 
 /// Least-squares fit of log e on log h over all the levels given, with the Student-t interval of
@@ -127,8 +129,8 @@ pub struct LineFit {
 /// let line = fit_line(&levels).expect("five levels");
 /// let rate = rate_interval(&levels).expect("five levels");
 /// // The slope is a mean of the rates; the interval at h -> 0 holds the order.
-/// assert!(line.interval[0] > 1.0);
-/// assert!(rate.interval[0] <= 1.0 && 1.0 <= rate.interval[1]);
+/// assert!(line.interval.low > 1.0);
+/// assert!(rate.interval.holds(1.0));
 /// ```
 pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     let Logarithms { x, y } = Logarithms::new(levels)?;
@@ -154,7 +156,7 @@ pub fn fit_line(levels: &[Level]) -> Option<LineFit> {
     } else {
         student_t(dof) * deviation / sxx.sqrt()
     };
-    let interval = [slope - half, slope + half];
+    let interval = Interval::around(slope, half);
     slope.is_finite().then_some(LineFit {
         slope,
         intercept: y_mean - slope * x_mean,

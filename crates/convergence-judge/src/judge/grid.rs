@@ -148,10 +148,26 @@ impl Adding {
     }
 }
 
+/// The same of space, refined by the mesh width h, and of time, refined by the step dt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpaceTime<T> {
+    /// Of space, in h.
+    pub space: T,
+    /// Of time, in dt.
+    pub time: T,
+}
+
+impl<T> SpaceTime<T> {
+    /// Both, that of space first.
+    pub fn both(&self) -> [&T; 2] {
+        [&self.space, &self.time]
+    }
+}
+
 /// Errors for all pairs of mesh widths and time steps.
 ///
 /// ```
-/// use convergence_judge::{Adding, GridErrors, JudgeError};
+/// use convergence_judge::{Adding, GridErrors, JudgeError, SpaceTime};
 ///
 /// let steps = [0.4, 0.2, 0.1, 0.05, 0.025];
 /// let mut errors = vec![];
@@ -159,8 +175,9 @@ impl Adding {
 ///     errors.extend(steps.map(|dt: f64| h * h + 0.5 * dt));
 /// }
 /// let grid = GridErrors { h: &steps, dt: &steps, errors: &errors };
-/// let [in_h, in_dt] = grid.judge(Adding::Plain, [2.0, 1.0], 0.2)?;
-/// assert!(in_h.verdict.is_pass() && in_dt.verdict.is_pass());
+/// let orders = SpaceTime { space: 2.0, time: 1.0 };
+/// let rates = grid.judge(Adding::Plain, orders, 0.2)?;
+/// assert!(rates.space.verdict.is_pass() && rates.time.verdict.is_pass());
 /// # Ok::<(), JudgeError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -219,23 +236,22 @@ impl GridErrors<'_> {
     pub fn judge(
         &self,
         adding: Adding,
-        orders: [f64; 2],
+        orders: SpaceTime<f64>,
         tolerance: f64,
-    ) -> Result<[RateVerdict; 2], JudgeError> {
-        let [p, q] = orders;
-        let both = [
-            self.judge_one(true, adding, p, tolerance)?,
-            self.judge_one(false, adding, q, tolerance)?,
-        ];
-        if both.iter().any(|rate| rate.verdict != Verdict::Pass) {
-            return Ok(both);
+    ) -> Result<SpaceTime<RateVerdict>, JudgeError> {
+        let judged = SpaceTime {
+            space: self.judge_one(true, adding, orders.space, tolerance)?,
+            time: self.judge_one(false, adding, orders.time, tolerance)?,
+        };
+        if judged.both().iter().any(|rate| !rate.verdict.is_pass()) {
+            return Ok(judged);
         }
-        let Remainder { share, uncertainty } = self.remainder(adding, &both, orders);
+        let Remainder { share, uncertainty } = self.remainder(adding, &judged, orders);
         let power = adding.power();
         let [none, most, limit] = REST;
         let share = share.abs();
         if share <= most && share <= uncertainty.max(none) {
-            return Ok(both);
+            return Ok(judged);
         }
         let kind = if share > limit.max(2.0 * uncertainty) {
             Reason::WrongLimit
@@ -250,15 +266,26 @@ impl GridErrors<'_> {
             error_text(size),
             error_text(finest)
         );
-        Ok(both.map(|rate| rate.with_reason(kind, &because)))
+        Ok(SpaceTime {
+            space: judged.space.with_reason(kind, &because),
+            time: judged.time.with_reason(kind, &because),
+        })
     }
 
     /// What is left of the finest error without h and dt.
-    fn remainder(&self, adding: Adding, judged: &[RateVerdict; 2], orders: [f64; 2]) -> Remainder {
+    fn remainder(
+        &self,
+        adding: Adding,
+        judged: &SpaceTime<RateVerdict>,
+        orders: SpaceTime<f64>,
+    ) -> Remainder {
         let power = adding.power();
         let mut share = 1.0 / power;
         let mut uncertainty = MISFITS_OF_REST * self.misfit(adding);
-        for ((in_space, judged), order) in [true, false].into_iter().zip(judged).zip(orders) {
+        for (in_space, judged, order) in [
+            (true, &judged.space, orders.space),
+            (false, &judged.time, orders.time),
+        ] {
             let [.., before, finest] = self.line(in_space, 0)[..] else {
                 return Remainder {
                     share: f64::NAN,

@@ -1,5 +1,7 @@
 //! Numbers for reports: a maximum that keeps NaN, and formats whose bytes must stay the same.
 
+use crate::interval::Interval;
+
 /// Significant digits of a number in a committed file: more than anyone compares, fewer than two
 /// machines agree on.
 const DIGITS: usize = 6;
@@ -66,8 +68,8 @@ pub fn rate_text(rate: Option<f64>) -> String {
 
 /// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most
 /// `most`.
-pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
-    let width = high - low;
+pub fn interval_places(interval: Interval, most: usize) -> usize {
+    let width = interval.width();
     if width.is_nan() || width.is_infinite() {
         return most.min(3);
     }
@@ -81,9 +83,9 @@ pub fn interval_places([low, high]: [f64; 2], most: usize) -> usize {
 
 /// An interval of rates with as many decimals as it needs, and at most `most`: `1.9581 to 1.9613`.
 /// If it is narrower than the last decimal, a number and the rounding: `2.0000 ± 0.00005`.
-pub fn interval_text(interval: [f64; 2], most: usize) -> String {
+pub fn interval_text(interval: Interval, most: usize) -> String {
     let places = interval_places(interval, most);
-    let [low, high] = interval.map(|end| decimals(end, places));
+    let [low, high] = <[f64; 2]>::from(interval).map(|end| decimals(end, places));
     if low == high {
         format!("{low} ± 0.{}5", "0".repeat(places))
     } else {
@@ -187,6 +189,10 @@ mod tests {
         );
     }
 
+    fn in_words([low, high]: [f64; 2], most: usize) -> String {
+        interval_text(Interval { low, high }, most)
+    }
+
     #[test]
     fn an_interval_has_two_digits_of_its_width_and_never_two_equal_ends() {
         for (interval, text) in [
@@ -197,13 +203,10 @@ mod tests {
             ([1.0, 1.0], "1.0000 ± 0.00005"),
             ([-0.2, 30.0], "-0.20 to 30.00"),
         ] {
-            assert_eq!(interval_text(interval, 4), text);
+            assert_eq!(in_words(interval, 4), text);
         }
-        assert_eq!(
-            interval_text([0.999_99, 1.000_01], 6),
-            "0.999990 to 1.000010"
-        );
-        assert_eq!(interval_text([f64::NAN, 1.0], 4), "NaN to 1.000");
+        assert_eq!(in_words([0.999_99, 1.000_01], 6), "0.999990 to 1.000010");
+        assert_eq!(in_words([f64::NAN, 1.0], 4), "NaN to 1.000");
     }
 
     #[test]

@@ -125,10 +125,8 @@ impl Column {
         }
         if let Ok(bar) = &mut estimate.bar {
             for other in corners.iter().filter_map(|corner| corner.bar.as_ref().ok()) {
-                bar.limit = [
-                    bar.limit[0].min(other.limit[0]),
-                    bar.limit[1].max(other.limit[1]),
-                ];
+                bar.limit.low = bar.limit.low.min(other.limit.low);
+                bar.limit.high = bar.limit.high.max(other.limit.high);
             }
         }
         estimate

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::{Check, Figure, NamedRate, Outcome};
+use crate::interval::Interval;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::coverage;
 use crate::study::subject::Subject;
@@ -108,10 +109,7 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
 
 /// Whether a passing rate has the numbers to justify it.
 fn rests_on_numbers(rate: &RateVerdict) -> bool {
-    let interval = rate
-        .interval
-        .is_some_and(|[low, high]| low.is_finite() && high.is_finite());
-    interval && rate.fitted.is_some_and(f64::is_finite)
+    rate.interval.is_some_and(Interval::is_finite) && rate.fitted.is_some_and(f64::is_finite)
 }
 
 /// A plain file name that begins with the study's id: figures of all studies share one folder.

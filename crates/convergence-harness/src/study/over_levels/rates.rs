@@ -65,7 +65,7 @@ fn row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
 /// The rate with the digits that its interval justifies, in a table that also shows the interval.
 fn rate_cell(rate: &RateVerdict) -> String {
     match (rate.fitted, rate.interval) {
-        (Some(_), Some([low, high])) if high - low > WIDEST_INTERVAL => "no rate".to_owned(),
+        (Some(_), Some(interval)) if interval.width() > WIDEST_INTERVAL => "no rate".to_owned(),
         (Some(fitted), Some(interval)) => decimals(fitted, interval_places(interval, RATE_PLACES)),
         (fitted, _) => rate_text(fitted),
     }

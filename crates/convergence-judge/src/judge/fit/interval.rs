@@ -5,6 +5,7 @@
 //! buys.
 
 use super::{Level, Logarithms, student_t};
+use crate::interval::Interval;
 
 /// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they guard
 /// against overconfidence.
@@ -36,7 +37,7 @@ pub struct RateInterval {
     /// Its pollution exponent r; `None` for a straight line.
     pub pollution: Option<f64>,
     /// `rate` ± its half-width.
-    pub interval: [f64; 2],
+    pub interval: Interval,
     /// How far log e of the finest level may lie from its line, at the confidence of the interval.
     pub scatter: f64,
 }
@@ -91,7 +92,7 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
     is_regular.then_some(RateInterval {
         rate,
         pollution,
-        interval: [rate - half, rate + half],
+        interval: Interval::around(rate, half),
         scatter,
     })
 }

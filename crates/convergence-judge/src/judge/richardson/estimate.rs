@@ -5,6 +5,7 @@ use std::f64::consts::SQRT_2;
 use thiserror::Error;
 
 use super::{Gci, growth, observed_order};
+use crate::interval::Interval;
 use crate::judge::fit::{FLOOR_MARGIN, Level};
 use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
 
@@ -20,7 +21,10 @@ const ROUND_OFF: f64 = 1e-13;
 const SAME_RATIO: f64 = 1e-9;
 
 /// Range searched for the rate of values with unequal ratios.
-pub(crate) const RATES: [f64; 2] = [1e-2, 64.0];
+pub(crate) const RATES: Interval = Interval {
+    low: 1e-2,
+    high: 64.0,
+};
 
 /// A value at a step; NaN if there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,15 +83,15 @@ pub struct Bar {
     pub rate: f64,
     /// Its interval: that of the rule; for three values [`DOUBT_OF_A_SINGLE_RATE`] below and above
     /// both the rate and the order claimed.
-    pub rate_interval: [f64; 2],
+    pub rate_interval: Interval,
     /// Estimated error of the finest value, finest value - limit: it has a sign.
     pub error: f64,
-    /// The interval of the error, lower end first.
-    pub error_interval: [f64; 2],
+    /// The interval of the error.
+    pub error_interval: Interval,
     /// The limit: finest value - error.
     pub extrapolated: f64,
     /// The interval of the limit.
-    pub limit: [f64; 2],
+    pub limit: Interval,
 }
 
 /// What values say about their limit.
@@ -113,7 +117,7 @@ pub struct Estimate {
 /// let estimate = Estimator::new(0.1)?.estimate(&values, 2.0);
 /// let bar = estimate.bar.expect("the differences fall");
 /// assert!(estimate.judged.verdict.is_pass());
-/// assert!(bar.limit[0] <= 1.0 && 1.0 <= bar.limit[1]);
+/// assert!(bar.limit.holds(1.0));
 /// let gci = estimate.gci.expect("the differences fall");
 /// assert!(gci.half_width >= bar.error.abs());
 /// # Ok::<(), JudgeError>(())
@@ -266,10 +270,8 @@ fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
 
 /// The zero of a function that falls from above zero to below it, by false position (Illinois);
 /// `None` if it has no value.
-pub(crate) fn crossing(
-    f: impl Fn(f64) -> Option<f64>,
-    [mut low, mut high]: [f64; 2],
-) -> Option<f64> {
+pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, within: Interval) -> Option<f64> {
+    let Interval { mut low, mut high } = within;
     let mut above = f(low)?;
     let mut below = f(high)?;
     let mut middle = low;
@@ -311,7 +313,7 @@ fn check_reason(reason: Reason) -> Result<(), Refusal> {
 /// An observed rate.
 struct ObservedRate {
     rate: f64,
-    interval: [f64; 2],
+    interval: Interval,
 }
 
 /// Whether no two neighbouring differences have opposite signs.
@@ -338,10 +340,10 @@ fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate,
         let order = judged.order().unwrap_or(rate);
         return Ok(ObservedRate {
             rate,
-            interval: [
-                rate.min(order) - DOUBT_OF_A_SINGLE_RATE,
-                rate.max(order) + DOUBT_OF_A_SINGLE_RATE,
-            ],
+            interval: Interval {
+                low: rate.min(order) - DOUBT_OF_A_SINGLE_RATE,
+                high: rate.max(order) + DOUBT_OF_A_SINGLE_RATE,
+            },
         });
     };
     check_reason(judged.kind)?;
@@ -349,7 +351,7 @@ fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate,
         return Err(Refusal::Oscillating);
     }
     Ok(ObservedRate {
-        rate: 0.5 * (interval[0] + interval[1]),
+        rate: 0.5 * (interval.low + interval.high),
         interval,
     })
 }
@@ -368,8 +370,8 @@ fn bar(
         rate,
         interval: rate_interval,
     } = observed_rate(values, judged)?;
-    if rate_interval[0] <= 0.0 {
-        return Err(Refusal::RateMayBeZero(rate_interval[0]));
+    if rate_interval.low <= 0.0 {
+        return Err(Refusal::RateMayBeZero(rate_interval.low));
     }
     let [before, finest] = [values[values.len() - 2], values[values.len() - 1]];
     let difference = before.value - finest.value;
@@ -379,20 +381,26 @@ fn bar(
     // error scatters by this.
     let power = ratio.powf(rate);
     let scatter = scatter * SQRT_2 * power / power.hypot(1.0);
-    let rounding = round_off * (1.0 + 2.0 / growth(ratio, rate_interval[0]));
+    let rounding = round_off * (1.0 + 2.0 / growth(ratio, rate_interval.low));
     // A higher rate gives a smaller error.
-    let least = size(rate_interval[1]) * (-scatter).exp() - rounding;
-    let most = size(rate_interval[0]) * scatter.exp() + rounding;
+    let least = size(rate_interval.high) * (-scatter).exp() - rounding;
+    let most = size(rate_interval.low) * scatter.exp() + rounding;
     let error = size(rate).copysign(difference);
     let error_interval = if difference > 0.0 {
-        [least, most]
+        Interval {
+            low: least,
+            high: most,
+        }
     } else {
-        [-most, -least]
+        Interval {
+            low: -most,
+            high: -least,
+        }
     };
-    let limit = [
-        finest.value - error_interval[1],
-        finest.value - error_interval[0],
-    ];
+    let limit = Interval {
+        low: finest.value - error_interval.high,
+        high: finest.value - error_interval.low,
+    };
     Ok(Bar {
         rate,
         rate_interval,

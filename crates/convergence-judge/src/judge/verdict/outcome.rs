@@ -7,7 +7,8 @@ use super::reading::Reading;
 use super::reason::Reason;
 use super::tendency::Tendency;
 use super::words::{Aside, SetAside, Verdict};
-use crate::text::json::{nan, nan_pair, nans};
+use crate::interval::Interval;
+use crate::text::json::{nan, nans};
 use crate::text::number::{
     RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text,
     plain_text,
@@ -116,8 +117,8 @@ pub struct RateVerdict {
     pub constant: Option<f64>,
     /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is
     /// another one.
-    #[serde(deserialize_with = "nan_pair")]
-    pub interval: Option<[f64; 2]>,
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub interval: Option<Interval>,
     /// Limit of the finest pairwise rates,
     /// [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the
     /// interval; it is not judged.

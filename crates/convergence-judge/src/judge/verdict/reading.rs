@@ -7,6 +7,7 @@ use super::reason::Reason;
 use super::tendency::Tendency;
 use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, scatter, trend};
+use crate::interval::Interval;
 use crate::judge::fit::{
     Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
@@ -64,13 +65,9 @@ impl<'a> Reading<'a> {
 
     /// Extends the interval at either end.
     pub(crate) fn widen(&mut self, doubt: f64) {
-        if let Some(RateInterval {
-            interval: [low, high],
-            ..
-        }) = &mut self.fit
-        {
-            *low -= doubt;
-            *high += doubt;
+        if let Some(RateInterval { interval, .. }) = &mut self.fit {
+            interval.low -= doubt;
+            interval.high += doubt;
         }
     }
 
@@ -169,7 +166,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Steps 6 and 7: the trend of the rates, and the interval against the band.
-    fn compare(&self, interval: [f64; 2], order: f64, tolerance: f64) -> Reason {
+    fn compare(&self, interval: Interval, order: f64, tolerance: f64) -> Reason {
         let rates = self.rates();
         if trend::departs(rates, tolerance) && !trend::approaches(rates, order, tolerance) {
             return Reason::Departs;
@@ -228,7 +225,7 @@ fn defect(levels: &[Level]) -> Option<Reason> {
 }
 
 /// The interval against the band.
-fn compare([low, high]: [f64; 2], order: f64, tolerance: f64) -> Reason {
+fn compare(Interval { low, high }: Interval, order: f64, tolerance: f64) -> Reason {
     let least = order - tolerance;
     let most = order + tolerance;
     if least <= low && high <= most {
@@ -263,7 +260,9 @@ mod tests {
             ([0.5, 1.0625], Reason::IntervalTooWide),
             ([0.5, 1.5], Reason::IntervalTooWide),
         ] {
-            assert_eq!(compare(interval, 1.0, 0.25), reason, "{interval:?}");
+            let [low, high] = interval;
+            let found = compare(Interval { low, high }, 1.0, 0.25);
+            assert_eq!(found, reason, "{interval:?}");
         }
     }
 }

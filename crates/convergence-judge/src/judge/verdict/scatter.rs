@@ -138,8 +138,8 @@ mod tests {
         }
         assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0, 0.25));
         assert!(!hides(&levels(|h, _| h, 3), 2.0, 0.25), "three levels");
-        // A plateau that changes the finest rate by 0.0003.
-        let hardly = levels(|h, _| h * h + 1e-8, 8);
+        // A plateau that changes the finest rate by 0.001.
+        let hardly = levels(|h, _| h * h + 3e-8, 8);
         assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.02));
     }
 

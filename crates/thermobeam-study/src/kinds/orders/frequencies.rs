@@ -14,6 +14,7 @@
 //! tolerance = 0.1
 //! ```
 
+use convergence_harness::interval::Interval;
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Measured, Orders, Runs, Series, Source};
@@ -230,7 +231,7 @@ impl Frequencies {
             let fitted = rate.fitted.map(|rate| format!("{rate:.4}"));
             let interval = rate
                 .interval
-                .map(|[low, high]| format!("{low:.4} to {high:.4}"));
+                .map(|Interval { low, high }| format!("{low:.4} to {high:.4}"));
             let [leading, fitted, interval] =
                 [leading, fitted, interval].map(|cell| cell.unwrap_or_else(|| "-".into()));
             rows.push(vec![

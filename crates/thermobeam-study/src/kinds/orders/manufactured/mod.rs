@@ -36,6 +36,7 @@
 mod constant;
 pub(in crate::kinds) mod design;
 
+use convergence_harness::judge::grid::SpaceTime;
 use convergence_harness::study::grid::{Grid, GridColumn};
 
 use super::one_step::{levels, not_finite_norms};
@@ -221,7 +222,10 @@ impl Convergence {
         let mut points = vec![];
         for run in runs {
             let (elements, steps) = run.case.data;
-            points.push([1.0 / elements as f64, self.refine.dt(steps)]);
+            points.push(SpaceTime {
+                space: 1.0 / elements as f64,
+                time: self.refine.dt(steps),
+            });
         }
         let mut columns = vec![];
         for &(norm, claim) in &self.expect {

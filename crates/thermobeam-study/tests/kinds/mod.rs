@@ -16,6 +16,7 @@ mod random_errors;
 mod refused;
 mod rigid;
 mod scenes;
+mod solutions;
 mod self_convergence;
 mod solvers;
 mod typed;

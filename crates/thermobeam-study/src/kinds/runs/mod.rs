@@ -14,6 +14,7 @@ pub mod experiment;
 pub mod rigid;
 pub mod scenes;
 pub(crate) mod side_by_side;
+pub mod solutions;
 pub(crate) mod steady;
 pub(crate) mod watch;
 

@@ -4,6 +4,7 @@
 mod any_order;
 mod bifurcation;
 mod convergence;
+mod dependence;
 mod detects;
 mod detects_any_order;
 mod energy;

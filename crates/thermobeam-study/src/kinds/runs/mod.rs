@@ -7,6 +7,7 @@
 pub mod bifurcation;
 pub mod cases;
 pub mod checks;
+pub mod dependence;
 pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;

@@ -6,7 +6,7 @@
 //! temperature part negative definite. A pivot of the wrong sign therefore shows that the matrix is
 //! not: the beam is beyond its buckling force.
 
-use crate::error::StepFailure;
+use crate::error::{StepFailure, StepMatrix};
 use crate::lanes::{Lane, MultiplyAdd};
 
 /// A block, row by row.
@@ -150,6 +150,7 @@ pub(crate) fn factorize<T: Lane, const B: usize>(
             node,
             pivot,
             n_value,
+            of: StepMatrix::Coupled,
         })?;
         for row in 0..B {
             for column in 0..B {
@@ -249,7 +250,8 @@ mod tests {
             Err(StepFailure::Indefinite {
                 node: 3,
                 pivot: -1.0,
-                n_value: -0.9
+                n_value: -0.9,
+                of: StepMatrix::Coupled,
             })
         );
     }

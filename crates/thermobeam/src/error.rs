@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::kirchhoff::BUCKLING;
 use crate::mesh::MeshError;
 use crate::parameters::ParameterError;
 use thiserror::Error;
@@ -69,7 +70,7 @@ pub enum StepFailure {
     /// The matrix of the step is not positive definite, or not quasi-definite with the temperature.
     #[error(
         "the matrix of the step is not positive definite: expected a pivot of the right sign, found {pivot:.3e} at \
-         node {node} for the axial force {n_value:.6}: {}", advice(*pivot)
+         node {node} for the axial force {n_value:.6}: {}", advice(*pivot, *n_value, *of)
     )]
     Indefinite {
         /// Node of the pivot.
@@ -78,6 +79,8 @@ pub enum StepFailure {
         pivot: f64,
         /// The mean axial force of the matrix.
         n_value: f64,
+        /// Which matrix it is.
+        of: StepMatrix,
     },
     /// More contact events within the smallest step of dG than an impact explains.
     #[error(
@@ -118,13 +121,44 @@ fn other_advice(of: Option<Loop>) -> &'static str {
     }
 }
 
+/// The matrices that a step factorises.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepMatrix {
+    /// That of a single field in (4.2).
+    OneField,
+    /// That of u, φ and θ together in (3.7).
+    Coupled,
+    /// That of dG.
+    AnyOrder,
+}
+
+impl StepMatrix {
+    /// The dt, in units of ζ, up to which the matrix is definite on every mesh for an axial force:
+    /// THEORY.md, "How many solutions a step has". `None` if that is every dt, or not known.
+    fn longest_step(self, n_value: f64) -> Option<f64> {
+        // 2 s/(-s - N), s being the least stiffness that compression must exceed.
+        let stiffness = match self {
+            Self::OneField => 1.0,
+            Self::Coupled => BUCKLING,
+            Self::AnyOrder => return None,
+        };
+        (n_value < -stiffness).then(|| 2.0 * stiffness / (-stiffness - n_value))
+    }
+}
+
 /// What to change after a lost pivot: NaN indicates an overflow, not buckling.
-fn advice(pivot: f64) -> &'static str {
-    if pivot.is_finite() {
-        "take a smaller dt, because the beam is loaded beyond its buckling force"
-    } else {
-        "take coefficients, dt and elements of less extreme size, because an entry of the matrix is too large for a \
-         floating-point number"
+fn advice(pivot: f64, n_value: f64, of: StepMatrix) -> String {
+    if !pivot.is_finite() {
+        return "take coefficients, dt and elements of less extreme size, because an entry of the matrix is too large for a \
+                floating-point number"
+            .to_owned();
+    }
+    let smaller = "take a smaller dt, because the beam is loaded beyond its buckling force";
+    match of.longest_step(n_value) {
+        Some(longest) => {
+            format!("{smaller}: dt <= {longest:.3} zeta is enough for this axial force")
+        }
+        None => smaller.to_owned(),
     }
 }
 
@@ -231,6 +265,7 @@ mod tests {
                 node: 1,
                 pivot,
                 n_value: 0.0,
+                of: StepMatrix::Coupled,
             }
             .to_string()
         };
@@ -247,5 +282,22 @@ mod tests {
                 "{said}"
             );
         }
+    }
+
+    /// 2 s/(-s - N) with s = 1 and s = B, and no limit where the matrix is always definite.
+    #[test]
+    fn the_longest_step_is_known_for_compression_beyond_the_stiffness() {
+        let [one, coupled, dg] = [
+            StepMatrix::OneField,
+            StepMatrix::Coupled,
+            StepMatrix::AnyOrder,
+        ]
+        .map(|of| [-1.0, -1.5].map(|n_value| of.longest_step(n_value)));
+        assert_eq!(one, [None, Some(4.0)]);
+        assert_eq!(StepMatrix::Coupled.longest_step(-BUCKLING), None);
+        let known = coupled.map(|longest| longest.unwrap());
+        let expected = [1.0, 1.5].map(|n| 2.0 * BUCKLING / (n - BUCKLING));
+        assert_eq!(known, expected);
+        assert_eq!(dg, [None, None]);
     }
 }

@@ -1,6 +1,6 @@
 //! Symmetric positive definite tridiagonal systems with one scalar per node.
 
-use crate::error::StepFailure;
+use crate::error::{StepFailure, StepMatrix};
 
 /// The factorisation `L D Lᵀ` of `mass M + stiffness K` restricted to the nodes 1..=last.
 #[derive(Debug, Clone)]
@@ -50,6 +50,7 @@ impl TridiagonalFactor {
                     node: i,
                     pivot,
                     n_value,
+                    of: StepMatrix::OneField,
                 });
             }
             previous_inverse = 1.0 / pivot;
@@ -141,7 +142,8 @@ mod tests {
             Err(StepFailure::Indefinite {
                 node: 1,
                 pivot: 0.0,
-                n_value: -2.0
+                n_value: -2.0,
+                of: StepMatrix::OneField,
             })
         );
         assert_eq!(factor.factorize(&[1.0], 0.75, -0.125, -2.0), Ok(()));

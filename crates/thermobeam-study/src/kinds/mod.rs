@@ -30,7 +30,7 @@ use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 19] = [
     Convergence::ROW,
     AnyOrder::ROW,
     detects::ROW,
@@ -46,6 +46,8 @@ pub const KINDS: [KindRow; 17] = [
     runs::bifurcation::ROW,
     random_errors::ROW,
     runs::rigid::ROW,
+    runs::solutions::ROW,
+    runs::dependence::ROW,
     work_precision::ROW,
     KindRow {
         settings: settings::of_harness,

@@ -233,6 +233,7 @@ fn kind(failure: &StepFailure) -> (&'static str, FailureNumbers) {
             node,
             pivot,
             n_value,
+            ..
         } => (
             "indefinite",
             FailureNumbers::Indefinite {

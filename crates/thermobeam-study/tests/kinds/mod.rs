@@ -4,6 +4,7 @@
 mod any_order;
 mod bifurcation;
 mod convergence;
+mod dependence;
 mod detects;
 mod detects_any_order;
 mod energy;
@@ -17,6 +18,7 @@ mod refused;
 mod rigid;
 mod scenes;
 mod self_convergence;
+mod solutions;
 mod solvers;
 mod typed;
 mod untested;

@@ -9,7 +9,11 @@ use thermobeam_study::kinds::orders::self_convergence::{self, Traced};
 
 type SelfConvergence = Orders<self_convergence::SelfConvergence>;
 
-const FILES: [&str; 2] = ["reference-space.toml", "reference-time.toml"];
+const FILES: [&str; 3] = [
+    "reference-space.toml",
+    "reference-time.toml",
+    "every-step.toml",
+];
 
 fn parse(name: &str, change: impl Fn(String) -> String) -> SelfConvergence {
     let name = file(name);
@@ -44,6 +48,24 @@ fn quick_files_pass_but_not_without_each_case() {
                 "{name} without its references"
             );
         }
+    }
+}
+
+/// Ten samples see the even steps of twenty; each of twenty is compared.
+#[test]
+fn an_error_at_one_step_between_samples_is_no_pass() {
+    let study = parse("every-step.toml", |text| text);
+    let sound = run_cases_here(&study);
+    for step in [1, 3, 19] {
+        let planted = changed::<SelfConvergence>(&sound, |index, found| {
+            if index == 5 {
+                let level = &mut found.levels[32 * step - 1];
+                level.u.iter_mut().for_each(|u| *u += 0.1);
+                level.w.iter_mut().for_each(|w| *w += 0.1);
+            }
+        });
+        // Alone on the finest level it is no rate: a failure, or not decided.
+        assert_ne!(study.judge(&planted).verdict, Verdict::Pass, "step {step}");
     }
 }
 

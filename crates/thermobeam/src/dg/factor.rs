@@ -10,7 +10,7 @@ use super::block::{
 };
 use super::operator::Operator;
 use super::space::{Space, degrees};
-use crate::error::StepFailure;
+use crate::error::{StepFailure, StepMatrix};
 
 /// Lengths equal up to rounding errors share an elimination; the residual, which decides, uses each
 /// element's own.
@@ -211,6 +211,7 @@ fn indefinite(node: usize, n_value: f64) -> impl Fn(f64) -> StepFailure {
         node,
         pivot,
         n_value,
+        of: StepMatrix::AnyOrder,
     }
 }
 

@@ -374,3 +374,63 @@ fn a_single_iteration_is_stable_for_twice_the_step_of_convergence() {
         );
     }
 }
+
+/// (4.2) has one solution up to dt = 2ζ/(-1 - β) on every mesh, and that is sharp: beyond, only on
+/// coarse ones.
+#[test]
+fn the_fixed_point_runs_up_to_the_limit_of_its_problems() {
+    for (elements, dt, runs) in [
+        (10, 0.099, true),
+        (400, 0.099, true),
+        (400, 0.101, false),
+        (10, 0.101, true),
+    ] {
+        let mesh = uniform(elements);
+        let initial = InitialValues::at_rest(&mesh, 0.0);
+        let problem = Problem {
+            beam: Beam {
+                beta: -3.0,
+                zeta: 0.1,
+                ..Beam::default()
+            },
+            obstacles: Some(Obstacles::default()),
+            mesh,
+            initial,
+        };
+        let step = by_fixed_point(&problem, EULER_CRANK_NICOLSON, dt, 1e-10).step_once();
+        match step {
+            Ok(_) => assert!(runs, "{elements} elements, dt = {dt}"),
+            Err(error) => {
+                assert!(!runs, "{elements} elements, dt = {dt}: {error}");
+                let words = "dt <= 1.000 zeta is enough for this axial force";
+                assert!(error.to_string().ends_with(words), "{error}");
+            }
+        }
+    }
+}
+
+/// The coupled step is definite up to dt = 2ζB/(-B - m), which the message of a refusal names.
+#[test]
+fn a_refused_coupled_step_names_the_step_that_is_enough() {
+    let mesh = uniform(20);
+    let initial = InitialValues::at_rest(&mesh, 0.0);
+    let problem = Problem {
+        beam: Beam {
+            beta: -3.0,
+            zeta: 0.1,
+            ..Beam::default()
+        },
+        obstacles: None,
+        mesh,
+        initial,
+    };
+    let message = |dt: f64| {
+        let step = simulate(&problem, stepping(dt)).step_once();
+        step.err().map(|error| error.to_string())
+    };
+    // 2 B/(3 - B) = 0.6219.
+    assert_eq!(message(0.0621), None);
+    let refused = message(1.0).expect("a refusal");
+    let words = "dt <= 0.622 zeta is enough for this axial force";
+    assert!(refused.ends_with(words), "{refused}");
+}

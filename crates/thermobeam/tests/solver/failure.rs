@@ -2,7 +2,7 @@
 //! invalid input is rejected.
 
 use super::scenes::{paper, simulate, stepping, uniform};
-use thermobeam::error::{SetupError, StepError, StepFailure};
+use thermobeam::error::{SetupError, StepError, StepFailure, StepMatrix};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
@@ -172,6 +172,7 @@ fn a_lost_pivot_is_reported_by_both_solvers() {
             node,
             pivot,
             n_value,
+            of,
         } = error.failure
         else {
             panic!("{error}")
@@ -180,6 +181,8 @@ fn a_lost_pivot_is_reported_by_both_solvers() {
             (1..=10).contains(&node) && pivot <= 0.0 && n_value < -2.9,
             "{error}"
         );
+        let is_of_fixed_point = stepping.settings.solver == Solver::FixedPoint;
+        assert_eq!(of == StepMatrix::OneField, is_of_fixed_point, "{error}");
         assert_eq!(
             simulation.step_once().unwrap_err(),
             error,

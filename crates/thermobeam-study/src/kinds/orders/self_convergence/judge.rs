@@ -1,7 +1,7 @@
 //! Differences of runs, and what is checked and shown beside their rates.
 
 use super::observable::{Observable, TIP, last};
-use super::{Runs, SelfConvergence, Traced};
+use super::{Runs, SelfConvergence};
 use crate::kinds::prelude::*;
 use crate::kinds::tables::Refine;
 
@@ -136,7 +136,8 @@ impl SelfConvergence {
                 Axis::Space | Axis::Both => format!("n = {elements}"),
             };
             let points = (1..=self.samples).map(|k| {
-                let distance = (tip_at(runs, level, k) - tip_at(runs, reference, k)).abs();
+                let distance =
+                    (self.tip_at(runs, level, k) - self.tip_at(runs, reference, k)).abs();
                 (self.time(k), distance)
             });
             curves.push(plots::Series::new(name, points));
@@ -169,9 +170,10 @@ impl SelfConvergence {
         ];
         let mut rows = vec![];
         for k in 1..=self.samples {
-            let tip = tip_at(runs, finest, k);
-            let exact = tip_at(runs, reference, k);
-            let correction = richardson::correction(tip_at(runs, before, k), tip, ratio, order);
+            let tip = self.tip_at(runs, finest, k);
+            let exact = self.tip_at(runs, reference, k);
+            let coarser = self.tip_at(runs, before, k);
+            let correction = richardson::correction(coarser, tip, ratio, order);
             rows.push(vec![
                 format!("{:.4}", self.time(k)),
                 format!("{tip:.10}"),
@@ -227,9 +229,9 @@ impl SelfConvergence {
     pub(super) fn values_guarded(&self, runs: &Runs<Self>) -> Vec<Quantity> {
         let (finest, samples) = (self.levels.len() - 1, self.samples);
         let traced = found(runs, &finest);
-        let energy = traced.and_then(|traced| traced.energies.get(samples - 1).copied());
+        let energy = traced.and_then(|traced| traced.energies.last().copied());
         let values = [
-            (format!("tip {samples}"), tip_at(runs, finest, samples)),
+            (format!("tip {samples}"), self.tip_at(runs, finest, samples)),
             (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
             (
                 "tip max".to_owned(),
@@ -242,10 +244,13 @@ impl SelfConvergence {
         });
         guarded.into()
     }
-}
 
-/// u(1) of a run at sample `k` from 1; NaN where there is none.
-fn tip_at(runs: &[Ran<usize, Traced>], run: usize, k: usize) -> f64 {
-    let level = found(runs, &run).and_then(|traced| traced.levels.get(k - 1));
-    level.map_or(f64::NAN, |level| last(&level.u))
+    /// u(1) of a run at sample `k` from 1; NaN where there is none.
+    fn tip_at(&self, runs: &Runs<Self>, run: usize, k: usize) -> f64 {
+        let level = found(runs, &run).and_then(|traced| {
+            let levels = &traced.levels;
+            levels.get((k * levels.len() / self.samples).checked_sub(1)?)
+        });
+        level.map_or(f64::NAN, |level| last(&level.u))
+    }
 }

@@ -29,6 +29,7 @@
 //! elements = [10, 20, 40]
 //! steps = [200, 800, 3200]
 //! samples = 10                       # times of comparison
+//! every_step = false                 # optional: true for the largest difference over every step
 //! solver = "fixed-point"             # optional, as are scheme, tolerance, max_iterations and iterations: else those of the scene
 //! iterations = 2
 //!
@@ -73,6 +74,9 @@ pub struct SelfConvergence {
     t_end: f64,
     /// Times of comparison.
     samples: usize,
+    /// Whether each level is compared at the end of each of its steps; the samples are then those
+    /// of the table and of the figure.
+    every_step: bool,
     /// Must the tip meet an obstacle?
     contact: bool,
     /// Claims about both readings.
@@ -110,7 +114,7 @@ const SCENE: [Key; 1] = [Key::new(
 )];
 const STEPPING: [Key; 5] = keys::all_or(tables::STEPPING_KEYS, "that of the scene");
 const COUNTS: Form = Form::OneOf(&[Form::Count(1), Form::List(&Form::Count(1))]);
-const LEVELS: [Key; 6] = [
+const LEVELS: [Key; 7] = [
     Key::new(
         "axis",
         Form::Choice(|| vec!["time", "both"]),
@@ -132,6 +136,12 @@ const LEVELS: [Key; 6] = [
         Form::Count(1),
         "times at which runs are compared",
     ),
+    Key::new(
+        "every_step",
+        Form::Boolean,
+        "differences are the largest over every step of a level, not over the samples",
+    )
+    .or("false"),
     Key::new("contact", Form::Boolean, "the tip must meet an obstacle").or("false"),
 ];
 
@@ -183,6 +193,9 @@ impl Source for SelfConvergence {
             references: discretisations(root, "reference", of_mesh, t_end)?,
             t_end,
             samples,
+            every_step: section
+                .get("every_step")
+                .map_or(Ok(false), |field| field.boolean())?,
             contact: contact(&section, &scene)?,
             claims: claims(root, "quantity", &observables)?,
             scene: Scene {
@@ -219,7 +232,10 @@ impl Source for SelfConvergence {
                 self.common_mesh()?,
             ),
         };
-        Traced::compute(&scene, mesh, self.samples)
+        // A reference has the times of the finest level, which are those of all.
+        let of_run = self.levels.get(run).or(self.levels.last());
+        let steps = of_run.filter(|_| self.every_step).map(|(_, steps)| *steps);
+        Traced::compute(&scene, mesh, steps.unwrap_or(self.samples))
     }
 
     fn not_finite(&self, found: &Traced) -> Vec<String> {

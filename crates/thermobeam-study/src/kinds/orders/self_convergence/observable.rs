@@ -30,7 +30,10 @@ static OBSERVABLES: [Observable; 7] = [
         name: "energy",
         symbol: "E",
         in_space: 2.0,
-        distance: |a, b| distance_of_curves(&a.energies, &b.energies),
+        distance: |a, b| {
+            let shared: Vec<f64> = shared(&a.energies, &b.energies).copied().collect();
+            distance_of_curves(&a.energies, &shared)
+        },
     },
     // The largest u(1) over all time levels.
     Observable {
@@ -83,15 +86,27 @@ fn largest(coarse: &Traced, fine: &Traced, distance: impl Fn(&Level, &Level) -> 
     coarse
         .levels
         .iter()
-        .zip(&fine.levels)
+        .zip(shared(&coarse.levels, &fine.levels))
         .map(|(coarse, fine)| distance(coarse, fine))
         .fold(0.0, max_or_nan)
 }
 
+/// What the run with as many times or more has at the times of the other.
+fn shared<'f, T>(coarse: &[T], fine: &'f [T]) -> impl Iterator<Item = &'f T> {
+    let stride = stride(coarse, fine);
+    fine.iter().skip(stride - 1).step_by(stride)
+}
+
+/// How many times of the finer run end at one of the other.
+fn stride<T>(coarse: &[T], fine: &[T]) -> usize {
+    (fine.len() / coarse.len().max(1)).max(1)
+}
+
 fn functions(coarse: &Traced, fine: &Traced) -> [f64; 2] {
     let mut largest = [0.0; 2];
+    let stride = stride(&coarse.levels, &fine.levels);
     for (k, level) in coarse.levels.iter().enumerate() {
-        let [as_functions, at_nodes] = fine.errors_of(level, &coarse.mesh, k);
+        let [as_functions, at_nodes] = fine.errors_of(level, &coarse.mesh, (k + 1) * stride - 1);
         largest[0] = max_or_nan(largest[0], as_functions);
         largest[1] = max_or_nan(largest[1], at_nodes);
     }
@@ -130,7 +145,9 @@ impl Observable {
     /// The difference of two runs; NaN where they cannot be compared.
     pub(super) fn difference(&self, coarse: &Traced, fine: &Traced) -> f64 {
         let is_nested = fine.mesh.elements().is_multiple_of(coarse.mesh.elements());
-        if coarse.levels.len() == fine.levels.len() && is_nested {
+        let [times, more] = [coarse, fine].map(|run| run.levels.len());
+        let has_its_times = times > 0 && more > 0 && more.is_multiple_of(times);
+        if has_its_times && is_nested {
             (self.distance)(coarse, fine)
         } else {
             f64::NAN

@@ -1,0 +1,205 @@
+//! Continuous dependence on the data, which gives Theorem 2.6: runs whose data are δ apart stay within
+//! C δ of each other, and difference/δ is constant as δ → 0.
+//!
+//! The scene is run by dG, whose solution is known to round-off; the differences are those of the
+//! norm of (3.14) at several times, before and after contacts.
+
+use super::checks::{Condition, all, at_most};
+use super::{Findings, Listing, Results, RunStudy, Runs};
+use crate::error::reference::{Traced, distance};
+use crate::kinds::prelude::*;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "runs/dependence",
+    keys: Dependence::KEYS,
+    read: reader::<RunStudy<Dependence>>,
+    why: "Theorem 2.6: a solution is unique. Its proof is an estimate for the difference of two solutions, by which data δ apart \
+          cause a difference of at most C δ.",
+    judged: "A scene is run with data δ apart. At each time difference/δ is the same for every δ, through contacts too.",
+    failure: "The motion depends on its data by jumps: a contact event is missed, or a step has several solutions.",
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::AnyOrder).settings(header, item)
+    },
+};
+
+/// Elements on whose nodes runs are compared.
+const COMPARED: usize = 64;
+
+/// Relative change of a ratio that the baseline tolerates: round-off over the smallest δ.
+const GUARDED: f64 = 1e-3;
+
+/// Runs of a scene with data δ apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependence {
+    scene: Scene,
+    /// What δ multiplies in u(x, 0).
+    direction: Expression,
+    t_end: f64,
+    samples: usize,
+    /// δ, descending; at least two.
+    differences: Vec<f64>,
+    /// Relative change of difference/δ allowed.
+    within: f64,
+}
+
+const KEYS: [Key; 6] = [
+    Key::new("scene", Form::Text, "a scene file, by dG"),
+    Key::new(
+        "direction",
+        Form::Text,
+        "the function of x that δ multiplies in u(x, 0)",
+    ),
+    Key::new("t_end", Form::Positive, "final time"),
+    Key::new("samples", Form::Count(1), "times of comparison"),
+    Key::new(
+        "differences",
+        Form::List(&Form::Positive),
+        "the numbers δ, descending",
+    ),
+    Key::new(
+        "within",
+        Form::Positive,
+        "relative change allowed of difference/δ",
+    ),
+];
+
+impl Runs for Dependence {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
+    /// The place of δ; `None` for δ = 0.
+    type Run = Option<usize>;
+    type Shown = Traced;
+
+    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        let file = root.require("scene", "the path of a scene, from this file's folder")?;
+        let scene = Scene::read(file.file(folder)?)?;
+        if !matches!(scene.method, Method::Dg(_)) {
+            return Err(file.refuse("a scene by a one-step scheme", "a scene by dG"));
+        }
+        let direction = root.require("direction", "a function of x")?;
+        Ok(Self {
+            direction: tables::function(&direction, Variable::X, 1.0, 0)?,
+            t_end: root.positive("t_end")?,
+            samples: root.count("samples", 1..=1000)?,
+            differences: root.list(
+                "differences",
+                "a list of at least two numbers > 0, descending",
+                |item| item.positive(),
+                |list| list.len() >= 2 && list.is_sorted_by(|a, b| a > b),
+            )?,
+            within: root.positive("within")?,
+            scene,
+        })
+    }
+
+    fn runs(&self) -> Vec<Case<Option<usize>>> {
+        // A run of the scene to t = 1 takes about as long as 1e6 steps of an element.
+        let cost = 1e6 * self.t_end;
+        let mut runs = vec![Case::new("δ = 0", cost, None)];
+        for (place, delta) in self.differences.iter().enumerate() {
+            runs.push(Case::new(format!("δ = {delta:e}"), cost, Some(place)));
+        }
+        runs
+    }
+
+    fn run(&self, place: &Option<usize>) -> Result<Traced, CaseFailure> {
+        let mut scene = self.scene.clone();
+        scene.t_end = self.t_end;
+        if let Some(place) = *place {
+            let u = scene.initial.u.as_ref();
+            let u = u.map_or_else(|| "0".to_owned(), Expression::to_string);
+            let text = format!("({u}) + {:e}*({})", self.differences[place], self.direction);
+            let sum = Expression::parse(&text, Variable::X);
+            scene.initial.u = Some(sum.map_err(|error| CaseFailure::new(error.to_string()))?);
+        }
+        Traced::compute(&scene, Mesh::uniform(COMPARED)?, self.samples)
+    }
+
+    fn numbers(&self, _: &Option<usize>, traced: &Traced) -> Vec<Reading> {
+        let tip = traced
+            .levels
+            .last()
+            .and_then(|level| level.u.last().copied());
+        vec![Reading::new("u(1) at the end", tip)]
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        let mut rows = vec![];
+        let mut checks = vec![];
+        let mut largest = 0.0;
+        for sample in 0..self.samples {
+            let t = self.t_end * (sample + 1) as f64 / self.samples as f64;
+            let case = format!("t = {t:.2}");
+            let ratios = self.ratios(results, sample);
+            let change = change(&ratios);
+            largest = max_or_nan(largest, change);
+            let smallest = ratios.last().copied();
+            rows.push((
+                vec![case.clone()],
+                vec![
+                    Reading::new("difference/δ, largest δ", ratios.first().copied()).fixed(6),
+                    Reading::new("smallest δ", smallest)
+                        .fixed(6)
+                        .guarded_in(&case, "ratio", GUARDED),
+                    Reading::new("relative change", change).scientific(1),
+                ],
+            ));
+            let evidence = format!("relative change {change:.1e}");
+            checks.push(all(
+                format!(
+                    "difference/δ is the same for every δ, within {:e}",
+                    self.within
+                ),
+                Subject::of("difference of solutions").in_case(case),
+                [
+                    at_most(change, self.within, evidence),
+                    Condition::or(smallest.is_some_and(|ratio| ratio > 0.0), "no difference"),
+                ],
+            ));
+        }
+        let range = [self.differences.first(), self.differences.last()];
+        let [from, to] = range.map(|delta| delta.copied().unwrap_or(f64::NAN));
+        let summary =
+            format!("difference/δ changes by at most {largest:.1e} from δ = {from:e} to {to:e}");
+        Findings {
+            headline: summary.clone(),
+            summary,
+            checks,
+            listings: vec![Listing::of(
+                "Difference of two solutions in the norm of (3.14), over δ",
+                &["time"],
+                rows,
+            )],
+            ..Findings::default()
+        }
+    }
+}
+
+impl Dependence {
+    /// Difference/δ at a time for each δ; empty if a run is missing.
+    fn ratios(&self, results: &Results<'_, Self>, sample: usize) -> Vec<f64> {
+        let Some(base) = results.of(&None) else {
+            return vec![];
+        };
+        let lengths: Vec<f64> = base.mesh.lengths().collect();
+        let mut ratios = vec![];
+        for (place, delta) in self.differences.iter().enumerate() {
+            let other = results.of(&Some(place));
+            let pair =
+                other.and_then(|other| Some((base.levels.get(sample)?, other.levels.get(sample)?)));
+            let Some((one, other)) = pair else {
+                return vec![];
+            };
+            ratios.push(distance(&lengths, one, other) / delta);
+        }
+        ratios
+    }
+}
+
+/// The largest relative change of numbers against the last; NaN without numbers.
+fn change(ratios: &[f64]) -> f64 {
+    let last = ratios.last().copied().unwrap_or(f64::NAN);
+    let changes = ratios.iter().map(|ratio| (ratio / last - 1.0).abs());
+    largest_of(changes).unwrap_or(f64::NAN)
+}

@@ -1,0 +1,378 @@
+//! How many solutions a step of (3.7) has: Remark 3.3 and what lies beyond it. The derivation is in
+//! THEORY.md, "How many solutions a step has".
+//!
+//! The step starts at rest, u = φ = θ = 0, so u = 0 solves it. For a given mean axial force m it is
+//! linear but for the contact force F at the tip: u = -F r(m), where r is the answer to a unit load
+//! with the dense matrix A(m). Every other solution has an m = β + ½ρ‖u_x‖² in (β, m*), where `λ(m*) =
+//! B (ζ + dt/2) + m* dt/2 = 0`. There they are all found:
+//!
+//! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `β + ½ρ F² ‖r_x‖² - m`;
+//! * free of contact: A(m) is singular, a root of 1/r(1); its vector has the size that m asks for, and
+//!   both signs.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::checks::{Condition, all, at_most};
+use super::{Findings, Results, RunStudy, Runs};
+use crate::exact::assembly::{coupling, mass, stiffness};
+use crate::kinds::prelude::*;
+use thermobeam::bracket::bisect;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "runs/solutions",
+    keys: Solutions::KEYS,
+    read: reader::<RunStudy<Solutions>>,
+    why: "Remark 3.3 of the paper allows any step. The linear step has one solution where λ = B (ζ + dt/2) + m dt/2 >= 0, and \
+          the nonlinear one several beyond.",
+    judged: "All solutions of a step from rest are found, for each dt, and their tips compared with answers of another program. Where \
+             λ >= 0 there must be one.",
+    failure: "The matrices of the step are wrong, or a solution was missed.",
+    settings: |header, item| {
+        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
+    },
+};
+
+/// Intervals of (β, m*) in which at most one root is expected.
+const INTERVALS: usize = 200;
+
+/// Relative change of a number that the baseline tolerates: that of round-off in dense matrices.
+const GUARDED: f64 = 1e-9;
+
+/// Steps from rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solutions {
+    beam: Beam,
+    obstacles: Obstacles,
+    mesh: Mesh,
+    steps: Vec<ExpectedStep>,
+    /// Distance of tips to the answers.
+    within: f64,
+}
+
+/// A step, and the answers.
+#[derive(Debug, Clone, PartialEq)]
+struct ExpectedStep {
+    dt: f64,
+    /// u(1) of each solution, ascending.
+    tips: Vec<f64>,
+}
+
+/// The solutions of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// λ for m = β: at least 0 where the step has one solution.
+    pub lambda: f64,
+    /// u(1) of each solution, ascending.
+    pub tips: Vec<f64>,
+}
+
+const KEYS: [Key; 5] = [
+    tables::BEAM,
+    tables::OBSTACLES,
+    Key::new(
+        "elements",
+        Form::Count(2),
+        "the elements of the uniform mesh",
+    ),
+    Key::new(
+        "within",
+        Form::Positive,
+        "distance allowed of a tip to its answer",
+    ),
+    Key::new(
+        "step",
+        Form::List(&Form::Table(&[&[&[
+            Key::new("dt", Form::Positive, "length of the step"),
+            Key::new(
+                "tips",
+                Form::List(&Form::Number),
+                "u(1) of each solution, ascending",
+            ),
+        ]]])),
+        "the steps",
+    ),
+];
+
+/// Largest number of elements: the matrices are dense.
+const ELEMENTS: usize = 60;
+
+impl Runs for Solutions {
+    const KEYS: &'static [Keys] = &[&[&KEYS]];
+
+    /// The place of the step.
+    type Run = usize;
+    type Shown = Found;
+
+    fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+        let Coefficients { beam, obstacles } = Coefficients::read(root)?;
+        let Some(obstacles) =
+            obstacles.filter(|obstacles| obstacles.g1 < 0.0 && obstacles.g2 > 0.0)
+        else {
+            return Err(root.refuse("obstacles", "none, or one at 0", "g1 < 0 < g2"));
+        };
+        if beam.theta_a != 0.0 || beam.rho == 0.0 {
+            let allowed = "theta_a = 0, so that a beam at rest stays there, and rho > 0";
+            return Err(root.refuse("beam", "a heated or a linear beam", allowed));
+        }
+        let elements = root.require("elements", "a number of elements")?;
+        let steps = root.tables("step", " with dt and tips", |section| {
+            let allowed = "a list of numbers, ascending";
+            Ok(ExpectedStep {
+                dt: section.positive("dt")?,
+                tips: section.list("tips", allowed, |tip| tip.number(), increases)?,
+            })
+        })?;
+        Ok(Self {
+            beam,
+            obstacles,
+            mesh: tables::checked_mesh(Mesh::uniform(elements.count(2..=ELEMENTS)?), &elements)?,
+            steps,
+            within: root.positive("within")?,
+        })
+    }
+
+    fn runs(&self) -> Vec<Case<usize>> {
+        let cost = INTERVALS as f64 * (self.mesh.elements() as f64).powi(3);
+        let steps = self.steps.iter().enumerate();
+        steps
+            .map(|(place, step)| Case::new(format!("dt = {}", step.dt), cost, place))
+            .collect()
+    }
+
+    fn run(&self, &place: &usize) -> Result<Found, CaseFailure> {
+        let step = Step::new(self, self.steps[place].dt)?;
+        Ok(Found {
+            lambda: step.lambda(self.beam.beta),
+            tips: step.tips(),
+        })
+    }
+
+    fn numbers(&self, &place: &usize, found: &Found) -> Vec<Reading> {
+        let case = format!("dt = {}", self.steps[place].dt);
+        let guarded = |name: &str, key: &str, value| {
+            Reading::new(name, value).guarded_in(&case, key, GUARDED)
+        };
+        vec![
+            guarded("λ", "lambda", Some(found.lambda)),
+            Reading::text("solutions", found.tips.len().to_string()),
+            guarded("least u(1)", "least_tip", found.tips.first().copied()),
+            guarded("largest u(1)", "largest_tip", found.tips.last().copied()),
+        ]
+    }
+
+    fn table(&self) -> Option<[&str; 2]> {
+        Some(["Solutions of a step from rest", "step"])
+    }
+
+    fn judge(&self, results: &Results<'_, Self>) -> Findings {
+        let checks: Vec<Check> = results
+            .completed()
+            .flat_map(|(&place, found)| self.checks(&self.steps[place], found))
+            .collect();
+        let counts = results.completed().map(|(&place, found)| {
+            format!("{} at dt = {}", found.tips.len(), self.steps[place].dt)
+        });
+        let summary = format!(
+            "solutions of a step from rest, β = {}: {}",
+            self.beam.beta,
+            counts.collect::<Vec<_>>().join(", ")
+        );
+        Findings {
+            headline: summary.clone(),
+            summary,
+            checks,
+            ..Findings::default()
+        }
+    }
+}
+
+impl Solutions {
+    fn checks(&self, step: &ExpectedStep, found: &Found) -> [Check; 2] {
+        let case = format!("dt = {}", step.dt);
+        let expected = step.tips.len();
+        let distance = super::checks::largest_difference(&found.tips, &step.tips);
+        let count = found.tips.len();
+        let evidence = format!("{count} solutions, largest distance {distance:.1e}");
+        let lambda = found.lambda;
+        [
+            all(
+                format!(
+                    "the step has {expected} solutions, with the tips known within {:e}",
+                    self.within
+                ),
+                Subject::of("solutions").in_case(&case),
+                [at_most(distance, self.within, evidence)],
+            ),
+            all(
+                "one solution where λ >= 0",
+                Subject::of("uniqueness").in_case(case),
+                [Condition::that(
+                    lambda < 0.0 || count == 1,
+                    format!("λ = {lambda:.4}, {count} solutions"),
+                )],
+            ),
+        ]
+    }
+}
+
+/// A step from rest.
+struct Step<'a> {
+    study: &'a Solutions,
+    dt: f64,
+    /// A(0) of V alone: W and Θ, which m does not concern, are eliminated.
+    matrix: DMatrix<f64>,
+    /// K at the nodes of u.
+    stiffness: DMatrix<f64>,
+}
+
+/// The answer of u to a unit load at the tip.
+struct Answer {
+    /// The mean axial force.
+    m: f64,
+    /// r(1).
+    tip: f64,
+    /// ‖r_x‖².
+    slope_squared: f64,
+}
+
+impl<'a> Step<'a> {
+    /// # Errors
+    /// [`CaseFailure`] if W and Θ cannot be eliminated.
+    fn new(study: &'a Solutions, dt: f64) -> Result<Self, CaseFailure> {
+        let n = study.mesh.elements();
+        let matrix = dense(study, dt);
+        let others = matrix.nrows() - n;
+        let eliminated = matrix
+            .view((n, n), (others, others))
+            .into_owned()
+            .lu()
+            .solve(&matrix.view((n, 0), (others, n)).into_owned())
+            .ok_or_else(|| CaseFailure::new("the equations of φ and θ are singular"))?;
+        let k = stiffness(&study.mesh);
+        Ok(Self {
+            study,
+            dt,
+            matrix: matrix.view((0, 0), (n, n)) - matrix.view((0, n), (n, others)) * eliminated,
+            stiffness: DMatrix::from_fn(n, n, |i, j| k.entry(i + 1, j + 1)),
+        })
+    }
+
+    /// λ of THEORY.md.
+    fn lambda(&self, m: f64) -> f64 {
+        BUCKLING * (self.study.beam.zeta + 0.5 * self.dt) + 0.5 * m * self.dt
+    }
+
+    /// The answer for the mean axial force m; NaN if the matrix is singular to the last bit.
+    fn answer(&self, m: f64) -> Answer {
+        let n = self.study.mesh.elements();
+        let matrix = &self.matrix + 0.5 * m * self.dt * &self.stiffness;
+        let mut load = DVector::zeros(n);
+        load[n - 1] = 1.0;
+        let Some(velocity) = matrix.lu().solve(&load) else {
+            return Answer {
+                m,
+                tip: f64::NAN,
+                slope_squared: f64::NAN,
+            };
+        };
+        let u = self.dt * velocity;
+        Answer {
+            m,
+            tip: u[n - 1],
+            slope_squared: u.dot(&(&self.stiffness * &u)),
+        }
+    }
+
+    /// u(1) of all solutions, ascending.
+    fn tips(&self) -> Vec<f64> {
+        let mut tips = vec![0.0];
+        let Beam {
+            beta, rho, zeta, ..
+        } = self.study.beam;
+        let Obstacles { g1, g2, .. } = self.study.obstacles;
+        // λ(m*) = 0.
+        let end = -BUCKLING * (1.0 + 2.0 * zeta / self.dt);
+        if end <= beta {
+            return tips;
+        }
+        let place = |k: usize| beta + (end - beta) * k as f64 / INTERVALS as f64;
+        let answers: Vec<Answer> = (0..=INTERVALS).map(|k| self.answer(place(k))).collect();
+        for g in [g1, g2] {
+            for m in self.roots(&answers, |answer| self.in_contact(answer, g).1 - answer.m) {
+                // Contact pushes: a root with the tip before the obstacle is none.
+                let (tip, _) = self.in_contact(&self.answer(m), g);
+                let touches = tip.abs() > g.abs() && tip * g > 0.0;
+                tips.extend(touches.then_some(tip));
+            }
+        }
+        for m in self.roots(&answers, |answer| 1.0 / answer.tip) {
+            let Answer {
+                tip, slope_squared, ..
+            } = self.answer(m);
+            let size = (2.0 * (m - beta) / rho / slope_squared).sqrt();
+            let free = [-tip * size, tip * size];
+            // 1/r(1) changes its sign where r(1) vanishes, too.
+            let is_singular = tip.abs() > 1.0;
+            tips.extend(
+                free.into_iter()
+                    .filter(|tip| is_singular && (g1..=g2).contains(tip)),
+            );
+        }
+        tips.sort_by(f64::total_cmp);
+        tips
+    }
+
+    /// u(1), and the mean axial force that follows, in contact with an obstacle at `g`.
+    fn in_contact(&self, answer: &Answer, g: f64) -> (f64, f64) {
+        let Beam { beta, rho, .. } = self.study.beam;
+        let force = -g / (self.study.obstacles.epsilon + answer.tip);
+        let slope_squared = force * force * answer.slope_squared;
+        (-force * answer.tip, beta + 0.5 * rho * slope_squared)
+    }
+
+    /// The forces m at which a function of the answer changes its sign, at most one between two
+    /// neighbours of `answers`.
+    fn roots(&self, answers: &[Answer], function: impl Fn(&Answer) -> f64) -> Vec<f64> {
+        let mut roots = vec![];
+        for pair in answers.windows(2) {
+            if function(&pair[0]) * function(&pair[1]) < 0.0 {
+                roots.push(bisect(|m| function(&self.answer(m)), pair[0].m, pair[1].m));
+            }
+        }
+        roots
+    }
+}
+
+/// The matrix of V, W and Θ of (3.7) without axial force: u and φ at nodes 1 to n, θ at 1 to n - 1.
+fn dense(study: &Solutions, dt: f64) -> DMatrix<f64> {
+    let n = study.mesh.elements();
+    let Beam { zeta, a, .. } = study.beam;
+    let (m, k, c) = (
+        mass(&study.mesh),
+        stiffness(&study.mesh),
+        coupling(&study.mesh),
+    );
+    let (inertia, sigma) = (1.0 / dt, zeta + 0.5 * dt);
+    let mut matrix = DMatrix::zeros(3 * n - 1, 3 * n - 1);
+    for i in 1..=n {
+        for j in 1..=n {
+            let (u, w) = (i - 1, n + i - 1);
+            let (of_u, of_w, of_theta) = (j - 1, n + j - 1, 2 * n + j - 1);
+            let (mass, stiffness) = (m.entry(i, j), k.entry(i, j));
+            matrix[(u, of_u)] = inertia * mass + sigma * stiffness;
+            matrix[(u, of_w)] = -sigma * c.entry(i, j);
+            matrix[(w, of_u)] = -sigma * c.entry(j, i);
+            matrix[(w, of_w)] = (inertia + sigma) * mass + sigma * stiffness;
+            if j < n {
+                matrix[(w, of_theta)] = -a * c.entry(i, j);
+                // The row of θ_j and the column of φ_i.
+                matrix[(of_theta, w)] = a * c.entry(i, j);
+            }
+            if i < n && j < n {
+                matrix[(2 * n + i - 1, of_theta)] = 2.0 / dt * mass + stiffness;
+            }
+        }
+    }
+    matrix
+}

@@ -6,6 +6,7 @@ use convergence_harness::judge::verdict::{
     DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading, Verdict,
 };
 use convergence_harness::study::until_decided::is_settled;
+use convergence_harness::text::number::counted;
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};
@@ -333,8 +334,8 @@ pub(crate) fn levels(
         rows.push(Row::new(look.name, true, counted.cells()));
     }
     let title = format!(
-        "Share of claims that pass or fail at ±0.25, {} error laws, steps halved; wrong claims are half an order off",
-        laws.len()
+        "Share of claims that pass or fail at ±0.25, {}, steps halved; wrong claims are half an order off",
+        counted(laws.len(), "error law")
     );
     Ok(Sheet { key, title, rows })
 }

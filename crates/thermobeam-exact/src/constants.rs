@@ -1,33 +1,13 @@
 //! The constants C_h and C_t of Theorem 3.4, known before any run: `error² ≈ (C_h h)² + (C_t dt)²`.
 //!
-//! **In h.** The discrete error is of order h², so the first order is that of interpolation. On an
-//! element of length h, `∫ ((u - Πu)_x)² = h²/12 ∫ u_xx² + O(h⁴)`, and the values u - Πu are of
-//! order h². On a uniform mesh the square of the norm of (3.14) is therefore, up to a factor 1 +
-//! O(h²),
-//!
-//! ```text
-//! (C_h h)²,     C_h² = max over t_n of (‖u_xx‖² + ‖φ_xx‖²)/12.
-//! ```
-//!
-//! **In dt.** Let a smooth function U take the values of the scheme at the time levels, and let
-//! v_n = Y(t_n). By (3.8) `Y(t) = U' - dt/2 U''` up to O(dt²). All terms of (3.7) are centred at
-//! t_{n-½} but for inertia, `Y' = U'' - dt/2 U'''`, and contact, `g(U(t_n)) = g + dt/2 g' U'`. With U
-//! = u + dt e, Φ = φ + dt q, Θ = θ + dt r, the terms of order dt are the linearised system on the
-//! mesh,
-//!
-//! ```text
-//! M e'' + K e - C q + ζ (K e' - C q') + N K e + 2ρ (uᵀK e) K u + g'(u(1)) e(1) = ½ M u''' - ½ g'(u(1)) u'(1)
-//! M q'' + K q + M q - Cᵀe + ζ (K q' + M q' - Cᵀe') - a C r                      = ½ M φ'''
-//! M r' + K r + a Cᵀq'                                                           = 0
-//! ```
-//!
-//! (contact in the last row alone). The start is exact, so e, q and r start at zero, and Y(0) =
-//! u'(0) gives `e' = ½ u''`, `q' = ½ φ''`. The errors of the velocities are `e' - ½ u''` and `q' - ½
-//! φ''`. C_t is the largest norm of (3.14) over the time. The system is integrated by the classical
-//! method of order 4 in steps that no scheme of the solver takes.
+//! The derivation, with the equations that are integrated here, is in THEORY.md, "The constants of
+//! Theorem 3.4". C_h is that of interpolated slopes on a uniform mesh. C_t is the largest norm of the
+//! solution (e, q, r) of the system linearised on the mesh, with the terms of order dt that the
+//! scheme's equations leave: inertia and contact. It is integrated by the classical method of order 4.
 
 use crate::assembly::{Tridiagonal, coupling, mass, stiffness};
 use crate::formulas::{axial_force, contact_force};
+use crate::norm::max_or_nan;
 use crate::quadrature::RULE;
 use crate::solution::{Manufactured, Product};
 use crate::sources::{Nodal, sum};
@@ -37,7 +17,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 /// Panels of the quadrature of second derivatives over [0, 1].
 const PANELS: usize = 64;
 
-/// C_h of the module documentation.
+/// C_h.
 ///
 /// * `times`: the time levels t_n, n >= 1, over which the theorem takes the maximum.
 pub fn in_space(exact: &Manufactured, times: impl Iterator<Item = f64>) -> f64 {
@@ -61,7 +41,7 @@ fn curvature_squared(products: &[Product], t: f64) -> f64 {
     integral
 }
 
-/// C_t of the module documentation, for the paper's scheme with exact loads on this mesh; NaN or
+/// C_t for the paper's scheme with exact loads on this mesh; NaN or
 /// infinite if the steps are too long for the mesh.
 ///
 /// * `steps`: the number of steps of the integration until `t_end`.
@@ -130,7 +110,7 @@ impl ErrorState {
     }
 }
 
-/// The linear system of the module documentation.
+/// The linear system of THEORY.md.
 struct ErrorSystem<'a> {
     exact: &'a Manufactured,
     nodal: Nodal,
@@ -258,11 +238,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
-fn max_or_nan(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a >= b { a } else { b }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -310,10 +285,5 @@ mod tests {
         let constant = |obstacles| in_time(&exact, (&beam, obstacles), &mesh, 1.0, 1024);
         assert_eq!(constant(None), 0.0);
         assert!(constant(Some(&obstacles)) > 0.1);
-    }
-
-    #[test]
-    fn a_maximum_keeps_nan() {
-        assert!(max_or_nan(f64::NAN, 1.0).is_nan() && max_or_nan(1.0, f64::NAN).is_nan());
     }
 }

@@ -113,7 +113,7 @@ impl IndexMut<Norm> for Norms {
 }
 
 /// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
-fn max_or_nan(a: f64, b: f64) -> f64 {
+pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 

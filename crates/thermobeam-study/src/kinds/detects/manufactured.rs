@@ -72,9 +72,11 @@ pub(super) fn named_studies(
             |_| true,
         )?;
         if !levels.is_empty() {
-            studies
-                .iter_mut()
-                .for_each(|spec| spec.kind.refine.elements.clone_from(&levels));
+            for spec in &mut studies {
+                spec.kind.refine.elements.clone_from(&levels);
+                // It is claimed at the finest level of the study's own file.
+                spec.kind.constant = None;
+            }
         }
     }
     Ok(studies)

@@ -428,7 +428,7 @@ fn is_a_name(change: &str) -> bool {
     let tables = ["[domain]", "[parameters]", "[exact]", "[define]"];
     let is_gone = change.contains(" without ") || change.ends_with(" is missing");
     let is_in = |table: &&str| change.starts_with(*table);
-    is_gone && tables.iter().any(|table| is_in(&table))
+    is_gone && tables.iter().any(is_in)
         || change.starts_with("[equations.") && (is_gone || change.ends_with(" has surplus"))
 }
 

@@ -113,6 +113,9 @@ pub(super) fn object_of_lines(
     is_answer.then_some(object)
 }
 
+/// Most errors, and most values, of an answer: every level is searched for each name.
+const MOST_NAMES: usize = 1000;
+
 /// What an answer has beside errors and values.
 pub(super) const STEPS_AND_WORK: [&str; 3] = ["h", "dt", "work"];
 
@@ -298,6 +301,12 @@ fn table(
     let entries = value
         .as_object()
         .ok_or_else(|| format!("`{name}` is {}; expected {expected}", written(value)))?;
+    if entries.len() > MOST_NAMES {
+        return Err(format!(
+            "`{name}` has {} names; expected at most {MOST_NAMES}",
+            entries.len()
+        ));
+    }
     let entry = |(key, value): (&String, &Value)| {
         let key = visible(key);
         let read = number(
@@ -342,6 +351,20 @@ mod tests {
     fn read(line: &str) -> Result<Answer, String> {
         let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap())?;
         complaint.map_or(Ok(answer), Err)
+    }
+
+    #[test]
+    fn an_answer_has_at_most_so_many_names() {
+        let answer = |count: usize| {
+            let errors = (0..count).map(|k| format!("\"e{k}\": 1"));
+            let errors = errors.collect::<Vec<_>>().join(", ");
+            read(&format!("{{\"errors\": {{{errors}}}}}"))
+        };
+        assert_eq!(answer(MOST_NAMES).unwrap().errors.len(), MOST_NAMES);
+        assert_eq!(
+            answer(10_000).unwrap_err(),
+            "`errors` has 10000 names; expected at most 1000"
+        );
     }
 
     #[test]

@@ -77,7 +77,9 @@ impl EnergySummary {
         if self.is_loaded {
             return Ok(());
         }
-        let mut most = UNEXPLAINED * max_or_nan(self.size, (self.last - self.initial).abs());
+        // Below the least normal number every sum is rounded to a multiple of the least number.
+        let most = UNEXPLAINED * max_or_nan(self.size, (self.last - self.initial).abs());
+        let mut most = max_or_nan(most, f64::MIN_POSITIVE);
         if !(self.largest_increase <= most && self.largest_balance_residual <= most) {
             let EnergySize { terms, rounding } = now();
             most = max_or_nan(most, UNEXPLAINED * terms) + rounding;
@@ -325,6 +327,23 @@ mod tests {
     use super::*;
     use crate::run::simulate::{Recording, Simulator};
     use crate::scene::Scene;
+
+    /// Its energy and balance are sums of numbers below the least normal one.
+    #[test]
+    fn a_motion_whose_energy_underflows_ends_without_a_complaint() {
+        for exponent in (156..164).chain([300]) {
+            let speed = format!("3e-{exponent}");
+            let text = format!(
+                "[beam]\na = 0.5\nzeta = 0.1\n[initial]\nu_t = \"{speed}*x*(2-x)\"\nphi_t = \"{speed}*x*x*(3-x)\"\n\
+                 [mesh]\nelements = 20\n[time]\ndt = 0.01\nt_end = 1.0\n"
+            );
+            let scene = Scene::parse(&text, "tiny.toml").expect("a scene");
+            let run = Simulator::new(&scene)
+                .expect("a simulator")
+                .run(Recording::Summary, &mut |_, _| ());
+            assert_eq!(run.failure, None, "{speed}");
+        }
+    }
 
     #[test]
     fn a_motion_hardly_larger_than_the_tolerance_is_noted() {

@@ -209,7 +209,8 @@ fn mutants(text: &str) -> Vec<Mutant> {
 
 /// The changes that a reader refuses and a schema does not, because the reader compares values of
 /// several keys or counts tables.
-const STRICTER: [&str; 12] = [
+const STRICTER: [&str; 13] = [
+    "[obstacles] is missing",
     "[beam] is missing",
     "[beam] without theta_a",
     "[exact] without theta",
@@ -421,12 +422,14 @@ const STRICTER_OF_MANUFACTURE: [&str; 2] = [
     "[manufacture] without time",
 ];
 
-/// Whether a change takes away a name of the user's that expressions of the file have: only a reader
-/// that parses them can notice.
+/// Whether a change takes away a name of the user's that expressions of the file have, or a term of
+/// an equation, or adds one of another shape: only a reader that parses them can notice.
 fn is_a_name(change: &str) -> bool {
     let tables = ["[domain]", "[parameters]", "[exact]", "[define]"];
     let is_gone = change.contains(" without ") || change.ends_with(" is missing");
-    is_gone && tables.iter().any(|table| change.starts_with(table))
+    let is_in = |table: &&str| change.starts_with(*table);
+    is_gone && tables.iter().any(is_in)
+        || change.starts_with("[equations.") && (is_gone || change.ends_with(" has surplus"))
 }
 
 #[test]

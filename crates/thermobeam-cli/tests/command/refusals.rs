@@ -169,7 +169,7 @@ const REFUSED: [(&str, &str); 92] = [
     ),
     (
         "manufacture heat.toml --against no-such-program",
-        "no-such-program cannot be started: ",
+        "no-such-program cannot be started in the folder ",
     ),
     (
         "manufacture heat.toml --against cat --timeout 3",

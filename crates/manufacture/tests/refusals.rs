@@ -158,6 +158,19 @@ fn the_grammar_is_refused_with_remedies() {
         ("where(T, 1, 2)", "one of < <= > >= in the condition"),
         ("sin", "`(` after the function `sin`"),
         ("sine(T)", "unknown name `sine`, did you mean `sin`?"),
+        (
+            "dx(T)",
+            "unknown name `dx`; a derivative is written `d(..., x)`; expected one of sin cos",
+        ),
+        ("dett(T)", "unknown name `dett`, did you mean `det`?"),
+        (
+            "bessel(T)",
+            "a product needs its *, and no function has the name `bessel`",
+        ),
+        (
+            "T(2)",
+            "a product needs its *, and no function has the name `T`",
+        ),
         ("min(T)", "`min`: expected 2 argument(s), found 1"),
         ("π*T", "write pi"),
         ("", "an empty text"),

@@ -124,7 +124,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     });
     let whole = || report(&check, &wrote);
     let words = arguments.flags.words(verdict, &sentence(&check), whole);
-    print(arguments, &object, &words)?;
+    print(arguments, verdict, &object, &words)?;
     Ok(verdict)
 }
 
@@ -148,9 +148,14 @@ fn values(manufacture: &Manufacture, table: &Path) -> Outcome {
     Ok(Verdict::Pass)
 }
 
-/// Prints the result, and writes its object to the folder of --out.
-fn print(arguments: &Arguments, object: &Value, words: &str) -> Result<(), Unusable> {
-    if let Some(folder) = &arguments.flags.out {
+/// Prints the result, and writes its object to the folder of --out if the verdict is a pass.
+fn print(
+    arguments: &Arguments,
+    verdict: Verdict,
+    object: &Value,
+    words: &str,
+) -> Result<(), Unusable> {
+    if let (true, Some(folder)) = (verdict.is_pass(), &arguments.flags.out) {
         atomic::prepare_folder(folder)?;
         atomic::write(&folder.join("manufacture.json"), text_of(object)?)?;
     }
@@ -254,6 +259,6 @@ fn compared(
         .count();
     let sentence = format!("{differing} of {} quantities differ", comparisons.len());
     let words = arguments.flags.words(verdict, &sentence, whole);
-    print(arguments, &object, &words)?;
+    print(arguments, verdict, &object, &words)?;
     Ok(verdict)
 }

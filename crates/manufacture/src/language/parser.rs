@@ -151,15 +151,8 @@ impl Parser<'_> {
             if let (true, Some((name, reason))) = (is_called, left_out) {
                 return Err(self.error(token.start, format!("`{name}`: {reason}")));
             }
-            let near = nearest(&name, CALLEES.iter().map(|entry| entry.0));
-            if let (true, Some(near)) = (is_called, near) {
-                let known: Vec<&str> = CALLEES.iter().map(|entry| entry.0).collect();
-                let problem = format!(
-                    "unknown name `{}`, did you mean `{near}`?; expected one of {}",
-                    shorten(&name),
-                    known.join(" ")
-                );
-                return Err(self.error(token.start, problem));
+            if is_called {
+                return Err(self.no_function(token, &name));
             }
             return self.grow(token.start, 0, Kind::Name(name));
         };
@@ -180,6 +173,37 @@ impl Parser<'_> {
             return Err(self.error(token.start, problem));
         }
         self.grow(token.start, parts.depth, Kind::Call(callee, parts.trees))
+    }
+
+    /// The error of a call of `name`, which is neither a function nor an operator.
+    ///
+    /// A name of the file before a bracket is a product without its `*`. The parser does not know
+    /// the names of the file: without a nearest function the message says both.
+    fn no_function(&self, token: Token, name: &str) -> SyntaxError {
+        let shown = shorten(name);
+        // One letter is a variable before a bracket, not a function that is misspelt.
+        let near = Some(name).filter(|name| name.len() > 1);
+        let near = near.and_then(|name| nearest(name, CALLEES.iter().map(|entry| entry.0)));
+        let remedy = match (name.strip_prefix('d'), near) {
+            // `dx` is nearer to `dt` than to what it stands for.
+            (Some(variable), _) if variable.len() == 1 => {
+                format!("; a derivative is written `d(..., {variable})`")
+            }
+            (_, Some(near)) => format!(", did you mean `{near}`?"),
+            _ => {
+                let problem = format!(
+                    "expected {AFTER_OPERAND}, found `(`; a product needs its *, and no function \
+                     has the name `{shown}`"
+                );
+                return self.error(self.token.start, problem);
+            }
+        };
+        let known: Vec<&str> = CALLEES.iter().map(|entry| entry.0).collect();
+        let problem = format!(
+            "unknown name `{shown}`{remedy}; expected one of {}",
+            known.join(" ")
+        );
+        self.error(token.start, problem)
     }
 
     /// Parses expressions with commas between them, and the bracket that closes the one at byte

@@ -1,6 +1,6 @@
 """Tries the page in a real browser: `page_browser.py BROWSER PAGE PROGRAM [PICTURES]`.
 
-Every table below crates/convergence-page/tests/tables, and the examples of the page, get in the page what PROGRAM prints. With
+Every table below crates/convergence-study/tests/public, and the examples of the page, get in the page what PROGRAM prints. With
 PICTURES, a folder, the page is drawn there: light, dark and narrow.
 """
 
@@ -230,7 +230,7 @@ def main() -> None:
         try:
             browser.open(page)
             tables = examples(browser)
-            for one in sorted(Path("crates").glob("*/tests/tables/*.txt")):
+            for one in sorted(Path("crates/convergence-study/tests/public").glob("*.[tmc]*")):
                 tables.append((one.name, one.read_text(encoding="utf-8"), "2"))
             counts = {"judged": 0, "refused": 0}
             for name, text, order in tables:

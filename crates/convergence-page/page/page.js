@@ -170,10 +170,15 @@ function refusal(refused) {
   return nodes;
 }
 
+// A letter that is not seen, or turns the text around, as a mark.
+function visible(letter) {
+  return /[\u0000-\u001f\u007f-\u009f\u200b-\u200f\u202a-\u202e\u2066-\u2069]/u.test(letter) ? "\ufffd" : letter;
+}
+
 function place(refused) {
   const line = byId("text").value.split("\n")[refused.line - 1] ?? "";
   const at = Math.max((refused.column ?? 1) - 1, 0);
-  const letters = [...line];
+  const letters = [...line].map(visible);
   const shown = element("pre", {}, `${refused.line} | ${letters.slice(0, at).join("")}`, element("mark", {}, letters.slice(at).join("") || " "));
   const button = element("button", { type: "button" }, `Go to line ${refused.line}`);
   button.addEventListener("click", () => select(refused.line, line));

@@ -239,7 +239,7 @@ fn wrong_claims_are_answered_with_what_to_do() {
         "L2",
         &[0.01, 0.0025, 6.25e-7, 1.5625e-7],
         "2",
-        &["inconclusive", "not yet asymptotic"],
+        &["inconclusive", "a rate does not belong to its neighbours"],
     );
     // A least order, for all columns and for one; other notations are refused.
     for (order, status, words) in [

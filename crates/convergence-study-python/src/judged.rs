@@ -21,7 +21,7 @@ type Arguments = (String, String, Vec<f64>, Vec<f64>, Option<Order>, f64, f64);
 /// The judgement of one error: the verdict, and the numbers behind it.
 ///
 /// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval:
-/// its two ends (95 %), or None; pairwise: the rates between neighbouring levels, one fewer than
+/// its two ends, or None; pairwise: the rates between neighbouring levels, one fewer than
 /// levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
 /// order: the claimed order, or None; table(): step, error and rate of each level, coarse to fine,
 /// as a pandas DataFrame if pandas is available, otherwise as a dict of lists; to_dict(): all of it

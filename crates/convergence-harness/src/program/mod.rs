@@ -49,7 +49,7 @@ pub const ROW: KindRow = KindRow {
     read: reader::<Program>,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
-             an interval (95 %), and the interval is held against the order: it must lie within the tolerance, whole. Above is as wrong as \
+             an interval of measured reliability, which is held against the order: it must lie within the tolerance, whole. Above is as wrong as \
              below. What cannot be told is inconclusive, which is not a pass. A value without an exact solution is judged by the differences \
              of its levels in the same way; Richardson's extrapolation gives its limit and an interval for that, where the differences are \
              asymptotic, and beside it stands the grid convergence index. A run that ends with another exit status than 0, takes too long \

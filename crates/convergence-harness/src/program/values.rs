@@ -129,9 +129,9 @@ const HEAD: [&str; 9] = [
     "finest",
     "rate",
     "limit",
-    "limit, 95 %",
+    "limit, between",
     "finest - limit",
-    "error, 95 %",
+    "error, between",
     "GCI",
     "GCI's order, factor",
 ];

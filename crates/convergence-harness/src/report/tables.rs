@@ -38,7 +38,7 @@ fn rates(outcome: &Outcome) -> Table {
         "error in",
         "order claimed",
         "rate",
-        "95 % interval",
+        "rate interval",
         "extrapolated",
         "levels used",
         "verdict",

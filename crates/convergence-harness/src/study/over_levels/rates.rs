@@ -32,7 +32,7 @@ pub fn rate_table(title: &str, rates: &[NamedRate]) -> Table {
         "order",
         "pairwise rates",
         "rate",
-        "95 % interval",
+        "rate interval",
         "verdict",
         "because",
     ];

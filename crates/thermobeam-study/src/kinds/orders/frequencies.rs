@@ -215,7 +215,7 @@ impl Frequencies {
             "ω_h - ω",
             "over ω³h²/24",
             "rate",
-            "95 % interval",
+            "rate interval",
             "verdict",
         ];
         let mut rows = vec![];

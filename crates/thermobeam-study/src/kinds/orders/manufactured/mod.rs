@@ -90,7 +90,7 @@ impl Source for Convergence {
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
               it by c (h + dt).",
         judged: "At each level of refinement the error is measured in each norm, as the maximum over all time levels. The rate at \
-                 which it falls is estimated with an interval (95 %), and the interval is held against the order: it must lie \
+                 which it falls is estimated with an interval of measured reliability, which is held against the order: it must lie \
                  within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
         failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",

@@ -49,14 +49,17 @@ addEventListener("load", () => {
   for (const part of document.querySelectorAll("details")) part.open = true;
   expect("nothing overflows", document.documentElement.scrollWidth <= innerWidth);
   expect("nothing is loaded", performance.getEntriesByType("resource").length === 0);
-  // The page measures its tables after it has been laid out.
-  setTimeout(() => {
+  // The page measures its tables after it has been laid out, which takes longer on a busy machine.
+  const measured = attempts => {
     const cut = [...document.querySelectorAll("div.scroll")].filter(box => box.scrollWidth > box.clientWidth + 1);
-    expect("no table is cut: " + cut.map(box => box.ariaLabel), cut.length === 0);
     const cell = one(".flow td");
-    expect("cells of a wide table are named", cell && getComputedStyle(cell, "::before").content.includes(cell.dataset.head));
+    const isNamed = cell && getComputedStyle(cell, "::before").content.includes(cell.dataset.head);
+    if (attempts > 0 && !(cut.length === 0 && isNamed)) return setTimeout(measured, 250, attempts - 1);
+    expect("no table is cut: " + cut.map(box => box.ariaLabel), cut.length === 0);
+    expect("cells of a wide table are named", isNamed);
     document.title = found.length ? "WRONG " + found.join("; ") : "RIGHT";
-  }, 500);
+  };
+  setTimeout(measured, 500, 40);
 });
 addEventListener("error", event => found.push(event.message));
 addEventListener("securitypolicyviolation", event => found.push(event.violatedDirective));
@@ -99,7 +102,7 @@ fn said(file: &Path, profile: &Path) -> Option<String> {
         ])
         .args([
             "--window-size=500,800",
-            "--virtual-time-budget=2000",
+            "--virtual-time-budget=15000",
             "--dump-dom",
         ])
         .arg(format!("--user-data-dir={}", profile.display()))

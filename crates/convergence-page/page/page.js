@@ -4,6 +4,7 @@ const byId = (id) => document.getElementById(id);
 const OPTIONS = ["step", "columns", "values", "names", "dim", "ratio", "floor"];
 const LISTS = new Set(["columns", "values", "names"]);
 const NUMBERS = new Set(["dim", "ratio", "floor", "tolerance"]);
+const LONGEST_FILE = 4 << 20;
 // A question that takes longer is given up: in milliseconds.
 const PATIENCE = 10000;
 const EXAMPLES = {
@@ -263,6 +264,11 @@ function example(name) {
 
 async function takeFile(file) {
   if (!file) return;
+  // A field with so much text would stop the page; the judge has the same limit.
+  if (file.size > LONGEST_FILE) {
+    last = null;
+    return show(message(`expected a file of at most ${LONGEST_FILE} bytes; found ${file.size}: use convergence-study rates FILE`));
+  }
   byId("text").value = await file.text();
   ask();
 }

@@ -429,7 +429,7 @@ fn overview(
     );
     if matches!(request.scope, Scope::Selection(_)) {
         text += "a selection leaves the committed report as it is\n";
-    } else if found.record.verdict != Verdict::Pass && found.blessing != Blessing::Taken {
+    } else if found.record.verdict != Verdict::Pass {
         text += "a run that does not pass leaves the committed report as it is\n";
     }
     text

@@ -234,7 +234,9 @@ pub fn verify(
     atomic::prepare_folder(folder).map_err(unwritable(folder))?;
     let works = Works::read(&works_file(request))?;
     let newest = request.scope.report_folder(folder);
-    locked(request, || newest.set_aside(&NEWEST))?;
+    if newest.has_any(&NEWEST) {
+        locked(request, || newest.set_aside(&NEWEST))?;
+    }
     let verification = run_and_write(project, studies, request, works, &mistakes, progress);
     if verification.is_err() {
         // The error of the run says more than one of putting back.

@@ -220,6 +220,11 @@ impl ReportFolder {
         store::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
     }
 
+    /// Whether one of these files exists.
+    pub(crate) fn has_any(&self, paths: &[&str]) -> bool {
+        paths.iter().any(|path| self.folder.join(path).exists())
+    }
+
     /// Takes files of the previous set out of sight while a run is under way: if it is killed, no
     /// reader takes what they say for what the run has found. The caller must hold the [`lock`].
     ///

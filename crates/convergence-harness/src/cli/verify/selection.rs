@@ -8,7 +8,7 @@ use crate::cli::{screen, workspace};
 use crate::judge::verdict::Verdict;
 use crate::store::Record;
 use crate::study::{StudyFile, Tier};
-use crate::text::number::counted;
+use crate::text::number::{counted, counted_as};
 use crate::verify::Scope;
 
 /// The study files that are named in place of ids.
@@ -100,10 +100,9 @@ pub(super) fn dry_run(
         cases += own;
         total += seconds.unwrap_or(0.0);
     }
-    let noun = if rows.len() == 1 { "study" } else { "studies" };
     let sentence = format!(
-        "{} {noun} with {} would run; {total:.1} s in their last runs\n",
-        rows.len(),
+        "{} with {} would run; {total:.1} s in their last runs\n",
+        counted_as(rows.len(), "study", "studies"),
         counted(cases, "case")
     );
     let words = if arguments.flags.quiet {

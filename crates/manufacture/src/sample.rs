@@ -8,7 +8,7 @@ use crate::problem::{InputError, Surface, System};
 const FROM_SWITCHES: f64 = 1e-6;
 
 /// Points keep this share of the interval from an axis, where 1/r is not evaluated.
-const FROM_AXIS: f64 = 1e-6;
+pub(crate) const FROM_AXIS: f64 = 1e-6;
 
 /// Draws for each point that is wanted before a domain counts as empty.
 const TRIES: usize = 1000;

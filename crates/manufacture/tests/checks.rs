@@ -99,18 +99,13 @@ fn requirements_are_held() {
     );
 }
 
+/// An overflow is no pole, but no value, either.
 #[test]
 fn values_that_are_not_finite_are_singular() {
     finds(
-        &plane("u = \"sqrt(x - 0.5)\"", "", "a = \"u\""),
+        &plane("u = \"exp(1000*x)\"", "", "a = \"u\""),
         "singular",
         "exact.u",
-        true,
-    );
-    finds(
-        &plane("u = \"x\"", "", "a = \"ln(u - 0.5)\""),
-        "singular",
-        "equations.a",
         true,
     );
 }

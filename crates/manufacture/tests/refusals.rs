@@ -22,7 +22,7 @@ fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
     let message = refusal(&text);
     assert_eq!(
         message,
-        "test.toml:12: equations.heat: unknown name `kapa`, did you mean `kappa`?; expected one of x y T kappa\n    \
+        "test.toml:12:13: equations.heat: unknown name `kapa`, did you mean `kappa`?; expected one of x y T kappa\n    \
          div(kapa*grad(T))\n        ^"
     );
 }

@@ -62,7 +62,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         }
     }
 
-    pub(super) fn tree(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
+    pub(crate) fn tree(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
         match &tree.kind {
             Kind::Number(value, _) => Ok(Tensor::scalar(self.algebra.number(*value))),
             Kind::Name(name) => self.name(name, tree, within),

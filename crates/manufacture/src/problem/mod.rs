@@ -14,7 +14,7 @@ use crate::language::tree::Tree;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
-pub(crate) use error::Place;
+pub(crate) use error::{LineColumn, Place};
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]

@@ -102,6 +102,14 @@ impl Manufacture {
         )
     }
 
+    /// Whether a language can have a module of this name.
+    ///
+    /// # Errors
+    /// A name that is a keyword, or that hides a module which the emitted one needs.
+    pub fn accept(&self, language: Language) -> Result<(), InputError> {
+        emit::accept(&self.model, language)
+    }
+
     /// The files of a language: the library, and the program that answers questions about points.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
         emit::emit(&self.model, language)

@@ -151,6 +151,7 @@ pub(crate) struct Problem {
     pub(crate) file: String,
     pub(crate) text: String,
     pub(crate) name: String,
+    pub(crate) name_place: Place,
     pub(crate) coordinates: Vec<String>,
     pub(crate) time: Option<String>,
     pub(crate) system: System,

@@ -209,6 +209,10 @@ impl Claimed {
         })
     }
 
+    fn holds(&self) -> bool {
+        self.low <= self.order && self.order <= self.high
+    }
+
     /// The distance of the order from the middle of the interval, in its half-widths.
     fn half_widths(&self) -> f64 {
         let half = (self.high - self.low) / 2.0;
@@ -225,13 +229,13 @@ fn most_intervals_of_the_report_hold_the_order_that_is_claimed() {
         let claimed: Vec<Claimed> = report.lines().filter_map(Claimed::read).collect();
         let outside: Vec<f64> = claimed
             .iter()
+            .filter(|claimed| !claimed.holds())
             .map(Claimed::half_widths)
-            .filter(|distance| *distance > 1.0)
             .collect();
         let farthest = outside.iter().copied().fold(0.0, f64::max);
         assert!(claimed.len() >= count, "{path}: {} rates", claimed.len());
         assert!(
-            outside.len() * 100 <= 8 * claimed.len() && farthest < 3.0,
+            outside.len() * 100 <= 8 * claimed.len() && farthest < 3.5,
             "{path}: {} of {} outside, by up to {farthest} half-widths",
             outside.len(),
             claimed.len()

@@ -33,6 +33,13 @@ pub struct Arguments {
     /// Write files in these languages to the folder of --out: c, fortran, python, ufl, octave, rust
     #[arg(long, value_name = "LANGUAGE", value_delimiter = ',', value_parser = language)]
     language: Vec<Language>,
+    /// List variants of the solution, each of which switches off what a part of a program can get
+    /// wrong; with --language, the module holds them
+    ///
+    /// The environment variable MANUFACTURE_VARIANT chooses one when the program starts. Languages
+    /// with variants: python.
+    #[arg(long, conflicts_with_all = ["at", "against"])]
+    variants: bool,
     /// Print the values at the points of a table: coordinates, time and optionally the face, under
     /// a header
     #[arg(long, value_name = "POINTS", conflicts_with_all = ["language", "against"])]

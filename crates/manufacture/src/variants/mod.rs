@@ -240,7 +240,7 @@ mod tests {
     use super::*;
     use crate::derive::Part;
 
-    const HEAT: &str = r#"
+    pub(super) const HEAT: &str = r#"
 [manufacture]
 name = "heat"
 coordinates = ["x"]

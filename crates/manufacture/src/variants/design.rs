@@ -27,10 +27,10 @@ impl Design {
 
 /// A side of the box that has data.
 #[derive(Debug, Clone, PartialEq)]
-struct Side {
-    coordinate: usize,
+pub(super) struct Side {
+    pub(super) coordinate: usize,
     name: String,
-    at: f64,
+    pub(super) at: f64,
 }
 
 /// All variants: first the base's coordinates and time, then sides, the first time, parameters,
@@ -162,7 +162,7 @@ fn flat(problem: &Problem, sides: &[&Side]) -> Vec<Step> {
 }
 
 /// The sides that have data, in the order of the coordinates.
-fn sides(problem: &Problem) -> Vec<Side> {
+pub(super) fn sides(problem: &Problem) -> Vec<Side> {
     let mut sides = vec![];
     for (place, name) in problem.coordinates.iter().enumerate() {
         for (upper, ending) in [(false, "min"), (true, "max")] {

@@ -12,6 +12,8 @@ mod design;
 mod emitted;
 mod variation;
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use crate::check::Check;
@@ -21,7 +23,7 @@ use crate::model::{Model, Rows};
 use crate::problem::{InputError, Problem};
 use crate::{Finding, Sampling, check};
 
-use design::{Design, MIDDLE, designs};
+use design::{Design, MIDDLE, Side, designs, sides};
 pub(crate) use variation::{Carrier, Flattening, Step, Variation};
 
 /// What a variant switches off.
@@ -145,9 +147,8 @@ pub(crate) fn variants<'m>(
         usable: vec![],
         left_out: vec![],
     };
-    let centre = centre(base);
     for design in designs(&base.problem) {
-        match usable(base, &design, &centre, sampling)? {
+        match usable(base, &design, sampling)? {
             Ok(variant) => variants.usable.push(variant),
             Err(why) => variants.left_out.push(LeftOut {
                 switch: design.switch,
@@ -158,23 +159,25 @@ pub(crate) fn variants<'m>(
     Ok(variants)
 }
 
-/// The values of a field near the middle of the domain.
-struct Centre {
+/// The values of a field at a point.
+struct Values {
     field: String,
     values: Vec<f64>,
 }
 
-fn centre(base: &Model) -> Vec<Centre> {
-    let point: Vec<f64> = base
-        .problem
-        .intervals
-        .iter()
+/// Near the middle of the domain, but with this value of a variable.
+fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
+    let intervals = base.problem.intervals.iter();
+    let mut point: Vec<f64> = intervals
         .map(|[low, high]| low + MIDDLE * (high - low))
         .collect();
+    if let Some((variable, at)) = held {
+        point[variable] = at;
+    }
     base.of_role(Role::Exact)
         .map(|quantity| {
             let rows = Rows::new(&base.graph, std::iter::once(&quantity.tensor)).at(&point);
-            Centre {
+            Values {
                 field: quantity.name.clone(),
                 values: rows.tensors[0].iter().map(|part| part.value).collect(),
             }
@@ -182,24 +185,42 @@ fn centre(base: &Model) -> Vec<Centre> {
         .collect()
 }
 
-/// A flat field is near zero somewhere; where this is not allowed, a multiple of the value in the
-/// middle is added.
-const LIFTS: [f64; 3] = [0.0, 1.0, 3.0];
+/// What may be added to flat fields, which are near zero somewhere: nothing; where this is not
+/// allowed the value at a side, which the file may prescribe; a multiple of the value in the
+/// middle.
+fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
+    let scaled = |values: Vec<Values>, scale: f64| {
+        let values = values.into_iter().map(|Values { field, values }| {
+            (field, values.iter().map(|value| scale * value).collect())
+        });
+        values.collect::<BTreeMap<String, Vec<f64>>>()
+    };
+    let mut lifts = vec![BTreeMap::new()];
+    if design.is_flat() {
+        for Side { coordinate, at, .. } in sides(&base.problem) {
+            lifts.push(scaled(values(base, Some((coordinate, at))), 1.0));
+        }
+        for scale in [1.0, 3.0] {
+            lifts.push(scaled(values(base, None), scale));
+        }
+    }
+    lifts
+}
 
 /// The variant, or in words why it cannot be used.
 fn usable(
     base: &Model,
     design: &Design,
-    centre: &[Centre],
     sampling: &Sampling,
 ) -> Result<Result<Variant, String>, InputError> {
+    let Sampling { seed, points, .. } = *sampling;
     let mut why = String::new();
-    for lift in LIFTS {
-        let model = match Model::new(problem(&base.problem, design, centre, lift)) {
+    for lift in lifts(base, design) {
+        let model = match Model::new(problem(&base.problem, design, lift)) {
             Ok(model) => model,
             Err(error) => return Ok(Err(error.to_string())),
         };
-        let Check { findings, .. } = check::check(&model, sampling.seed, sampling.points, false)?;
+        let Check { findings, .. } = check::check(&model, seed, points, false)?;
         let failures: Vec<&Finding> = findings.iter().filter(|finding| finding.fails).collect();
         let Some(first) = failures.first() else {
             return Ok(Ok(Variant {
@@ -207,9 +228,11 @@ fn usable(
                 model,
             }));
         };
-        why = format!("{}: {}: {}", first.key, first.code, first.text);
-        let mends = |finding: &&Finding| matches!(finding.code, "not-positive" | "singular");
-        if !design.is_flat() || !failures.iter().any(mends) {
+        if why.is_empty() {
+            why = format!("{}: {}: {}", first.key, first.code, first.text);
+        }
+        let mends = ["not-positive", "singular", "condition-violated"];
+        if !failures.iter().any(|failure| mends.contains(&failure.code)) {
             break;
         }
     }
@@ -217,21 +240,16 @@ fn usable(
 }
 
 /// The problem of a variant.
-fn problem(base: &Problem, design: &Design, centre: &[Centre], lift: f64) -> Problem {
+fn problem(base: &Problem, design: &Design, lifts: BTreeMap<String, Vec<f64>>) -> Problem {
     let mut problem = base.clone();
     if let Switch::Parameter(name) = &design.switch {
         design::set_to_zero(&mut problem, name);
         return problem;
     }
-    let mut variation = design.variation.clone();
-    if lift != 0.0 {
-        let lifts = centre.iter().map(|Centre { field, values }| {
-            let values = values.iter().map(|value| lift * value).collect();
-            (field.clone(), values)
-        });
-        variation.lifts = lifts.collect();
-    }
-    problem.variation = Some(variation);
+    problem.variation = Some(Variation {
+        lifts,
+        ..design.variation.clone()
+    });
     problem
 }
 
@@ -373,8 +391,22 @@ u = "u"
             .iter()
             .map(|entry| entry.switch.variant())
             .collect();
+        // Flat at x_max alone u has another value at x_min.
         assert_eq!(left_out, ["constant_x", "flat_x_max"]);
         assert!(variants.left_out[0].why.contains("condition-violated"));
+    }
+
+    #[test]
+    fn a_flat_field_keeps_the_value_that_a_face_prescribes() {
+        let held = HEAT
+            .replace("sin(x)*exp(-t)", "1 + sin(x)*exp(-t)")
+            .replacen("u = \"u\"", "u = { of = \"u\", is = \"1\" }", 1);
+        let model = model(&held);
+        let variants = variants(&model, &few()).unwrap();
+        for name in ["flat_x_min", "flat_x", "flat_initial"] {
+            let variant = named(&variants, name);
+            assert!((at(variant, [0.0, 0.7])[0] - 1.0).abs() < 1e-13, "{name}");
+        }
     }
 
     #[test]

@@ -244,6 +244,31 @@ fn how_often_the_rule_decides_and_errs_is_what_its_page_says() {
     assert!(readme.contains(&sentence), "{sentence}");
 }
 
+/// The table of what people do today is the sentence of the rule's page.
+#[test]
+fn the_comparison_with_other_rules_is_what_its_page_says() {
+    let readme = read("README.md");
+    let rule = read("crates/convergence-judge/src/judge/verdict/RULE.md");
+    let (_, table) = readme
+        .split_once("\n| this rule |")
+        .expect("a table of rules");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .take(3)
+        .map(|row| row.split('|').map(str::trim).collect())
+        .collect();
+    let (names, shares) = (&rows[0][..5], &rows[2][2..7]);
+    let own = rows[2][1];
+    assert!(rule.contains(&format!(
+        "this rule passes {own} of the true claims and 3.2 %"
+    )));
+    assert!(readme.contains("let 3.2 % of the wrong claims pass"));
+    for (name, share) in names.iter().zip(shares) {
+        let share = share.strip_suffix(" %").expect("per cent");
+        assert!(rule.contains(&format!("{name} {share}")), "{name} {share}");
+    }
+}
+
 #[test]
 fn the_first_page_is_short() {
     let readme = read("README.md");

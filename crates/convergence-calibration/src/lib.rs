@@ -21,6 +21,7 @@
 //! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].
 //! * *compared*: this rule and what people do today on nine [laws](fresh) written for it, each with
 //!   the band that lets as many wrong claims pass.
+//! * *unaligned*: kinks and interfaces in their cells; see [`unaligned`].
 //! * *three*: three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the
 //!   finest error.
 //! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often
@@ -79,6 +80,7 @@ pub mod noisy;
 pub mod rules;
 mod shapes;
 pub mod sheet;
+mod unaligned;
 
 use convergence_harness::judge::verdict::{Judge, JudgeError};
 
@@ -92,6 +94,7 @@ use laws::{LAWS, Table, USUAL, WIDE};
 use noisy::noisy;
 use rules::{hidden, levels, rules};
 use sheet::Sheet;
+use unaligned::unaligned;
 
 pub use draw::{CalibrationError, ELEMENTS_OF_A_TABLE};
 
@@ -110,7 +113,7 @@ fn wrong(table: &Table, off: f64) -> [f64; 2] {
 
 /// The sheets of the rule: *rules* on two sets of meshes, *levels*, *held-out*, *three*, *laws*,
 /// *hidden* three times, *limits*, *claims*, *benign*, *differences*, *noisy*,
-/// *compared*.
+/// *compared*, *unaligned*.
 ///
 /// * `tables`: number of tables for each law and mesh.
 ///
@@ -136,6 +139,7 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         differences(3 * tables, &mut draw(seed, 10))?,
         noisy(20 * tables, &mut draw(seed, 11))?,
         compared(40 * tables, &mut draw(seed, 12))?,
+        unaligned(40 * tables, &mut draw(seed, 13))?,
     ])
 }
 

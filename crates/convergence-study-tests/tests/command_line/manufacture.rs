@@ -197,7 +197,7 @@ fn the_variants_are_listed_with_what_each_switches_off() {
     let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--variants"]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     for line in [
-        "flat_x_min    the data at x_min",
+        "flat_x_min       the data at x_min",
         "left out: constant_x: boundary.x_min.u: condition-violated",
     ] {
         assert!(out.contains(line), "{line}: {out}");

@@ -5,7 +5,7 @@ use super::tensor::{Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
 use crate::problem::{InputError, Value};
-use crate::variants::{Carrier, Flattening, Step};
+use crate::variants::{Bubble, Step};
 
 impl<A: Algebra> Elaborator<'_, A> {
     /// The value of an exact field. A variant is made of the fields of the file: fields that occur
@@ -41,27 +41,41 @@ impl<A: Algebra> Elaborator<'_, A> {
                 let mut traces = self.traces(before, value, *variable, *at, 0)?;
                 Ok(traces.remove(0))
             }
-            Step::Flatten(flattening) => self.flattened(flattening, before, value),
+            Step::Flatten {
+                variable,
+                end,
+                degree,
+            } => self.flattened(*variable, *end, *degree, before, value),
+            Step::Weigh(bubble) => {
+                let function = self.after(before, value)?;
+                let weight = self.weight(bubble);
+                Ok(scale(
+                    &mut self.algebra,
+                    Binary::Multiply,
+                    &function,
+                    &weight,
+                ))
+            }
         }
     }
 
+    /// A function without its Taylor polynomial.
     fn flattened(
         &mut self,
-        flattening: &Flattening,
+        variable: usize,
+        end: f64,
+        degree: usize,
         before: &[Step],
         value: &Value,
     ) -> Elaborated<A> {
-        let Flattening {
-            variable, degree, ..
-        } = *flattening;
         let mut rest = self.after(before, value)?;
-        for &end in &flattening.ends {
-            let traces = self.traces(before, value, variable, end, degree)?;
-            for (order, trace) in traces.iter().enumerate() {
-                let carrier = self.carrier(variable, end, &flattening.carrier(end, order));
-                let part = scale(&mut self.algebra, Binary::Multiply, trace, &carrier);
-                rest = combine(&mut self.algebra, Binary::Subtract, &rest, &part);
-            }
+        let traces = self.traces(before, value, variable, end, degree)?;
+        let mut factorial = 1.0;
+        for (order, trace) in traces.iter().enumerate() {
+            factorial *= order.max(1) as f64;
+            let carrier = self.power(variable, end, order, 1.0 / factorial);
+            let part = scale(&mut self.algebra, Binary::Multiply, trace, &carrier);
+            rest = combine(&mut self.algebra, Binary::Subtract, &rest, &part);
         }
         Ok(rest)
     }
@@ -99,21 +113,24 @@ impl<A: Algebra> Elaborator<'_, A> {
         Ok(traces)
     }
 
-    fn carrier(&mut self, variable: usize, end: f64, carrier: &Carrier) -> A::Number {
+    /// `factor * (x - end)^exponent`.
+    fn power(&mut self, variable: usize, end: f64, exponent: usize, factor: f64) -> A::Number {
         let x = self.algebra.variable(variable);
         let end = self.algebra.number(end);
         let distance = self.algebra.binary(Binary::Subtract, &x, &end);
-        // Horner's scheme.
-        let mut value = self.algebra.number(0.0);
-        for coefficient in carrier.coefficients.iter().rev() {
-            let coefficient = self.algebra.number(*coefficient);
-            value = self.algebra.binary(Binary::Multiply, &value, &distance);
-            value = self.algebra.binary(Binary::Add, &value, &coefficient);
-        }
-        let other = self.algebra.number(carrier.other);
-        let distance = self.algebra.binary(Binary::Subtract, &x, &other);
-        let power = self.algebra.number(carrier.power as f64);
-        let weight = self.algebra.binary(Binary::Power, &distance, &power);
-        self.algebra.binary(Binary::Multiply, &value, &weight)
+        let exponent = self.algebra.number(exponent as f64);
+        let power = self.algebra.binary(Binary::Power, &distance, &exponent);
+        let factor = self.algebra.number(factor);
+        self.algebra.binary(Binary::Multiply, &factor, &power)
+    }
+
+    fn weight(&mut self, bubble: &Bubble) -> A::Number {
+        let [low, high] = bubble.interval;
+        let scale = -4.0 / (high - low).powi(2);
+        let below = self.power(bubble.variable, low, 1, scale);
+        let above = self.power(bubble.variable, high, 1, 1.0);
+        let product = self.algebra.binary(Binary::Multiply, &below, &above);
+        let exponent = self.algebra.number((bubble.degree + 1) as f64);
+        self.algebra.binary(Binary::Power, &product, &exponent)
     }
 }

@@ -1,6 +1,6 @@
 //! Which variants a file has.
 
-use super::{Flattening, Step, Switch, Variation};
+use super::{Bubble, Step, Switch, Variation};
 use crate::language::tree::{Kind, Tree};
 use crate::problem::{Problem, Surface};
 
@@ -18,10 +18,10 @@ pub(super) struct Design {
 }
 
 impl Design {
-    /// Whether something is subtracted from the fields.
+    /// Whether the fields vanish somewhere.
     pub(super) fn is_flat(&self) -> bool {
         let mut steps = self.variation.steps.iter();
-        steps.any(|step| matches!(step, Step::Flatten(_)))
+        steps.any(|step| !matches!(step, Step::Fix { .. }))
     }
 }
 
@@ -53,12 +53,18 @@ pub(super) fn designs(problem: &Problem) -> Vec<Design> {
     }
     designs.extend(of_several(problem, &sides));
     if problem.time.is_some() && !problem.initial.is_empty() {
-        let flattening = Flattening {
+        let initial = Step::Flatten {
             variable: time,
-            ends: vec![problem.intervals[time][0]],
+            end: problem.intervals[time][0],
             degree: degree(problem),
         };
-        designs.push(steps(Switch::Initial, vec![Step::Flatten(flattening)]));
+        designs.push(steps(Switch::Initial, vec![initial.clone()]));
+        if !sides.is_empty() {
+            let all: Vec<&Side> = sides.iter().collect();
+            let mut everywhere = flat(problem, &all);
+            everywhere.push(initial);
+            designs.push(steps(Switch::AllFacesAndInitial, everywhere));
+        }
     }
     for name in &problem.switchable {
         designs.push(steps(Switch::Parameter(name.clone()), vec![]));
@@ -144,21 +150,25 @@ fn degree(problem: &Problem) -> usize {
 
 /// Flat at these sides: one step for each coordinate.
 fn flat(problem: &Problem, sides: &[&Side]) -> Vec<Step> {
-    let mut flattenings: Vec<Flattening> = vec![];
-    for side in sides {
-        let same = flattenings
-            .iter_mut()
-            .find(|flattening| flattening.variable == side.coordinate);
-        match same {
-            Some(flattening) => flattening.ends.push(side.at),
-            None => flattenings.push(Flattening {
-                variable: side.coordinate,
-                ends: vec![side.at],
-                degree: degree(problem),
+    let degree = degree(problem);
+    let mut steps = vec![];
+    for (variable, interval) in problem.intervals.iter().enumerate() {
+        let mut of_variable = sides.iter().filter(|side| side.coordinate == variable);
+        steps.extend(match (of_variable.next(), of_variable.next()) {
+            (None, _) => None,
+            (Some(side), None) => Some(Step::Flatten {
+                variable,
+                end: side.at,
+                degree,
             }),
-        }
+            (Some(_), Some(_)) => Some(Step::Weigh(Bubble {
+                variable,
+                interval: *interval,
+                degree,
+            })),
+        });
     }
-    flattenings.into_iter().map(Step::Flatten).collect()
+    steps
 }
 
 /// The sides that have data, in the order of the coordinates.

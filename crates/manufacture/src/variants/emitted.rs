@@ -127,7 +127,7 @@ mod tests {
             fs::write(folder.path().join(file.name), file.text).unwrap();
         }
         assert_source(&manufacture.model, &answered(folder.path(), ""), "the file");
-        assert_eq!(variants.usable.len(), 6);
+        assert_eq!(variants.usable.len(), 7);
         for variant in &variants.usable {
             let name = variant.switch.variant();
             assert_source(&variant.model, &answered(folder.path(), &name), &name);

@@ -242,6 +242,7 @@ fn attempt(
                      name,
                      reason,
                      is_checked,
+                     ..
                  }| NotError {
                     column: name,
                     because: reason,

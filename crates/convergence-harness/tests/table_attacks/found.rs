@@ -1,5 +1,7 @@
 //! Texts that passed once, though a column of theirs had lost its order or its numbers.
 
+use convergence_harness::input::error_table::{Choice, RateTable};
+
 use super::forms::{Form, Table, cells};
 use super::{LAW, answer, passes};
 
@@ -107,4 +109,47 @@ fn two_lists_of_json_are_two_tables() {
                 {\"h\": 0.1, \"L2\": 2.1875e-3},\n{\"h\": 0.05, \"L2\": 5.46875e-4}]\n";
     assert!(passes(good));
     assert!(!passes(&format!("{bad}{good}")));
+}
+
+#[test]
+fn what_a_text_says_beside_its_tables_is_said() {
+    let rows = "0.2 4e-2\n0.1 1e-2\n0.05 2.5e-3\n0.025 6.25e-4\n";
+    let text = format!("started at 12:00\nrun on 8 ranks\nh L2\n{rows}");
+    let sheet = answer(&text, &["2"]).expect("a table");
+    assert!(sheet.verdict.is_pass() && sheet.text.contains("outside the tables: 1 line"));
+
+    // `order` prints what theory says, not what the errors do.
+    let text = "h L2 order\n0.2 4e-2 -\n0.1 1e-2 3.00\n0.05 2.5e-3 3.00\n0.025 6.25e-4 3.00\n";
+    let sheet = answer(text, &["2"]).expect("a table");
+    let said = "order (a rate, but of no column: 3)";
+    assert!(sheet.sentence.contains(said), "{}", sheet.sentence);
+}
+
+#[test]
+fn a_step_in_another_unit_is_said_and_does_not_pass() {
+    let steps = ["100", "50", "25", "12.5", "6.25", "0.003125"];
+    let mut text = "h L2\n".to_owned();
+    for (k, step) in steps.iter().enumerate() {
+        text += &format!("{step} {:e}\n", 0.25_f64.powi(k as i32));
+    }
+    let sheet = answer(&text, &["2"]).expect("a table");
+    assert!(!sheet.verdict.is_pass() && sheet.sentence.contains("another unit?"));
+    // Errors that follow a real gap are those of one unit.
+    let text = "h L2\n0.8 0.64\n0.4 0.16\n0.2 0.04\n0.1 0.01\n0.005 2.5e-5\n0.0025 6.25e-6\n";
+    assert!(passes(text));
+}
+
+#[test]
+fn counts_of_adaptive_meshes_are_said_with_quiet_too() {
+    let dofs = [100, 230, 470, 1100, 2300, 5100];
+    let mut text = "dofs,L2\n".to_owned();
+    for count in dofs {
+        text += &format!("{count},{:e}\n", 3.0 / f64::from(count));
+    }
+    let choice = Choice {
+        dim: Some(2.0),
+        ..Choice::default()
+    };
+    let table = RateTable::parse_with(&text, "t", &choice).expect("a table");
+    assert!(table.is_guessed && table.reading.contains("grow by 2 to 2.3, as along an edge"));
 }

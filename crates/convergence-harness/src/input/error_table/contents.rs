@@ -299,6 +299,14 @@ impl TableReader<'_> {
             (Word::Step, Some(noun)) if column.is_in_proportion(&self.columns[step]) => {
                 Ok(Content::checked(noun))
             }
+            (Word::Rate, Some(noun)) => {
+                Ok(match column.values.iter().rev().find(|v| v.is_finite()) {
+                    Some(last) => {
+                        Content::named(format!("{noun}, but of no column: {}", plain_text(*last)))
+                    }
+                    None => Content::named(noun),
+                })
+            }
             (_, Some(noun)) => Ok(Content::named(noun)),
             (Word::Error, None) => Ok(Content::Error),
             _ => Ok(Self::unknown(column, steps)),

@@ -17,6 +17,8 @@ use super::text::{self, begins_with_number, is_closing, is_rule};
 pub(super) struct Part<'t> {
     /// The first of several lines above its rows, or its number.
     pub(super) heading: String,
+    /// The words of the heading in the text.
+    pub(super) words: Option<&'t str>,
     pub(super) table: RawTable<'t>,
 }
 
@@ -34,9 +36,11 @@ pub(super) fn read(text: &str) -> Vec<Part<'_>> {
             Some(table) if earlier.is_empty() => table,
             _ => text::read(text, earlier),
         };
-        let heading = heading(text, &table);
+        let words = heading(text, &table);
+        let number = parts.len() + 1;
         parts.push(Part {
-            heading: heading.unwrap_or_else(|| format!("table {}", parts.len() + 1)),
+            heading: words.map_or_else(|| format!("table {number}"), str::to_owned),
+            words,
             table,
         });
     }
@@ -431,7 +435,7 @@ fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
 
 /// The first line of words above the rows, if there is another, which has the names, or if names
 /// stand beside the numbers.
-fn heading(section: &str, table: &RawTable<'_>) -> Option<String> {
+fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
     let above = above(section, table);
     let end = above.rfind('\n').map_or(0, |end| end + 1);
     let is_name = |line: &str| {
@@ -449,5 +453,5 @@ fn heading(section: &str, table: &RawTable<'_>) -> Option<String> {
     });
     let words = lines.next()?;
     let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));
-    Some(words.to_owned()).filter(|words| !words.is_empty())
+    Some(words).filter(|words| !words.is_empty())
 }

@@ -19,8 +19,7 @@ use crate::report::Findings;
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
-    diagnosis::{Fingerprints, diagnose},
-    json, lock, write_json,
+    diagnosis::diagnose, json, lock, write_json,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
@@ -222,11 +221,6 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
-    let mistakes = project
-        .fingerprints
-        .map(|file| Fingerprints::read(&request.root.join(file)))
-        .transpose()?
-        .unwrap_or_default();
     let folder = &request.reports;
     tidy(request)?;
     // A folder that is not writable is reported before the run.
@@ -246,7 +240,7 @@ pub fn verify(
     let blessing = bless(&mut baseline, &finished, request)?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
-    let record = diagnosed(project, request, finished, &changes, &mistakes);
+    let record = diagnosed(project, request, finished, &changes);
     // Everything is prepared before anything is written.
     let provenance = Provenance::collect(
         &request.root,
@@ -291,13 +285,12 @@ fn diagnosed(
     request: &Request,
     finished: Vec<Finished>,
     changes: &[Change],
-    mistakes: &Fingerprints,
 ) -> Record {
     let command = request.scope.command(project);
     let verdict = verdict(&finished, changes);
     let name = request.scope.name();
     let mut record = Record::new(name, &command, verdict, Some(changes), finished);
-    record.diagnosis = diagnose(project, &record.studies, changes, mistakes);
+    record.diagnosis = diagnose(project, &record.studies, changes);
     if let Some(diagnosis) = &mut record.diagnosis {
         diagnosis.add_repetition(project, changes);
     }
@@ -370,7 +363,7 @@ pub fn report(
 ///
 /// * `command`: the command that ran them.
 pub fn record(project: &Project, finished: &[Finished], command: &str) -> Record {
-    let diagnosis = diagnose(project, finished, &[], &Fingerprints::default());
+    let diagnosis = diagnose(project, finished, &[]);
     Record {
         diagnosis,
         ..Record::new(

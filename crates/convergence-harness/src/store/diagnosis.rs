@@ -1,9 +1,8 @@
 //! What a failing run says about its cause: which settings separate failing from passing items,
-//! which fields moved first, which known mistake it resembles, and where to look.
+//! which fields moved first, and where to look.
 
 mod contrast;
 mod fields;
-mod fingerprint;
 
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +10,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement, baseline::signed_percent};
+use crate::study::header::Setting;
 use crate::study::{Check, Header, NamedRate, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
@@ -18,7 +18,6 @@ use crate::text::number::{decimals, short_text};
 use contrast::{Vote, contrast};
 
 pub use contrast::Contrast;
-pub use fingerprint::{Fingerprint, Fingerprints, Known, Resembling};
 
 /// How many of the clearest failures, of fields, and of groups of moved numbers are named.
 const NAMED: usize = 3;
@@ -26,8 +25,7 @@ const NAMED: usize = 3;
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is
-    /// named, and no place.
+    /// Claims that changed, in words. They may be the cause: then no place is named.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
     /// Which settings separate failing from passing items.
@@ -36,9 +34,6 @@ pub struct Diagnosis {
     pub first: Vec<Field>,
     /// Claims of failing checks, the commonest first, and how many fail.
     pub checks: Vec<(String, usize)>,
-    /// Known mistakes with similar failures and movements.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub resembles: Vec<Resembling>,
     /// Where to look.
     pub look_at: Vec<String>,
     /// The studies with the clearest failures, the worst first.
@@ -66,13 +61,7 @@ pub struct Field {
 /// Diagnoses a run that does not pass; `None` for one that passes.
 ///
 /// * `changes`: differences from the baseline.
-/// * `known`: mistakes that were planted earlier.
-pub fn diagnose(
-    project: &Project,
-    finished: &[Finished],
-    changes: &[Change],
-    known: &Fingerprints,
-) -> Option<Diagnosis> {
+pub fn diagnose(project: &Project, finished: &[Finished], changes: &[Change]) -> Option<Diagnosis> {
     let failing: Vec<&Finished> = finished
         .iter()
         .filter(|study| study.outcome.verdict != Verdict::Pass)
@@ -102,17 +91,11 @@ pub fn diagnose(
     } else {
         vec![]
     };
-    let resembles = if claims.is_empty() {
-        known.nearest(&Fingerprint::of(finished, changes))
-    } else {
-        vec![]
-    };
     Some(Diagnosis {
         claims,
         contrast,
         first,
         checks: checks(&failing),
-        resembles,
         look_at,
         clearest,
         moved: groups_of_moved_numbers(finished, changes),
@@ -216,12 +199,18 @@ struct StudyVotes<'s> {
 }
 
 impl StudyVotes<'_> {
-    /// Adds an item to the vote of its settings.
+    /// Adds an item to the vote of its settings; a ratio of two methods to the votes of both.
     ///
     /// * `counts`: whether it is one of the items that the diagnosis counts; others only decide
     ///   whether the vote fails.
     fn count(&mut self, subject: &Subject, fails: bool, counts: bool) {
-        let settings = self.project.settings(self.header, subject);
+        for side in subject.sides() {
+            let settings = self.project.settings(self.header, &side);
+            self.count_with(settings, fails, counts);
+        }
+    }
+
+    fn count_with(&mut self, settings: Vec<Setting>, fails: bool, counts: bool) {
         let known = self.votes.iter().position(|vote| vote.settings == settings);
         let place = known.unwrap_or(self.votes.len());
         if known.is_none() {
@@ -359,15 +348,6 @@ fn list_of_first(mut items: Vec<String>, what: &str) -> String {
 }
 
 impl Diagnosis {
-    /// The planted mistakes with a similar effect, in words; empty if there are none.
-    pub fn alike(&self) -> String {
-        let mistakes = self.resembles.iter();
-        let words: Vec<String> = mistakes
-            .map(|one| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file))
-            .collect();
-        words.join(", ")
-    }
-
     /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = vec![];
@@ -396,21 +376,6 @@ impl Diagnosis {
                 });
             }
             lines.push(("also fails", list_of_first(claims, "")));
-        }
-        for (
-            count,
-            Resembling {
-                mistake,
-                file,
-                likeness,
-                ..
-            },
-        ) in self.resembles.iter().enumerate()
-        {
-            lines.push((
-                if count == 0 { "resembles" } else { "" },
-                format!("\"{mistake}\" ({likeness:.2})  {file}"),
-            ));
         }
         if !self.moved.is_empty() {
             lines.push((

@@ -26,9 +26,8 @@ const COMBINED: usize = 80;
 /// Most groups of passing items that are named.
 const GROUPS: usize = 3;
 
-/// A setting shared by all failing items is informative if at most this share of the passing ones
-/// has it.
-const RARE: f64 = 0.95;
+/// A setting shared by all failing items says something if at most this share of all items has it.
+const RARE: f64 = 0.8;
 
 /// Most settings shared by all failing items that are named.
 const SHARED: usize = 3;
@@ -59,7 +58,7 @@ pub struct Contrast {
     pub score: f64,
     /// Items with these settings: how many fail, and how many there are.
     pub fails: [usize; 2],
-    /// Other settings that every failing item has, but few of the passing ones: the rarest first.
+    /// Other settings that every failing item has, but not most of all items: the rarest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shared: Vec<Setting>,
     /// Items without them, by their alternative settings: how many pass, and how many there are.
@@ -218,10 +217,10 @@ fn kind_of_study(votes: &[Vote], settings: &[Setting]) -> Option<String> {
     distinguishes.then(|| kind.1.clone())
 }
 
-/// The settings of all failing votes, except those that the contrast names and those that most
-/// passing votes share.
+/// The settings of all failing votes, except those that the contrast names and those that most of
+/// all items have.
 fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
-    let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
+    let failing: Vec<&Vote> = votes.iter().filter(|vote| vote.fails).collect();
     // One item shares everything with itself.
     let [first, others @ ..] = &failing[..] else {
         return vec![];
@@ -236,7 +235,7 @@ fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
         if is_named || !others.iter().all(|vote| vote.settings.contains(setting)) {
             continue;
         }
-        let share = share_with(&passing, setting);
+        let share = share_with(votes, setting);
         if share <= RARE {
             shared.push(RareSetting { setting, share });
         }
@@ -251,16 +250,18 @@ fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
         .collect()
 }
 
-/// A setting of all failing votes, and the share of the passing ones that has it.
+/// A setting of all failing votes, and the share of all items that has it.
 struct RareSetting<'v> {
     setting: &'v Setting,
     share: f64,
 }
 
-/// The share of votes that have a setting.
-fn share_with(votes: &[&Vote], setting: &Setting) -> f64 {
+/// The share of items that have a setting.
+fn share_with(votes: &[Vote], setting: &Setting) -> f64 {
+    let items = |vote: &Vote| vote.count[1];
     let with = votes.iter().filter(|vote| vote.settings.contains(setting));
-    with.count() as f64 / votes.len() as f64
+    let all: usize = votes.iter().map(items).sum();
+    with.map(items).sum::<usize>() as f64 / all as f64
 }
 
 #[cfg(test)]
@@ -336,6 +337,11 @@ mod tests {
         };
         let nothing = Contrast::default();
         assert_eq!(values(&nothing), ["any order", "graded"]);
+        // What 76 of 86 items have says nothing of the two that fail.
+        let common = vote(&[("method", "any order")], [0, 73]);
+        let votes_with = [&votes[..], &[common]].concat();
+        let names = |votes: &[Vote]| shared(votes, &nothing).len();
+        assert_eq!(names(&votes_with), 1);
         let named = Contrast {
             settings: vec![("method".to_owned(), "any order".to_owned())],
             ..Contrast::default()

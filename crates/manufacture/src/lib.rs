@@ -147,6 +147,21 @@ impl Manufacture {
         check::emitted::emitted(&self.model, language, folder, seed, points)
     }
 
+    /// Builds and runs the files of a language that are in a folder already, and compares their
+    /// values.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn check_built(
+        &self,
+        language: Language,
+        folder: &Path,
+        sampling: &Sampling,
+    ) -> Result<Vec<Finding>, InputError> {
+        let Sampling { seed, points, .. } = *sampling;
+        check::emitted::run(&self.model, language, folder, seed, points)
+    }
+
     /// Values at the points of a table with a header: coordinates, time, and optionally `face`.
     ///
     /// # Errors

@@ -153,3 +153,68 @@ fn names_that_fortran_cannot_tell_apart_are_listed() {
     let python = &read(&text).emit(Language::Python)[0].text;
     assert!(!python.contains("Written with _ behind"));
 }
+
+/// Each definition, each term and all sources together are functions of their own, which add up.
+#[test]
+fn definitions_terms_and_joint_sources_are_emitted() {
+    let text = crate::files::plane(
+        "u = \"sin(x)*exp(y)\"",
+        "k = \"1 + u^2\"\nq = \"-k*grad(u)\"",
+        "heat = \"div(q) + 3*u\"\n[equations.other]\nloss = \"k*u\"\ngain = \"-x*y\"",
+    );
+    let python = &read(&text).emit(Language::Python)[0].text;
+    for name in [
+        "define_k",
+        "define_q",
+        "term_heat_1",
+        "term_heat_2",
+        "term_other_loss",
+        "term_other_gain",
+        "sources",
+    ] {
+        assert!(
+            python.contains(&format!("def {name}(x):")),
+            "{name}: {python}"
+        );
+    }
+    let fortran = &read(&text).emit(Language::Fortran)[0].text;
+    assert!(fortran.contains("pure function sources(x) result(out)"));
+    // One equation needs no joint function.
+    assert!(
+        !read(HEAT).emit(Language::C)[0]
+            .text
+            .contains("heat_sources")
+    );
+    assert!(findings(&text, Language::C).is_empty());
+}
+
+/// The check compares each of them: a slip in one that no source calls is found.
+#[test]
+fn a_slip_in_an_emitted_definition_is_found() {
+    let text = crate::files::plane(
+        "u = \"sin(x)*exp(y)\"",
+        "k = \"1 + u^2\"",
+        "heat = \"-div(k*grad(u))\"",
+    );
+    let slip = text.replace("k = \"1 + u^2\"", "k = \"1.001 + u^2\"");
+    let folder = tempfile::tempdir().unwrap();
+    let [right, wrong] = [&text, &slip].map(|text| read(text).emit(Language::C)[0].text.clone());
+    let function = |text: &str| {
+        let start = text.find("double test_define_k(").unwrap();
+        let end = start + text[start..].find("\n}\n").unwrap();
+        text[start..end].to_owned()
+    };
+    assert_ne!(function(&right), function(&wrong));
+    for file in read(&text).emit(Language::C) {
+        let changed = file.text.replace(&function(&right), &function(&wrong));
+        std::fs::write(folder.path().join(&file.name), changed).unwrap();
+    }
+    let findings = read(&text)
+        .check_built(Language::C, folder.path(), &sampling())
+        .unwrap();
+    assert_eq!(findings.len(), 1, "{findings:#?}");
+    assert!(
+        findings[0].text.starts_with("define_k differs by"),
+        "{findings:#?}"
+    );
+}

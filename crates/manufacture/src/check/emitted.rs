@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use super::{Finding, finding};
 use crate::against::{Right, ask, questions};
-use crate::emit::{Language, accept, emit};
+use crate::arithmetic::tape::{Measured, Tape};
+use crate::emit::{self, Language, OTHERS, accept, emit, functions_of};
 use crate::model::Model;
 use crate::problem::InputError;
 
@@ -115,7 +116,90 @@ pub(crate) fn run(
             Err(error) => findings.push(finding("emitted", name, error.to_string(), None)),
         }
     }
+    findings.extend(others(model, language, &answer, seed, points)?);
     Ok(findings)
+}
+
+/// Holds the functions that are neither sources nor data to their values. A definition may lack a
+/// value where no source has it: there nothing is compared.
+fn others(
+    model: &Model,
+    language: Language,
+    answer: &[String],
+    seed: u64,
+    points: usize,
+) -> Result<Vec<Finding>, InputError> {
+    let questions = questions(model, None, seed, points)?;
+    let functions = functions_of(model, language);
+    let functions = emit::others(&functions);
+    let names: Vec<&str> = functions
+        .iter()
+        .flat_map(|f| f.components.iter().map(String::as_str))
+        .collect();
+    let roots: Vec<_> = functions.iter().flat_map(|f| f.roots.clone()).collect();
+    let command = [answer, &[OTHERS.to_owned()]].concat();
+    let rows = ask::run(&command, questions.text.clone(), LIMIT)
+        .map_err(|error| error.to_string())
+        .and_then(|text| rows(&text, &names, questions.points.len()));
+    let rows = match rows {
+        Ok(rows) => rows,
+        Err(text) => return Ok(vec![finding("emitted", language.name(), text, None)]),
+    };
+    let tape = Tape::new(&model.graph, &roots);
+    let mut worst = vec![0.0_f64; names.len()];
+    for (point, row) in questions.points.iter().zip(rows) {
+        let right = tape.at(point).roots;
+        for ((right, found), worst) in right.iter().zip(row).zip(&mut worst) {
+            let share = difference(right, found);
+            if right.value.is_finite() {
+                *worst = worst.max(if share.is_nan() { f64::INFINITY } else { share });
+            }
+        }
+    }
+    let wrong = names.iter().zip(worst).filter(|pair| pair.1 > 0.0);
+    let findings = wrong.map(|(name, worst)| {
+        let text = format!("{name} differs by {worst:.3e} of its size");
+        finding("emitted", language.name(), text, Some(worst))
+    });
+    Ok(findings.collect())
+}
+
+/// A line of these names, then a line of numbers for each point; what is none is NaN.
+fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, String> {
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap_or("").split_whitespace().collect();
+    if head != names {
+        return Err(format!("expected the names {names:?}, found {head:?}"));
+    }
+    let number = |word: &str| word.parse().unwrap_or(f64::NAN);
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split_whitespace().map(number).collect())
+        .collect();
+    if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
+        return Err(format!(
+            "expected {} numbers, found {}",
+            names.len(),
+            row.len()
+        ));
+    }
+    if rows.len() != points {
+        return Err(format!(
+            "expected {points} lines of numbers, found {}",
+            rows.len()
+        ));
+    }
+    Ok(rows)
+}
+
+/// A difference as a share of the size; 0 if it is rounding.
+fn difference(right: &Measured, found: f64) -> f64 {
+    let difference = (right.value - found).abs();
+    // Not a difference of zero over a size of zero.
+    if difference <= SAME * right.size {
+        0.0
+    } else {
+        difference / right.size
+    }
 }
 
 fn differences(right: &Right<'_>, answers: &[ask::Answer], language: &str) -> Vec<Finding> {
@@ -128,15 +212,8 @@ fn differences(right: &Right<'_>, answers: &[ask::Answer], language: &str) -> Ve
             continue;
         };
         let values = right.values(place);
-        let shares = values.iter().zip(&answer.values).map(|(right, found)| {
-            let difference = (right.value - found).abs();
-            // Not a difference of zero over a size of zero.
-            if difference <= SAME * right.size {
-                0.0
-            } else {
-                difference / right.size
-            }
-        });
+        let pairs = values.iter().zip(&answer.values);
+        let shares = pairs.map(|(right, found)| difference(right, *found));
         let worst = shares.fold(0.0, f64::max);
         if worst > 0.0 {
             let text = format!("{name} differs by {worst:.3e} of its size");

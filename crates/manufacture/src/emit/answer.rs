@@ -1,10 +1,13 @@
 //! The program that answers questions about points in each language.
 
-use super::functions::Function;
+use super::functions::{Function, others};
 use super::write::prefix;
 use super::{EmittedFile, Language, fill};
 use crate::derive::{Part, Role};
 use crate::model::Model;
+
+/// The argument that asks for all functions but sources and data; no face has this name.
+pub(crate) const OTHERS: &str = ":others";
 
 /// The functions that answer for the sources, or for a face.
 struct Group<'f> {
@@ -60,6 +63,10 @@ fn groups<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Group<'f>> {
             });
         }
     }
+    groups.push(Group {
+        face: OTHERS,
+        functions: others(functions),
+    });
     groups
 }
 

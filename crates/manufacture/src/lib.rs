@@ -123,6 +123,10 @@ impl Manufacture {
     }
 
     /// The files of a language: the library, and the program that answers questions about points.
+    ///
+    /// The library has the solution and its gradients, definitions, terms, sources one by one and
+    /// all together, data, averages, norms, and `set_parameter`, by which another value replaces
+    /// that of the file. The domain, and the points of an integral, are those of the file.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
         emit::emit(&self.model, language)
     }

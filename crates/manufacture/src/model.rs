@@ -18,6 +18,8 @@ pub(crate) struct Model {
     pub(crate) parts: Vec<(Part, Vec<Quantity<NodeId>>)>,
     /// The values of [define], in alphabetical order.
     pub(crate) definitions: Vec<Quantity<NodeId>>,
+    /// The expressions of the parameters, in those that they depend on.
+    pub(crate) parameters: Vec<NodeId>,
     /// The largest number of derivatives one inside the other.
     order: usize,
     /// The largest number of panels of an integral.
@@ -26,7 +28,7 @@ pub(crate) struct Model {
 
 impl Model {
     pub(crate) fn new(problem: Problem) -> Result<Self, InputError> {
-        let parameters = problem.parameter_values(None)?;
+        let parameters = problem.parameter_values(&[])?;
         let graph = Graph::new(problem.intervals.clone(), parameters);
         let mut elaborator = Elaborator::new(&problem, graph);
         let mut parts = vec![];
@@ -42,6 +44,11 @@ impl Model {
                 definitions.push(quantity(Role::Definition, name, &key, tensor.clone()));
             }
         }
+        let mut expressions = vec![];
+        for parameter in &problem.parameters {
+            let value = elaborator.expression(&parameter.expression)?;
+            expressions.extend(value.parts);
+        }
         let graph = elaborator.algebra;
         let mut depth = Elaborator::new(&problem, Depth);
         let mut order = 0;
@@ -54,6 +61,7 @@ impl Model {
         Ok(Self {
             parts,
             definitions,
+            parameters: expressions,
             order,
             panels,
             graph,

@@ -4,6 +4,7 @@ mod answer;
 mod dialect;
 mod functions;
 mod lower;
+mod parameters;
 mod reserved;
 mod runtime;
 mod study;

@@ -24,6 +24,10 @@ const TEXT_RIGHT: f64 = 0.055;
 const EXTENSION: f64 = 0.06;
 const MAX_EXTENSIONS: usize = 12;
 const SAMPLES: usize = 24;
+/// Markers so near, as a fraction of the range of all errors, hide each other.
+const HIDDEN: f64 = 0.015;
+/// Growth of a marker for each series that hides it.
+const LARGER: f64 = 1.6;
 
 /// The errors in one norm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -86,9 +90,12 @@ impl Xy {
 /// * `xy`: the figure without them, such as [`Xy::of_errors`], both axes logarithmic.
 /// * `slopes`: orders to draw slope triangles for, in addition to those of the series.
 pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String {
-    for (k, series) in series.iter().enumerate() {
-        xy.curves
-            .extend(curves(series, look(series.look.unwrap_or(k))));
+    for (k, one) in series.iter().enumerate() {
+        let look = Look {
+            size: size(one, &series[k + 1..], series),
+            ..look(one.look.unwrap_or(k))
+        };
+        xy.curves.extend(curves(one, look));
     }
     if series.iter().any(has_unused_points) {
         xy.notes
@@ -104,6 +111,24 @@ pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String
     }
     xy.outlines = triangles.outlines;
     xy.draw()
+}
+
+/// How large the markers of a series are: those that a later series hides show around it.
+fn size(series: &ErrorSeries, later: &[ErrorSeries], all: &[ErrorSeries]) -> f64 {
+    let own = LogCurve::new(series).points;
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for (_, y) in trends(all).iter().flat_map(|trend| &trend.points) {
+        range = [range[0].min(*y), range[1].max(*y)];
+    }
+    let near = HIDDEN * (range[1] - range[0]);
+    let hides = |other: &&ErrorSeries| {
+        let points = LogCurve::new(other).points;
+        let hidden = own
+            .iter()
+            .filter(|(x, y)| points.iter().any(|(u, v)| u == x && (v - y).abs() <= near));
+        2 * hidden.count() > own.len()
+    };
+    LARGER.powi(later.iter().filter(hides).count().min(2) as i32)
 }
 
 /// Whether a line is fitted to only some of its points.

@@ -87,8 +87,17 @@ pub struct Finding {
     pub change: Shift,
     /// Why.
     pub reason: String,
-    /// Rate and interval in the old and in the new record; `None` with too few levels.
-    pub orders: [Option<Order>; 2],
+    /// Its observed orders.
+    pub orders: Orders,
+}
+
+/// The orders of one error in both records; `None` with too few levels.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Orders {
+    /// In the old record.
+    pub old: Option<Order>,
+    /// In the new record.
+    pub new: Option<Order>,
 }
 
 /// An observed order.
@@ -168,7 +177,7 @@ fn finding_on_study(study: &str, change: Shift, reason: String) -> Finding {
         norm: None,
         change,
         reason,
-        orders: [None; 2],
+        orders: Orders::default(),
     }
 }
 
@@ -187,7 +196,10 @@ impl Comparison {
         for name in old_names {
             let [before, after] =
                 [old, new].map(|study| ErrorSequence::new(&study.outcome, name, floor));
-            let orders = [before.order, after.order];
+            let orders = Orders {
+                old: before.order,
+                new: after.order,
+            };
             let both = Both {
                 old: before,
                 new: after,

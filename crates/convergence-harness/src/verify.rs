@@ -15,7 +15,7 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::Findings;
+use crate::report::{Findings, NEWEST};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
@@ -42,8 +42,9 @@ use folder::{lock_file, lock_reports, unwritable};
 /// | a selection | `reports/local/partial/` |
 ///
 /// Git ignores `reports/local/`: a run that does not pass leaves the committed report as it is. The
-/// files in `reports/` that git ignores and other programs read, such as `junit.xml`
-/// ([`NEWEST`](crate::report::NEWEST)), are always those of the newest run.
+/// files in `reports/` that git ignores and other programs read, such as `junit.xml` ([`NEWEST`]),
+/// are always those of the newest run: while it is under way, and after it has been killed, there
+/// are none.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Scope {
     /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims
@@ -231,8 +232,42 @@ pub fn verify(
     tidy(request)?;
     // A folder that is not writable is reported before the run.
     atomic::prepare_folder(folder).map_err(unwritable(folder))?;
-    let works_file = request.root.join("studies/work.json");
-    let mut works = Works::read(&works_file)?;
+    let works = Works::read(&works_file(request))?;
+    let newest = request.scope.report_folder(folder);
+    if newest.has_any(&NEWEST) {
+        locked(request, || newest.set_aside(&NEWEST))?;
+    }
+    let verification = run_and_write(project, studies, request, works, &mistakes, progress);
+    if verification.is_err() {
+        // The error of the run says more than one of putting back.
+        let _ = locked(request, || newest.put_back(&NEWEST));
+    }
+    verification
+}
+
+/// The file of the work limits.
+fn works_file(request: &Request) -> PathBuf {
+    request.root.join("studies/work.json")
+}
+
+/// Changes files of the reports while no other process writes them.
+fn locked(request: &Request, change: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
+    let _lock = request.lock()?;
+    let _writing = atomic::begin_write();
+    change().map_err(unwritable(&request.reports))
+}
+
+/// The part of [`verify`] behind the checks of its input.
+fn run_and_write(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    request: &Request,
+    mut works: Works,
+    mistakes: &Fingerprints,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Verification, VerificationError> {
+    let folder = &request.reports;
+    let baseline_file = request.baseline();
     // Blessed runs may take longer than before.
     let allowed =
         |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
@@ -246,7 +281,7 @@ pub fn verify(
     let blessing = bless(&mut baseline, &finished, request)?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
-    let record = diagnosed(project, request, finished, &changes, &mistakes);
+    let record = diagnosed(project, request, finished, &changes, mistakes);
     // Everything is prepared before anything is written.
     let provenance = Provenance::collect(
         &request.root,
@@ -255,8 +290,9 @@ pub fn verify(
         &record.studies,
     );
     let committed = record.clone().committed();
-    let is_accepted = record.verdict == Verdict::Pass || blessing == Blessing::Taken;
-    let destination = Destination::new(&request.scope, folder, is_accepted);
+    // A blessing of some changes, or of one tier, can leave others: the run then still fails.
+    let passes = record.verdict == Verdict::Pass;
+    let destination = Destination::new(&request.scope, folder, passes);
     let see_also = destination.see_also(&committed);
     let findings = Findings {
         project,
@@ -270,7 +306,7 @@ pub fn verify(
         baseline.write(&baseline_file)?;
         works.take(&record.studies);
         if !works.is_empty() {
-            write_json(&works_file, &works)?;
+            write_json(&works_file(request), &works)?;
         }
     }
     destination
@@ -454,9 +490,7 @@ fn tidy(request: &Request) -> io::Result<()> {
     if !local.is_dir() {
         return Ok(());
     }
-    let _lock = request.lock()?;
-    let _writing = atomic::begin_write();
-    remove_leftovers(request, &local).map_err(unwritable(reports))
+    locked(request, || remove_leftovers(request, &local))
 }
 
 /// Removes what runs that were killed have left.

@@ -9,6 +9,7 @@ use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare};
 use crate::interval::Interval;
 use crate::judge::verdict::{Floor, Verdict};
 use crate::store::Record;
+use crate::text::number::counted_as;
 use crate::text::visible::{self, visible};
 
 /// Compare the records of two versions: orders, errors at a step, work for an error
@@ -108,13 +109,6 @@ fn text(comparison: &Comparison, all: bool) -> String {
 
 /// The orders of every error in both records.
 fn orders(comparison: &Comparison) -> String {
-    let order = |order: &Option<Order>| {
-        let words = |Order {
-                         order,
-                         interval: Interval { low, high },
-                     }: Order| format!("{order:.4} ({low:.4} to {high:.4})");
-        order.map_or_else(|| "-".to_owned(), words)
-    };
     let row = |Finding {
                    study,
                    norm,
@@ -122,7 +116,7 @@ fn orders(comparison: &Comparison) -> String {
                    orders,
                    ..
                }: &Finding| {
-        let [old, new] = orders.each_ref().map(order);
+        let [old, new] = [orders.old, orders.new].map(order_text);
         Some(vec![
             study.clone(),
             visible(norm.as_ref()?),
@@ -138,6 +132,15 @@ fn orders(comparison: &Comparison) -> String {
     } else {
         format!("\n{}\n", screen::table(&head, &rows))
     }
+}
+
+/// An order with its interval; `-` for none.
+fn order_text(order: Option<Order>) -> String {
+    let Some(Order { order, interval }) = order else {
+        return "-".to_owned();
+    };
+    let Interval { low, high } = interval;
+    format!("{order:.4} ({low:.4} to {high:.4})")
 }
 
 fn sentence(comparison: &Comparison) -> String {
@@ -166,8 +169,6 @@ fn sentence(comparison: &Comparison) -> String {
     let lost = some(lost, "lost, ");
     let open = some(open, "not proven, ");
     let change = comparison.change.name();
-    let studies = comparison.studies;
-    format!(
-        "{change}: {lost}{worse} worse, {better} better, {same} the same, {open}in {studies} studies\n"
-    )
+    let studies = counted_as(comparison.studies, "study", "studies");
+    format!("{change}: {lost}{worse} worse, {better} better, {same} the same, {open}in {studies}\n")
 }

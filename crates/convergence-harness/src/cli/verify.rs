@@ -1,9 +1,11 @@
 //! `verify`: the main job.
 
-use std::path::{Path, PathBuf};
+mod selection;
+
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use super::exit::{Outcome, Unusable};
+use super::exit::Outcome;
 use super::flags::Flags;
 use super::running::{Limits, watched};
 use super::screen::{self, Format};
@@ -15,12 +17,12 @@ use crate::report::{
 };
 use crate::run::{Effort, Finished};
 use crate::store::{Change, Record, diagnosis::Diagnosis, json, without_baseline};
-use crate::study::{Study, StudyFile, Tier};
-use crate::text::number::counted;
+use crate::study::{Study, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
 use crate::verify::{Blessing, Request, Scope, Verification};
+use selection::{dry_run, failed, files, scope};
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
 #[derive(Debug, clap::Args)]
@@ -123,70 +125,6 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(record.verdict)
 }
 
-/// The study files that are named in place of ids.
-///
-/// # Errors
-/// Files beside ids, and options that are about the studies of the project.
-fn files(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Unusable> {
-    let is_file = |id: &&String| Path::new(id).extension().is_some_and(|end| end == "toml");
-    let Some(file) = arguments.ids.iter().find(is_file) else {
-        return Ok(None);
-    };
-    if let Some(id) = arguments.ids.iter().find(|id| !is_file(id)) {
-        return Err(Unusable::because(&format!(
-            "expected ids of studies or study files; found the file `{file}` beside `{id}`"
-        )));
-    }
-    let of_the_project = [
-        (arguments.tier != Tier::Quick, "--tier"),
-        (arguments.bless, "--bless"),
-        (arguments.verbose, "--verbose"),
-        (arguments.dry_run, "--dry-run"),
-        (arguments.fail_fast, "--fail-fast"),
-        (arguments.durations, "--durations"),
-    ];
-    match of_the_project.into_iter().find(|(is_given, _)| *is_given) {
-        Some((_, option)) => Err(Unusable::because(&format!(
-            "{option}: expected the studies of the project; found the file `{file}`, which is compared with no baseline"
-        ))),
-        None => Ok(Some(arguments.ids.iter().map(PathBuf::from).collect())),
-    }
-}
-
-/// Lists what would run. Nothing is run or written.
-fn dry_run(arguments: &Arguments, root: &Path, all: &[StudyFile], mask: &[bool]) -> Outcome {
-    let last = workspace::last_seconds(root)?;
-    let mut rows = vec![];
-    let mut studies = vec![];
-    let mut cases = 0;
-    let mut total = 0.0;
-    let selected = all.iter().zip(mask).filter(|(_, selected)| **selected);
-    for (file, _) in selected {
-        let id = &file.study.header().id;
-        let own = file.study.plan().cases().len();
-        let seconds = last.get(id).copied();
-        let shown = seconds.map_or_else(|| "-".to_owned(), |seconds| format!("{seconds:.2}"));
-        rows.push(vec![id.clone(), own.to_string(), shown]);
-        studies.push(serde_json::json!({"id": id, "cases": own, "seconds": seconds}));
-        cases += own;
-        total += seconds.unwrap_or(0.0);
-    }
-    let noun = if rows.len() == 1 { "study" } else { "studies" };
-    let sentence = format!(
-        "{} {noun} with {} would run; {total:.1} s in their last runs\n",
-        rows.len(),
-        counted(cases, "case")
-    );
-    let words = if arguments.flags.quiet {
-        sentence
-    } else {
-        let table = screen::table(&["study", "cases", "seconds"], &rows);
-        format!("{table}\n{sentence}")
-    };
-    let object = serde_json::json!({"studies": studies});
-    Ok(arguments.flags.print(Verdict::Pass, &object, &words)?)
-}
-
 /// * `scope`: what is run; `root`: the folder of the project.
 fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> Request {
     let flags = &arguments.flags;
@@ -204,30 +142,6 @@ fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> Request {
     }
 }
 
-/// The studies that did not pass, or with a number that moved, in the newest record.
-fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
-    let Some(Record {
-        changes, studies, ..
-    }) = workspace::records(root)?.pop()
-    else {
-        return Err(Unusable::because(
-            "--failed: found no record of a run; expected reports/results.json",
-        ));
-    };
-    let moved = |id: &str| changes.iter().flatten().any(|change| change.study == id);
-    let ids = studies
-        .into_iter()
-        .filter(|study| study.outcome.verdict != Verdict::Pass || moved(&study.header.id));
-    let ids: Vec<String> = ids.map(|study| study.header.id).collect();
-    if ids.is_empty() {
-        Err(Unusable::because(
-            "--failed: nothing failed in the newest record",
-        ))
-    } else {
-        Ok(ids)
-    }
-}
-
 /// A reason: one line of text, kept in a file that people read.
 fn reason(text: &str) -> Result<String, String> {
     let text = text.trim();
@@ -236,18 +150,6 @@ fn reason(text: &str) -> Result<String, String> {
         Ok(text.to_owned())
     } else {
         Err("expected one line of text that says why".to_owned())
-    }
-}
-
-/// The tier, if nothing is named.
-fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
-    if ids.is_empty() {
-        Scope::Tier(
-            tier,
-            all.iter().map(|file| file.study.header().clone()).collect(),
-        )
-    } else {
-        Scope::Selection(ids.to_vec())
     }
 }
 
@@ -429,7 +331,7 @@ fn overview(
     );
     if matches!(request.scope, Scope::Selection(_)) {
         text += "a selection leaves the committed report as it is\n";
-    } else if found.record.verdict != Verdict::Pass && found.blessing != Blessing::Taken {
+    } else if found.record.verdict != Verdict::Pass {
         text += "a run that does not pass leaves the committed report as it is\n";
     }
     text

@@ -235,7 +235,7 @@ fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
         name: judged.column.name.clone(),
         verdict: judged.is_claimed().then_some(judged.rate.verdict),
         answer: judged.answer(),
-        advice: shown::advice_of_claim(judged, judgement).unwrap_or_default(),
+        advice: shown::advice_of_claim(judged).unwrap_or_default(),
     };
     TableSheet {
         name: judgement.source.name.clone(),

@@ -4,17 +4,14 @@ use std::slice;
 
 use super::{JudgedColumn, Judgement};
 use crate::input::error_table::{Doubt, NotError};
-use crate::judge::fit::Level;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Tendency, Verdict};
-use crate::text::number::{counted, pair_text, plain_text, short_text};
+use crate::text::number::{counted, pair_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
 
 /// Most columns that a verdict names as left out.
 const LISTED: usize = 12;
-/// Most levels that are predicted.
-const AHEAD: i32 = 3;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
@@ -181,7 +178,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
     // Words common to several columns appear once.
     let mut said = vec![];
     for judged in columns {
-        let Some(advice) = advice_of_claim(judged, findings) else {
+        let Some(advice) = advice_of_claim(judged) else {
             continue;
         };
         let words = (judged.rate.kind.code(), advice);
@@ -200,76 +197,21 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
 }
 
 /// What the reason means for a column with a claim, and what to do; nothing of a pass.
-pub(super) fn advice_of_claim(
-    judged: &JudgedColumn<'_>,
-    findings: &Judgement<'_>,
-) -> Option<String> {
-    (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged, findings))
+pub(super) fn advice_of_claim(judged: &JudgedColumn<'_>) -> Option<String> {
+    (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged))
 }
 
 /// What the errors tend to, or what the reason means, and what to do; for a value that looks like an
 /// error, how it is judged as one.
-fn advice(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> String {
-    let rate = &judged.rate;
-    let general = rate.advice().unwrap_or_default();
-    match rate.tendency {
-        _ if judged.estimate.is_some() => general,
-        Some(Tendency::Constant { .. }) => {
+fn advice(judged: &JudgedColumn<'_>) -> String {
+    let general = judged.rate.advice().unwrap_or_default();
+    match judged.rate.tendency {
+        Some(Tendency::Constant { .. }) if judged.estimate.is_none() => {
             let name = &judged.column.name;
             format!("{general} If `{name}` is a value and no error: --values '{name}'.")
         }
-        Some(_) => general,
-        None if rate.cause.is_some() => general,
-        None => general + &next_level(judged, findings).unwrap_or_default(),
+        _ => general,
     }
-}
-
-/// The level that would decide if the rates continued: their changes shrink as the last two did.
-fn next_level(judged: &JudgedColumn<'_>, findings: &Judgement<'_>) -> Option<String> {
-    let claim = judged.claim?;
-    let mut levels = judged.column.levels.clone();
-    let rates = &judged.rate.pairwise;
-    let ([.., before, finest], [.., last]) = (&levels[..], &rates[..]) else {
-        return None;
-    };
-    let ratio = before.step / finest.step;
-    let finest = finest.step;
-    let mut rate = *last;
-    let changes: Vec<f64> = rates.windows(2).map(|two| two[1] - two[0]).collect();
-    let mut change = *changes.last()?;
-    let shrinks = changes.iter().rev().nth(1).map(|before| change / before);
-    let shrinks = shrinks
-        .filter(|share| *share > 0.0 && *share < 1.0)
-        .unwrap_or(0.5);
-    if !judged.rate.kind.wants_a_level() || !rates.iter().all(|rate| *rate > 0.0) {
-        return None;
-    }
-    for ahead in 1..=AHEAD {
-        let last = levels[levels.len() - 1];
-        change *= shrinks;
-        rate += change;
-        levels.push(Level {
-            step: last.step / ratio,
-            error: last.error * ratio.powf(-rate),
-        });
-        let next = claim.judge(&levels, findings.floor);
-        if next.verdict == Verdict::Inconclusive {
-            continue;
-        }
-        let name = &judged.column.name;
-        let step = &findings.source.table.step;
-        let parts = ratio.powi(ahead) / finest;
-        let is_part = step == "h" && (parts - parts.round()).abs() < 1e-9 * parts;
-        let at = if is_part {
-            format!("1/{}", parts.round())
-        } else {
-            plain_text(1.0 / parts)
-        };
-        return Some(format!(
-            " If the rates of {name} change on as the last ones do, a level at {step} = {at} decides."
-        ));
-    }
-    None
 }
 
 /// The overall verdict in words.

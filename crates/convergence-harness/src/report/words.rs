@@ -7,7 +7,9 @@ use crate::store::{Change, Movement, without_baseline};
 use crate::study::coverage::incomplete;
 use crate::study::outcome::{NamedRate, Outcome, joined};
 use crate::text::lists::{self, and_more};
-use crate::text::number::{RATE_PLACES, committed_rate, counted, decimals, interval_places};
+use crate::text::number::{
+    RATE_PLACES, committed_rate, counted, counted_as, decimals, interval_places,
+};
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -109,11 +111,6 @@ fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
         parts.push(format!("{new} not yet in the baseline"));
     }
     parts.join(", ")
-}
-
-/// A number of things, which have these names.
-fn counted_as(n: usize, one: &str, several: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { several })
 }
 
 /// The command that blesses these changes: for the full tier if a study changed that was not run,

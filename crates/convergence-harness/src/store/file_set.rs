@@ -220,14 +220,49 @@ impl ReportFolder {
         store::read(&self.folder.join(path)).is_ok_and(|found| found == bytes)
     }
 
-    /// Completes an interrupted replacement, and removes an unfinished set. The caller must hold
-    /// the [`lock`].
+    /// Whether one of these files exists.
+    pub(crate) fn has_any(&self, paths: &[&str]) -> bool {
+        paths.iter().any(|path| self.folder.join(path).exists())
+    }
+
+    /// Takes files of the previous set out of sight while a run is under way: if it is killed, no
+    /// reader takes what they say for what the run has found. The caller must hold the [`lock`].
+    ///
+    /// # Errors
+    /// The error of the operating system.
+    pub(crate) fn set_aside(&self, paths: &[&str]) -> io::Result<()> {
+        let before = self.before();
+        remove_if_there(&before)?;
+        paths
+            .iter()
+            .try_for_each(|path| move_if_there(&self.folder.join(path), &before.join(path)))
+    }
+
+    /// Puts back what [`set_aside`](Self::set_aside) has taken, for a run that ends without a
+    /// result; a file that another run has written meanwhile stays. The caller must hold the
+    /// [`lock`].
+    ///
+    /// # Errors
+    /// The error of the operating system.
+    pub(crate) fn put_back(&self, paths: &[&str]) -> io::Result<()> {
+        let before = self.before();
+        paths
+            .iter()
+            .map(|path| (before.join(path), self.folder.join(path)))
+            .filter(|(_, place)| !place.exists())
+            .try_for_each(|(aside, place)| move_if_there(&aside, &place))?;
+        remove_if_there(&before)
+    }
+
+    /// Completes an interrupted replacement, and removes an unfinished set and what a killed run
+    /// has set aside. The caller must hold the [`lock`].
     ///
     /// # Errors
     /// The error of the operating system, and a manifest that names files outside the folder: then
     /// nothing is moved.
     pub fn tidy(&self) -> io::Result<()> {
         self.complete_interrupted()?;
+        remove_if_there(&self.before())?;
         remove_if_there(&self.staging())
     }
 
@@ -266,6 +301,11 @@ impl ReportFolder {
             let _ = fs::remove_dir(folder);
         }
         Ok(())
+    }
+
+    /// Where [`set_aside`](Self::set_aside) keeps files.
+    fn before(&self) -> PathBuf {
+        self.workshop.join("before")
     }
 
     fn staging(&self) -> PathBuf {

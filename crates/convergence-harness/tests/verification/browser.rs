@@ -49,17 +49,15 @@ addEventListener("load", () => {
   for (const part of document.querySelectorAll("details")) part.open = true;
   expect("nothing overflows", document.documentElement.scrollWidth <= innerWidth);
   expect("nothing is loaded", performance.getEntriesByType("resource").length === 0);
-  // The page measures its tables after it has been laid out, which takes longer on a busy machine.
-  const measured = attempts => {
+  // The page measures its tables when a frame is drawn. A browser without a screen may draw none: then it is started again.
+  const measured = () => {
     const cut = [...document.querySelectorAll("div.scroll")].filter(box => box.scrollWidth > box.clientWidth + 1);
     const cell = one(".flow td");
     const isNamed = cell && getComputedStyle(cell, "::before").content.includes(cell.dataset.head);
-    if (attempts > 0 && !(cut.length === 0 && isNamed)) return setTimeout(measured, 250, attempts - 1);
-    expect("no table is cut: " + cut.map(box => box.ariaLabel), cut.length === 0);
-    expect("cells of a wide table are named", isNamed);
-    document.title = found.length ? "WRONG " + found.join("; ") : "RIGHT";
+    const isMeasured = cut.length === 0 && isNamed;
+    document.title = found.length ? "WRONG " + found.join("; ") : isMeasured ? "RIGHT" : "not measured";
   };
-  setTimeout(measured, 500, 40);
+  setTimeout(measured, 10000);
 });
 addEventListener("error", event => found.push(event.message));
 addEventListener("securitypolicyviolation", event => found.push(event.violatedDirective));
@@ -76,10 +74,10 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
     let page =
         page_of(&two()).replacen("<style>", &format!("<script>{SCRIPT}</script>\n<style>"), 1);
     std::fs::write(&file, page).expect("a file");
-    // On a busy machine the browser may give up before the page has finished: so there are several
-    // attempts.
+    // The browser may give up before the page has finished or a frame is drawn: so there are
+    // several attempts.
     let said =
-        (0..3).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
+        (0..10).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
     assert_eq!(said.as_deref(), Some("RIGHT"));
 }
 

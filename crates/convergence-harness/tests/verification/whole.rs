@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::project::Project;
 use convergence_harness::report::NEWEST;
+use convergence_harness::run::Progress;
 use convergence_harness::study::{Study, Tier};
 use convergence_harness::verify::{Blessing, Request, Scope, Verification, verify};
 
@@ -125,6 +127,74 @@ fn a_run_that_does_not_pass_leaves_what_git_holds_and_shows_itself_to_programs()
     assert_eq!(again.record.verdict, Verdict::Pass);
     assert!(!local.join("README.md").exists());
     assert_eq!(committed(&reports), before);
+}
+
+/// What a run finds in the folder while it is under way is what it leaves if it is killed then.
+#[test]
+fn no_program_reads_an_older_result_while_a_run_is_under_way() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let plain = request(root.path(), &["a"]);
+    let bless = Request {
+        bless: true,
+        ..plain.clone()
+    };
+    run(vec![study("a", Does::Converge)], &bless);
+    let before = committed(&reports);
+    let shown = || NEWEST.iter().filter(|name| reports.join(name).exists());
+    assert_eq!(shown().count(), NEWEST.len());
+    let seen = AtomicUsize::new(0);
+    let count = |_: Progress| {
+        seen.fetch_max(1 + shown().count(), Ordering::Relaxed);
+    };
+    let studies = [study("a", Does::Converge)];
+    verify(&PROJECT, &studies, &plain, &count).unwrap();
+    assert_eq!(seen.into_inner(), 1);
+    assert_eq!(committed(&reports), before);
+    // A run that ends without a result puts them back.
+    let no_change = Request {
+        only: vec!["b:*".to_owned()],
+        reason: Some("meant".to_owned()),
+        ..bless
+    };
+    let error = verify(&PROJECT, &studies, &no_change, &|_| {}).unwrap_err();
+    assert!(error.to_string().contains("matches no change"), "{error}");
+    assert_eq!(committed(&reports), before);
+}
+
+#[test]
+fn a_blessing_that_leaves_changes_does_not_write_what_git_holds() {
+    let root = tempfile::tempdir().unwrap();
+    let reports = root.path().join("reports");
+    let request = request(root.path(), &["a", "b"]);
+    let bless = Request {
+        bless: true,
+        ..request.clone()
+    };
+    let scaled = |scale: f64| {
+        ["a", "b"].map(|id| {
+            Fake {
+                scale,
+                ..fake(id, Does::Converge)
+            }
+            .erased()
+        })
+    };
+    run(scaled(1.0).into(), &bless);
+    let readme = || fs::read_to_string(reports.join("README.md")).unwrap();
+    let before = readme();
+    let some = Request {
+        only: vec!["a:*".to_owned()],
+        reason: Some("meant".to_owned()),
+        ..bless
+    };
+    let left = run(scaled(1.5).into(), &some);
+    assert_eq!(
+        (left.blessing, left.record.verdict),
+        (Blessing::Taken, Verdict::Fail)
+    );
+    assert_eq!(left.reports, reports.join("local/quick"));
+    assert_eq!(readme(), before);
 }
 
 #[test]

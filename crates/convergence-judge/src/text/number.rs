@@ -95,10 +95,15 @@ pub fn interval_text(interval: Interval, most: usize) -> String {
 
 /// A count with its noun: `1 element`, `2 elements`.
 pub fn counted(count: usize, noun: &str) -> String {
+    counted_as(count, noun, &format!("{noun}s"))
+}
+
+/// A count with a noun whose plural has no plain `s`: `1 study`, `2 studies`.
+pub fn counted_as(count: usize, one: &str, several: &str) -> String {
     if count == 1 {
-        format!("1 {noun}")
+        format!("1 {one}")
     } else {
-        format!("{count} {noun}s")
+        format!("{count} {several}")
     }
 }
 

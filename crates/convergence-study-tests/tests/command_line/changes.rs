@@ -41,7 +41,7 @@ fn records_are_compared_with_0_1_or_2() {
     );
     let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
     let named = "one: lost: the new record does not have the study\n";
-    let all = "lost: 1 lost, 0 worse, 0 better, 1 the same, in 1 studies\n";
+    let all = "lost: 1 lost, 0 worse, 0 better, 1 the same, in 1 study\n";
     assert_eq!((status, out.as_str()), (Some(1), &*format!("{named}{all}")));
     let (status, out, _) = run(&root, &["compare", "part.json", "old.json"]);
     assert!(
@@ -58,7 +58,7 @@ fn records_are_compared_with_0_1_or_2() {
         (&"worse".into(), &"worse".into())
     );
     assert!(
-        object["findings"][0]["orders"][1]["interval"].is_array(),
+        object["findings"][0]["orders"]["new"]["interval"].is_array(),
         "{out}"
     );
     let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);

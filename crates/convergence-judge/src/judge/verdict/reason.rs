@@ -433,8 +433,8 @@ impl Reason {
             Self::IntervalTooWide => [
                 "wide",
                 "the interval is too wide for the tolerance",
-                "The data scatter too much for this tolerance. Add levels, take an error that does not \
-                 change its sign, or claim less narrowly.",
+                "The errors leave their order open by more than this tolerance: they scatter, or approach \
+                 it slowly. Add levels, take an error that does not change its sign, or claim less narrowly.",
             ],
             Self::AtTheEdge => [
                 "edge",

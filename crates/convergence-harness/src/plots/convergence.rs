@@ -24,10 +24,12 @@ const TEXT_RIGHT: f64 = 0.055;
 const EXTENSION: f64 = 0.06;
 const MAX_EXTENSIONS: usize = 12;
 const SAMPLES: usize = 24;
+/// Ratio of neighbouring steps from which no line joins their errors.
+const GAP_RATIO: f64 = 8.0;
 /// Markers so near, as a fraction of the range of all errors, hide each other.
 const HIDDEN: f64 = 0.015;
 /// Growth of a marker for each series that hides it.
-const LARGER: f64 = 1.6;
+const LARGER: f64 = 0.5;
 
 /// The errors in one norm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -113,8 +115,11 @@ pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String
     xy.draw()
 }
 
-/// How large the markers of a series are: those that a later series hides show around it.
+/// How large the markers of a fitted series are: those that a later one hides show around it.
 fn size(series: &ErrorSeries, later: &[ErrorSeries], all: &[ErrorSeries]) -> f64 {
+    if series.fit.is_none() {
+        return 1.0;
+    }
     let own = LogCurve::new(series).points;
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
     for (_, y) in trends(all).iter().flat_map(|trend| &trend.points) {
@@ -128,7 +133,7 @@ fn size(series: &ErrorSeries, later: &[ErrorSeries], all: &[ErrorSeries]) -> f64
             .filter(|(x, y)| points.iter().any(|(u, v)| u == x && (v - y).abs() <= near));
         2 * hidden.count() > own.len()
     };
-    LARGER.powi(later.iter().filter(hides).count().min(2) as i32)
+    1.0 + LARGER * later.iter().filter(hides).count().min(2) as f64
 }
 
 /// Whether a line is fitted to only some of its points.
@@ -149,7 +154,7 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
         ..line
     };
     let Some(fit) = series.line() else {
-        return vec![markers];
+        return without_gaps(markers);
     };
     let range = series.used.clone().unwrap_or(0..series.points.len());
     let mut used = vec![];
@@ -176,6 +181,18 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
         });
     }
     curves
+}
+
+/// No line crosses nearly a decade without points, where nothing was measured.
+fn without_gaps(curve: Curve) -> Vec<Curve> {
+    curve
+        .points
+        .chunk_by(|(x, _), (next, _)| (next / x).max(x / next) < GAP_RATIO)
+        .map(|points| Curve {
+            points: points.to_vec(),
+            ..curve.clone()
+        })
+        .collect()
 }
 
 fn label(series: &ErrorSeries) -> String {

@@ -260,47 +260,14 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         position = text[start..]
             .find(is_mark)
             .map_or(text.len(), |end| start + end);
-        let behind = text[position..].trim_start_matches("(ind)");
-        let behind = behind.trim_start_matches([' ', '\t', '"', '\'']);
-        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
-        // `did not converge` stands for a number, as `diverged` does.
-        let words = if is_last {
-            phrase(&text[label..position])
-        } else {
-            ""
+        let gap = Gap {
+            text: &text[label..position],
+            behind: &text[position..],
+            is_in_list: depth > 0 && label > 0,
         };
-        let is_phrase = words.contains(' ')
-            && names::is_failure(words)
-            && number(&text[start..position], false).is_none();
-        let start = if is_phrase {
-            position - words.len()
-        } else {
-            start
-        };
-        let before = &text[label..start];
-        let word = &text[start..position];
-        let is_marked = before
-            .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
-            .ends_with([':', '=']);
-        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        let is_number = (begins || is_last) && number(word, false).is_some();
-        let is_in_list = depth > 0 && label > 0 && !before.contains(']');
-        let is_state = names::state(word).is_some();
-        let is_element = is_in_list
-            && before.contains(',')
-            && before
-                .chars()
-                .all(|c| c.is_whitespace() || ",\"'".contains(c));
-        let stands_for_number = is_dash(word) || names::is_failure(word);
-        // After a name that has a number elsewhere, any word means that the number is missing.
-        let is_missing = is_last
-            && (is_element
-                || is_in_list && (stands_for_number || is_state)
-                || is_marked && (stands_for_number || may_be_missing(before, is_state, &known)));
-        let is_value = is_number || is_missing;
-        if !is_value {
+        let Some(Value { before, word }) = gap.value(start - label, &known) else {
             continue;
-        }
+        };
         let marks = &before[before.trim_end_matches(is_mark).len()..];
         depth = (depth + marks.matches('[').count()).saturating_sub(before.matches(']').count());
         let name = name_before(before);
@@ -314,7 +281,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             pairs.push(Pair {
                 name,
                 values: vec![word],
-                is_marked,
+                is_marked: ends_with_mark(before),
             });
             known.insert(name);
         } else if let Some(last) = pairs.last_mut()
@@ -327,6 +294,67 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         label = position;
     }
     PairedText { pairs, rows }
+}
+
+/// A number, or what stands for one.
+struct Value<'t> {
+    /// The text between it and the number before.
+    before: &'t str,
+    word: &'t str,
+}
+
+/// The text between two numbers, with a word that may be the second.
+struct Gap<'t> {
+    /// It ends with the word.
+    text: &'t str,
+    behind: &'t str,
+    /// Whether the number before stands in a list that has not ended.
+    is_in_list: bool,
+}
+
+impl<'t> Gap<'t> {
+    /// The value at the end of the gap, if it is one: a number, or the words of a level without a
+    /// result, in a list or behind a name.
+    ///
+    /// * `start`: of the last word.
+    fn value(&self, start: usize, known: &HashSet<&str>) -> Option<Value<'t>> {
+        let (before, word) = self.text.split_at(start);
+        let behind = self.behind.trim_start_matches("(ind)");
+        let behind = behind.trim_start_matches([' ', '\t', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
+        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        if (begins || is_last) && number(word, false).is_some() {
+            return Some(Value { before, word });
+        }
+        if !is_last {
+            return None;
+        }
+        // `did not converge` stands for a number, as `diverged` does.
+        let words = phrase(self.text);
+        let start = self.text.len() - words.len();
+        if words.contains(' ') && names::is_failure(words) && start > 0 {
+            let (before, word) = self.text.split_at(start);
+            return Some(Value { before, word });
+        }
+        let is_in_list = self.is_in_list && !before.contains(']');
+        let is_element = before.contains(',')
+            && before
+                .chars()
+                .all(|c| c.is_whitespace() || ",\"'".contains(c));
+        let is_state = names::state(word).is_some();
+        let stands_for_number = is_dash(word) || names::is_failure(word);
+        // After a name that has a number elsewhere, any word means that the number is missing.
+        let is_missing = is_in_list && (is_element || stands_for_number || is_state)
+            || ends_with_mark(before)
+                && (stands_for_number || may_be_missing(before, is_state, known));
+        is_missing.then_some(Value { before, word })
+    }
+}
+
+/// Whether a text ends with `=` or `:`, perhaps before brackets and quotes.
+fn ends_with_mark(text: &str) -> bool {
+    text.trim_end_matches(|c| is_mark(c) && !":=".contains(c))
+        .ends_with([':', '='])
 }
 
 /// Whether a word stands behind a name that has a number elsewhere, or says that a level was solved,

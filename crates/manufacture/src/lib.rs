@@ -9,6 +9,7 @@
 //! | `derive/` | tensors, four coordinate systems, operators: generic in the arithmetic; the quantities of a file |
 //! | `model.rs`, `sample.rs`, `fit.rs` | a file as one graph and as jets; points of domains and faces; least squares |
 //! | `check/`, `against/` | what is right, wrong, or not noticed; foreign sources and their causes |
+//! | `variants/` | other solutions, each of which switches off a part of a program |
 //! | `emit/`, `at.rs` | printers as tables, with templates of each language; values at points as JSON |
 //!
 //! Jets walk the tree and share no rule of derivatives with the graph. Named terms are summed in
@@ -25,6 +26,7 @@ pub mod language;
 mod model;
 mod problem;
 mod sample;
+mod variants;
 
 use std::path::Path;
 use std::time::Duration;
@@ -33,6 +35,7 @@ pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
 pub use problem::{InputError, keys};
+pub use variants::{LeftOut, Switch, Variant, Variants};
 
 /// A file, read and derived.
 #[derive(Debug)]
@@ -100,6 +103,15 @@ impl Manufacture {
             sampling.points,
             sampling.is_strict,
         )
+    }
+
+    /// Other solutions, each of which switches off what a part of a program can get wrong, checked
+    /// as the solution of the file is.
+    ///
+    /// # Errors
+    /// A domain or a face without points.
+    pub fn variants(&self, sampling: &Sampling) -> Result<Variants<'_>, InputError> {
+        variants::variants(&self.model, sampling)
     }
 
     /// The files of a language: the library, and the program that answers questions about points.

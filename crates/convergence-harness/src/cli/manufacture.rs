@@ -4,7 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use manufacture::{Check, Comparison, Finding, Language, Manufacture, Sampling};
+use manufacture::{
+    Check, Comparison, EmittedFile, Finding, Language, LeftOut, Manufacture, Sampling, Variants,
+};
 use serde_json::{Value, json};
 
 use super::exit::{Outcome, Unusable};
@@ -33,6 +35,13 @@ pub struct Arguments {
     /// Write files in these languages to the folder of --out: c, fortran, python, ufl, octave, rust
     #[arg(long, value_name = "LANGUAGE", value_delimiter = ',', value_parser = language)]
     language: Vec<Language>,
+    /// List variants of the solution, each of which switches off what a part of a program can get
+    /// wrong; with --language, the module holds them
+    ///
+    /// The environment variable MANUFACTURE_VARIANT chooses one when the program starts. Languages
+    /// with variants: python.
+    #[arg(long, conflicts_with_all = ["at", "against"])]
+    variants: bool,
     /// Print the values at the points of a table: coordinates, time and optionally the face, under
     /// a header
     #[arg(long, value_name = "POINTS", conflicts_with_all = ["language", "against"])]
@@ -101,31 +110,89 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         return compared(arguments, &manufacture, &comparisons);
     }
     let mut check = manufacture.check(&sampling)?;
-    let folder = temporary(&arguments.language)?;
-    for language in &arguments.language {
-        let findings = manufacture.check_emitted(*language, &folder, &sampling)?;
-        check.add(findings, arguments.strict);
-    }
-    if !arguments.language.is_empty() {
-        fs::remove_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
-    }
+    let variants = arguments
+        .variants
+        .then(|| manufacture.variants(&sampling))
+        .transpose()?;
+    let files = files(arguments, &manufacture, variants.as_ref())?;
+    check.add(
+        emitted(arguments, &manufacture, variants.as_ref(), &sampling)?,
+        arguments.strict,
+    );
     let verdict = verdict(check.verdict == "pass");
     let wrote = if verdict.is_pass() {
-        write(arguments, &manufacture)?
+        write(arguments, files)?
     } else {
         vec![]
     };
-    let object = json!({
+    let mut object = json!({
         "schema": SCHEMA,
         "verdict": check.verdict,
         "name": manufacture.name(),
         "check": check,
         "wrote": wrote,
     });
-    let whole = || report(&check, &wrote);
+    if let Some(variants) = &variants {
+        object["variants"] = listed(variants);
+        object["left_out"] = json!(variants.left_out);
+    }
+    let whole = || {
+        let list = variants.as_ref().map(list).unwrap_or_default();
+        list + &report(&check, &wrote)
+    };
     let words = arguments.flags.words(verdict, &sentence(&check), whole);
     print(arguments, verdict, &object, &words)?;
     Ok(verdict)
+}
+
+/// What differs in the files of all languages, and in those of each variant, from the values.
+fn emitted(
+    arguments: &Arguments,
+    manufacture: &Manufacture,
+    variants: Option<&Variants<'_>>,
+    sampling: &Sampling,
+) -> Result<Vec<Finding>, Unusable> {
+    let folder = temporary(&arguments.language)?;
+    let mut findings = vec![];
+    for language in &arguments.language {
+        findings.extend(manufacture.check_emitted(*language, &folder, sampling)?);
+        for variant in variants.iter().flat_map(|variants| &variants.usable) {
+            let of_variant = variant.check_emitted(*language, &folder, sampling)?;
+            // That a language was not run is said once.
+            findings.extend(of_variant.into_iter().filter(|finding| finding.fails));
+        }
+    }
+    if !arguments.language.is_empty() {
+        fs::remove_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
+    }
+    Ok(findings)
+}
+
+/// The variants as objects: name, and what each switches off.
+fn listed(variants: &Variants<'_>) -> Value {
+    let usable = variants.usable.iter();
+    usable
+        .map(|variant| {
+            json!({
+                "name": variant.switch.variant(),
+                "switches_off": variant.switch,
+            })
+        })
+        .collect()
+}
+
+/// The variants, and those that are left out, with the reason.
+fn list(variants: &Variants<'_>) -> String {
+    let usable = variants.usable.iter();
+    let rows: Vec<Vec<String>> = usable
+        .map(|variant| vec![variant.switch.variant(), variant.switch.words()])
+        .collect();
+    let mut text = screen::table(&["variant", "switches off"], &rows);
+    for LeftOut { switch, why } in &variants.left_out {
+        text += &format!("left out: {}: {why}\n", switch.variant());
+    }
+    text.push('\n');
+    text
 }
 
 fn verdict(passes: bool) -> Verdict {
@@ -167,16 +234,30 @@ fn print(
     Ok(())
 }
 
-/// Writes the files of all languages, and the study file.
-fn write(arguments: &Arguments, manufacture: &Manufacture) -> Result<Vec<String>, Unusable> {
-    let folder = arguments.flags.out.clone().unwrap_or_default();
+/// The files of all languages, with the variants if they are requested, and the study file.
+fn files(
+    arguments: &Arguments,
+    manufacture: &Manufacture,
+    variants: Option<&Variants<'_>>,
+) -> Result<Vec<EmittedFile>, Unusable> {
     let mut files = vec![];
     for language in &arguments.language {
-        files.extend(manufacture.emit(*language));
+        files.extend(match variants {
+            None => manufacture.emit(*language),
+            Some(variants) => variants
+                .emit(*language)
+                .map_err(|why| Unusable::because(&why))?,
+        });
     }
     if !files.is_empty() {
         files.extend(manufacture.study());
     }
+    Ok(files)
+}
+
+/// Writes the files to the folder of --out.
+fn write(arguments: &Arguments, files: Vec<EmittedFile>) -> Result<Vec<String>, Unusable> {
+    let folder = arguments.flags.out.clone().unwrap_or_default();
     if let Some(folder) = &arguments.flags.out {
         atomic::prepare_folder(folder)?;
     }

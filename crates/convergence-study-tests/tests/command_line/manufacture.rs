@@ -169,3 +169,59 @@ fn a_program_that_hangs_ends_with_all_that_it_has_started() {
     thread::sleep(left);
     assert!(!root.path().join("not-stopped").exists());
 }
+
+const TWO_FACES: &str = r#"
+[manufacture]
+name = "heat"
+coordinates = ["x"]
+time = "t"
+[domain]
+x = [0, 1]
+t = [0, 1]
+[exact]
+u = "1 + sin(x)*exp(-t)"
+[equations]
+u = "dt(u) - d(u, x, x)"
+[boundary.x_min]
+u = { of = "u", is = "1" }
+[boundary.x_max]
+flux = "d(u, x)"
+[initial]
+u = "u"
+"#;
+
+#[test]
+fn the_variants_are_listed_with_what_each_switches_off() {
+    let root = TempDir::new().unwrap();
+    fs::write(root.path().join("heat.toml"), TWO_FACES).unwrap();
+    let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--variants"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    for line in [
+        "flat_x_min       the data at x_min",
+        "left out: constant_x: boundary.x_min.u: condition-violated",
+    ] {
+        assert!(out.contains(line), "{line}: {out}");
+    }
+    let words = ["manufacture", "heat.toml", "--variants", "--format", "json"];
+    let object: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let name = &object["variants"][0]["name"];
+    assert_eq!(
+        (name, &object["variants"][0]["switches_off"]["part"]),
+        (&"constant_t".into(), &"time".into())
+    );
+    assert_eq!(object["left_out"][0]["name"], "x");
+}
+
+#[test]
+fn a_language_without_variants_is_refused_and_nothing_is_written() {
+    let root = TempDir::new().unwrap();
+    fs::write(root.path().join("heat.toml"), TWO_FACES).unwrap();
+    let words = ["manufacture", "heat.toml", "--variants", "--language", "c"];
+    let (status, out, err) = run(&root, &words);
+    assert_eq!((status, out.as_str()), (Some(2), ""));
+    assert!(
+        err.contains("variants in c: not supported yet; expected python"),
+        "{err}"
+    );
+    assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+}

@@ -242,15 +242,25 @@ impl Algebra for Jets {
         std::mem::replace(&mut self.point[variable], to)
     }
 
-    /// The part of the series that does not change with the variable.
+    fn fixed(&mut self, body: &Jet, variable: usize, _at: f64) -> Jet {
+        self.constant_part(body, variable)
+    }
+
     fn integral(&mut self, body: &Jet, variable: usize) -> Result<Jet, String> {
+        Ok(self.constant_part(body, variable))
+    }
+}
+
+impl Jets {
+    /// The part of the series that does not change with the variable.
+    fn constant_part(&self, body: &Jet, variable: usize) -> Jet {
         let mut part = body.clone();
         for (coefficient, monomial) in part.coefficients.iter_mut().zip(&self.monomials.exponents) {
             if monomial[variable] > 0 {
                 *coefficient = 0.0;
             }
         }
-        Ok(part)
+        part
     }
 }
 

@@ -53,6 +53,11 @@ pub(crate) trait Algebra {
     /// # Errors
     /// In words: the integrand is not integrated accurately.
     fn integral(&mut self, body: &Self::Number, variable: usize) -> Result<Self::Number, String>;
+    /// The value of `body` where a variable has this value; an arithmetic at a point has been moved
+    /// there before `body` was computed.
+    fn fixed(&mut self, body: &Self::Number, _variable: usize, _at: f64) -> Self::Number {
+        body.clone()
+    }
     /// The same value, which derivatives take for a constant; in an arithmetic without derivatives
     /// the number itself.
     fn held(&mut self, number: &Self::Number) -> Self::Number {

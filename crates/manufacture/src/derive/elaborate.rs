@@ -26,6 +26,8 @@ pub(crate) struct Elaborator<'p, A: Algebra> {
     pub(crate) known: HashMap<String, Tensor<A::Number>>,
     /// Definitions that are being evaluated.
     open: Vec<String>,
+    /// Exact fields are those of the file, not those of a variant.
+    pub(super) is_plain: bool,
 }
 
 pub(super) type Elaborated<A> = Result<Tensor<<A as Algebra>::Number>, InputError>;
@@ -44,6 +46,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             normal: None,
             known: HashMap::new(),
             open: vec![],
+            is_plain: false,
         }
     }
 
@@ -176,7 +179,12 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             return Ok(known.clone());
         }
         self.open.push(name.to_owned());
-        let value = self.value(value)?;
+        let definition = self.problem.definitions.get(name);
+        let value = if definition.is_some_and(|definition| definition.is_exact) {
+            self.exact(name, value)?
+        } else {
+            self.value(value)?
+        };
         self.open.pop();
         self.known.insert(name.to_owned(), value.clone());
         Ok(value)

@@ -5,6 +5,7 @@ mod integrals;
 mod operators;
 mod space;
 pub(crate) mod tensor;
+mod vary;
 
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;

@@ -71,7 +71,7 @@ const VALUE: Form = Form::OneOf(&[EXPRESSION, VECTOR, Form::List(&VECTOR)]);
 const DATUM: Form = Form::OneOf(&[EXPRESSION, VECTOR, Form::List(&VECTOR), Form::Table(&HELD)]);
 
 /// The tables of a file.
-pub const FILE: [Key; 11] = [
+pub const FILE: [Key; 12] = [
     Key::new("manufacture", Form::Table(&HEAD), "what the file is about"),
     Key::new(
         "domain",
@@ -127,6 +127,12 @@ pub const FILE: [Key; 11] = [
         "the norms of the error of each field",
     )
     .or("none"),
+    Key::new(
+        "variants",
+        Form::Table(&VARIANTS),
+        "what the variants of `--variants` may change beside the solution",
+    )
+    .or("the solution alone"),
     Key::new(
         "study",
         Form::Table(&STUDY),
@@ -212,6 +218,13 @@ pub(super) const STUDY: [Key; 3] = [
         "the order of each error, by names such as \"T L2\"",
     ),
 ];
+
+/// `[variants]`.
+pub(super) const VARIANTS: [Key; 1] = [Key::new(
+    "parameters",
+    Form::List(&Form::Text),
+    "parameters that the program takes from the emitted module, each of which a variant sets to zero",
+)];
 
 const NORM: Form = Form::Choice(norms);
 

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 
 use crate::language::names::name_in;
 use crate::language::tree::Tree;
+use crate::variants::Variation;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
@@ -165,6 +166,10 @@ pub(crate) struct Problem {
     pub(crate) zero: Vec<Expression>,
     pub(crate) norms: Vec<(String, Vec<Norm>)>,
     pub(crate) study: Option<Study>,
+    /// The parameters that variants may set to zero.
+    pub(crate) switchable: Vec<String>,
+    /// Of a variant: what it does to the exact fields.
+    pub(crate) variation: Option<Variation>,
 }
 
 impl Problem {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::keys::{FACE, FILE, HEAD, HELD, REQUIRE, STUDY, names};
+use super::keys::{FACE, FILE, HEAD, HELD, REQUIRE, STUDY, VARIANTS, names};
 use super::reader::{Field, Reader, Section};
 use super::{
     Datum, Definition, Equation, Expression, Face, InputError, Norm, Parameter, Problem, Study,
@@ -37,7 +37,10 @@ impl Problem {
             zero: vec![],
             norms: vec![],
             study: study(&whole)?,
+            switchable: vec![],
+            variation: None,
         };
+        problem.variants(&whole)?;
         problem.space(&head)?;
         problem.define(&whole)?;
         problem.check_names(&head)?;
@@ -45,6 +48,27 @@ impl Problem {
         problem.boundary(&whole)?;
         problem.rest(&whole)?;
         Ok(problem)
+    }
+
+    /// `[variants]`.
+    fn variants(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
+        let Some(section) = whole.section("variants")? else {
+            return Ok(());
+        };
+        section.allow(&names(&VARIANTS))?;
+        for field in section.require("parameters")?.list()? {
+            let name = field.string()?;
+            let known = self.parameters.iter().map(|entry| entry.name.as_str());
+            let known: Vec<&str> = known.collect();
+            if !known.contains(&name.as_str()) {
+                let near = did_you_mean(&name, known.iter().copied());
+                let known = known.join(" ");
+                let problem = format!("unknown parameter `{name}`{near}; expected one of {known}");
+                return Err(field.place.error(problem));
+            }
+            self.switchable.push(name);
+        }
+        Ok(())
     }
 
     fn space(&mut self, head: &Section<'_>) -> Result<(), InputError> {

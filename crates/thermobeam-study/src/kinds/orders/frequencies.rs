@@ -19,7 +19,7 @@ use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, MAP, increasing, tolerance};
+use crate::kinds::tables::{Layout, MAP, increasing, mean_width, tolerance};
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
@@ -180,11 +180,7 @@ impl Frequencies {
         for run in runs {
             let n = run.case.data;
             let label = run.case.label.clone();
-            refinements.push(Refinement::new(
-                label,
-                &[("elements", n)],
-                self.layout.size(n),
-            ));
+            refinements.push(Refinement::new(label, &[("elements", n)], mean_width(n)));
         }
         let mut columns = vec![];
         for mode in self.first - 1..self.count {

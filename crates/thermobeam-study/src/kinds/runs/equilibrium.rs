@@ -13,7 +13,7 @@ use super::steady::{
 use super::{Findings, Listing, Results, RunStudy, Runs, steady};
 use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation};
+use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation, mean_width};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -276,7 +276,7 @@ impl EndStates {
         let refinements = self
             .elements
             .iter()
-            .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64));
+            .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], mean_width(n)));
         Levels::new(Axis::Space, refinements, columns)
     }
 

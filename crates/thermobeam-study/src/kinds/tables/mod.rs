@@ -11,7 +11,7 @@ use super::prelude::*;
 use crate::exact::function::Factor;
 
 pub use refine::{Layout, Perturbation, Refine};
-pub(crate) use refine::{MAP, REFINE, increasing, nested, refine};
+pub(crate) use refine::{MAP, REFINE, increasing, mean_width, nested, refine};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;

@@ -75,11 +75,15 @@ impl Layout {
             self.map.as_ref().map_or(s, |map| map.eval(s))
         })
     }
+}
 
-    /// The mesh width h of that mesh, its longest element; NaN if there is no such mesh.
-    pub(crate) fn size(&self, elements: usize) -> f64 {
-        self.mesh(elements).map_or(f64::NAN, |mesh| mesh.size())
-    }
+/// The mean mesh width 1/n of n elements: the step against which errors are judged.
+///
+/// The images of uniform meshes under one map have errors in proportion to powers of 1/n. Their
+/// longest element is `max |map'| / n + O(1/n²)`: rates over it would have an error of the first
+/// order in 1/n, which at order 6 and 4 to 14 elements moved the rate from 6.00 to 6.08.
+pub(crate) fn mean_width(elements: usize) -> f64 {
+    1.0 / elements as f64
 }
 
 /// What is refined, and how.

@@ -34,7 +34,7 @@ use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::any_order::ErrorMeter;
 use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{EXACT, Layout, control, manufactured};
+use crate::kinds::tables::{EXACT, Layout, control, manufactured, mean_width};
 use crate::run::dg::DgMotion;
 pub use runs::Resolution;
 use runs::{Over, RUN, RUNS, RunsOfDegree, series};
@@ -365,7 +365,7 @@ impl AnyOrder {
         ];
         let step = match self.over {
             Over::Time => self.t_end / steps as f64,
-            Over::Space | Over::Degree => self.layout.size(elements),
+            Over::Space | Over::Degree => mean_width(elements),
         };
         Refinement::new(run.case.label.clone(), &numbers, step)
     }

@@ -46,7 +46,8 @@ use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::detects::untested::untested;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{
-    CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, refine,
+    CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, mean_width,
+    refine,
 };
 pub use design::Prepared;
 
@@ -212,7 +213,7 @@ impl Convergence {
     /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
     pub(crate) fn step_size(&self, elements: usize, steps: usize) -> f64 {
         match self.refine.axis {
-            Axis::Space | Axis::Both => 1.0 / elements as f64,
+            Axis::Space | Axis::Both => mean_width(elements),
             Axis::Time => self.refine.dt(steps),
         }
     }
@@ -223,7 +224,7 @@ impl Convergence {
         for run in runs {
             let (elements, steps) = run.case.data;
             points.push(SpaceTime {
-                space: 1.0 / elements as f64,
+                space: mean_width(elements),
                 time: self.refine.dt(steps),
             });
         }

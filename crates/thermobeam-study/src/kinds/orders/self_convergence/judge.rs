@@ -3,7 +3,7 @@
 use super::observable::{Observable, TIP, last};
 use super::{Runs, SelfConvergence};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Refine;
+use crate::kinds::tables::{Refine, mean_width};
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
 const SHOWN_TOLERANCE: f64 = 0.1;
@@ -96,13 +96,11 @@ impl SelfConvergence {
         observable.order(self.axis, self.order_in_time)
     }
 
-    /// h of a level, or dt where time alone is refined.
+    /// 1/n of a level, or dt where time alone is refined.
     fn step_size(&self, level: usize) -> f64 {
         let (elements, steps) = self.levels[level];
         match self.axis {
-            Axis::Space | Axis::Both => {
-                resampled(&self.scene.mesh, elements).map_or(f64::NAN, |mesh| mesh.size())
-            }
+            Axis::Space | Axis::Both => mean_width(elements),
             Axis::Time => self.t_end / steps as f64,
         }
     }

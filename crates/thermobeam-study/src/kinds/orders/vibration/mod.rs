@@ -10,7 +10,9 @@ use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms};
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::exact::sources::Nodal;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{CONTROL, EXPECT, REFINE, Refine, control, expectations, refine};
+use crate::kinds::tables::{
+    CONTROL, EXPECT, REFINE, Refine, control, expectations, mean_width, refine,
+};
 use modes::Modes;
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of
@@ -206,7 +208,7 @@ impl Source for Vibration {
             &self.expect,
             |elements, steps| match self.refine.axis {
                 Axis::Time => self.refine.dt(steps),
-                Axis::Space | Axis::Both => self.refine.layout.size(elements),
+                Axis::Space | Axis::Both => mean_width(elements),
             },
             errors,
         );

@@ -6,6 +6,7 @@ use super::{AtRest, Bifurcation, DiagramTask, Found};
 use crate::kinds::prelude::*;
 use crate::kinds::runs::checks::{all, at_most, within};
 use crate::kinds::runs::{Findings, Listing, Results, Row};
+use crate::kinds::tables::mean_width;
 
 /// A beam with a tip closer to zero than this is straight.
 const STRAIGHT: f64 = 1e-6;
@@ -283,7 +284,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     let refinements = study
         .meshes
         .iter()
-        .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], 1.0 / n as f64));
+        .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], mean_width(n)));
     let levels = Levels::new(Axis::Space, refinements, [column]);
     let rates = levels.judge();
     let events: Vec<String> = scenes

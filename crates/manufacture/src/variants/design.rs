@@ -1,0 +1,208 @@
+//! Which variants a file has.
+
+use super::{Bubble, Step, Switch, Variation};
+use crate::language::tree::{Kind, Tree};
+use crate::problem::{Problem, Surface};
+
+/// A variable that is held takes the value at this share of its interval: no place of symmetry.
+pub(super) const MIDDLE: f64 = 0.4;
+
+/// The order that a study claims if the file says nothing.
+const USUAL_ORDER: f64 = 2.0;
+
+/// A variant that is to be tried.
+#[derive(Debug, Clone)]
+pub(super) struct Design {
+    pub(super) switch: Switch,
+    pub(super) variation: Variation,
+}
+
+impl Design {
+    /// Whether the fields vanish somewhere.
+    pub(super) fn is_flat(&self) -> bool {
+        let mut steps = self.variation.steps.iter();
+        steps.any(|step| !matches!(step, Step::Fix { .. }))
+    }
+}
+
+/// A side of the box that has data.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Side {
+    pub(super) coordinate: usize,
+    name: String,
+    pub(super) at: f64,
+}
+
+/// All variants: first the base's coordinates and time, then sides, the first time, parameters,
+/// fields.
+pub(super) fn designs(problem: &Problem) -> Vec<Design> {
+    let mut designs = vec![];
+    for (place, name) in problem.coordinates.iter().enumerate() {
+        let switch = Switch::Coordinate(name.clone());
+        designs.push(steps(switch, vec![fix(problem, place)]));
+    }
+    let time = problem.coordinates.len();
+    if let Some(name) = &problem.time {
+        let switch = Switch::Time(name.clone());
+        designs.push(steps(switch, vec![fix(problem, time)]));
+    }
+    let sides = sides(problem);
+    for side in &sides {
+        let switch = Switch::Face(side.name.clone());
+        designs.push(steps(switch, flat(problem, &[side])));
+    }
+    designs.extend(of_several(problem, &sides));
+    if problem.time.is_some() && !problem.initial.is_empty() {
+        let initial = Step::Flatten {
+            variable: time,
+            end: problem.intervals[time][0],
+            degree: degree(problem),
+        };
+        designs.push(steps(Switch::Initial, vec![initial.clone()]));
+        if !sides.is_empty() {
+            let all: Vec<&Side> = sides.iter().collect();
+            let mut everywhere = flat(problem, &all);
+            everywhere.push(initial);
+            designs.push(steps(Switch::AllFacesAndInitial, everywhere));
+        }
+    }
+    for name in &problem.switchable {
+        designs.push(steps(Switch::Parameter(name.clone()), vec![]));
+    }
+    designs.extend(of_fields(problem));
+    designs
+}
+
+/// Variants that are flat at several sides.
+fn of_several(problem: &Problem, sides: &[Side]) -> Vec<Design> {
+    let mut designs = vec![];
+    let mut coordinates = 0;
+    for (place, name) in problem.coordinates.iter().enumerate() {
+        let of = |side: &&Side| side.coordinate == place;
+        let both: Vec<&Side> = sides.iter().filter(of).collect();
+        coordinates += usize::from(!both.is_empty());
+        if both.len() == 2 {
+            let switch = Switch::BothFaces(name.clone());
+            designs.push(steps(switch, flat(problem, &both)));
+        }
+    }
+    if coordinates < 2 {
+        return designs;
+    }
+    let all: Vec<&Side> = sides.iter().collect();
+    designs.push(steps(Switch::AllFaces, flat(problem, &all)));
+    if sides.len() < 3 {
+        return designs;
+    }
+    for side in sides {
+        let others: Vec<&Side> = sides.iter().filter(|other| *other != side).collect();
+        let switch = Switch::AllFacesBut(side.name.clone());
+        designs.push(steps(switch, flat(problem, &others)));
+    }
+    designs
+}
+
+/// One field of several that is constant.
+fn of_fields(problem: &Problem) -> Vec<Design> {
+    let exact = problem.definitions.iter().filter(|entry| entry.1.is_exact);
+    let fields: Vec<&String> = exact.map(|entry| entry.0).collect();
+    if fields.len() < 2 {
+        return vec![];
+    }
+    let all: Vec<Step> = (0..problem.intervals.len())
+        .map(|variable| fix(problem, variable))
+        .collect();
+    let design = |field: &&String| {
+        let mut design = steps(Switch::Field((*field).clone()), all.clone());
+        design.variation.field = Some((*field).clone());
+        design
+    };
+    fields.iter().map(design).collect()
+}
+
+fn steps(switch: Switch, steps: Vec<Step>) -> Design {
+    Design {
+        switch,
+        variation: Variation {
+            steps,
+            ..Variation::default()
+        },
+    }
+}
+
+fn fix(problem: &Problem, variable: usize) -> Step {
+    let [low, high] = problem.intervals[variable];
+    Step::Fix {
+        variable,
+        at: low + MIDDLE * (high - low),
+    }
+}
+
+/// One more than the largest order that is claimed.
+fn degree(problem: &Problem) -> usize {
+    let study = problem.study.iter();
+    let orders = study.flat_map(|study| &study.orders);
+    let orders = orders.filter_map(|order| order.1.parse::<f64>().ok());
+    let largest = orders.fold(0.0, f64::max);
+    let order = if largest > 0.0 { largest } else { USUAL_ORDER };
+    order.ceil() as usize + 1
+}
+
+/// Flat at these sides: one step for each coordinate.
+fn flat(problem: &Problem, sides: &[&Side]) -> Vec<Step> {
+    let degree = degree(problem);
+    let mut steps = vec![];
+    for (variable, interval) in problem.intervals.iter().enumerate() {
+        let mut of_variable = sides.iter().filter(|side| side.coordinate == variable);
+        steps.extend(match (of_variable.next(), of_variable.next()) {
+            (None, _) => None,
+            (Some(side), None) => Some(Step::Flatten {
+                variable,
+                end: side.at,
+                degree,
+            }),
+            (Some(_), Some(_)) => Some(Step::Weigh(Bubble {
+                variable,
+                interval: *interval,
+                degree,
+            })),
+        });
+    }
+    steps
+}
+
+/// The sides that have data, in the order of the coordinates.
+pub(super) fn sides(problem: &Problem) -> Vec<Side> {
+    let mut sides = vec![];
+    for (place, name) in problem.coordinates.iter().enumerate() {
+        for (upper, ending) in [(false, "min"), (true, "max")] {
+            let has_data = problem.faces.iter().any(|face| {
+                let side = Surface::Side {
+                    coordinate: place,
+                    is_upper: upper,
+                };
+                face.surface == side && !face.data.is_empty()
+            });
+            if has_data {
+                sides.push(Side {
+                    coordinate: place,
+                    name: format!("{name}_{ending}"),
+                    at: problem.intervals[place][usize::from(upper)],
+                });
+            }
+        }
+    }
+    sides
+}
+
+/// A parameter is zero; those made of it follow.
+pub(super) fn set_to_zero(problem: &mut Problem, name: &str) {
+    let mut parameters = problem.parameters.iter_mut();
+    if let Some(parameter) = parameters.find(|parameter| parameter.name == name) {
+        "0".clone_into(&mut parameter.expression.text);
+        parameter.expression.tree = Tree {
+            kind: Kind::Number(0.0, "0".to_owned()),
+            at: 0,
+        };
+    }
+}

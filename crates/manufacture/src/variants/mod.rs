@@ -1,0 +1,483 @@
+//! Variants of a solution: each switches off what one part of a program can get wrong. If the order
+//! of a program comes back, that part is where it was lost.
+//!
+//! | variant | switches off |
+//! | --- | --- |
+//! | constant in a coordinate, in time | what acts along it |
+//! | flat at faces, at the first time | the data there: the solution vanishes there with its derivatives up to one more than the largest order claimed |
+//! | a parameter zero | its term |
+//! | a field constant | what acts on it |
+
+mod design;
+mod emitted;
+mod variation;
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::check::Check;
+use crate::derive::Role;
+use crate::emit::{EmittedFile, Language};
+use crate::model::{Model, Rows};
+use crate::problem::{InputError, Problem};
+use crate::{Finding, Sampling, check};
+
+use design::{Design, MIDDLE, Side, designs, sides};
+pub(crate) use variation::{Bubble, Step, Variation};
+
+/// What a variant switches off.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "part", content = "name", rename_all = "snake_case")]
+pub enum Switch {
+    /// All that acts along a coordinate.
+    Coordinate(String),
+    /// All that acts along time, by its name.
+    Time(String),
+    /// The data of a side, such as `x_max`.
+    Face(String),
+    /// Both sides of a coordinate.
+    BothFaces(String),
+    /// All sides that have data.
+    AllFaces,
+    /// All sides that have data, but this.
+    AllFacesBut(String),
+    /// The data at the first time.
+    Initial,
+    /// All sides that have data, and the data at the first time.
+    AllFacesAndInitial,
+    /// The term of a parameter.
+    Parameter(String),
+    /// What acts on a field.
+    Field(String),
+}
+
+impl Switch {
+    /// The name of the variant.
+    pub fn variant(&self) -> String {
+        match self {
+            Switch::Coordinate(name) | Switch::Time(name) | Switch::Field(name) => {
+                format!("constant_{name}")
+            }
+            Switch::Face(name) => format!("flat_{name}"),
+            Switch::BothFaces(name) => format!("flat_{name}"),
+            Switch::AllFaces => "flat_faces".to_owned(),
+            Switch::AllFacesBut(name) => format!("flat_but_{name}"),
+            Switch::Initial => "flat_initial".to_owned(),
+            Switch::AllFacesAndInitial => "flat_everywhere".to_owned(),
+            Switch::Parameter(name) => format!("zero_{name}"),
+        }
+    }
+
+    /// What the variant switches off, in words.
+    pub fn words(&self) -> String {
+        match self {
+            Switch::Coordinate(name) => format!("all that acts along {name}"),
+            Switch::Time(name) => format!("all that acts along {name}"),
+            Switch::Face(name) => format!("the data at {name}"),
+            Switch::BothFaces(name) => format!("the data at {name}_min and {name}_max"),
+            Switch::AllFaces => "the data at all faces".to_owned(),
+            Switch::AllFacesBut(name) => format!("the data at all faces but {name}"),
+            Switch::Initial => "the data at the first time".to_owned(),
+            Switch::AllFacesAndInitial => "the data at all faces and at the first time".to_owned(),
+            Switch::Parameter(name) => format!("the terms with {name}"),
+            Switch::Field(name) => format!("all that acts on {name}"),
+        }
+    }
+}
+
+/// A variant that is right by the check of the file.
+#[derive(Debug)]
+pub struct Variant {
+    /// What it switches off.
+    pub switch: Switch,
+    model: Model,
+}
+
+/// A variant that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// What it would switch off.
+    #[serde(flatten)]
+    pub switch: Switch,
+    /// Why not.
+    pub why: String,
+}
+
+/// The variants of a file.
+#[derive(Debug)]
+pub struct Variants<'m> {
+    base: &'m Model,
+    /// Those that can be used.
+    pub usable: Vec<Variant>,
+    /// The others.
+    pub left_out: Vec<LeftOut>,
+}
+
+impl Variants<'_> {
+    /// The files of a language, whose functions are those of the variant that the environment
+    /// variable `MANUFACTURE_VARIANT` names.
+    ///
+    /// # Errors
+    /// In words: a language that has no variants yet.
+    pub fn emit(&self, language: Language) -> Result<Vec<EmittedFile>, String> {
+        emitted::files(self.base, &self.usable, language)
+    }
+}
+
+impl Variant {
+    /// Checks its files in a language, as [`Manufacture::check_emitted`](crate::Manufacture) does.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn check_emitted(
+        &self,
+        language: Language,
+        folder: &std::path::Path,
+        sampling: &Sampling,
+    ) -> Result<Vec<Finding>, InputError> {
+        let Sampling { seed, points, .. } = *sampling;
+        check::emitted::emitted(&self.model, language, folder, seed, points)
+    }
+}
+
+/// All variants of a model, checked.
+pub(crate) fn variants<'m>(
+    base: &'m Model,
+    sampling: &Sampling,
+) -> Result<Variants<'m>, InputError> {
+    let mut variants = Variants {
+        base,
+        usable: vec![],
+        left_out: vec![],
+    };
+    for design in designs(&base.problem) {
+        match usable(base, &design, sampling)? {
+            Ok(variant) => variants.usable.push(variant),
+            Err(why) => variants.left_out.push(LeftOut {
+                switch: design.switch,
+                why,
+            }),
+        }
+    }
+    Ok(variants)
+}
+
+/// The values of a field at a point.
+struct Values {
+    field: String,
+    values: Vec<f64>,
+}
+
+/// Near the middle of the domain, but with this value of a variable.
+fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
+    let intervals = base.problem.intervals.iter();
+    let mut point: Vec<f64> = intervals
+        .map(|[low, high]| low + MIDDLE * (high - low))
+        .collect();
+    if let Some((variable, at)) = held {
+        point[variable] = at;
+    }
+    base.of_role(Role::Exact)
+        .map(|quantity| {
+            let rows = Rows::new(&base.graph, std::iter::once(&quantity.tensor)).at(&point);
+            Values {
+                field: quantity.name.clone(),
+                values: rows.tensors[0].iter().map(|part| part.value).collect(),
+            }
+        })
+        .collect()
+}
+
+/// What may be added to flat fields, which are near zero somewhere: nothing; where this is not
+/// allowed the value at a side, which the file may prescribe; a multiple of the value in the
+/// middle.
+fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
+    let scaled = |values: Vec<Values>, scale: f64| {
+        let values = values.into_iter().map(|Values { field, values }| {
+            (field, values.iter().map(|value| scale * value).collect())
+        });
+        values.collect::<BTreeMap<String, Vec<f64>>>()
+    };
+    let mut lifts = vec![BTreeMap::new()];
+    if design.is_flat() {
+        for Side { coordinate, at, .. } in sides(&base.problem) {
+            lifts.push(scaled(values(base, Some((coordinate, at))), 1.0));
+        }
+        for scale in [1.0, 3.0] {
+            lifts.push(scaled(values(base, None), scale));
+        }
+    }
+    lifts
+}
+
+/// The variant, or in words why it cannot be used.
+fn usable(
+    base: &Model,
+    design: &Design,
+    sampling: &Sampling,
+) -> Result<Result<Variant, String>, InputError> {
+    let Sampling { seed, points, .. } = *sampling;
+    let mut why = String::new();
+    for lift in lifts(base, design) {
+        let model = match Model::new(problem(&base.problem, design, lift)) {
+            Ok(model) => model,
+            Err(error) => return Ok(Err(error.to_string())),
+        };
+        let Check { findings, .. } = check::check(&model, seed, points, false)?;
+        let failures: Vec<&Finding> = findings.iter().filter(|finding| finding.fails).collect();
+        let Some(first) = failures.first() else {
+            return Ok(Ok(Variant {
+                switch: design.switch.clone(),
+                model,
+            }));
+        };
+        if why.is_empty() {
+            why = format!("{}: {}: {}", first.key, first.code, first.text);
+        }
+        let mends = ["not-positive", "singular", "condition-violated"];
+        if !failures.iter().any(|failure| mends.contains(&failure.code)) {
+            break;
+        }
+    }
+    Ok(Err(why))
+}
+
+/// The problem of a variant.
+fn problem(base: &Problem, design: &Design, lifts: BTreeMap<String, Vec<f64>>) -> Problem {
+    let mut problem = base.clone();
+    if let Switch::Parameter(name) = &design.switch {
+        design::set_to_zero(&mut problem, name);
+        return problem;
+    }
+    problem.variation = Some(Variation {
+        lifts,
+        ..design.variation.clone()
+    });
+    problem
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::derive::Part;
+
+    pub(super) const HEAT: &str = r#"
+[manufacture]
+name = "heat"
+coordinates = ["x"]
+time = "t"
+[domain]
+x = [0, 1]
+t = [0, 2]
+[exact]
+u = "sin(x)*exp(-t)"
+[equations.u]
+storage = "dt(u)"
+diffusion = "-d(u, x, x)"
+[boundary.x_min]
+u = "u"
+[boundary.x_max]
+flux = "d(u, x)"
+[initial]
+u = "u"
+"#;
+
+    fn few() -> Sampling {
+        Sampling {
+            points: 40,
+            ..Sampling::default()
+        }
+    }
+
+    fn model(text: &str) -> Model {
+        Model::new(Problem::parse(text, "heat.toml").unwrap()).unwrap()
+    }
+
+    fn named<'v>(variants: &'v Variants<'_>, name: &str) -> &'v Variant {
+        let mut usable = variants.usable.iter();
+        usable
+            .find(|variant| variant.switch.variant() == name)
+            .unwrap_or_else(|| panic!("no {name}: {:?}", variants.left_out))
+    }
+
+    /// The exact value and the source of u.
+    fn at(variant: &Variant, point: [f64; 2]) -> [f64; 2] {
+        [Role::Exact, Role::Source].map(|role| {
+            let quantity = variant.model.of_role(role).next().unwrap();
+            let tensors = std::iter::once(&quantity.tensor);
+            let rows = Rows::new(&variant.model.graph, tensors).at(&point);
+            rows.tensors[0][0].value
+        })
+    }
+
+    fn assert_close(found: [f64; 2], expected: [f64; 2]) {
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_variants_of_a_problem_are_those_of_its_coordinates_faces_and_time() {
+        let model = model(HEAT);
+        let variants = variants(&model, &few()).unwrap();
+        let names: Vec<String> = variants.usable.iter().map(|v| v.switch.variant()).collect();
+        let expected = [
+            "constant_x",
+            "constant_t",
+            "flat_x_min",
+            "flat_x_max",
+            "flat_x",
+            "flat_initial",
+            "flat_everywhere",
+        ];
+        assert_eq!(names, expected, "{:?}", variants.left_out);
+    }
+
+    #[test]
+    fn variants_have_the_values_of_their_closed_forms() {
+        let model = model(HEAT);
+        let variants = variants(&model, &few()).unwrap();
+        let [x, t] = [0.7_f64, 0.9_f64];
+        // sin(x) without its Taylor polynomial of degree 3 at 0.
+        let expected = [
+            (x.sin() - x + x.powi(3) / 6.0) * (-t).exp(),
+            (-(x.sin() - x + x.powi(3) / 6.0) + x.sin() - x) * (-t).exp(),
+        ];
+        assert_close(at(named(&variants, "flat_x_min"), [x, t]), expected);
+        let held = 0.4_f64.sin();
+        let expected = [held * (-t).exp(), -held * (-t).exp()];
+        assert_close(at(named(&variants, "constant_x"), [x, t]), expected);
+        let held = (-0.8_f64).exp() * x.sin();
+        assert_close(at(named(&variants, "constant_t"), [x, t]), [held, held]);
+        let taylor = 1.0 - t + t * t / 2.0 - t.powi(3) / 6.0;
+        let slope = -1.0 + t - t * t / 2.0;
+        let expected = [
+            x.sin() * ((-t).exp() - taylor),
+            x.sin() * (-(-t).exp() - slope + (-t).exp() - taylor),
+        ];
+        assert_close(at(named(&variants, "flat_initial"), [x, t]), expected);
+    }
+
+    #[test]
+    fn a_flat_variant_vanishes_like_a_fourth_power_at_each_of_its_faces() {
+        let model = model(HEAT);
+        let variants = variants(&model, &few()).unwrap();
+        for (name, ends) in [
+            ("flat_x_min", vec![0.0]),
+            ("flat_x_max", vec![1.0]),
+            ("flat_x", vec![0.0, 1.0]),
+        ] {
+            let variant = named(&variants, name);
+            assert!(at(variant, [0.45, 0.3])[0].abs() > 1e-4, "{name}");
+            for end in ends {
+                let near = |distance: f64| {
+                    let x = if end == 0.0 { distance } else { 1.0 - distance };
+                    at(variant, [x, 0.3])[0]
+                };
+                let order = (near(0.04) / near(0.02)).log2();
+                assert!((3.7..5.2).contains(&order), "{name} at {end}: {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_flat_at_both_faces_of_a_coordinate_has_the_size_of_the_solution() {
+        let model = model(HEAT);
+        let variants = variants(&model, &few()).unwrap();
+        let x = 0.7_f64;
+        let t = 0.9_f64;
+        let weight = (4.0 * x * (1.0 - x)).powi(4);
+        let slope = 4.0 * (4.0 * x * (1.0 - x)).powi(3) * (4.0 - 8.0 * x);
+        let curvature = 12.0 * (4.0 * x * (1.0 - x)).powi(2) * (4.0 - 8.0 * x).powi(2)
+            - 32.0 * (4.0 * x * (1.0 - x)).powi(3);
+        let second = curvature * x.sin() + 2.0 * slope * x.cos() - weight * x.sin();
+        let expected = [
+            weight * x.sin() * (-t).exp(),
+            (-weight * x.sin() - second) * (-t).exp(),
+        ];
+        let [value, source] = at(named(&variants, "flat_x"), [x, t]);
+        assert!((value - expected[0]).abs() < 1e-13 && (source - expected[1]).abs() < 1e-11);
+        // Both together vanish at the first time, too.
+        let everywhere = named(&variants, "flat_everywhere");
+        let order = (at(everywhere, [x, 0.04])[0] / at(everywhere, [x, 0.02])[0]).log2();
+        assert!((3.9..4.1).contains(&order), "{order}");
+        let order = (at(everywhere, [0.04, t])[0] / at(everywhere, [0.02, t])[0]).log2();
+        assert!((3.7..5.2).contains(&order), "{order}");
+    }
+
+    #[test]
+    fn a_variant_that_breaks_a_condition_is_left_out_and_says_why() {
+        let held = HEAT.replace(
+            "u = \"u\"\n[boundary.x_max]",
+            "u = { of = \"u\", is = \"0\" }\n[boundary.x_max]",
+        );
+        assert_ne!(held, HEAT);
+        let model = model(&held);
+        let variants = variants(&model, &few()).unwrap();
+        let left_out: Vec<String> = variants
+            .left_out
+            .iter()
+            .map(|entry| entry.switch.variant())
+            .collect();
+        // Flat at x_max alone u has another value at x_min.
+        assert_eq!(left_out, ["constant_x", "flat_x_max"]);
+        assert!(variants.left_out[0].why.contains("condition-violated"));
+    }
+
+    #[test]
+    fn a_flat_field_keeps_the_value_that_a_face_prescribes() {
+        let held = HEAT
+            .replace("sin(x)*exp(-t)", "1 + sin(x)*exp(-t)")
+            .replacen("u = \"u\"", "u = { of = \"u\", is = \"1\" }", 1);
+        let model = model(&held);
+        let variants = variants(&model, &few()).unwrap();
+        for name in ["flat_x_min", "flat_x", "flat_initial"] {
+            let variant = named(&variants, name);
+            assert!((at(variant, [0.0, 0.7])[0] - 1.0).abs() < 1e-13, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_field_that_must_be_positive_is_lifted_or_the_variant_is_left_out() {
+        let positive = format!(
+            "{}\n[require]\npositive = [\"u\"]\n",
+            HEAT.replace("sin(x)", "(2 + sin(x))")
+        );
+        let model = model(&positive);
+        let variants = variants(&model, &few()).unwrap();
+        let variant = named(&variants, "flat_x_max");
+        let lowest = (0..=20)
+            .map(|k| at(variant, [f64::from(k) / 20.0, 1.0])[0])
+            .fold(f64::INFINITY, f64::min);
+        assert!(lowest > 0.0, "{lowest}");
+    }
+
+    #[test]
+    fn only_the_named_parameters_are_set_to_zero() {
+        let text = HEAT
+            .replace(
+                "[exact]",
+                "[parameters]\nb = 2\nc = 3\n[variants]\nparameters = [\"b\"]\n[exact]",
+            )
+            .replace(
+                "storage =",
+                "advection = \"b*d(u, x)\"\nreaction = \"c*u\"\nstorage =",
+            );
+        let model = model(&text);
+        let variants = variants(&model, &few()).unwrap();
+        let [x, t] = [0.7_f64, 0.9_f64];
+        // -u + 3 u + u, without the advection.
+        let u = x.sin() * (-t).exp();
+        assert_close(at(named(&variants, "zero_b"), [x, t]), [u, 3.0 * u]);
+        let zero = variants
+            .usable
+            .iter()
+            .filter(|variant| matches!(variant.switch, Switch::Parameter(_)));
+        assert_eq!(zero.count(), 1);
+        assert_eq!(model.part(Part::Initial).len(), 1);
+        let wrong = text.replace("[\"b\"]", "[\"d\"]");
+        let error = Problem::parse(&wrong, "heat.toml").unwrap_err().to_string();
+        assert!(error.contains("unknown parameter `d`"), "{error}");
+    }
+}

@@ -200,3 +200,15 @@ fn a_table_without_errors_beside_another_is_said_by_the_verdict() {
         sheet.sentence
     );
 }
+
+#[test]
+fn a_name_with_a_word_on_each_level_is_said() {
+    for form in [Form::Log, Form::LongLog, Form::JsonLines, Form::JsonRecords] {
+        let sheet = answer(&form.write(&with("T", &["lost"; 5])), &["2"]).expect("a table");
+        assert!(
+            sheet.sentence.contains("T (words)"),
+            "{form:?}: {}",
+            sheet.sentence
+        );
+    }
+}

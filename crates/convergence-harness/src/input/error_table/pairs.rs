@@ -128,7 +128,11 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
-        records(&pairs)
+        let mut table = records(&pairs);
+        table
+            .left_out
+            .extend(words(&found.worded, table.rows.len()));
+        table
     })
 }
 
@@ -155,6 +159,8 @@ struct PairedText<'t> {
     pairs: Vec<Pair<'t>>,
     /// The lines that begin with a nameless number: that number.
     rows: Vec<&'t str>,
+    /// Names with a word in place of a number, as often as they occur.
+    worded: Vec<&'t str>,
 }
 
 impl PairedText<'_> {
@@ -196,7 +202,7 @@ pub(super) fn namings(text: &str) -> Vec<NamedPlace<'_>> {
     if !text.contains([':', '=']) {
         return vec![];
     }
-    let PairedText { pairs, rows } = find_pairs(text);
+    let PairedText { pairs, rows, .. } = find_pairs(text);
     let offset = |cell: &str| cell.as_ptr() as usize - text.as_ptr() as usize;
     let nameless = rows.into_iter().map(|cell| NamedPlace {
         offset: offset(cell),
@@ -249,6 +255,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
     let mut pairs: Vec<Pair<'_>> = vec![];
     let mut known: HashSet<&str> = HashSet::new();
     let mut rows = vec![];
+    let mut worded = vec![];
     let mut is_row = false;
     let mut depth = 0_usize;
     let mut label = 0;
@@ -266,6 +273,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             is_in_list: depth > 0 && label > 0,
         };
         let Some(Value { before, word }) = gap.value(start - label, &known) else {
+            worded.extend(gap.name_of_word(start - label));
             continue;
         };
         let marks = &before[before.trim_end_matches(is_mark).len()..];
@@ -293,7 +301,11 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         }
         label = position;
     }
-    PairedText { pairs, rows }
+    PairedText {
+        pairs,
+        rows,
+        worded,
+    }
 }
 
 /// A number, or what stands for one.
@@ -348,6 +360,18 @@ impl<'t> Gap<'t> {
             || ends_with_mark(before)
                 && (stands_for_number || may_be_missing(before, is_state, known));
         is_missing.then_some(Value { before, word })
+    }
+}
+
+impl<'t> Gap<'t> {
+    /// The name before the only word behind it: `T = lost`.
+    fn name_of_word(&self, start: usize) -> Option<&'t str> {
+        let (before, word) = self.text.split_at(start);
+        let behind = self.behind.trim_start_matches([' ', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}']);
+        let is_word = is_last && ends_with_mark(before) && names::state(word) != Some(true);
+        let name = is_word.then(|| name_before(before))?;
+        name.contains(char::is_alphabetic).then_some(name)
     }
 }
 
@@ -481,6 +505,25 @@ fn count_levels(repetitions: &[Repetition<'_>]) -> usize {
         .iter()
         .max_by_key(|Repetition { count, .. }| (frequencies[count], *count));
     common.map_or(0, |repetition| repetition.count)
+}
+
+/// The names that have a word on each of several levels.
+fn words(worded: &[&str], levels: usize) -> Vec<LeftOut> {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    let mut left_out = vec![];
+    for name in worded {
+        let count = counts.entry(name).or_default();
+        *count += 1;
+        if levels > 1 && *count == levels {
+            left_out.push(LeftOut {
+                name: (*name).to_owned(),
+                reason: "words".to_owned(),
+                is_checked: names::is_group(name),
+                is_single: true,
+            });
+        }
+    }
+    left_out
 }
 
 /// A row for each repetition of the names. Names that a solver prints more often than the step are

@@ -15,7 +15,7 @@ use crate::study::{Check, Header, NamedRate, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::{decimals, short_text};
-use contrast::{Vote, contrast};
+use contrast::{PartOf, Vote, contrast};
 
 pub use contrast::Contrast;
 
@@ -50,12 +50,28 @@ pub struct Field {
     /// Its share of the movement, on the finest levels, summed over studies.
     #[serde(deserialize_with = "json::nan")]
     pub share: f64,
-    /// The farthest rate that does not pass, with its order.
-    #[serde(deserialize_with = "json::nan_pair")]
-    pub rate: Option<[f64; 2]>,
+    /// The farthest rate that does not pass.
+    pub rate: Option<WrongRate>,
     /// The largest factor by which one of its errors grew, or by which another number changed.
     #[serde(deserialize_with = "json::nan")]
     pub factor: f64,
+}
+
+/// A rate that does not pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WrongRate {
+    /// The rate.
+    #[serde(deserialize_with = "json::nan")]
+    pub observed: f64,
+    /// The order claimed.
+    #[serde(deserialize_with = "json::nan")]
+    pub claimed: f64,
+}
+
+impl WrongRate {
+    fn distance(&self) -> f64 {
+        (self.observed - self.claimed).abs()
+    }
 }
 
 /// Diagnoses a run that does not pass; `None` for one that passes.
@@ -217,13 +233,13 @@ impl StudyVotes<'_> {
             self.votes.push(Vote {
                 settings,
                 fails: false,
-                count: [0, 0],
+                failing: PartOf::default(),
             });
         }
         let vote = &mut self.votes[place];
         vote.fails |= fails;
-        vote.count[0] += usize::from(fails && counts);
-        vote.count[1] += usize::from(counts);
+        vote.failing.part += usize::from(fails && counts);
+        vote.failing.of += usize::from(counts);
     }
 }
 
@@ -396,15 +412,15 @@ impl Diagnosis {
         let Contrast {
             settings,
             shared,
-            fails: [failed, all],
-            passes,
+            failing,
+            others,
             ..
         } = &self.contrast;
         let mut lines = vec![];
         let what = if !settings.is_empty() {
             let settings = settings.iter().map(|setting| self.contrast.words(setting));
             settings.collect::<Vec<_>>().join(", ")
-        } else if failed == all {
+        } else if failing.part == failing.of {
             "everything".to_owned()
         } else {
             "here and there: no setting separates it from what passes".to_owned()
@@ -415,16 +431,16 @@ impl Diagnosis {
         } else {
             format!("; all with {}", shared.join(", "))
         };
-        let count = if *failed == 0 {
+        let count = if failing.part == 0 {
             "numbers moved".to_owned()
         } else {
-            format!("{failed} of {all}")
+            failing.to_string()
         };
         lines.push(("fails", format!("{what}: {count}{all_with}")));
-        if !passes.is_empty() {
-            let groups: Vec<String> = passes
+        if !others.is_empty() {
+            let groups: Vec<String> = others
                 .iter()
-                .map(|(name, [passing, all])| format!("{name}: {passing} of {all}"))
+                .map(|known| format!("{}: {}", known.name, known.passing))
                 .collect();
             lines.push(("passes", groups.join("; ")));
         }
@@ -436,7 +452,7 @@ impl Field {
     fn words(&self) -> String {
         let rate = self
             .rate
-            .map(|[rate, order]| format!("rate {} for {order}", decimals(rate, 3)));
+            .map(|rate| format!("rate {} for {}", decimals(rate.observed, 3), rate.claimed));
         let times = short_text(self.factor);
         let factor = match self.factor.is_finite() {
             true => (times != "1").then(|| format!("by a factor up to {times}")),

@@ -3,6 +3,7 @@
 mod claims;
 mod cuts;
 mod forms;
+mod found;
 mod laws;
 
 use convergence_harness::input::error_table::Choice;

@@ -34,6 +34,7 @@ mod frame;
 mod groups;
 mod heads;
 mod limits;
+mod lines;
 mod markup;
 pub(crate) mod names;
 mod number;

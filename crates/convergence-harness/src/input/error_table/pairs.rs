@@ -61,14 +61,15 @@ pub(super) struct LeftOut {
     pub(super) reason: String,
     /// Whether its numbers show the reason, and not its name alone.
     pub(super) is_checked: bool,
+    /// Whether it is one number beside lists, and so no column.
+    pub(super) is_single: bool,
 }
 
 impl LeftOut {
     /// Whether its name does not say that it is something else.
     pub(super) fn may_be_error(&self) -> bool {
-        Word::of(&names::without_markup(&self.name))
-            .noun()
-            .is_none()
+        let word = Word::of(&names::without_markup(&self.name));
+        !self.is_single && word.noun().is_none()
     }
 }
 
@@ -259,10 +260,25 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         position = text[start..]
             .find(is_mark)
             .map_or(text.len(), |end| start + end);
+        let behind = text[position..].trim_start_matches("(ind)");
+        let behind = behind.trim_start_matches([' ', '\t', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
+        // `did not converge` stands for a number, as `diverged` does.
+        let words = if is_last {
+            phrase(&text[label..position])
+        } else {
+            ""
+        };
+        let is_phrase = words.contains(' ')
+            && names::is_failure(words)
+            && number(&text[start..position], false).is_none();
+        let start = if is_phrase {
+            position - words.len()
+        } else {
+            start
+        };
         let before = &text[label..start];
         let word = &text[start..position];
-        let behind = text[position..].trim_start_matches([' ', '\t', '"', '\'']);
-        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
         let is_marked = before
             .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
             .ends_with([':', '=']);
@@ -270,10 +286,16 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         let is_number = (begins || is_last) && number(word, false).is_some();
         let is_in_list = depth > 0 && label > 0 && !before.contains(']');
         let is_state = names::state(word).is_some();
+        let is_element = is_in_list
+            && before.contains(',')
+            && before
+                .chars()
+                .all(|c| c.is_whitespace() || ",\"'".contains(c));
         let stands_for_number = is_dash(word) || names::is_failure(word);
         // After a name that has a number elsewhere, any word means that the number is missing.
         let is_missing = is_last
-            && (is_in_list && (stands_for_number || is_state)
+            && (is_element
+                || is_in_list && (stands_for_number || is_state)
                 || is_marked && (stands_for_number || may_be_missing(before, is_state, &known)));
         let is_value = is_number || is_missing;
         if !is_value {
@@ -314,16 +336,28 @@ fn may_be_missing(before: &str, is_state: bool, known: &HashSet<&str>) -> bool {
     known.contains(name) || is_state && Word::of(name) == Word::State
 }
 
-/// The name that a text ends with, before marks.
-fn name_before(text: &str) -> &str {
-    let words = text.trim_end_matches(is_mark);
-    // The search for a name is bounded, because a text may have a hundred thousand words before its
-    // next number.
-    let mut start = words.len().saturating_sub(LONGEST_LABEL);
-    while !words.is_char_boundary(start) {
+/// The last words of a text behind a mark of a value: `did not converge`. The search is bounded, as
+/// that for a name is.
+fn phrase(text: &str) -> &str {
+    let tail = end(text);
+    let mark = tail.rfind([':', '=', ',', '[', '{', ';']);
+    tail[mark.map_or(0, |mark| mark + 1)..].trim_start_matches(is_mark)
+}
+
+/// The last bytes of a text in which a name is looked for: a text may have a hundred thousand words
+/// before its next number.
+fn end(text: &str) -> &str {
+    let mut start = text.len().saturating_sub(LONGEST_LABEL);
+    while !text.is_char_boundary(start) {
         start += 1;
     }
-    let words = words[start..].rsplit('\n').next().unwrap_or_default();
+    &text[start..]
+}
+
+/// The name that a text ends with, before marks.
+fn name_before(text: &str) -> &str {
+    let words = end(text.trim_end_matches(is_mark));
+    let words = words.rsplit('\n').next().unwrap_or_default();
     // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
     let separators: &[char] = if words.contains(')') {
         &[',', ';', '{', '\t']
@@ -369,6 +403,7 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
                     counted(pair.values.len(), "number")
                 ),
                 is_checked: false,
+                is_single: pair.values.len() == 1 && longest > 2,
             });
         }
     }
@@ -435,6 +470,7 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
                 name: key.name.to_owned(),
                 reason: format!("printed {count} times for {levels} levels"),
                 is_checked: false,
+                is_single: false,
             });
             continue;
         }

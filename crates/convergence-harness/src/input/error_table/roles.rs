@@ -10,6 +10,7 @@ use super::failed_run;
 use super::frame::Original;
 use super::groups;
 use super::limits;
+use super::lines;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
 use super::parameters::{self, Parameter};
@@ -41,10 +42,16 @@ pub(super) fn read_all(
     let parts = parts::read(original.text);
     limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
+    let outside = lines::outside(original.text, &parts);
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {
         for (_, table) in &mut tables {
             table.doubts.extend(failure.clone());
+        }
+        if let Some((_, first)) = tables.first_mut()
+            && outside > 0
+        {
+            first.reading += &format!("; outside the tables: {}", counted(outside, "line"));
         }
         tables
     });
@@ -229,7 +236,9 @@ fn attempt(
             .collect()
     };
     let errors_over_steps = columns(&errors)?;
-    let jumps = errors_over_steps.iter().filter_map(doubt::jump);
+    let jumps = errors_over_steps
+        .iter()
+        .filter_map(|column| doubt::unit(column).or_else(|| doubt::jump(column)));
     let doubts = jumps.chain(reader.contradiction(step.column));
     Ok(RateTable {
         reading: reading(&reader, &step, [&errors, &values], &others),
@@ -242,6 +251,7 @@ fn attempt(
                      name,
                      reason,
                      is_checked,
+                     ..
                  }| NotError {
                     column: name,
                     because: reason,

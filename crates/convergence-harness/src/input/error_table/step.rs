@@ -77,7 +77,7 @@ impl TableReader<'_> {
             None => self.natural_step()?,
         };
         let (measure, by_rates) = self.measure(column)?;
-        let how = how + &by_rates;
+        let how = how + &by_rates + &self.adaptive(column, measure);
         let name = &self.columns[column].name;
         let label = match measure {
             Measure::Step => name.to_owned(),
@@ -93,6 +93,35 @@ impl TableReader<'_> {
             label,
             how,
         })
+    }
+
+    /// What is said of counts of meshes that are refined in some places only.
+    fn adaptive(&self, column: usize, measure: Measure) -> String {
+        /// How much such counts grow from level to level.
+        const GROWTH: std::ops::RangeInclusive<f64> = 1.8..=2.7;
+        /// Largest difference between the factors of uniform refinement along an edge.
+        const UNIFORM: f64 = 0.3;
+        let mut counts = self.columns[column].values.clone();
+        counts.sort_by(f64::total_cmp);
+        let factors: Vec<f64> = counts.windows(2).map(|two| two[1] / two[0]).collect();
+        let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = factors.iter().copied().fold(0.0, f64::max);
+        let is_adaptive = match measure {
+            Measure::Count(1.0) => most - least > UNIFORM,
+            Measure::Count(_) => true,
+            Measure::Step | Measure::Level(_) => false,
+        };
+        if is_adaptive && GROWTH.contains(&least) && GROWTH.contains(&most) {
+            let [least, most] = [least, most].map(|factor| (10.0 * factor).round() / 10.0);
+            let range = if least < most {
+                format!("{least} to {most}")
+            } else {
+                least.to_string()
+            };
+            format!(", whose counts grow by {range}, as along an edge or on adaptive meshes")
+        } else {
+            String::new()
+        }
     }
 
     /// The column that numbers the levels: one named so rather than any that counts the rows, or the

@@ -59,6 +59,14 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     write("solver.py", solver);
     let (status, out, err) = run(&root, &["study", "heat.study.toml"]);
     assert_eq!(status, Some(0), "{out}{err}");
+    // Moved to the other studies, it names the folder of its program.
+    let study = fs::read_to_string(root.path().join("heat.study.toml")).unwrap();
+    assert!(study.contains("directory = \".\"\n"), "{study}");
+    let moved = study.replace("directory = \".\"", "directory = \"..\"");
+    write("studies/heat.toml", &moved);
+    let (status, out, err) = run(&root, &["study", "studies/heat.toml"]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    fs::remove_file(root.path().join("studies/heat.toml")).unwrap();
     write(
         "solver.py",
         &solver.replace("+ 2.5 + step / 2", "- 2.5 + step / 2"),

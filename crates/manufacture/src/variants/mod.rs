@@ -17,10 +17,11 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::check::Check;
-use crate::derive::Role;
+use crate::derive::{Part, Role};
 use crate::emit::{EmittedFile, Language};
 use crate::model::{Model, Rows};
 use crate::problem::{InputError, Problem};
+use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
 use design::{Design, MIDDLE, Side, designs, sides};
@@ -151,8 +152,12 @@ pub(crate) fn variants<'m>(
         usable: vec![],
         left_out: vec![],
     };
+    // What is wrong with the file is no reason against a variant.
+    for part in Part::all(&base.problem) {
+        Sampler::new(base, sampling.seed).points(part, 1)?;
+    }
     for design in designs(&base.problem) {
-        match usable(base, &design, sampling)? {
+        match usable(base, &design, sampling) {
             Ok(variant) => variants.usable.push(variant),
             Err(why) => variants.left_out.push(LeftOut {
                 switch: design.switch,
@@ -212,25 +217,30 @@ fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
 }
 
 /// The variant, or in words why it cannot be used.
-fn usable(
-    base: &Model,
-    design: &Design,
-    sampling: &Sampling,
-) -> Result<Result<Variant, String>, InputError> {
+fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant, String> {
     let Sampling { seed, points, .. } = *sampling;
     let mut why = String::new();
     for lift in lifts(base, design) {
         let model = match Model::new(problem(&base.problem, design, lift)) {
             Ok(model) => model,
-            Err(error) => return Ok(Err(error.to_string())),
+            Err(error) => return Err(error.to_string()),
         };
-        let Check { findings, .. } = check::check(&model, seed, points, false)?;
+        // A pole is refused as bad input; here it is a reason.
+        let findings = match check::check(&model, seed, points, false) {
+            Ok(Check { findings, .. }) => findings,
+            Err(error) => {
+                if why.is_empty() {
+                    why = error.problem;
+                }
+                continue;
+            }
+        };
         let failures: Vec<&Finding> = findings.iter().filter(|finding| finding.fails).collect();
         let Some(first) = failures.first() else {
-            return Ok(Ok(Variant {
+            return Ok(Variant {
                 switch: design.switch.clone(),
                 model,
-            }));
+            });
         };
         if why.is_empty() {
             why = format!("{}: {}: {}", first.key, first.code, first.text);
@@ -240,7 +250,7 @@ fn usable(
             break;
         }
     }
-    Ok(Err(why))
+    Err(why)
 }
 
 /// The problem of a variant.
@@ -260,7 +270,6 @@ fn problem(base: &Problem, design: &Design, lifts: BTreeMap<String, Vec<f64>>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derive::Part;
 
     pub(super) const HEAT: &str = r#"
 [manufacture]

@@ -11,7 +11,7 @@ use crate::against::{Right, ask, questions};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{Measured, Tape};
 use crate::derive::{Part, Role};
-use crate::emit::{self, Function, Language, OTHERS, accept, emit, functions_of};
+use crate::emit::{self, Function, Language, OTHERS, accept, emit, functions};
 use crate::language::tree::Tree;
 use crate::model::Model;
 use crate::problem::{InputError, Setting, mentions};
@@ -120,7 +120,7 @@ pub(crate) fn run(
             Err(error) => findings.push(finding("emitted", name, error.to_string(), None)),
         }
     }
-    let functions = functions_of(model, language);
+    let functions = functions(model, language);
     let others = Round {
         argument: OTHERS.to_owned(),
         face: None,

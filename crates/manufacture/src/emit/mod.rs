@@ -17,8 +17,7 @@ use crate::model::Model;
 use crate::problem::InputError;
 
 pub(crate) use answer::OTHERS;
-use functions::functions;
-pub(crate) use functions::{Function, others};
+pub(crate) use functions::{Function, functions, others};
 
 /// A language that functions are emitted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,11 +134,6 @@ pub(crate) fn emit(model: &Model, language: Language) -> Vec<EmittedFile> {
     let mut files = write::library(model, language, &functions);
     files.extend(answer::program(model, language, &functions));
     files
-}
-
-/// All functions of a model in a language.
-pub(crate) fn functions_of(model: &Model, language: Language) -> Vec<Function> {
-    functions(model, language)
 }
 
 /// Refuses a model whose name a language cannot have.

@@ -153,3 +153,62 @@ fn counts_of_adaptive_meshes_are_said_with_quiet_too() {
     let table = RateTable::parse_with(&text, "t", &choice).expect("a table");
     assert!(table.is_guessed && table.reading.contains("grow by 2 to 2.3, as along an edge"));
 }
+
+#[test]
+fn orders_of_several_methods_are_not_offered_as_levels() {
+    for name in ["order", "p", "degree", "FD order", "stencil"] {
+        let text = format!(
+            "| {name} | 2 | 4 | 6 | 8 |\n|---|---|---|---|---|\n| error | 4e-2 | 1e-2 | 2.5e-3 | 6.25e-4 |\n"
+        );
+        let error = RateTable::parse_with(&text, "t", &Choice::default()).expect_err("no step");
+        assert!(error.offers.is_empty(), "{name}: {error}");
+        assert!(
+            error.to_string().contains("orders of methods, no steps"),
+            "{name}: {error}"
+        );
+    }
+}
+
+#[test]
+fn a_row_that_cannot_be_read_is_said_by_the_verdict() {
+    let rows = "h L2\n0.2 4e-2\n0.1 1e-2\n0.05 2.5e-3\n0.025 6.25e-4\n";
+    assert!(
+        !answer(rows, &["2"])
+            .expect("a table")
+            .sentence
+            .contains("outside")
+    );
+    for row in [
+        "finest 6e-4",
+        "# 0.0125 6e-4",
+        "~0.0125 6e-4",
+        "(0.0125 6e-4)",
+    ] {
+        let sheet = answer(&format!("{rows}{row}\n"), &["2"]).expect("a table");
+        let said = "outside the tables: 1 line of numbers, from line 6";
+        assert!(sheet.sentence.contains(said), "{row}: {}", sheet.sentence);
+    }
+}
+
+#[test]
+fn a_table_without_errors_beside_another_is_said_by_the_verdict() {
+    let text = "h L2\n0.2 4e-2\n0.1 1e-2\n0.05 2.5e-3\n\nh value\n0.2 1.5\n0.1 1.2\n0.05 1.1\n";
+    let sheet = answer(text, &["2"]).expect("a table");
+    assert!(
+        sheet.sentence.contains("(a table without errors)"),
+        "{}",
+        sheet.sentence
+    );
+}
+
+#[test]
+fn a_name_with_a_word_on_each_level_is_said() {
+    for form in [Form::Log, Form::LongLog, Form::JsonLines, Form::JsonRecords] {
+        let sheet = answer(&form.write(&with("T", &["lost"; 5])), &["2"]).expect("a table");
+        assert!(
+            sheet.sentence.contains("T (words)"),
+            "{form:?}: {}",
+            sheet.sentence
+        );
+    }
+}

@@ -280,7 +280,8 @@ impl TableReader<'_> {
             return Ok(derived);
         }
         let is_whole = column.texts.iter().all(|cell| cell.parse::<i64>().is_ok());
-        if names::is_group(&column.name) && is_whole && column.is_constant() {
+        let is_group = names::is_group(&column.name) && column.word != Word::Rate;
+        if is_group && is_whole && column.is_constant() {
             return Ok(Content::checked("the same in each row"));
         }
         match (column.word, column.word.noun()) {

@@ -2,10 +2,11 @@
 //! passes.
 
 use super::Doubt;
+use super::names;
 use super::number::number;
 
 /// First words of such a line, as systems, languages and solvers print them.
-const BEGINNINGS: [&str; 29] = [
+const BEGINNINGS: [&str; 33] = [
     "Traceback (",
     "ERROR:",
     "ERROR -",
@@ -27,6 +28,10 @@ const BEGINNINGS: [&str; 29] = [
     "Fatal",
     "fatal",
     "panic:",
+    "panicked at",
+    "AssertionError",
+    "MemoryError",
+    "KeyboardInterrupt",
     "thread '",
     "terminate called",
     "forrtl: severe",
@@ -37,28 +42,52 @@ const BEGINNINGS: [&str; 29] = [
     "CANCELLED",
 ];
 /// Words anywhere in such a line, in small letters.
-const PHRASES: [&str; 20] = [
-    "segmentation fault",
-    "segmentation violation",
+const PHRASES: [&str; 42] = [
+    "*** error",
+    "aborted",
+    "aborting",
+    "an error occurred",
+    "bad_alloc",
+    "bad termination",
+    "blew up",
+    "blow-up",
+    "bus error",
     "core dumped",
+    "crashed",
+    "did not converge",
+    "divergence detected",
+    "diverged_",
+    "due to time limit",
+    "error stop",
+    "error termination",
+    "exceeded max",
+    "exception in thread",
+    "stack dump:",
+    "failed to",
+    "fatal error",
     "floating point exception",
     "floating-point exception",
-    "bus error",
-    "out of memory",
-    "bad_alloc",
-    "exception in thread",
-    "fatal error",
-    "bad termination",
-    "did not converge",
-    "not converged",
-    "failed to converge",
+    "has diverged",
+    "is nan",
+    "job failed",
+    "loaderror",
+    "maximum number of iterations",
+    "nan detected",
+    "nan residual",
     "no convergence",
-    "diverged_",
+    "not converged",
+    "oom-kill",
+    "out of memory",
+    "run failed",
+    "segmentation fault",
+    "segmentation violation",
+    "sigsegv",
     "solution diverged",
     "solver diverged",
     "solver failed",
-    "due to time limit",
 ];
+/// Words that a number may follow: how a program ended.
+const EXITS: [&str; 3] = ["exit code 1", "exited on signal", "non-zero status"];
 /// Most characters of a line that is quoted.
 const QUOTED: usize = 80;
 
@@ -76,6 +105,9 @@ pub(super) fn line(text: &str) -> Option<Doubt> {
 fn is_failure(line: &str) -> bool {
     let words = without_prefix(line);
     let lower = line.to_lowercase();
+    if EXITS.iter().any(|exit| lower.contains(exit)) {
+        return true;
+    }
     let mut beginnings = BEGINNINGS.iter();
     let beginning = beginnings.find(|beginning| words.starts_with(**beginning));
     let mut phrases = PHRASES.iter();
@@ -83,7 +115,7 @@ fn is_failure(line: &str) -> bool {
     let rest = match (beginning, phrase) {
         (Some(beginning), _) => &words[beginning.len()..],
         (None, Some(end)) => lower.get(end..).unwrap_or_default(),
-        (None, None) => return is_exception(words),
+        (None, None) => return is_exception(words) || is_lone_word(words),
     };
     let goes_on = phrase.is_none()
         && !beginning.is_some_and(|beginning| beginning.ends_with(['(', '\'']))
@@ -124,6 +156,12 @@ fn is_exception(words: &str) -> bool {
         && !first_is_number(&words[name.len() + 1..])
 }
 
+/// Whether a line is `failed` alone, or the like; `Error` alone is a heading.
+fn is_lone_word(words: &str) -> bool {
+    let is_word = words.chars().all(char::is_alphabetic) && !words.eq_ignore_ascii_case("error");
+    is_word && names::is_failure(words)
+}
+
 fn first_is_number(text: &str) -> bool {
     text.split_whitespace().next().is_some_and(is_number)
 }
@@ -151,6 +189,9 @@ mod tests {
             "*** ERROR ***",
             "RuntimeError: singular matrix",
             "Linear solve did not converge due to DIVERGED_ITS iterations 10000",
+            "failed",
+            "mpirun noticed that rank 0 exited on signal 9",
+            "Residual is NaN",
             "./run.sh: line 3: 812 Segmentation fault  ./solve",
         ] {
             let text = format!("h L2\n0.1 1\n{failed}\n");
@@ -168,6 +209,7 @@ mod tests {
             "0.1 diverged",
             "MaxError: 1e-3",
             "levels not converged: 0",
+            "maximum number of iterations 100",
             "Linear solve converged due to CONVERGED_RTOL iterations 12",
         ] {
             assert_eq!(line(other), None, "{other}");

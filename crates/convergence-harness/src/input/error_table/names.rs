@@ -257,7 +257,7 @@ const FAILURES: &str = "nan nanq nans nat inf infinity ∞ \\infty diverged div 
 const FAILURE_BEGINNINGS: [&str; 4] = ["not conv", "no conv", "did not", "out of memory"];
 
 /// Names of what tells several tables in one apart.
-const GROUP_WORDS: [&str; 14] = [
+const GROUP_WORDS: [&str; 15] = [
     "p",
     "q",
     "deg",
@@ -267,6 +267,7 @@ const GROUP_WORDS: [&str; 14] = [
     "order",
     "method",
     "scheme",
+    "stencil",
     "case",
     "test",
     "element",

@@ -128,7 +128,11 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
-        records(&pairs)
+        let mut table = records(&pairs);
+        table
+            .left_out
+            .extend(words(&found.worded, table.rows.len()));
+        table
     })
 }
 
@@ -155,6 +159,8 @@ struct PairedText<'t> {
     pairs: Vec<Pair<'t>>,
     /// The lines that begin with a nameless number: that number.
     rows: Vec<&'t str>,
+    /// Names with a word in place of a number, as often as they occur.
+    worded: Vec<&'t str>,
 }
 
 impl PairedText<'_> {
@@ -196,7 +202,7 @@ pub(super) fn namings(text: &str) -> Vec<NamedPlace<'_>> {
     if !text.contains([':', '=']) {
         return vec![];
     }
-    let PairedText { pairs, rows } = find_pairs(text);
+    let PairedText { pairs, rows, .. } = find_pairs(text);
     let offset = |cell: &str| cell.as_ptr() as usize - text.as_ptr() as usize;
     let nameless = rows.into_iter().map(|cell| NamedPlace {
         offset: offset(cell),
@@ -249,6 +255,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
     let mut pairs: Vec<Pair<'_>> = vec![];
     let mut known: HashSet<&str> = HashSet::new();
     let mut rows = vec![];
+    let mut worded = vec![];
     let mut is_row = false;
     let mut depth = 0_usize;
     let mut label = 0;
@@ -260,47 +267,15 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         position = text[start..]
             .find(is_mark)
             .map_or(text.len(), |end| start + end);
-        let behind = text[position..].trim_start_matches("(ind)");
-        let behind = behind.trim_start_matches([' ', '\t', '"', '\'']);
-        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
-        // `did not converge` stands for a number, as `diverged` does.
-        let words = if is_last {
-            phrase(&text[label..position])
-        } else {
-            ""
+        let gap = Gap {
+            text: &text[label..position],
+            behind: &text[position..],
+            is_in_list: depth > 0 && label > 0,
         };
-        let is_phrase = words.contains(' ')
-            && names::is_failure(words)
-            && number(&text[start..position], false).is_none();
-        let start = if is_phrase {
-            position - words.len()
-        } else {
-            start
-        };
-        let before = &text[label..start];
-        let word = &text[start..position];
-        let is_marked = before
-            .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
-            .ends_with([':', '=']);
-        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        let is_number = (begins || is_last) && number(word, false).is_some();
-        let is_in_list = depth > 0 && label > 0 && !before.contains(']');
-        let is_state = names::state(word).is_some();
-        let is_element = is_in_list
-            && before.contains(',')
-            && before
-                .chars()
-                .all(|c| c.is_whitespace() || ",\"'".contains(c));
-        let stands_for_number = is_dash(word) || names::is_failure(word);
-        // After a name that has a number elsewhere, any word means that the number is missing.
-        let is_missing = is_last
-            && (is_element
-                || is_in_list && (stands_for_number || is_state)
-                || is_marked && (stands_for_number || may_be_missing(before, is_state, &known)));
-        let is_value = is_number || is_missing;
-        if !is_value {
+        let Some(Value { before, word }) = gap.value(start - label, &known) else {
+            worded.extend(gap.name_of_word(start - label));
             continue;
-        }
+        };
         let marks = &before[before.trim_end_matches(is_mark).len()..];
         depth = (depth + marks.matches('[').count()).saturating_sub(before.matches(']').count());
         let name = name_before(before);
@@ -314,7 +289,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             pairs.push(Pair {
                 name,
                 values: vec![word],
-                is_marked,
+                is_marked: ends_with_mark(before),
             });
             known.insert(name);
         } else if let Some(last) = pairs.last_mut()
@@ -326,7 +301,84 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         }
         label = position;
     }
-    PairedText { pairs, rows }
+    PairedText {
+        pairs,
+        rows,
+        worded,
+    }
+}
+
+/// A number, or what stands for one.
+struct Value<'t> {
+    /// The text between it and the number before.
+    before: &'t str,
+    word: &'t str,
+}
+
+/// The text between two numbers, with a word that may be the second.
+struct Gap<'t> {
+    /// It ends with the word.
+    text: &'t str,
+    behind: &'t str,
+    /// Whether the number before stands in a list that has not ended.
+    is_in_list: bool,
+}
+
+impl<'t> Gap<'t> {
+    /// The value at the end of the gap, if it is one: a number, or the words of a level without a
+    /// result, in a list or behind a name.
+    ///
+    /// * `start`: of the last word.
+    fn value(&self, start: usize, known: &HashSet<&str>) -> Option<Value<'t>> {
+        let (before, word) = self.text.split_at(start);
+        let behind = self.behind.trim_start_matches("(ind)");
+        let behind = behind.trim_start_matches([' ', '\t', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
+        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        if (begins || is_last) && number(word, false).is_some() {
+            return Some(Value { before, word });
+        }
+        if !is_last {
+            return None;
+        }
+        // `did not converge` stands for a number, as `diverged` does.
+        let words = phrase(self.text);
+        let start = self.text.len() - words.len();
+        if words.contains(' ') && names::is_failure(words) && start > 0 {
+            let (before, word) = self.text.split_at(start);
+            return Some(Value { before, word });
+        }
+        let is_in_list = self.is_in_list && !before.contains(']');
+        let is_element = before.contains(',')
+            && before
+                .chars()
+                .all(|c| c.is_whitespace() || ",\"'".contains(c));
+        let is_state = names::state(word).is_some();
+        let stands_for_number = is_dash(word) || names::is_failure(word);
+        // After a name that has a number elsewhere, any word means that the number is missing.
+        let is_missing = is_in_list && (is_element || stands_for_number || is_state)
+            || ends_with_mark(before)
+                && (stands_for_number || may_be_missing(before, is_state, known));
+        is_missing.then_some(Value { before, word })
+    }
+}
+
+impl<'t> Gap<'t> {
+    /// The name before the only word behind it: `T = lost`.
+    fn name_of_word(&self, start: usize) -> Option<&'t str> {
+        let (before, word) = self.text.split_at(start);
+        let behind = self.behind.trim_start_matches([' ', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}']);
+        let is_word = is_last && ends_with_mark(before) && names::state(word) != Some(true);
+        let name = is_word.then(|| name_before(before))?;
+        name.contains(char::is_alphabetic).then_some(name)
+    }
+}
+
+/// Whether a text ends with `=` or `:`, perhaps before brackets and quotes.
+fn ends_with_mark(text: &str) -> bool {
+    text.trim_end_matches(|c| is_mark(c) && !":=".contains(c))
+        .ends_with([':', '='])
 }
 
 /// Whether a word stands behind a name that has a number elsewhere, or says that a level was solved,
@@ -453,6 +505,25 @@ fn count_levels(repetitions: &[Repetition<'_>]) -> usize {
         .iter()
         .max_by_key(|Repetition { count, .. }| (frequencies[count], *count));
     common.map_or(0, |repetition| repetition.count)
+}
+
+/// The names that have a word on each of several levels.
+fn words(worded: &[&str], levels: usize) -> Vec<LeftOut> {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    let mut left_out = vec![];
+    for name in worded {
+        let count = counts.entry(name).or_default();
+        *count += 1;
+        if levels > 1 && *count == levels {
+            left_out.push(LeftOut {
+                name: (*name).to_owned(),
+                reason: "words".to_owned(),
+                is_checked: names::is_group(name),
+                is_single: true,
+            });
+        }
+    }
+    left_out
 }
 
 /// A row for each repetition of the names. Names that a solver prints more often than the step are

@@ -49,9 +49,10 @@ pub(super) fn read_all(
             table.doubts.extend(failure.clone());
         }
         if let Some((_, first)) = tables.first_mut()
-            && outside > 0
+            && outside.lines > 0
         {
-            first.reading += &format!("; outside the tables: {}", counted(outside, "line"));
+            first.reading += &format!("; outside the tables: {}", counted(outside.lines, "line"));
+            first.rows_outside = outside.rows;
         }
         tables
     });
@@ -136,7 +137,7 @@ fn attempt_all(
     let mut without_errors: Vec<String> = vec![];
     if grids.iter().any(has_errors) {
         let others = grids.iter().filter(|grid| !has_errors(grid));
-        without_errors = others.map(|grid| format!("`{}`", grid.heading)).collect();
+        without_errors = others.map(|grid| grid.heading.clone()).collect();
         grids.retain(has_errors);
     }
     let mut tables = vec![];
@@ -158,7 +159,14 @@ fn attempt_all(
     if let Some((_, first)) = tables.first_mut()
         && !without_errors.is_empty()
     {
-        first.reading += &format!("; without errors: {}", listed(without_errors.into_iter()));
+        let quoted = without_errors.iter().map(|heading| format!("`{heading}`"));
+        first.reading += &format!("; without errors: {}", listed(quoted));
+        let not_errors = without_errors.into_iter().map(|heading| NotError {
+            column: heading,
+            because: "a table without errors".to_owned(),
+            is_checked: false,
+        });
+        first.not_errors.extend(not_errors);
     }
     Ok(tables)
 }
@@ -261,6 +269,7 @@ fn attempt(
             .collect(),
         parameters: vec![],
         doubts: doubts.collect(),
+        rows_outside: vec![],
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })

@@ -2,7 +2,7 @@
 
 use super::Offer;
 use super::columns::Cells;
-use super::names::{Word, reciprocal};
+use super::names::{self, Word, reciprocal};
 use super::reader::{NEIGHBOURS, TableReader, listed};
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
@@ -258,7 +258,8 @@ impl TableReader<'_> {
         let offers_rows = with_first.is_none()
             && !has_levels
             && self.columns.iter().any(is_steep_error)
-            && !self.columns.iter().any(has_power_of_step);
+            && !self.columns.iter().any(has_power_of_step)
+            && !self.columns.iter().any(counts_orders);
         let with_rows = offers_rows.then(|| Offer {
             comment: "if each row halves the step",
             ..self.offer(|choice| choice.ratio = Some(2.0))
@@ -456,9 +457,16 @@ fn has_power_of_step(column: &Cells<'_>) -> bool {
     power.is_some_and(|(base, _)| Word::of(base) == Word::Step)
 }
 
+/// Whether a column has the orders of several methods, which are no levels: 2, 4, 6, 8.
+fn counts_orders(column: &Cells<'_>) -> bool {
+    let is_order = column.word == Word::Rate || names::is_group(&column.name);
+    is_order && column.is_whole() && column.values.is_sorted_by(|a, b| a < b)
+}
+
 /// The name of a column in a message, with the reason why it is not the step.
 fn name_with_reason(column: &Cells<'_>) -> String {
     let reason = match column.word {
+        _ if counts_orders(column) => " (orders of methods, no steps)",
         _ if column.is_index => " (the number of the row)",
         Word::Logarithm => " (give the values, not their logarithms)",
         Word::Step => " (the same in each row)",

@@ -107,10 +107,9 @@ pub struct EnergyAt {
     pub step: usize,
     /// Its time.
     pub t: f64,
-    /// The energy.
-    pub energy: f64,
-    /// Largest residual of a step so far, in units of the initial energy.
-    pub residual: f64,
+    /// The largest change of the energy in a step since the sample before, in units of the initial
+    /// energy: it is negative. NaN at the start.
+    pub change: f64,
     /// Sum of all residuals so far, in units of the energy.
     pub drift: f64,
 }

@@ -123,6 +123,10 @@ impl Manufacture {
     }
 
     /// The files of a language: the library, and the program that answers questions about points.
+    ///
+    /// The library has the solution and its gradients, definitions, terms, sources one by one and
+    /// all together, data, averages, norms, and `set_parameter`, by which another value replaces
+    /// that of the file. The domain, and the points of an integral, are those of the file.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
         emit::emit(&self.model, language)
     }
@@ -145,6 +149,21 @@ impl Manufacture {
     ) -> Result<Vec<Finding>, InputError> {
         let Sampling { seed, points, .. } = *sampling;
         check::emitted::emitted(&self.model, language, folder, seed, points)
+    }
+
+    /// Builds and runs the files of a language that are in a folder already, and compares their
+    /// values.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn check_built(
+        &self,
+        language: Language,
+        folder: &Path,
+        sampling: &Sampling,
+    ) -> Result<Vec<Finding>, InputError> {
+        let Sampling { seed, points, .. } = *sampling;
+        check::emitted::run(&self.model, language, folder, seed, points)
     }
 
     /// Values at the points of a table with a header: coordinates, time, and optionally `face`.

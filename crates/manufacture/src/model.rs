@@ -7,7 +7,7 @@ use crate::arithmetic::jet::{Jet, Jets, Monomials};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::{Measured, Tape};
 use crate::arithmetic::{Depth, Graph, Node};
-use crate::derive::{Elaborator, Part, Quantity, Role};
+use crate::derive::{Elaborator, Part, Quantity, Role, quantity};
 use crate::problem::{InputError, Problem};
 
 /// A file, derived.
@@ -16,6 +16,10 @@ pub(crate) struct Model {
     pub(crate) problem: Problem,
     pub(crate) graph: Graph,
     pub(crate) parts: Vec<(Part, Vec<Quantity<NodeId>>)>,
+    /// The values of [define], in alphabetical order.
+    pub(crate) definitions: Vec<Quantity<NodeId>>,
+    /// The expressions of the parameters, in those that they depend on.
+    pub(crate) parameters: Vec<NodeId>,
     /// The largest number of derivatives one inside the other.
     order: usize,
     /// The largest number of panels of an integral.
@@ -24,12 +28,26 @@ pub(crate) struct Model {
 
 impl Model {
     pub(crate) fn new(problem: Problem) -> Result<Self, InputError> {
-        let parameters = problem.parameter_values(None)?;
+        let parameters = problem.parameter_values(&[])?;
         let graph = Graph::new(problem.intervals.clone(), parameters);
         let mut elaborator = Elaborator::new(&problem, graph);
         let mut parts = vec![];
         for part in Part::all(&problem) {
             parts.push((part, elaborator.part(part)?));
+        }
+        let mut definitions = vec![];
+        for (name, definition) in &problem.definitions {
+            if let Some(tensor) = elaborator.known.get(name)
+                && !definition.is_exact
+            {
+                let key = format!("define.{name}");
+                definitions.push(quantity(Role::Definition, name, &key, tensor.clone()));
+            }
+        }
+        let mut expressions = vec![];
+        for parameter in &problem.parameters {
+            let value = elaborator.expression(&parameter.expression)?;
+            expressions.extend(value.parts);
         }
         let graph = elaborator.algebra;
         let mut depth = Elaborator::new(&problem, Depth);
@@ -42,6 +60,8 @@ impl Model {
         let panels = most_panels(&graph);
         Ok(Self {
             parts,
+            definitions,
+            parameters: expressions,
             order,
             panels,
             graph,

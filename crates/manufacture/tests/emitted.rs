@@ -153,3 +153,200 @@ fn names_that_fortran_cannot_tell_apart_are_listed() {
     let python = &read(&text).emit(Language::Python)[0].text;
     assert!(!python.contains("Written with _ behind"));
 }
+
+/// Each definition, each term and all sources together are functions of their own, which add up.
+#[test]
+fn definitions_terms_and_joint_sources_are_emitted() {
+    let text = crate::files::plane(
+        "u = \"sin(x)*exp(y)\"",
+        "k = \"1 + u^2\"\nq = \"-k*grad(u)\"",
+        "heat = \"div(q) + 3*u\"\n[equations.other]\nloss = \"k*u\"\ngain = \"-x*y\"",
+    );
+    let python = &read(&text).emit(Language::Python)[0].text;
+    for name in [
+        "define_k",
+        "define_q",
+        "term_heat_1",
+        "term_heat_2",
+        "term_other_loss",
+        "term_other_gain",
+        "sources",
+    ] {
+        assert!(
+            python.contains(&format!("def {name}(x):")),
+            "{name}: {python}"
+        );
+    }
+    let fortran = &read(&text).emit(Language::Fortran)[0].text;
+    assert!(fortran.contains("pure function sources(x) result(out)"));
+    // One equation needs no joint function.
+    assert!(
+        !read(HEAT).emit(Language::C)[0]
+            .text
+            .contains("heat_sources")
+    );
+    assert!(findings(&text, Language::C).is_empty());
+}
+
+/// The check compares each of them: a slip in one that no source calls is found.
+#[test]
+fn a_slip_in_an_emitted_definition_is_found() {
+    let text = crate::files::plane(
+        "u = \"sin(x)*exp(y)\"",
+        "k = \"1 + u^2\"",
+        "heat = \"-div(k*grad(u))\"",
+    );
+    let slip = text.replace("k = \"1 + u^2\"", "k = \"1.001 + u^2\"");
+    let folder = tempfile::tempdir().unwrap();
+    let [right, wrong] = [&text, &slip].map(|text| read(text).emit(Language::C)[0].text.clone());
+    let function = |text: &str| {
+        let start = text.find("double test_define_k(").unwrap();
+        let end = start + text[start..].find("\n}\n").unwrap();
+        text[start..end].to_owned()
+    };
+    assert_ne!(function(&right), function(&wrong));
+    for file in read(&text).emit(Language::C) {
+        let changed = file.text.replace(&function(&right), &function(&wrong));
+        std::fs::write(folder.path().join(&file.name), changed).unwrap();
+    }
+    let findings = read(&text)
+        .check_built(Language::C, folder.path(), &sampling())
+        .unwrap();
+    assert_eq!(findings.len(), 1, "{findings:#?}");
+    assert!(
+        findings[0].text.starts_with("define_k differs by"),
+        "{findings:#?}"
+    );
+}
+
+/// The words of a command that compiles the files of a language in a folder at its strictest.
+fn strict(language: Language) -> &'static [&'static [&'static str]] {
+    const C: [&str; 6] = ["cc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror"];
+    match language {
+        Language::C => &[
+            &[C[0], C[1], C[2], C[3], C[4], C[5], "-c", "NAME.c"],
+            &[C[0], C[1], C[2], C[3], C[4], C[5], "-c", "NAME_answer.c"],
+        ],
+        Language::Fortran => &[
+            &[
+                "gfortran",
+                "-std=f2008",
+                "-Wall",
+                "-Wextra",
+                "-Werror",
+                "-c",
+                "NAME.f90",
+            ],
+            &[
+                "gfortran",
+                "-std=f2008",
+                "-Wall",
+                "-Wextra",
+                "-Werror",
+                "-c",
+                "NAME_answer.f90",
+            ],
+        ],
+        Language::Python => &[&["python3", "-B", "-W", "error", "-c", "import NAME"]],
+        Language::Rust => &[&[
+            "rustc",
+            "--edition",
+            "2021",
+            "-D",
+            "warnings",
+            "--emit",
+            "metadata",
+            "NAME_answer.rs",
+        ]],
+        Language::Octave => &[&["octave", "--quiet", "--no-history", "--eval", "p = NAME();"]],
+        // FEniCS is not here: the file is compiled alone.
+        Language::Ufl => &[&[
+            "python3",
+            "-B",
+            "-W",
+            "error",
+            "-m",
+            "py_compile",
+            "NAME_ufl.py",
+        ]],
+    }
+}
+
+/// Each emitted file compiles without a warning where its compiler is.
+#[test]
+fn emitted_files_compile_without_a_warning() {
+    const GAS: &str = include_str!("files/viscous-gas.toml");
+    const INTERFACE: &str = include_str!("files/interface.toml");
+    for text in [HEAT, BEAM, SOLID, PIECES, GAS, INTERFACE] {
+        let manufacture = read(text);
+        for (word, language) in Language::ALL {
+            let folder = tempfile::tempdir().unwrap();
+            for file in manufacture.emit(language) {
+                std::fs::write(folder.path().join(file.name), file.text).unwrap();
+            }
+            for command in strict(language) {
+                let words = command
+                    .iter()
+                    .map(|word| word.replace("NAME", manufacture.name()));
+                let words: Vec<String> = words.collect();
+                let output = std::process::Command::new(&words[0])
+                    .args(&words[1..])
+                    .current_dir(folder.path())
+                    .output();
+                let Ok(output) = output else {
+                    eprintln!("skipped: no {}", words[0]);
+                    continue;
+                };
+                let message = String::from_utf8_lossy(&output.stderr).into_owned();
+                if message.contains("No module named 'numpy'") {
+                    eprintln!("skipped: no NumPy");
+                    continue;
+                }
+                assert!(
+                    output.status.success() && message.is_empty(),
+                    "{word}: {words:?}\n{message}"
+                );
+            }
+        }
+    }
+}
+
+/// A parameter is set at run time, and those that depend on it follow: the check runs each program
+/// once more, with other parameters. One that does not follow is found.
+#[test]
+fn a_parameter_that_does_not_follow_is_found() {
+    let text = crate::files::plane("u = \"sin(k*x)*exp(y)\"", "", "a = \"laplacian(u) + L*u\"");
+    let text = text.replace(
+        "[exact]",
+        "[parameters]\nL = 1.5\nk = \"pi/L + m\"\nm = \"2*L\"\n[exact]",
+    );
+    for language in [Language::C, Language::Rust] {
+        assert_eq!(findings(&text, language), [], "{language:?}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let files = read(&text).emit(Language::C);
+    // In the branch of L the last statement, by which k follows, is lost.
+    let branch = files[0].text.find("strcmp(name, \"L\")").unwrap();
+    let start = branch + files[0].text[branch..].find("test_parameter_k = ").unwrap();
+    let end = start + files[0].text[start..].find('\n').unwrap();
+    let lost = format!(
+        "{}(void)0;{}",
+        &files[0].text[..start],
+        &files[0].text[end..]
+    );
+    for file in &files {
+        let is_library = file.name == "test.c";
+        let text = if is_library { &lost } else { &file.text };
+        std::fs::write(folder.path().join(&file.name), text).unwrap();
+    }
+    let findings = read(&text)
+        .check_built(Language::C, folder.path(), &sampling())
+        .unwrap();
+    let words = "a differs with other parameters by";
+    assert!(
+        findings
+            .iter()
+            .any(|finding| finding.text.starts_with(words)),
+        "{findings:#?}"
+    );
+}

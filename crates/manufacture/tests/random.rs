@@ -222,7 +222,8 @@ impl Built<'_> {
     /// The library with one slip in a source; `None` if there is no room for it.
     fn slip(&self, random: &mut Random) -> Option<Slip> {
         let start = self.library.find("random_source_T")?;
-        let end = start + self.library[start..].find("random_normal").unwrap_or(0);
+        // Behind the sources one by one stand all in one function, which is not compared here.
+        let end = start + self.library[start..].find("random_sources").unwrap_or(0);
         let sources = &self.library[start..end];
         let is_plane = sources.contains("x[1]");
         let mut slips = vec![];

@@ -105,7 +105,7 @@ impl Bench {
                 expression: one(),
             });
         }
-        let parameters = problem.parameter_values(None).ok()?;
+        let parameters = problem.parameter_values(&[]).ok()?;
         let graph = Graph::new(problem.intervals.clone(), parameters.clone());
         let mut elaborator = Elaborator::new(&problem, graph);
         elaborator.part(Part::Interior).ok()?;

@@ -8,7 +8,7 @@ use crate::arithmetic::tape::Measured;
 use crate::derive::{Part, Quantity, Role, Tensor, components};
 use crate::fit::Column;
 use crate::model::{Model, Rows};
-use crate::problem::InputError;
+use crate::problem::{InputError, Setting};
 
 /// Points where the file is evaluated in both ways.
 const SPREAD_POINTS: usize = 50;
@@ -150,7 +150,8 @@ impl<'m> Right<'m> {
     /// The parameters with one of them changed; those that depend on it follow.
     pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
         let problem = &self.model.problem;
-        problem.parameter_values(Some((parameter, value))).ok()
+        let setting = Setting { parameter, value };
+        problem.parameter_values(&[setting]).ok()
     }
 
     /// A quantity, to be evaluated at other points or with other parameters.

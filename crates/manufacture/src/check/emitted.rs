@@ -6,10 +6,15 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use super::{Finding, finding};
+use crate::Sampling;
 use crate::against::{Right, ask, questions};
-use crate::emit::{Language, accept, emit};
+use crate::arithmetic::NodeId;
+use crate::arithmetic::tape::{Measured, Tape};
+use crate::derive::{Part, Role};
+use crate::emit::{self, Function, Language, OTHERS, accept, emit, functions_of};
+use crate::language::tree::Tree;
 use crate::model::Model;
-use crate::problem::InputError;
+use crate::problem::{InputError, Setting, mentions};
 
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
@@ -115,7 +120,172 @@ pub(crate) fn run(
             Err(error) => findings.push(finding("emitted", name, error.to_string(), None)),
         }
     }
+    let functions = functions_of(model, language);
+    let others = Round {
+        argument: OTHERS.to_owned(),
+        face: None,
+        functions: emit::others(&functions),
+    };
+    let sampling = Sampling {
+        seed,
+        points,
+        is_strict: false,
+    };
+    findings.extend(others.held(model, &answer, &[], &sampling)?);
+    let settings = settings(model);
+    if !settings.is_empty() {
+        for round in rounds(model, &functions).iter().chain([&others]) {
+            findings.extend(round.held(model, &answer, &settings, &sampling)?);
+        }
+    }
+    for finding in &mut findings {
+        finding.key = name.to_owned();
+    }
     Ok(findings)
+}
+
+/// Functions that an answering program evaluates together.
+struct Round<'f> {
+    /// What asks for them.
+    argument: String,
+    face: Option<&'f str>,
+    functions: Vec<&'f Function>,
+}
+
+/// The sources, and the data of each face.
+fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
+    let mut rounds = vec![Round {
+        argument: String::new(),
+        face: None,
+        functions: functions
+            .iter()
+            .filter(|f| f.role == Role::Source)
+            .collect(),
+    }];
+    for (index, face) in model.problem.faces.iter().enumerate() {
+        let of_face = |f: &&Function| f.role == Role::Datum && f.part == Part::Face(index);
+        rounds.push(Round {
+            argument: face.name.clone(),
+            face: Some(&face.name),
+            functions: functions.iter().filter(of_face).collect(),
+        });
+    }
+    rounds.retain(|round| !round.functions.is_empty());
+    rounds
+}
+
+/// All parameters that depend on no other, a thousandth larger.
+fn settings(model: &Model) -> Vec<Setting> {
+    let problem = &model.problem;
+    let is_free = |tree: &Tree| {
+        let mut others = problem.parameters.iter();
+        !others.any(|other| mentions(tree, &other.name))
+    };
+    let values = problem.parameters.iter().zip(&model.graph.parameters);
+    values
+        .enumerate()
+        .filter(|(_, (parameter, _))| is_free(&parameter.expression.tree))
+        .map(|(parameter, (_, value))| Setting {
+            parameter,
+            value: 1.001 * value,
+        })
+        .collect()
+}
+
+impl Round<'_> {
+    /// Holds the functions to their values, with other parameters. A definition may lack a value
+    /// where no source has it: there nothing is compared.
+    fn held(
+        &self,
+        model: &Model,
+        answer: &[String],
+        settings: &[Setting],
+        sampling: &Sampling,
+    ) -> Result<Vec<Finding>, InputError> {
+        let questions = questions(model, self.face, sampling.seed, sampling.points)?;
+        let functions = self.functions.iter();
+        let names: Vec<&str> = functions
+            .flat_map(|f| f.components.iter().map(String::as_str))
+            .collect();
+        let roots: Vec<NodeId> = self
+            .functions
+            .iter()
+            .flat_map(|f| f.roots.clone())
+            .collect();
+        let mut command = [answer, std::slice::from_ref(&self.argument)].concat();
+        for Setting { parameter, value } in settings {
+            let name = &model.problem.parameters[*parameter].name;
+            command.push(format!("{name}={value:?}"));
+        }
+        let rows = ask::run(&command, questions.text.clone(), LIMIT)
+            .map_err(|error| error.to_string())
+            .and_then(|text| rows(&text, &names, questions.points.len()));
+        let rows = match rows {
+            Ok(rows) => rows,
+            Err(text) => return Ok(vec![finding("emitted", "", text, None)]),
+        };
+        let parameters = model.problem.parameter_values(settings)?;
+        let tape = Tape::new(&model.graph, &roots);
+        let mut worst = vec![0.0_f64; names.len()];
+        for (point, row) in questions.points.iter().zip(rows) {
+            let right = tape.with(point, &parameters).roots;
+            for ((right, found), worst) in right.iter().zip(row).zip(&mut worst) {
+                let share = difference(right, found);
+                if right.value.is_finite() {
+                    *worst = worst.max(if share.is_nan() { f64::INFINITY } else { share });
+                }
+            }
+        }
+        let changed = if settings.is_empty() {
+            ""
+        } else {
+            " with other parameters"
+        };
+        let wrong = names.iter().zip(worst).filter(|pair| pair.1 > 0.0);
+        let findings = wrong.map(|(name, worst)| {
+            let text = format!("{name} differs{changed} by {worst:.3e} of its size");
+            finding("emitted", "", text, Some(worst))
+        });
+        Ok(findings.collect())
+    }
+}
+
+/// A line of these names, then a line of numbers for each point; what is none is NaN.
+fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, String> {
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap_or("").split_whitespace().collect();
+    if head != names {
+        return Err(format!("expected the names {names:?}, found {head:?}"));
+    }
+    let number = |word: &str| word.parse().unwrap_or(f64::NAN);
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split_whitespace().map(number).collect())
+        .collect();
+    if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
+        return Err(format!(
+            "expected {} numbers, found {}",
+            names.len(),
+            row.len()
+        ));
+    }
+    if rows.len() != points {
+        return Err(format!(
+            "expected {points} lines of numbers, found {}",
+            rows.len()
+        ));
+    }
+    Ok(rows)
+}
+
+/// A difference as a share of the size; 0 if it is rounding.
+fn difference(right: &Measured, found: f64) -> f64 {
+    let difference = (right.value - found).abs();
+    // Not a difference of zero over a size of zero.
+    if difference <= SAME * right.size {
+        0.0
+    } else {
+        difference / right.size
+    }
 }
 
 fn differences(right: &Right<'_>, answers: &[ask::Answer], language: &str) -> Vec<Finding> {
@@ -128,15 +298,8 @@ fn differences(right: &Right<'_>, answers: &[ask::Answer], language: &str) -> Ve
             continue;
         };
         let values = right.values(place);
-        let shares = values.iter().zip(&answer.values).map(|(right, found)| {
-            let difference = (right.value - found).abs();
-            // Not a difference of zero over a size of zero.
-            if difference <= SAME * right.size {
-                0.0
-            } else {
-                difference / right.size
-            }
-        });
+        let pairs = values.iter().zip(&answer.values);
+        let shares = pairs.map(|(right, found)| difference(right, *found));
         let worst = shares.fold(0.0, f64::max);
         if worst > 0.0 {
             let text = format!("{name} differs by {worst:.3e} of its size");

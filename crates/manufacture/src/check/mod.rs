@@ -212,6 +212,9 @@ pub(crate) fn role_words(role: Role) -> &'static str {
         Role::Datum => "the datum",
         Role::Condition | Role::InitialCondition => "the value required of",
         Role::Initial => "the initial",
+        Role::Definition => "the definition",
+        Role::Term => "the term",
+        Role::Sources => "the sources",
     }
 }
 

@@ -31,6 +31,12 @@ pub(crate) enum Role {
     Condition,
     Initial,
     InitialCondition,
+    /// A value of [define], which is emitted for its own sake.
+    Definition,
+    /// A term of an equation.
+    Term,
+    /// All sources together.
+    Sources,
 }
 
 /// A quantity of the file.
@@ -261,7 +267,7 @@ impl<A: Algebra> Elaborator<'_, A> {
     }
 }
 
-fn quantity<N>(role: Role, name: &str, key: &str, tensor: Tensor<N>) -> Quantity<N> {
+pub(crate) fn quantity<N>(role: Role, name: &str, key: &str, tensor: Tensor<N>) -> Quantity<N> {
     Quantity {
         role,
         name: name.to_owned(),

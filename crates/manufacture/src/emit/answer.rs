@@ -1,10 +1,13 @@
 //! The program that answers questions about points in each language.
 
-use super::functions::Function;
+use super::functions::{Function, others};
 use super::write::prefix;
-use super::{EmittedFile, Language, fill};
+use super::{EmittedFile, Language, fill, parameters};
 use crate::derive::{Part, Role};
 use crate::model::Model;
+
+/// The argument that asks for all functions but sources and data; no face has this name.
+pub(crate) const OTHERS: &str = ":others";
 
 /// The functions that answer for the sources, or for a face.
 struct Group<'f> {
@@ -60,6 +63,10 @@ fn groups<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Group<'f>> {
             });
         }
     }
+    groups.push(Group {
+        face: OTHERS,
+        functions: others(functions),
+    });
     groups
 }
 
@@ -89,10 +96,11 @@ pub(super) fn program(
         .map(|group| calls(language, group, dimension, &prefix));
     let calls = calls.collect::<String>();
     let most = groups.iter().map(Group::count).max().unwrap_or(1);
-    let faces: Vec<String> = groups
-        .iter()
-        .map(|group| format!("'{}'", group.face))
-        .collect();
+    let has_parameters = !problem.parameters.is_empty();
+    let real = [
+        if problem.time.is_some() { ", t" } else { "" },
+        if has_parameters { ", value" } else { "" },
+    ];
     let time = match (language, problem.time.is_some()) {
         (Language::Fortran, true) => format!("        t = p({})\n", dimension + 1),
         (Language::Python, true) => format!("t = points[{dimension}]\n"),
@@ -105,8 +113,10 @@ pub(super) fn program(
             ("NAME", &problem.name),
             ("NAMES", &names),
             ("CALLS", &calls),
-            ("FACES", &faces.join(", ")),
+            ("REAL", &real.concat()),
+            ("WHOLE", if has_parameters { ", place, cut" } else { "" }),
             ("TIME", &time),
+            ("SETTINGS", &parameters::settings(model, language, &prefix)),
             ("T", if problem.time.is_some() { ", t" } else { "" }),
             ("D", &dimension.to_string()),
             ("V", &problem.intervals.len().to_string()),

@@ -17,7 +17,11 @@ impl Language {
     /// A name with `_` behind it where the language cannot tell it from one of the others: Fortran
     /// does not tell capitals from small letters.
     pub(super) fn distinct(self, mut name: String, others: &[&str]) -> String {
-        while self == Language::Fortran && others.iter().any(|o| o.eq_ignore_ascii_case(&name)) {
+        let is_same = |a: &str, b: &str| match self {
+            Language::Fortran => a.eq_ignore_ascii_case(b),
+            _ => a == b,
+        };
+        while others.iter().any(|other| is_same(other, &name)) {
             name.push('_');
         }
         name

@@ -2,7 +2,7 @@
 
 use super::Language;
 use crate::arithmetic::NodeId;
-use crate::derive::{Part, Quantity, Role, components};
+use crate::derive::{Part, Quantity, Role, Tensor, components};
 use crate::model::Model;
 
 /// A function of the coordinates and time.
@@ -35,8 +35,87 @@ pub(crate) fn functions(model: &Model, language: Language) -> Vec<Function> {
             functions.push(function);
         }
     }
+    for mut function in parts_of_sources(model) {
+        let names: Vec<&str> = functions.iter().map(|f| f.name.as_str()).collect();
+        function.name = language.distinct(function.name, &names);
+        functions.push(function);
+    }
+    for function in &mut functions {
+        // The answers of the others are asked for together.
+        if !matches!(function.role, Role::Source | Role::Datum) {
+            function.components = components(&model.problem, &function.name, &function.shape);
+        }
+    }
     functions.sort_by_key(|function| place(function.role));
     functions
+}
+
+/// Of what sources are made: definitions and terms; and all sources of several equations in one
+/// function, which shares their work.
+fn parts_of_sources(model: &Model) -> Vec<Function> {
+    let mut functions: Vec<Function> = vec![];
+    for definition in &model.definitions {
+        let name = format!("define_{}", definition.name);
+        functions.push(part_of_source(
+            model,
+            Role::Definition,
+            name,
+            &definition.tensor,
+        ));
+    }
+    let sources: Vec<_> = model.of_role(Role::Source).collect();
+    for source in &sources {
+        for (number, (label, tensor)) in source.terms.iter().enumerate() {
+            let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            let is_name = label.chars().all(is_letter) && !label.is_empty();
+            let number = (number + 1).to_string();
+            // A term of a text has no name: its place in the text is told.
+            let label = if is_name { label } else { &number };
+            let name = format!("term_{}_{label}", source.name);
+            functions.push(part_of_source(model, Role::Term, name, tensor));
+        }
+    }
+    // Terms of a table are in the order of the file, on which no byte depends.
+    functions.sort_by(|a, b| (place(a.role), &a.name).cmp(&(place(b.role), &b.name)));
+    if sources.len() > 1 {
+        let roots = sources.iter().flat_map(|source| &source.tensor.parts);
+        let all = Tensor::vector(roots.copied().collect());
+        functions.push(part_of_source(
+            model,
+            Role::Sources,
+            "sources".to_owned(),
+            &all,
+        ));
+    }
+    functions
+}
+
+fn part_of_source(model: &Model, role: Role, name: String, tensor: &Tensor<NodeId>) -> Function {
+    Function {
+        quantity: name.clone(),
+        name,
+        role,
+        part: Part::Interior,
+        shape: tensor.shape.clone(),
+        roots: tensor.parts.clone(),
+        components: vec![],
+        has_time: model.problem.time.is_some(),
+    }
+}
+
+/// The functions that the answering programs evaluate together, besides sources and data.
+pub(crate) fn others(functions: &[Function]) -> Vec<&Function> {
+    let is_other = |f: &&Function| {
+        let roles = [
+            Role::Exact,
+            Role::Gradient,
+            Role::Definition,
+            Role::Term,
+            Role::Sources,
+        ];
+        roles.contains(&f.role)
+    };
+    functions.iter().filter(is_other).collect()
 }
 
 /// The order of the roles in a file.
@@ -44,10 +123,13 @@ fn place(role: Role) -> usize {
     match role {
         Role::Exact => 0,
         Role::Gradient => 1,
-        Role::Source => 2,
-        Role::Normal => 3,
-        Role::Datum => 4,
-        _ => 5,
+        Role::Definition => 2,
+        Role::Term => 3,
+        Role::Source => 4,
+        Role::Sources => 5,
+        Role::Normal => 6,
+        Role::Datum => 7,
+        _ => 8,
     }
 }
 

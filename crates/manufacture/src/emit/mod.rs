@@ -4,6 +4,7 @@ mod answer;
 mod dialect;
 mod functions;
 mod lower;
+mod parameters;
 mod reserved;
 mod runtime;
 mod study;
@@ -15,7 +16,9 @@ use crate::language::names::name_in;
 use crate::model::Model;
 use crate::problem::InputError;
 
+pub(crate) use answer::OTHERS;
 use functions::functions;
+pub(crate) use functions::{Function, others};
 
 /// A language that functions are emitted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,6 +135,11 @@ pub(crate) fn emit(model: &Model, language: Language) -> Vec<EmittedFile> {
     let mut files = write::library(model, language, &functions);
     files.extend(answer::program(model, language, &functions));
     files
+}
+
+/// All functions of a model in a language.
+pub(crate) fn functions_of(model: &Model, language: Language) -> Vec<Function> {
+    functions(model, language)
 }
 
 /// Refuses a model whose name a language cannot have.

@@ -6,6 +6,8 @@ use super::functions::Function;
 use super::write::Writer;
 use super::{Language, fill};
 use crate::arithmetic::quadrature::POINTS;
+use crate::arithmetic::tape::nodes_below;
+use crate::arithmetic::{Node, NodeId};
 use crate::derive::Role;
 use crate::problem::Norm;
 
@@ -75,7 +77,15 @@ fn call_time(has_time: bool) -> &'static str {
 pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
     let name = &writer.model.problem.name;
     match writer.language {
-        Language::C => format!("\n#include <math.h>\n#include \"{name}.h\"\n\n"),
+        Language::C => {
+            let has_parameters = !writer.parameters.is_empty();
+            let string = if has_parameters {
+                "#include <string.h>\n"
+            } else {
+                ""
+            };
+            format!("\n#include <math.h>\n{string}#include \"{name}.h\"\n\n")
+        }
         Language::Fortran => format!(
             "module {name}\nimplicit none\npublic\ninteger, parameter, private :: dp = kind(1.0d0)\n"
         ),
@@ -91,6 +101,9 @@ pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
             }
             let exact = functions.iter().filter(|f| f.role == Role::Exact);
             names.extend(exact.map(|f| format!("average_{}", suffix(f))));
+            if !writer.parameters.is_empty() {
+                names.push("set_parameter".to_owned());
+            }
             let mut text = format!("\nfunction p = {name}()\n");
             for name in names {
                 let _ = writeln!(text, "  p.{name} = @{name};");
@@ -186,9 +199,14 @@ pub(super) fn framed(
     let dimension = writer.model.problem.coordinates.len();
     let count = function.roots.len();
     match writer.language {
-        Language::C => format!("{}\n{{\n{body}}}\n\n", prototype(writer, function)),
+        Language::C => {
+            let unused = unused(writer, &function.roots, function.has_time);
+            format!("{}\n{{\n{unused}{body}}}\n\n", prototype(writer, function))
+        }
         Language::Fortran => {
             let shape = fortran_shape(shape);
+            let unused = unused(writer, &function.roots, function.has_time);
+            let declared = format!("{declared}{unused}");
             format!(
                 "pure function {name}(x{time_declared}) result(out)\n    real(dp), intent(in) :: x(:){time_extra}\n    \
                  real(dp) :: out{shape}\n{declared}{body}end function {name}\n\n"
@@ -221,6 +239,35 @@ pub(super) fn framed(
             }
         }
     }
+}
+
+/// Statements for the arguments that the nodes below some roots do not use: a compiler that is
+/// strict asks for a use of each.
+pub(super) fn unused(writer: &Writer<'_>, roots: &[NodeId], has_time: bool) -> String {
+    let graph = &writer.model.graph;
+    let time = writer.model.problem.coordinates.len();
+    let below = nodes_below(graph, roots);
+    let uses = |is_time: bool| {
+        below.iter().any(|id| match graph.node(*id) {
+            Node::Variable(index) => (*index == time) == is_time,
+            // Its helper has both arguments.
+            Node::Integral { .. } => true,
+            _ => false,
+        })
+    };
+    let mut unused = vec![];
+    if !uses(false) {
+        unused.push("x");
+    }
+    if has_time && !uses(true) {
+        unused.push("t");
+    }
+    let statement = |name: &&str| match writer.language {
+        Language::C => format!("    (void){name};\n"),
+        Language::Fortran => format!("    associate (unused => {name})\n    end associate\n"),
+        _ => String::new(),
+    };
+    unused.iter().map(statement).collect()
 }
 
 fn fortran_shape(shape: &[usize]) -> String {
@@ -409,6 +456,14 @@ fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> S
             ("CALL", &array_call(writer, function, &point)),
             ("COLONS", &":, ".repeat(function.shape.len().min(2))),
             ("EXACT", &function.name),
+            (
+                "UNUSED",
+                if norm == "Linf" {
+                    "    (void)weights;\n"
+                } else {
+                    ""
+                },
+            ),
             ("ADD", &add),
             ("ROOT", &root),
         ],
@@ -432,6 +487,14 @@ pub(super) fn header(writer: &Writer<'_>, functions: &[Function], head: &str) ->
         .filter_map(|text| text.split_once("\n{"))
     {
         let _ = writeln!(text, "{};", definition.0.trim_start());
+    }
+    if !writer.parameters.is_empty() {
+        text += "/* 0, or 1 if no parameter has the name; those that depend on it follow. */\n";
+        let _ = writeln!(
+            text,
+            "int {}set_parameter(const char *name, double value);",
+            writer.prefix
+        );
     }
     text + "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n"
 }

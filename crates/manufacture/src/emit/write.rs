@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::functions::Function;
 use super::lower::{Lowered, Names, lower};
-use super::{EmittedFile, Language, fill, runtime};
+use super::{EmittedFile, Language, fill, parameters, runtime};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
@@ -19,7 +19,7 @@ pub(super) struct Writer<'m> {
     pub(super) language: Language,
     /// The prefix of C.
     pub(super) prefix: String,
-    parameters: Vec<String>,
+    pub(super) parameters: Vec<String>,
     /// All integrals, the inner before the outer.
     integrals: Vec<NodeId>,
 }
@@ -54,6 +54,7 @@ pub(super) fn library(
         body += &writer.function(function);
     }
     body += &runtime::norms(&writer, functions);
+    body += &parameters::setter(&writer);
     let opening = runtime::opening(&writer, functions);
     let closing = runtime::closing(&writer);
     let ending = match language {
@@ -66,7 +67,7 @@ pub(super) fn library(
     };
     let text = format!(
         "{head}{opening}{}{}{body}{closing}",
-        writer.constants(),
+        parameters::definitions(&writer),
         runtime::helpers(&writer)
     );
     let mut files = vec![EmittedFile {
@@ -158,30 +159,6 @@ impl Writer<'_> {
         head
     }
 
-    fn constants(&self) -> String {
-        let mut text = String::new();
-        let values = self.model.graph.parameters.iter();
-        for (name, value) in self.parameters.iter().zip(values) {
-            let value = self.language.number(*value);
-            let _ = match self.language {
-                Language::C => writeln!(text, "static const double {name} = {value};"),
-                Language::Fortran => {
-                    writeln!(text, "real(dp), parameter, private :: {name} = {value}")
-                }
-                Language::Rust => {
-                    writeln!(
-                        text,
-                        "#[allow(dead_code, non_upper_case_globals)]\nconst {name}: f64 = {value};"
-                    )
-                }
-                // A function of Octave sees no variable of its file.
-                Language::Octave => Ok(()),
-                Language::Python | Language::Ufl => writeln!(text, "{name} = {value}"),
-            };
-        }
-        text
-    }
-
     fn call_of_integral(&self, id: NodeId, array: &str, time: &str) -> String {
         let number = self
             .integrals
@@ -198,21 +175,22 @@ impl Writer<'_> {
     }
 
     /// Constants and values of roots with these names of the coordinates and of time.
-    fn statements(&self, roots: &[NodeId], array: &str, time: &str) -> Lowered {
+    pub(super) fn statements(&self, roots: &[NodeId], array: &str, time: &str) -> Lowered {
         let array_argument = if self.language == Language::Rust && array == "y" {
             "&y"
         } else {
             array
         };
-        let values = self.model.graph.parameters.iter();
-        let values: Vec<String> = values.map(|value| self.language.number(*value)).collect();
-        let is_octave = self.language == Language::Octave;
+        let names = self.parameters.iter();
+        let values: Vec<String> = names
+            .map(|name| parameters::read(self.language, name))
+            .collect();
         let names = Names {
             language: self.language,
             array,
             coordinates: self.model.problem.coordinates.len(),
             time,
-            parameters: if is_octave { &values } else { &self.parameters },
+            parameters: &values,
             integrals: &|id| self.call_of_integral(id, array_argument, time),
         };
         lower(&self.model.graph, roots, &names)
@@ -264,15 +242,17 @@ impl Writer<'_> {
                 self.language.assign(name, value)
             );
         }
+        let has_time = self.model.problem.time.is_some();
         let [low, high] = self.model.graph.intervals[*variable];
         let width = (high - low) / *panels as f64;
         let call = self.call_of_integral(id, "", "");
         let name = call.split('(').next().unwrap_or("");
         fill(
-            &runtime::integral(self.language, self.model.problem.time.is_some()),
+            &runtime::integral(self.language, has_time),
             &[
                 ("NAME", name),
                 ("DECLARED", &declared(self.language, &constants)),
+                ("UNUSED", &runtime::unused(self, &[*body], has_time)),
                 ("BODY", &statements),
                 ("VALUE", &roots[0]),
                 ("LOW", &self.language.number(low)),
@@ -313,7 +293,7 @@ impl Writer<'_> {
 }
 
 /// The declarations that Fortran needs.
-fn declared(language: Language, constants: &[[String; 2]]) -> String {
+pub(super) fn declared(language: Language, constants: &[[String; 2]]) -> String {
     if language != Language::Fortran {
         return String::new();
     }

@@ -62,6 +62,13 @@ pub(crate) struct Parameter {
     pub(crate) expression: Expression,
 }
 
+/// Another value of a parameter, by its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Setting {
+    pub(crate) parameter: usize,
+    pub(crate) value: f64,
+}
+
 /// What a name of `[exact]` or `[define]` stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Definition {
@@ -193,14 +200,11 @@ impl Problem {
             .collect()
     }
 
-    /// The values of the parameters, with one of them replaced; those that depend on it follow.
-    pub(crate) fn parameter_values(
-        &self,
-        replaced: Option<(usize, f64)>,
-    ) -> Result<Vec<f64>, InputError> {
+    /// The values of the parameters, with some of them replaced; those that depend on them follow.
+    pub(crate) fn parameter_values(&self, replaced: &[Setting]) -> Result<Vec<f64>, InputError> {
         let mut values: Vec<Option<f64>> = vec![None; self.parameters.len()];
-        if let Some((index, value)) = replaced {
-            values[index] = Some(value);
+        for setting in replaced {
+            values[setting.parameter] = Some(setting.value);
         }
         for index in 0..values.len() {
             self.parameter(index, &mut values, &mut vec![])?;

@@ -152,7 +152,7 @@ impl Problem {
         let variables: Vec<String> = self.variables().iter().map(|v| (*v).to_owned()).collect();
         let known: Vec<&str> = variables.iter().map(String::as_str).collect();
         section.allow(&known)?;
-        let values = self.parameter_values(None)?;
+        let values = self.parameter_values(&[])?;
         let names = self
             .parameters
             .iter()

@@ -9,7 +9,7 @@ int main(int argc, char **argv)
     char line[4096];
     double p[@V@], out[@MOST@];
     const char *names = NULL;
-@NAMES@    if (!names || !fgets(line, sizeof line, stdin)) return 2;
+@SETTINGS@@NAMES@    if (!names || !fgets(line, sizeof line, stdin)) return 2;
     puts(names);
     while (fgets(line, sizeof line, stdin)) {
         char *at = line;

@@ -3,15 +3,14 @@ program @NAME@_answer
     implicit none
     integer, parameter :: double = kind(1.0d0)
     character(4096) :: text, face
-    real(double) :: p(@V@), x(@D@), t
-    integer :: status
+    real(double) :: p(@V@), x(@D@)@REAL@
+    integer :: status@WHOLE@
     call get_command_argument(1, face)
-    read(*, '(a)', iostat=status) text
+@SETTINGS@    read(*, '(a)', iostat=status) text
     select case (trim(face))
 @NAMES@    case default
         stop 2
     end select
-    t = 0
     do
         read(*, '(a)', iostat=status) text
         if (status /= 0) exit

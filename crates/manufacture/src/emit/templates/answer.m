@@ -2,10 +2,10 @@
 p = @NAME@();
 face = '';
 words = argv();
-if numel(words) > 0 && any(strcmp(words{end}, {@FACES@}))
-  face = words{end};
+if numel(words) > 0
+  face = words{1};
 end
-columns = numel(strsplit(strtrim(fgetl(stdin)), ' '));
+@SETTINGS@columns = numel(strsplit(strtrim(fgetl(stdin)), ' '));
 points = fscanf(stdin, '%f', [columns, Inf]);
 x = points(1:@D@, :);
 @TIME@switch face

@@ -5,7 +5,7 @@ import numpy as np
 import @NAME@ as library
 
 face = sys.argv[1] if len(sys.argv) > 1 else ""
-sys.stdin.readline()
+@SETTINGS@sys.stdin.readline()
 points = np.array([[float(word) for word in line.split()[:@V@]] for line in sys.stdin]).T
 x = points[:@D@]
 @TIME@names, functions = {

@@ -5,7 +5,7 @@ mod library;
 
 fn main() {
     let face = std::env::args().nth(1).unwrap_or_default();
-    let mut lines = io::stdin().lock().lines();
+@SETTINGS@    let mut lines = io::stdin().lock().lines();
     lines.next();
     match face.as_str() {
 @NAMES@        _ => std::process::exit(2),

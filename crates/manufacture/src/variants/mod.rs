@@ -69,6 +69,36 @@ impl Switch {
         }
     }
 
+    /// The sort of part.
+    pub fn part(&self) -> &'static str {
+        match self {
+            Switch::Coordinate(_) => "coordinate",
+            Switch::Time(_) => "time",
+            Switch::Face(_) => "face",
+            Switch::BothFaces(_) => "both_faces",
+            Switch::AllFaces => "all_faces",
+            Switch::AllFacesBut(_) => "all_faces_but",
+            Switch::Initial => "initial",
+            Switch::AllFacesAndInitial => "all_faces_and_initial",
+            Switch::Parameter(_) => "parameter",
+            Switch::Field(_) => "field",
+        }
+    }
+
+    /// The name of the part, where there are several of its sort.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Switch::AllFaces | Switch::Initial | Switch::AllFacesAndInitial => None,
+            Switch::Coordinate(name)
+            | Switch::Time(name)
+            | Switch::Face(name)
+            | Switch::BothFaces(name)
+            | Switch::AllFacesBut(name)
+            | Switch::Parameter(name)
+            | Switch::Field(name) => Some(name),
+        }
+    }
+
     /// What the variant switches off, in words.
     pub fn words(&self) -> String {
         match self {
@@ -115,6 +145,17 @@ pub struct Variants<'m> {
 }
 
 impl Variants<'_> {
+    /// All parts of the file: those of variants that can be used, and of those that cannot.
+    pub fn switches(&self) -> impl Iterator<Item = &Switch> {
+        let usable = self.usable.iter().map(|variant| &variant.switch);
+        usable.chain(self.left_out.iter().map(|entry| &entry.switch))
+    }
+
+    /// The data of a side, by their names in the file: `flux`.
+    pub fn data_at(&self, side: &str) -> Vec<&str> {
+        design::data_at(&self.base.problem, side)
+    }
+
     /// The files of a language, whose functions are those of the variant that the environment
     /// variable `MANUFACTURE_VARIANT` names.
     ///
@@ -151,7 +192,20 @@ pub(crate) fn variants<'m>(
         usable: vec![],
         left_out: vec![],
     };
-    for design in designs(&base.problem) {
+    let problem = &base.problem;
+    if let Some(level) = design::on_a_level(problem) {
+        // Nothing is flat there, so no variant is flat at all faces.
+        variants.left_out.push(LeftOut {
+            switch: Switch::AllFaces,
+            why: format!("the face {level} lies on a level"),
+        });
+    }
+    let is_left_out = |switch: &Switch| variants.left_out.iter().any(|one| one.switch == *switch);
+    let designs = designs(problem).into_iter();
+    let designs: Vec<Design> = designs
+        .filter(|design| !is_left_out(&design.switch))
+        .collect();
+    for design in designs {
         match usable(base, &design, sampling)? {
             Ok(variant) => variants.usable.push(variant),
             Err(why) => variants.left_out.push(LeftOut {

@@ -17,10 +17,11 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::check::Check;
-use crate::derive::Role;
+use crate::derive::{Part, Role};
 use crate::emit::{EmittedFile, Language};
 use crate::model::{Model, Rows};
 use crate::problem::{InputError, Problem};
+use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
 use design::{Design, MIDDLE, Side, designs, sides};
@@ -121,6 +122,8 @@ impl Switch {
 pub struct Variant {
     /// What it switches off.
     pub switch: Switch,
+    /// The size of its solution.
+    pub size: f64,
     model: Model,
 }
 
@@ -138,6 +141,8 @@ pub struct LeftOut {
 #[derive(Debug)]
 pub struct Variants<'m> {
     base: &'m Model,
+    /// The size of the solution of the file: the root mean square of its fields over the domain.
+    pub size: f64,
     /// Those that can be used.
     pub usable: Vec<Variant>,
     /// The others.
@@ -189,6 +194,7 @@ pub(crate) fn variants<'m>(
 ) -> Result<Variants<'m>, InputError> {
     let mut variants = Variants {
         base,
+        size: size(base, sampling)?,
         usable: vec![],
         left_out: vec![],
     };
@@ -215,6 +221,19 @@ pub(crate) fn variants<'m>(
         }
     }
     Ok(variants)
+}
+
+/// The root mean square of all fields over points of the domain.
+fn size(model: &Model, sampling: &Sampling) -> Result<f64, InputError> {
+    let points = Sampler::new(model, sampling.seed).points(Part::Interior, sampling.points)?;
+    let fields: Vec<_> = model.of_role(Role::Exact).collect();
+    let rows = Rows::new(&model.graph, fields.iter().map(|field| &field.tensor));
+    let square = |point: &Vec<f64>| -> f64 {
+        let values = rows.at(point).tensors.into_iter().flatten();
+        values.map(|part| part.value.powi(2)).sum()
+    };
+    let mean = points.iter().map(square).sum::<f64>() / points.len() as f64;
+    Ok(mean.sqrt())
 }
 
 /// The values of a field at a point.
@@ -283,6 +302,7 @@ fn usable(
         let Some(first) = failures.first() else {
             return Ok(Ok(Variant {
                 switch: design.switch.clone(),
+                size: size(&model, sampling)?,
                 model,
             }));
         };
@@ -314,7 +334,6 @@ fn problem(base: &Problem, design: &Design, lifts: BTreeMap<String, Vec<f64>>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derive::Part;
 
     pub(super) const HEAT: &str = r#"
 [manufacture]
@@ -458,6 +477,17 @@ u = "u"
         assert!((3.9..4.1).contains(&order), "{order}");
         let order = (at(everywhere, [0.04, t])[0] / at(everywhere, [0.02, t])[0]).log2();
         assert!((3.7..5.2).contains(&order), "{order}");
+    }
+
+    #[test]
+    fn the_size_of_a_variant_is_that_of_its_solution() {
+        let model = model(HEAT);
+        let variants = variants(&model, &few()).unwrap();
+        // The mean of sin(x)^2 is 0.27, that of exp(-2t) 0.25.
+        assert!((variants.size - 0.26).abs() < 0.06, "{}", variants.size);
+        let size = named(&variants, "flat_x_min").size;
+        // sin(x) - x + x^3/6 is x^5/120, and less than 0.0081.
+        assert!((1e-4..3e-3).contains(&size), "{size}");
     }
 
     #[test]

@@ -67,12 +67,16 @@ impl Conclusion {
 /// What the variants of a file show, all of them: one that could not be used is unknown.
 pub(super) fn decide(examined: &[Examined]) -> Conclusion {
     let table = Table(examined);
-    let found = match table.single_faces_back().as_slice() {
+    let of_faces = match table.single_faces_back().as_slice() {
         [] => table.no_single_face(),
         [face] => table.one_face(face),
         [one, other] => table.corner(one, other),
         _ => Found::Nothing,
     };
+    let found = [of_faces, table.initial(), table.inside()]
+        .into_iter()
+        .find(|found| matches!(found, Found::Conclusion(_)))
+        .unwrap_or(Found::Nothing);
     match found {
         Found::Conclusion(conclusion) => conclusion,
         Found::Nothing if examined.iter().any(|one| one.fate == Fate::Unknown) => {
@@ -168,11 +172,14 @@ impl Table<'_> {
 
     /// Whether variants that are flat at this face and at others agree that its data are at fault.
     fn agrees(&self, face: &str) -> bool {
+        let of_others =
+            |switch: &Switch| matches!(switch, Switch::BothFaces(name) if !is_side(face, name));
         let both =
             |switch: &Switch| matches!(switch, Switch::BothFaces(name) if is_side(face, name));
         let others = |switch: &Switch| matches!(switch, Switch::AllFacesBut(name) if name != face);
         let but_this = |switch: &Switch| *switch == Switch::AllFacesBut(face.to_owned());
         self.are_back(both)
+            && self.are_not_back(of_others)
             && self.are_back(|switch| *switch == Switch::AllFaces)
             && self.are_not_lost(others)
             && self.are_not_lost(|switch| *switch == Switch::AllFacesAndInitial)
@@ -194,24 +201,18 @@ impl Table<'_> {
             self.are_lost(|switch| *switch == Switch::Initial),
             self.are_back(both),
             self.are_back(|switch| *switch == Switch::AllFaces),
+            self.are_not_lost(|switch| matches!(switch, Switch::AllFacesBut(_))),
             self.are_not_lost(|switch| *switch == Switch::AllFacesAndInitial),
         ];
         Found::if_all(&conditions, Conclusion::Corner(names))
     }
 
     fn no_single_face(&self) -> Found {
-        if self.are_lost(|switch| *switch == Switch::Initial) {
-            let of_faces = match self.coordinates_with_both_back().as_slice() {
-                [] => self.faces_by_all_but_one(),
-                [coordinate] => self.both_faces(coordinate),
-                _ => Found::Nothing,
-            };
-            if matches!(of_faces, Found::Conclusion(_)) {
-                return of_faces;
-            }
-            return self.inside();
+        match self.coordinates_with_both_back().as_slice() {
+            [] => self.faces_by_all_but_one(),
+            [coordinate] => self.both_faces(coordinate),
+            _ => Found::Nothing,
         }
-        self.initial()
     }
 
     fn coordinates_with_both_back(&self) -> Vec<String> {
@@ -238,6 +239,7 @@ impl Table<'_> {
             self.are_back(this),
             self.are_lost(is_single_face),
             self.are_lost(other),
+            self.are_lost(|switch| *switch == Switch::Initial),
             self.are_not_back(but_these),
             self.are_not_lost(but_others),
             self.are_back(|switch| *switch == Switch::AllFaces),
@@ -256,8 +258,12 @@ impl Table<'_> {
         let is_all = |switch: &Switch| *switch == Switch::AllFaces;
         let all_but = |switch: &Switch| matches!(switch, Switch::AllFacesBut(_));
         let is_known = |fate: &Fate| matches!(fate, Fate::Lost | Fate::Back);
+        // Both faces of one coordinate have a variant of their own.
+        let covers = |switch: &Switch| matches!(switch, Switch::BothFaces(name) if faces.iter().all(|face| is_side(face, name)));
         let conditions = [
             faces.len() >= 2,
+            self.fates(covers).is_empty(),
+            self.are_lost(|switch| *switch == Switch::Initial),
             !self.fates(is_all).is_empty() && self.are_back(is_all),
             self.fates(all_but).iter().all(is_known),
             self.are_lost(is_single_face),
@@ -278,7 +284,8 @@ impl Table<'_> {
         Found::if_all(&conditions, Conclusion::Initial)
     }
 
-    /// What acts inside the domain.
+    /// What acts inside the domain. That it is lost where all is flat outweighs that it seems to be
+    /// back where less is: there the lost part may be small.
     fn inside(&self) -> Found {
         let back = self
             .0
@@ -287,12 +294,16 @@ impl Table<'_> {
         let back: Vec<Switch> = back.map(|one| one.switch.clone()).collect();
         let is_along = |switch: &Switch| matches!(switch, Switch::Coordinate(_) | Switch::Time(_));
         let along = back.iter().filter(|switch| is_along(switch)).count();
-        let strongest = |switch: &Switch| {
-            matches!(
-                switch,
-                Switch::AllFaces | Switch::AllFacesAndInitial | Switch::Initial
-            )
-        };
+        // If it is lost in the last of these that the file has, it is in those before, too.
+        let of_all = [
+            Switch::Initial,
+            Switch::AllFaces,
+            Switch::AllFacesAndInitial,
+        ];
+        let strongest = of_all
+            .iter()
+            .rfind(|one| !self.fates(|switch| switch == *one).is_empty());
+        let is_strong = |switch: &Switch| *switch == Switch::AllFaces || Some(switch) == strongest;
         let both = |switch: &Switch| match switch {
             Switch::BothFaces(name) => back.contains(&Switch::Coordinate(name.clone())),
             _ => false,
@@ -302,9 +313,8 @@ impl Table<'_> {
             along <= 1,
             !self.fates(is_along).contains(&Fate::Unknown),
             !self.fates(is_along).contains(&Fate::RoundOff),
-            self.are_lost(strongest),
+            self.are_lost(is_strong),
             self.are_lost(both),
-            self.are_not_back(is_flat),
         ];
         Found::if_all(&conditions, Conclusion::Inside(back))
     }

@@ -4,9 +4,11 @@
 //! | file | holds |
 //! | --- | --- |
 //! | `decide.rs` | what follows from the variants in which the order comes back |
+//! | `fate.rs` | whether it does |
 //! | `words.rs` | the table of variants, the conclusion |
 
 mod decide;
+mod fate;
 mod words;
 
 use manufacture::{LeftOut, Manufacture, Sampling, Switch, Variants};
@@ -14,16 +16,13 @@ use manufacture::{LeftOut, Manufacture, Sampling, Switch, Variants};
 use super::exit::Unusable;
 use super::running::watched_with;
 use crate::input::read_text;
-use crate::judge::verdict::{Reason, Verdict};
+use crate::judge::verdict::Verdict;
 use crate::run::{self, Effort, Fate, Finished, Located, Part, VariantRate, VariantRates};
 use crate::study::{Outcome, Study};
 use decide::{Examined, decide};
+use fate::{Sized, fate};
 
 pub(super) use words::text;
-
-/// Errors this much smaller than those of the file's own solution are round-off, or what solvers
-/// leave.
-const ROUND_OFF: f64 = 1e-8;
 
 /// A study whose order is lost.
 struct Search<'s> {
@@ -174,7 +173,15 @@ fn located(
     let mut rows = vec![];
     for (variant, finished) in variants.usable.iter().zip(ran) {
         let switch = &variant.switch;
-        let fate = fate(&search.errors, base, &finished.outcome);
+        let of_variant = Sized {
+            outcome: &finished.outcome,
+            size: variant.size,
+        };
+        let of_base = Sized {
+            outcome: base,
+            size: variants.size,
+        };
+        let fate = fate(&search.errors, of_base, of_variant);
         examined.push(Examined {
             switch: switch.clone(),
             fate,
@@ -220,38 +227,5 @@ fn part(switch: &Switch) -> Part {
     Part {
         part: switch.part().to_owned(),
         name: switch.name().map(str::to_owned),
-    }
-}
-
-/// What became of the order: it is lost if it is for one error.
-fn fate(errors: &[String], base: &Outcome, variant: &Outcome) -> Fate {
-    let fates: Vec<Fate> = errors
-        .iter()
-        .map(|error| fate_of(error, base, variant))
-        .collect();
-    [Fate::Lost, Fate::Unknown, Fate::RoundOff]
-        .into_iter()
-        .find(|fate| fates.contains(fate))
-        .unwrap_or(Fate::Back)
-}
-
-fn fate_of(error: &str, base: &Outcome, variant: &Outcome) -> Fate {
-    let largest = |outcome: &Outcome| {
-        let errors = outcome.levels.iter().map(|level| level.error(error));
-        errors.fold(0.0, crate::text::number::max_or_nan)
-    };
-    if largest(variant) <= ROUND_OFF * largest(base) {
-        return Fate::RoundOff;
-    }
-    let Some(rate) = variant.rate(error) else {
-        return Fate::Unknown;
-    };
-    match rate.kind {
-        // A higher order is not a lost one; a constant belongs to the solution.
-        Reason::Agrees | Reason::TooHigh | Reason::ConstantOff | Reason::ConstantUnsure => {
-            Fate::Back
-        }
-        Reason::TooLow | Reason::FallsAway | Reason::ErrorGrows | Reason::WrongLimit => Fate::Lost,
-        _ => Fate::Unknown,
     }
 }

@@ -189,6 +189,60 @@ fn no_table_of_a_committed_report_is_wider_than_120_columns() {
     assert!(lines > 1000, "{lines} lines of tables");
 }
 
+/// A claimed order and the interval of its rate, in a row of a table of rates of a report.
+struct Claimed {
+    order: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Claimed {
+    /// `None` for any other line.
+    fn read(line: &str) -> Option<Self> {
+        let mut cells = line.split('|').map(str::trim).skip(2);
+        let (order, _) = cells.next()?.split_once(" ± ")?;
+        let (low, high) = cells.nth(1)?.split_once(" to ")?;
+        Some(Self {
+            order: order.parse().ok()?,
+            low: low.parse().ok()?,
+            high: high.parse().ok()?,
+        })
+    }
+
+    fn holds(&self) -> bool {
+        self.low <= self.order && self.order <= self.high
+    }
+
+    /// The distance of the order from the middle of the interval, in its half-widths.
+    fn half_widths(&self) -> f64 {
+        let half = (self.high - self.low) / 2.0;
+        ((self.low + self.high) / 2.0 - self.order).abs() / half
+    }
+}
+
+/// The rule's intervals on the project's own studies, whose orders are proven: what is counted on
+/// made-up laws holds here, too.
+#[test]
+fn most_intervals_of_the_report_hold_the_order_that_is_claimed() {
+    for (path, count) in [("reports/README.md", 150), ("reports/full/README.md", 200)] {
+        let report = read(path);
+        let claimed: Vec<Claimed> = report.lines().filter_map(Claimed::read).collect();
+        let outside: Vec<f64> = claimed
+            .iter()
+            .filter(|claimed| !claimed.holds())
+            .map(Claimed::half_widths)
+            .collect();
+        let farthest = outside.iter().copied().fold(0.0, f64::max);
+        assert!(claimed.len() >= count, "{path}: {} rates", claimed.len());
+        assert!(
+            outside.len() * 100 <= 8 * claimed.len() && farthest < 3.5,
+            "{path}: {} of {} outside, by up to {farthest} half-widths",
+            outside.len(),
+            claimed.len()
+        );
+    }
+}
+
 #[test]
 fn the_rates_of_the_theorem_are_those_of_the_report() {
     let readme = read("README.md").replace('\n', " ");

@@ -170,7 +170,7 @@ fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
         .map(|row| cell(row, "sound pass"))
         .collect();
     assert!(
-        sound.windows(2).all(|pair| pair[1] > pair[0]) && sound[2] > 0.9,
+        sound.windows(2).all(|pair| pair[1] > pair[0]) && sound[2] > 0.87,
         "{sound:?}"
     );
 }

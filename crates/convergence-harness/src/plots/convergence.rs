@@ -24,6 +24,12 @@ const TEXT_RIGHT: f64 = 0.055;
 const EXTENSION: f64 = 0.06;
 const MAX_EXTENSIONS: usize = 12;
 const SAMPLES: usize = 24;
+/// Ratio of neighbouring steps from which no line joins their errors.
+const GAP_RATIO: f64 = 8.0;
+/// Markers so near, as a fraction of the range of all errors, hide each other.
+const HIDDEN: f64 = 0.015;
+/// Growth of a marker for each series that hides it.
+const LARGER: f64 = 0.5;
 
 /// The errors in one norm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -86,9 +92,12 @@ impl Xy {
 /// * `xy`: the figure without them, such as [`Xy::of_errors`], both axes logarithmic.
 /// * `slopes`: orders to draw slope triangles for, in addition to those of the series.
 pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String {
-    for (k, series) in series.iter().enumerate() {
-        xy.curves
-            .extend(curves(series, look(series.look.unwrap_or(k))));
+    for (k, one) in series.iter().enumerate() {
+        let look = Look {
+            size: size(one, &series[k + 1..], series),
+            ..look(one.look.unwrap_or(k))
+        };
+        xy.curves.extend(curves(one, look));
     }
     if series.iter().any(has_unused_points) {
         xy.notes
@@ -104,6 +113,27 @@ pub fn convergence(mut xy: Xy, series: &[ErrorSeries], slopes: &[f64]) -> String
     }
     xy.outlines = triangles.outlines;
     xy.draw()
+}
+
+/// How large the markers of a fitted series are: those that a later one hides show around it.
+fn size(series: &ErrorSeries, later: &[ErrorSeries], all: &[ErrorSeries]) -> f64 {
+    if series.fit.is_none() {
+        return 1.0;
+    }
+    let own = LogCurve::new(series).points;
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for (_, y) in trends(all).iter().flat_map(|trend| &trend.points) {
+        range = [range[0].min(*y), range[1].max(*y)];
+    }
+    let near = HIDDEN * (range[1] - range[0]);
+    let hides = |other: &&ErrorSeries| {
+        let points = LogCurve::new(other).points;
+        let hidden = own
+            .iter()
+            .filter(|(x, y)| points.iter().any(|(u, v)| u == x && (v - y).abs() <= near));
+        2 * hidden.count() > own.len()
+    };
+    1.0 + LARGER * later.iter().filter(hides).count().min(2) as f64
 }
 
 /// Whether a line is fitted to only some of its points.
@@ -124,7 +154,7 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
         ..line
     };
     let Some(fit) = series.line() else {
-        return vec![markers];
+        return without_gaps(markers);
     };
     let range = series.used.clone().unwrap_or(0..series.points.len());
     let mut used = vec![];
@@ -151,6 +181,18 @@ fn curves(series: &ErrorSeries, look: Look) -> Vec<Curve> {
         });
     }
     curves
+}
+
+/// No line crosses nearly a decade without points, where nothing was measured.
+fn without_gaps(curve: Curve) -> Vec<Curve> {
+    curve
+        .points
+        .chunk_by(|(x, _), (next, _)| (next / x).max(x / next) < GAP_RATIO)
+        .map(|points| Curve {
+            points: points.to_vec(),
+            ..curve.clone()
+        })
+        .collect()
 }
 
 fn label(series: &ErrorSeries) -> String {

@@ -342,7 +342,7 @@ fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
                         canvas.draw(Layer::default(), |pen| {
                             // Open markers have their own rim.
                             for position in positions.iter().flatten().filter(|_| !rim) {
-                                look.marker.draw(pen, *position, colour, Marks::Open);
+                                look.mark(pen, *position, Marks::Open);
                             }
                         });
                         return;

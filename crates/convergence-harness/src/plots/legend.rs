@@ -72,8 +72,7 @@ pub(super) fn draw_entry(canvas: &mut Canvas, entry: &Entry, (x, y): Point, widt
                 });
             }
             canvas.draw(Layer::default(), |pen| {
-                look.marker
-                    .draw(pen, (x + 0.5 * SWATCH_WIDTH, y), look.colour, marks);
+                look.mark(pen, (x + 0.5 * SWATCH_WIDTH, y), marks);
                 write(pen);
             });
         }

@@ -31,21 +31,29 @@ pub enum Marks {
 /// Half the height of a circle, in px.
 const RADIUS: f64 = 5.5;
 
-impl Marker {
-    /// Draws the marker centred at `at`.
-    pub fn draw(self, pen: &Pen<'_>, at: Point, colour: RGBColor, marks: Marks) {
+impl Look {
+    /// Draws the marker centred at `at`. Strokes have no inside to leave white: open, they stand in a
+    /// circle.
+    pub fn mark(self, pen: &Pen<'_>, at: Point, marks: Marks) {
+        let Self { colour, marker, .. } = self;
+        let radius = self.size * RADIUS;
         match marks {
             Marks::None => {}
-            Marks::Filled => self.fill(pen, at, RADIUS, colour),
+            Marks::Filled => marker.fill(pen, at, radius, colour),
+            Marks::Open if matches!(marker, Marker::Strokes(_)) => {
+                pen.disc(at, radius + 2.2, colour);
+                pen.disc(at, radius + 0.8, WHITE);
+                marker.fill(pen, at, 0.8 * radius, colour);
+            }
             Marks::Open => {
-                self.fill(pen, at, RADIUS + 1.0, colour);
-                if !matches!(self, Marker::Strokes(_)) {
-                    self.fill(pen, at, RADIUS - 1.4, WHITE);
-                }
+                marker.fill(pen, at, radius + 1.0, colour);
+                marker.fill(pen, at, radius - 1.4, WHITE);
             }
         }
     }
+}
 
+impl Marker {
     fn fill(self, pen: &Pen<'_>, (x, y): Point, r: f64, colour: RGBColor) {
         match self {
             Marker::Circle => pen.disc((x, y), r, colour),
@@ -108,6 +116,8 @@ pub struct Look {
     pub marker: Marker,
     /// Dashes of its line.
     pub dash: Dash,
+    /// Size of the marker, 1 unless another series hides it.
+    pub size: f64,
 }
 
 /// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with the next
@@ -118,5 +128,6 @@ pub fn look(k: usize) -> Look {
         colour: COLOURS[k % COLOURS.len()],
         marker: MARKERS[marker],
         dash: DASHES[k % DASHES.len()],
+        size: 1.0,
     }
 }

@@ -287,10 +287,7 @@ impl Xy {
                         .flatten()
                         .for_each(|&at| pen.disc(at, 1.5 * curve.width, curve.look.colour));
                     for &at in positions.iter().flatten() {
-                        curve
-                            .look
-                            .marker
-                            .draw(pen, at, curve.look.colour, curve.marks);
+                        curve.look.mark(pen, at, curve.marks);
                     }
                 });
             });

@@ -47,6 +47,7 @@ fn columns(levels: &[Level], pollution: Option<f64>) -> Vec<Vec<f64>> {
 }
 
 /// One model of the logarithms by least squares.
+#[derive(Clone, Copy)]
 struct Model {
     rate: f64,
     pollution: Option<f64>,
@@ -86,19 +87,23 @@ fn by_the_rule(levels: &[Level]) -> (f64, Option<f64>, [f64; 2]) {
     let line = model(levels, None);
     let polluted = POLLUTION_EXPONENTS.map(|r| model(levels, Some(r)));
     let best = polluted
-        .into_iter()
+        .iter()
         .min_by(|a, b| a.rss.total_cmp(&b.rss))
         .expect("five");
+    let is_polluted = 20.0 * best.rss < line.rss;
     let Model {
         rate,
         pollution,
         half_width,
         ..
-    } = if 20.0 * best.rss < line.rss {
-        best
-    } else {
-        line
-    };
+    } = if is_polluted { *best } else { line };
+    let possible = polluted
+        .iter()
+        .filter(|other| is_polluted && other.rss < 4.0 * best.rss);
+    let farthest = possible
+        .map(|other| (other.rate - rate).abs())
+        .fold(0.0, f64::max);
+    let half_width = half_width.max(farthest);
     (rate, pollution, [rate - half_width, rate + half_width])
 }
 

@@ -112,3 +112,62 @@ fn a_rate_has_the_digits_of_its_interval_and_none_with_its_line_where_that_says_
         );
     }
 }
+
+/// The radii of all discs, ascending.
+fn radii(svg: &str) -> Vec<f64> {
+    let mut radii: Vec<f64> = elements(&parse(svg), "circle")
+        .map(|n| number(n, "r"))
+        .collect();
+    radii.sort_by(f64::total_cmp);
+    radii
+}
+
+/// Where the errors of two norms agree, the markers of both are seen.
+#[test]
+fn markers_under_those_of_another_series_are_larger() {
+    let one = ErrorSeries {
+        used: None,
+        ..partly_used()
+    };
+    let other = |factor: f64| ErrorSeries {
+        label: "H1".to_owned(),
+        points: one.points.iter().map(|(h, e)| (*h, factor * e)).collect(),
+        ..one.clone()
+    };
+    let largest = |factor: f64| radii(&over_h(&[one.clone(), other(factor)])).pop();
+    let [apart, together] = [100.0, 1.001].map(|factor| largest(factor).expect("a disc"));
+    assert!(together > 1.4 * apart, "{together} {apart}");
+}
+
+/// Strokes have no inside: a level without a say is encircled.
+#[test]
+fn strokes_of_levels_without_a_say_stand_in_a_circle() {
+    let series = |used| ErrorSeries {
+        look: Some(5),
+        used,
+        ..partly_used()
+    };
+    assert_eq!(radii(&over_h(&[series(None)])), Vec::<f64>::new());
+    assert_eq!(radii(&over_h(&[series(partly_used().used)])).len(), 4);
+}
+
+/// A line over nearly a decade without points would show what nobody measured.
+#[test]
+fn no_line_crosses_a_gap() {
+    let lines = |steps: [f64; 4]| {
+        let series = ErrorSeries {
+            points: steps.map(|h| (h, h * h)).to_vec(),
+            ..ErrorSeries::default()
+        };
+        let doc = over_h(&[series]);
+        let doc = parse(&doc);
+        elements(&doc, "g")
+            .filter(|n| n.has_attribute("data-series"))
+            .flat_map(|n| n.descendants())
+            .filter(|n| n.has_tag_name("polyline"))
+            .map(|n| n.attribute("points").unwrap_or_default().split(' ').count())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(lines([0.1, 0.05, 0.025, 0.0125]), [4]);
+    assert_eq!(lines([0.1, 0.05, 0.025, 0.001]), [3]);
+}

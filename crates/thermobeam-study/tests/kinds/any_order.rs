@@ -214,7 +214,7 @@ fn files_with_errors_are_refused_with_the_field() {
         ),
         (
             "any-order-space.toml",
-            "tolerance = 0.05",
+            "tolerance = 0.01",
             "tolerance = 0",
             "tolerance",
         ),

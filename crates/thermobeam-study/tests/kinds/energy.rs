@@ -68,7 +68,7 @@ fn the_samples_of_a_run_end_with_its_last_step() {
         let found = ran.found.expect("a run");
         let last = found.samples.last().expect("samples");
         assert_eq!((last.step, found.steps), (1000, 1000), "{}", ran.case.label);
-        assert!((last.t - 1.0).abs() < 1e-12 && last.residual > 0.0);
+        assert!((last.t - 1.0).abs() < 1e-12 && last.change < 0.0);
     }
 }
 

@@ -14,6 +14,10 @@ pub const POLLUTION_EXPONENTS: [f64; 5] = [1.0 / 3.0, 2.0 / 3.0, 1.0, 2.0, 3.0];
 /// A polluted line replaces the straight one if this many times its sum of squares is less.
 pub const CLEARLY_BETTER: f64 = 20.0;
 
+/// A polluted line is not excluded by another one if its sum of squares is less than this many
+/// times that of the other: the interval then reaches to its rate.
+const NOT_EXCLUDED: f64 = 4.0;
+
 /// Factor on the half-width, for what no model has.
 pub const FACTOR: f64 = 1.1;
 
@@ -75,10 +79,12 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
                 Some(r),
             )
         });
-        line = line.or_clearly_better(polluted_lines);
+        line = line.or_clearly_better(&polluted_lines);
         let deviation_of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
         let correction = ((line.rate - finest_rate).abs() - deviation_of_pair).max(0.0);
-        FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction)
+        let half =
+            FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction);
+        half.max(line.farthest_rate(&polluted_lines))
     };
     let Line {
         rate,
@@ -132,12 +138,27 @@ impl Line {
     }
 
     /// The best of the others if it is [`CLEARLY_BETTER`] than this one.
-    fn or_clearly_better(self, others: [Self; 5]) -> Self {
+    fn or_clearly_better(self, others: &[Self]) -> Self {
         let best = others
-            .into_iter()
+            .iter()
+            .copied()
             .min_by(|a, b| a.sum_of_squares().total_cmp(&b.sum_of_squares()));
         best.filter(|best| CLEARLY_BETTER * best.sum_of_squares() < self.sum_of_squares())
             .unwrap_or(self)
+    }
+
+    /// The largest distance from its rate to that of another polluted line which it does not
+    /// exclude; 0 for a straight line.
+    fn farthest_rate(&self, others: &[Self]) -> f64 {
+        if self.pollution.is_none() {
+            return 0.0;
+        }
+        let limit = NOT_EXCLUDED * self.sum_of_squares();
+        others
+            .iter()
+            .filter(|other| other.sum_of_squares() < limit)
+            .map(|other| (other.rate - self.rate).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Of the residuals.

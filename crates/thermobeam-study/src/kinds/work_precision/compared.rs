@@ -55,7 +55,8 @@ fn slope(front: &[(f64, f64)]) -> Option<f64> {
     fit_line(&points).map(|line| line.slope)
 }
 
-/// Error over cost, all methods, with their slopes in the legend.
+/// Error over cost, all methods. The legend has the power of the cost by which the error of a one-step
+/// method falls; along the front of dG the degrees change, so that no power describes it.
 ///
 /// * `title`: what one should see.
 /// * `cost`, `error`: labels of the axes.
@@ -71,12 +72,13 @@ pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed], names: &[&s
         if points.is_empty() {
             continue;
         }
-        let in_words = METHODS
-            .iter()
-            .find(|method| method.name == *name)
-            .map_or(*name, |method| method.in_words);
-        let label = match slope(&points) {
-            Some(slope) => format!("{in_words}: slope {slope:.2}"),
+        let method = METHODS.iter().find(|method| method.name == *name);
+        let in_words = method.map_or(*name, |method| method.in_words);
+        let power = method
+            .filter(|method| method.one_step.is_some())
+            .and_then(|_| slope(&points));
+        let label = match power {
+            Some(power) => format!("{in_words}: cost^{power:.2}"),
             None => in_words.to_owned(),
         };
         looks.push(k);

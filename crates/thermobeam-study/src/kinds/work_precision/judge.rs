@@ -81,29 +81,39 @@ impl Ratio<'_> {
         Check::that(ratio >= self.times && ratio.is_finite(), claim, evidence).about(self.subject())
     }
 
-    /// The work of the dearer method, at the error of the target.
+    /// The work of the dearer method against that of the other, at the error of the target.
     fn subject(&self) -> Subject {
         let Target { measure, error, .. } = self.target;
         Subject::of(format!("work, {}", measure.name()))
             .by(self.dear.name)
+            .against(self.cheap.name)
             .at(format!("{error:e}"))
     }
 }
 
-pub(super) fn judge(study: &WorkPrecision, ran: &[Ran<Trial, Measurement>]) -> Outcome {
+pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> Outcome {
+    let (ran, near): (Vec<_>, Vec<_>) = made
+        .iter()
+        .cloned()
+        .partition(|ran| study.is_listed(&ran.case.data));
+    let ran = &ran;
     let ratios: Vec<Ratio<'_>> = study
         .targets
         .iter()
         .flat_map(|target| ratios(target, &costed(ran, target.measure)))
         .collect();
-    let mut checks = vec![completion(ran, |run| {
-        readings::not_finite(&readings_of(run))
-    })];
+    let mut checks = vec![completion(made, not_finite)];
     checks.extend(
         study
             .targets
             .iter()
             .map(|target| all_compared(study, target, ran)),
+    );
+    checks.extend(
+        study
+            .targets
+            .iter()
+            .map(|target| none_is_cheaper(study, target, ran, &near)),
     );
     checks.extend(ratios.iter().map(Ratio::check));
     let summary = study
@@ -197,6 +207,44 @@ fn all_compared(study: &WorkPrecision, target: &Target, ran: &[Ran<Trial, Measur
         .about(subject.at(format!("{:e}", target.error)))
 }
 
+/// No neighbour of a listed run may reach the target for less than the cheapest that is listed.
+fn none_is_cheaper(
+    study: &WorkPrecision,
+    target: &Target,
+    listed: &[Ran<Trial, Measurement>],
+    near: &[Ran<Trial, Measurement>],
+) -> Check {
+    let [listed, near] = [listed, near].map(|runs| costed(runs, target.measure));
+    let finished = near.iter().filter(|run| run.cost.is_finite()).count();
+    let mut cheaper = vec![];
+    for method in study.methods() {
+        let [listed, near] = [&listed, &near].map(|runs| cheapest(runs, method.name, target.error));
+        let Some(near) = near else {
+            continue;
+        };
+        let best = listed.map_or(f64::INFINITY, |listed| listed.cost);
+        if near.cost < best {
+            cheaper.push(format!(
+                "{} by {} for {:.2e} in place of {best:.2e}: add it to the runs",
+                method.name, near.resolution, near.cost
+            ));
+        }
+    }
+    let claim = format!(
+        "{} {:e}: no run next to a listed one reaches it for less",
+        target.measure.name(),
+        target.error
+    );
+    let evidence = if cheaper.is_empty() {
+        format!("{finished} runs next to {} listed", listed.len())
+    } else {
+        cheaper.join("; ")
+    };
+    let subject = Subject::of(format!("cheapest runs, {}", target.measure.name()));
+    Check::that(cheaper.is_empty() && finished > 0, claim, evidence)
+        .about(subject.at(format!("{:e}", target.error)))
+}
+
 /// The dearest method over the cheapest.
 fn sentence(target: &Target, runs: &[Costed]) -> String {
     let ends = [
@@ -214,6 +262,14 @@ fn sentence(target: &Target, runs: &[Costed]) -> String {
         ends[0].name,
         ends[1].name
     )
+}
+
+/// The readings that are not finite; none of a neighbour that did not finish.
+fn not_finite(run: &Measurement) -> Vec<String> {
+    if *run == Measurement::UNFINISHED {
+        return vec![];
+    }
+    readings::not_finite(&readings_of(run))
 }
 
 /// The measured errors and the counted work of a run.
@@ -267,10 +323,7 @@ fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Table {
 
 fn drawn(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measurement>]) -> Figure {
     let names = METHODS.map(|method| method.name);
-    let title = format!(
-        "Error in {}: high order needs the least work",
-        measure.in_words()
-    );
+    let title = format!("Error in {} over work, by method", measure.in_words());
     let svg = figure(
         &title,
         "counted work (elements × linear solves)",

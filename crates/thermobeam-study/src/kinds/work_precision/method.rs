@@ -191,6 +191,21 @@ pub struct Measurement {
     pub seconds: f64,
 }
 
+impl Measurement {
+    /// A run that the solver gives up, so that it reaches no error: a neighbour may be too coarse.
+    pub(super) const UNFINISHED: Self = Self {
+        errors: Errors {
+            norm: f64::INFINITY,
+            tip: f64::INFINITY,
+        },
+        spent: Spent {
+            node_steps: f64::INFINITY,
+            node_solves: f64::INFINITY,
+        },
+        seconds: 0.0,
+    };
+}
+
 /// A reading of a clock, in seconds. Studies have [`no_clock`].
 pub type Clock = fn() -> f64;
 

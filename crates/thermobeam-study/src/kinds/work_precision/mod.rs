@@ -2,7 +2,8 @@
 //!
 //! A study lists runs of each method, and targets: errors of u(1, t) and in the norm of Theorem
 //! 3.4. The cost of a target is the work of the cheapest run whose error is not larger; a method
-//! without such a run does not reach it. Each target names the methods that reach it, from the
+//! without such a run does not reach it. A ratio is one of optimal runs: the neighbours of each listed
+//! run, [`neighbours`], are made as well, and none may reach a target for less. Each target names the methods that reach it, from the
 //! dearest to the cheapest, and claims how many times dearer each of them is than the next one.
 //! Errors are the largest over equidistant times, common to all runs. Work is counted, not timed,
 //! so that a report is the same on every machine; `cargo xtask bench` takes the seconds of longer
@@ -39,6 +40,7 @@ pub mod compared;
 mod file;
 mod judge;
 pub mod method;
+mod neighbours;
 
 use std::sync::OnceLock;
 
@@ -55,8 +57,9 @@ pub const ROW: KindRow = KindRow {
     why: "Every method pays for a smaller error with more work. At each error that two methods both reach, the ratio of their work \
           is measured. High orders pay little more for ten digits than for five.",
     judged: "Work is counted, not timed. The ratios must be at least those claimed, and every method that reaches a target must be \
-             compared.",
-    failure: "A method has become more expensive for the same error, or it does not reach an error any more.",
+             compared. Of each run the neighbours are made, an eighth coarser in h or dt, or a degree lower: none may be cheaper.",
+    failure: "A method has become more expensive for the same error, it does not reach an error any more, or a listed run is not \
+              the cheapest.",
     settings: |header, item| {
         Topic::new("cost", ItemMethod::OneStep)
             .of_file()
@@ -99,6 +102,11 @@ impl WorkPrecision {
         method::METHODS
             .into_iter()
             .filter(|method| self.trials.iter().any(|trial| trial.method == *method))
+    }
+
+    /// Whether a run is in the file; the others are neighbours.
+    fn is_listed(&self, trial: &Trial) -> bool {
+        self.trials.contains(trial)
     }
 
     /// The number of times at which errors are measured: steps of a one-step method are a multiple
@@ -230,17 +238,30 @@ impl Kind for WorkPrecision {
     type Found = Measurement;
 
     fn cases(&self) -> Vec<Case<Trial>> {
-        let mut cases = vec![];
-        for trial in &self.trials {
+        let near = self
+            .trials
+            .iter()
+            .flat_map(|trial| trial.neighbours(self.observations));
+        let mut cases: Vec<Case<Trial>> = vec![];
+        for trial in self.trials.iter().cloned().chain(near) {
+            if cases.iter().any(|case| case.data == trial) {
+                continue;
+            }
             let label = format!("{}, {}", trial.method.name, trial.resolution);
             let cost = trial.cost(self.family.t_end);
-            cases.push(Case::new(label, cost, trial.clone()));
+            cases.push(Case::new(label, cost, trial));
         }
         cases
     }
 
     fn run(&self, trial: &Trial) -> Result<Measurement, CaseFailure> {
-        self.measure(trial, no_clock)
+        let measurement = self.measure(trial, no_clock);
+        // A neighbour may be too coarse for its solver.
+        if self.is_listed(trial) {
+            return measurement;
+        }
+        self.agreed()?;
+        Ok(measurement.unwrap_or(Measurement::UNFINISHED))
     }
 
     fn judge(&self, ran: &[Ran<Trial, Measurement>]) -> Outcome {

@@ -6,14 +6,25 @@ use crate::kinds::prelude::*;
 /// Curves of all runs drawn.
 fn curves(
     drawn: &[(&EnergyRun, &Found)],
-    point: fn(&Found, &EnergyAt) -> (f64, f64),
+    label: fn(&EnergyRun) -> String,
+    point: fn(&EnergyAt) -> (f64, f64),
 ) -> Vec<plots::Series> {
     let mut curves = vec![];
     for (run, found) in drawn {
-        let points = found.samples.iter().map(|sample| point(found, sample));
-        curves.push(plots::Series::new(run.scene(), points));
+        let points = found.samples.iter().map(point);
+        curves.push(plots::Series::new(label(run), points));
     }
     curves
+}
+
+/// The quantities in which the runs of a study differ.
+fn quantities(run: &EnergyRun) -> String {
+    let beam = &run.problem.beam;
+    format!("θ_A = {}, β = {}", beam.theta_a, beam.beta).replace('-', "−")
+}
+
+fn scene(run: &EnergyRun) -> String {
+    run.scene().to_owned()
 }
 
 impl EnergyRuns {
@@ -43,15 +54,20 @@ impl EnergyRuns {
     }
 }
 
+/// The change of the energy is negative; a rise would have no place on a logarithmic axis, and would be
+/// counted below the figure.
 fn energies(drawn: &[(&EnergyRun, &Found)]) -> Figure {
-    let energies = curves(drawn, |found, sample| {
-        (sample.t, sample.energy / found.initial_energy)
-    });
-    let energy = plots::history(plots::Axis::linear("energy E / initial energy"), &energies)
+    let mut losses = curves(drawn, quantities, |sample| (sample.t, -sample.change));
+    for series in &mut losses {
+        series.points.retain(|(_, loss)| !loss.is_nan());
+    }
+    let axis = plots::Axis::log("least energy lost in a step / initial energy");
+    let loss = plots::history(axis, &losses)
         .with_looks(&looks(drawn.iter().map(|(run, _)| run.scene())))
-        .titled("The energy never rises");
-    let caption = "The energy, in units of its initial size: it never rises.";
-    Figure::new("energy", caption, energy.draw())
+        .titled("Every step loses energy");
+    let caption =
+        "Least loss of energy in a step, in units of the initial energy: it is never negative.";
+    Figure::new("energy", caption, loss.draw())
 }
 
 /// With a line for each bound that the runs drawn must keep.
@@ -66,7 +82,9 @@ fn drifts(drawn: &[(&EnergyRun, &Found)]) -> Figure {
             value,
         });
     }
-    let mut drifts = curves(drawn, |_, sample| (sample.step as f64, sample.drift.abs()));
+    let mut drifts = curves(drawn, scene, |sample| {
+        (sample.step as f64, sample.drift.abs())
+    });
     // Exactly zero, such as at the start, has no place on a logarithmic axis.
     for series in &mut drifts {
         series.points.retain(|(_, value)| *value != 0.0);

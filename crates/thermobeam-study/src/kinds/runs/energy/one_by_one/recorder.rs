@@ -19,8 +19,8 @@ pub(super) struct Recorder<'r> {
     /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
     bound: Option<Stability>,
     pub(super) watch: EnergyWatch,
-    /// Largest residual of a step so far, in units of the initial energy.
-    residual: f64,
+    /// Largest change of the energy in a step since the last sample, in units of the initial energy.
+    change: f64,
     pub(super) found: Found,
 }
 
@@ -49,7 +49,7 @@ impl<'r> Recorder<'r> {
             run,
             bound: bound.flatten(),
             watch: EnergyWatch::new(simulation.energy_scale(level)),
-            residual: 0.0,
+            change: f64::NAN,
             found: Found {
                 initial_energy: kinetic
                     + shear
@@ -85,8 +85,12 @@ impl<'r> Recorder<'r> {
         let balance = simulation.balance(old, new);
         self.watch
             .add(&balance, scale, || simulation.rounding(old, new));
-        let residual = balance.residual.abs() / found.initial_energy;
-        self.residual = max_or_nan(self.residual, residual);
+        let change = balance.change / found.initial_energy;
+        self.change = if self.change.is_nan() {
+            change
+        } else {
+            max_or_nan(self.change, change)
+        };
         self.add_share(driver);
         if let Some(bound) = self.bound {
             let lost = (balance.viscous + balance.thermal) / bound.available;
@@ -115,9 +119,9 @@ impl<'r> Recorder<'r> {
         self.found.samples.push(EnergyAt {
             step: simulation.steps(),
             t: simulation.t(),
-            energy: simulation.energy(driver.level()).total(),
-            residual: self.residual,
+            change: self.change,
             drift: self.watch.drift,
         });
+        self.change = f64::NAN;
     }
 }

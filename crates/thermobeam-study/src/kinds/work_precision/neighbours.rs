@@ -1,0 +1,85 @@
+//! The runs next to a listed one, which show that it is the cheapest of its method.
+//!
+//! Elements and steps change by an eighth: fewer elements, fewer steps, or fewer of one and more of
+//! the other. For dG a degree falls by one, the step grows by an eighth, or one of the three is traded
+//! for another. The grading of a mesh, and the nodes of dG, are those of the list.
+
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
+
+use super::method::{Degrees, Grid, Resolution, Trial};
+
+impl Trial {
+    /// The neighbours, for grids those of less element-steps alone.
+    ///
+    /// * `observations`: steps are a multiple of it.
+    pub(super) fn neighbours(&self, observations: usize) -> Vec<Trial> {
+        let resolutions = match &self.resolution {
+            Resolution::OneStep(grid) => grids(*grid, observations),
+            Resolution::Dg { nodes, degrees } => degrees_near(*degrees)
+                .into_iter()
+                .map(|degrees| Resolution::Dg {
+                    nodes: nodes.clone(),
+                    degrees,
+                })
+                .collect(),
+        };
+        let method = self.method;
+        resolutions
+            .into_iter()
+            .map(|resolution| Trial { method, resolution })
+            .collect()
+    }
+}
+
+fn grids(grid: Grid, observations: usize) -> Vec<Resolution> {
+    let intervals = grid.steps / observations;
+    let eighth = |count: usize| count.div_ceil(8);
+    let [fewer, more] = [
+        grid.elements - eighth(grid.elements),
+        grid.elements + eighth(grid.elements),
+    ];
+    let [shorter, longer] = [intervals - eighth(intervals), intervals + eighth(intervals)];
+    [
+        (fewer, intervals),
+        (grid.elements, shorter),
+        (fewer, longer),
+        (more, shorter),
+    ]
+    .into_iter()
+    .filter(|(elements, intervals)| *elements > 0 && *intervals > 0)
+    .map(|(elements, intervals)| Grid {
+        elements,
+        steps: intervals * observations,
+        ..grid
+    })
+    .filter(|near| near.elements * near.steps < grid.elements * grid.steps)
+    .map(Resolution::OneStep)
+    .collect()
+}
+
+fn degrees_near(Degrees { p, q, dt }: Degrees) -> Vec<Degrees> {
+    let degrees = |p: usize, q: usize, dt: f64| Degrees {
+        p,
+        q,
+        dt: three_digits(dt),
+    };
+    let mut near = vec![degrees(p, q, 1.125 * dt)];
+    if p < MAX_DEGREE {
+        near.push(degrees(p + 1, q, 1.25 * dt));
+    }
+    if q < MAX_TIME_DEGREE {
+        near.push(degrees(p, q + 1, 1.5 * dt));
+    }
+    if p > 1 {
+        near.extend([degrees(p - 1, q, dt), degrees(p - 1, q, dt / 1.25)]);
+    }
+    if q > 0 {
+        near.extend([degrees(p, q - 1, dt), degrees(p, q - 1, dt / 1.5)]);
+    }
+    near
+}
+
+/// A step as it is written in a list of runs.
+fn three_digits(dt: f64) -> f64 {
+    format!("{dt:.2e}").parse().unwrap_or(dt)
+}

@@ -97,11 +97,11 @@ fn the_face_whose_flat_variant_has_its_order_back_is_named() {
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
     for (hidden_in, words) in [
         (
-            ["constant_x", ""],
+            ["constant_x", "-"],
             "the order is lost in what acts along x: it comes back where the solution is constant in x",
         ),
         (
-            ["constant_t", ""],
+            ["constant_t", "-"],
             "look at the time at which source and data are taken, and the time stepping",
         ),
         (

@@ -115,6 +115,39 @@ fn logarithms_roots_and_others_are_refused_where_they_have_no_value() {
     }
 }
 
+/// A divisor that is zero for the parameters of the file, wherever it is evaluated.
+#[test]
+fn a_divisor_of_parameters_that_is_zero_is_refused() {
+    let text = unit_box(&["x"], "exp(x)", "u/(p - 2)");
+    let text = text.replace("[exact]", "[parameters]\np = 2\n[exact]");
+    is_refused(
+        &text,
+        &[
+            "equations.a: a pole inside",
+            "`p - 2` is zero at about every point",
+        ],
+    );
+}
+
+#[test]
+fn a_variant_with_a_pole_is_left_out_and_the_others_remain() {
+    let head = "[parameters]\nb = 2\n[variants]\nparameters = [\"b\"]\n[exact]";
+    let text = unit_box(&["x"], "exp(x)", "u/b + d(u, x)").replace("[exact]", head);
+    let manufacture = crate::files::read(&text);
+    let variants = manufacture.variants(&Sampling {
+        points: 20,
+        ..Sampling::default()
+    });
+    let variants = variants.unwrap();
+    let why = "a pole inside the domain: `b` is zero";
+    let of_pole = variants
+        .left_out
+        .iter()
+        .filter(|entry| entry.why.contains(why));
+    assert_eq!(of_pole.count(), 1);
+    assert!(!variants.usable.is_empty());
+}
+
 /// A narrow range that random points miss.
 #[test]
 fn what_random_points_miss_is_found() {

@@ -254,7 +254,7 @@ impl Writer<'_> {
                 ("DECLARED", &declared(self.language, &constants)),
                 ("UNUSED", &runtime::unused(self, &[*body], has_time)),
                 ("BODY", &statements),
-                ("VALUE", &roots[0]),
+                ("VALUE", &format!("({})", roots[0])),
                 ("LOW", &self.language.number(low)),
                 ("WIDTH", &self.language.number(width)),
                 ("PANELS", &panels.to_string()),

@@ -198,6 +198,10 @@ pub(crate) fn variants<'m>(
         usable: vec![],
         left_out: vec![],
     };
+    // What is wrong with the file is no reason against a variant.
+    for part in Part::all(&base.problem) {
+        Sampler::new(base, sampling.seed).points(part, 1)?;
+    }
     let problem = &base.problem;
     if let Some(level) = design::on_a_level(problem) {
         // Nothing is flat there, so no variant is flat at all faces.
@@ -212,7 +216,7 @@ pub(crate) fn variants<'m>(
         .filter(|design| !is_left_out(&design.switch))
         .collect();
     for design in designs {
-        match usable(base, &design, sampling)? {
+        match usable(base, &design, sampling) {
             Ok(variant) => variants.usable.push(variant),
             Err(why) => variants.left_out.push(LeftOut {
                 switch: design.switch,
@@ -285,26 +289,31 @@ fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
 }
 
 /// The variant, or in words why it cannot be used.
-fn usable(
-    base: &Model,
-    design: &Design,
-    sampling: &Sampling,
-) -> Result<Result<Variant, String>, InputError> {
+fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant, String> {
     let Sampling { seed, points, .. } = *sampling;
     let mut why = String::new();
     for lift in lifts(base, design) {
         let model = match Model::new(problem(&base.problem, design, lift)) {
             Ok(model) => model,
-            Err(error) => return Ok(Err(error.to_string())),
+            Err(error) => return Err(error.to_string()),
         };
-        let Check { findings, .. } = check::check(&model, seed, points, false)?;
+        // A pole is refused as bad input; here it is a reason.
+        let findings = match check::check(&model, seed, points, false) {
+            Ok(Check { findings, .. }) => findings,
+            Err(error) => {
+                if why.is_empty() {
+                    why = error.problem;
+                }
+                continue;
+            }
+        };
         let failures: Vec<&Finding> = findings.iter().filter(|finding| finding.fails).collect();
         let Some(first) = failures.first() else {
-            return Ok(Ok(Variant {
+            return Ok(Variant {
                 switch: design.switch.clone(),
-                size: size(&model, sampling)?,
+                size: size(&model, sampling).map_err(|error| error.to_string())?,
                 model,
-            }));
+            });
         };
         if why.is_empty() {
             why = format!("{}: {}: {}", first.key, first.code, first.text);
@@ -314,7 +323,7 @@ fn usable(
             break;
         }
     }
-    Ok(Err(why))
+    Err(why)
 }
 
 /// The problem of a variant.

@@ -23,6 +23,7 @@ pub mod schema;
 pub mod screen;
 mod study;
 mod verify;
+mod where_lost;
 pub mod workspace;
 
 use std::env;

@@ -89,8 +89,20 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
 ///
 /// The time left is estimated from the cost of the remaining cases.
 pub(super) fn watched<T>(
-    studies: &[Box<dyn Study>],
+    studies: &[Box<dyn Study + '_>],
     quiet: bool,
+    run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
+) -> T {
+    watched_with(studies, quiet, true, run)
+}
+
+/// The same.
+///
+/// * `names_failures`: whether a study that does not pass is named as soon as it ends.
+pub(super) fn watched_with<T>(
+    studies: &[Box<dyn Study + '_>],
+    quiet: bool,
+    names_failures: bool,
     run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
 ) -> T {
     const STEPS: f64 = 1000.0;
@@ -119,7 +131,7 @@ pub(super) fn watched<T>(
             done.lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .push(ids[study].to_owned());
-            if verdict != Verdict::Pass {
+            if names_failures && verdict != Verdict::Pass {
                 bar.println(format!("{}: {}", screen::verdict(verdict), ids[study]));
             }
         }

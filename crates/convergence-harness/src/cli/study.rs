@@ -18,6 +18,7 @@ use super::flags::Flags;
 use super::github;
 use super::running::{Limits, watched};
 use super::screen::{self, Format};
+use super::where_lost;
 
 /// Run study files from anywhere, as `verify` with files does
 #[derive(Debug, clap::Args)]
@@ -27,6 +28,9 @@ pub struct Arguments {
     files: Vec<PathBuf>,
     #[command(flatten)]
     limits: Limits,
+    /// Search where the order of studies that do not pass is lost, by variants of their solutions
+    #[arg(long = "where")]
+    located: bool,
     #[command(flatten)]
     flags: Flags,
 }
@@ -40,11 +44,14 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         project,
         &arguments.files,
         arguments.limits,
+        arguments.located,
         &arguments.flags,
     )
 }
 
 /// Runs the studies of files and prints what they found.
+///
+/// * `located`: whether to search where the order is lost.
 ///
 /// # Errors
 /// Study files that cannot be used.
@@ -52,11 +59,15 @@ pub(super) fn run_files(
     project: &Project,
     files: &[PathBuf],
     limits: Limits,
+    located: bool,
     flags: &Flags,
 ) -> Outcome {
     let studies = StudyFile::read_all(project.kinds, files)?;
     let studies: Vec<Box<dyn Study>> = studies.into_iter().map(|file| file.study).collect();
     limits.consent(project, &studies)?;
+    if located {
+        where_lost::require(&studies)?;
+    }
     // A folder that is not writable is reported before the run.
     flags
         .out
@@ -66,6 +77,9 @@ pub(super) fn run_files(
     let mut finished = watched(&studies, flags.quiet, |progress| {
         run::run(&studies, effort, progress)
     })?;
+    if located {
+        where_lost::locate(&studies, &mut finished, effort, flags.quiet)?;
+    }
     let words = files.iter().map(|file| quoted(&file.to_string_lossy()));
     let command = words.fold(format!("{} study", project.command), |command, word| {
         command + " " + &word
@@ -88,8 +102,12 @@ pub(super) fn run_files(
     let text = match flags.format {
         Format::Json => json(&record)?,
         _ if flags.quiet => {
+            let located = finished.iter().filter_map(|study| study.located.as_ref());
+            let conclusions: String = located
+                .map(|located| format!("{}\n", located.conclusion))
+                .collect();
             format!(
-                "{}{}: {}\n",
+                "{}{conclusions}{}: {}\n",
                 text_of_failures(&finished, None),
                 screen::verdict(verdict),
                 findings.sentence()
@@ -162,7 +180,11 @@ fn text(finished: &Finished) -> String {
             screen::table(&head, &table.rows)
         );
     }
-    text + &no_test_of(&finished.untested)
+    let located = finished
+        .located
+        .as_ref()
+        .map(|located| format!("\n{}", where_lost::text(located)));
+    text + &located.unwrap_or_default() + &no_test_of(&finished.untested)
 }
 
 #[cfg(test)]

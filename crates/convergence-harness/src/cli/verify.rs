@@ -9,7 +9,7 @@ use super::exit::Outcome;
 use super::flags::Flags;
 use super::running::{Limits, watched};
 use super::screen::{self, Format};
-use super::{github, study, workspace};
+use super::{github, study, where_lost, workspace};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{
@@ -54,6 +54,9 @@ pub struct Arguments {
     /// Only the studies that did not pass, or moved, in the newest record
     #[arg(long, conflicts_with_all = ["ids", "bless"])]
     failed: bool,
+    /// Search where the order of studies that do not pass is lost, by variants of their solutions
+    #[arg(long = "where", conflicts_with = "dry_run")]
+    located: bool,
     /// List the slowest studies
     #[arg(long, conflicts_with = "quiet")]
     durations: bool,
@@ -71,7 +74,13 @@ pub struct Arguments {
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     if let Some(files) = files(arguments)? {
-        return study::run_files(project, &files, arguments.limits, &arguments.flags);
+        return study::run_files(
+            project,
+            &files,
+            arguments.limits,
+            arguments.located,
+            &arguments.flags,
+        );
     }
     let started = Instant::now();
     let root = workspace::root()?;
@@ -103,9 +112,16 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     arguments.limits.consent(project, &studies)?;
     let flags = &arguments.flags;
     let request = request(arguments, scope, root);
-    let verification = watched(&studies, flags.quiet, |progress| {
+    if arguments.located && studies.iter().all(|study| study.manufactured().is_none()) {
+        return Err(where_lost::no_file("no study"));
+    }
+    let mut verification = watched(&studies, flags.quiet, |progress| {
         verify::verify(project, &studies, &request, progress)
     })?;
+    if arguments.located {
+        let finished = &mut verification.record.studies;
+        where_lost::locate(&studies, finished, request.effort, flags.quiet)?;
+    }
     let record = &verification.record;
     screen::print(&if flags.format == Format::Json {
         json(record)?
@@ -210,6 +226,7 @@ fn text(
             .map(text_of_diagnosis)
             .unwrap_or_default(),
         text_of_failures(&found.record.studies, clearest),
+        located(&found.record.studies),
         moved_lines(&changes, *verbose) + &blessed(project, found),
         table,
     ];
@@ -219,6 +236,15 @@ fn text(
         .filter(|part| !part.is_empty())
         .collect();
     parts.join("\n\n") + "\n"
+}
+
+/// Where the orders of studies are lost, if this was searched for.
+fn located(studies: &[Finished]) -> String {
+    let located = studies.iter().filter_map(|study| {
+        let located = where_lost::text(study.located.as_ref()?);
+        Some(format!("{}\n{located}", study.header.id))
+    });
+    located.collect::<Vec<_>>().join("\n")
 }
 
 /// Whether all studies pass and the baseline has nothing of them.

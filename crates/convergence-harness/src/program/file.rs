@@ -32,7 +32,7 @@ pub(super) const KEYS: [Key; 3] = [
     ),
 ];
 
-const PROGRAM: [Key; 4] = [
+const PROGRAM: [Key; 5] = [
     Key::new(
         "command",
         Form::List(&Form::Text),
@@ -49,6 +49,12 @@ const PROGRAM: [Key; 4] = [
         "env",
         Form::Named(&[], &Form::Text),
         "variables of the program's environment, beside those of the harness",
+    )
+    .or("none"),
+    Key::new(
+        "manufacture",
+        Form::Text,
+        "the file of `manufacture` from whose module with `--variants` the program takes its solution, for `--where`; relative to this file",
     )
     .or("none"),
     Key::new(
@@ -127,7 +133,26 @@ pub(super) fn read(
         time_limit,
         refine,
         expect,
+        manufactured: manufactured(&section, folder)?,
+        is_variant: false,
     })
+}
+
+/// The file of `manufacture`; it is read when its variants are needed.
+fn manufactured(section: &Section<'_>, folder: &Path) -> Result<Option<PathBuf>, InputError> {
+    let Some(field) = section.get("manufacture") else {
+        return Ok(None);
+    };
+    let path = folder.join(field.text()?);
+    if path.is_file() {
+        return Ok(Some(path));
+    }
+    let found = format!(
+        "{}, but {} is no file",
+        field.as_written(),
+        visible(&path.display().to_string())
+    );
+    Err(field.refuse(found, "a file of `manufacture`, relative to this file"))
 }
 
 /// The folder in which the program runs, as an absolute path: the program's name is relative to it,

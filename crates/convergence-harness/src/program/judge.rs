@@ -2,7 +2,7 @@
 //! limit and the distance to it.
 
 use super::answer::{Answer, Expectation};
-use super::{Program, Run, values};
+use super::{Program, Run, refine, values};
 use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
 use crate::plots::{self, Series};
@@ -79,13 +79,25 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
 
 /// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
 pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
-    let budget = study.refine.budget?;
+    let of_variant = study.is_variant && study.refine.can_add();
+    let budget = study
+        .refine
+        .budget
+        .or(of_variant.then_some(refine::BUDGET))?;
     let seconds: Vec<f64> = ran
         .iter()
         .map(|ran| Some(ran.ok()?.seconds))
         .collect::<Option<_>>()?;
     let now = rates(study, ran);
-    let looks = Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]));
+    let looks = if study.refine.budget.is_some() {
+        Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]))
+    } else {
+        // Levels that are listed decide by what they show.
+        Looks {
+            now: &now,
+            before: now.clone(),
+        }
+    };
     Some(until_decided::next_by_time(&looks, &seconds, budget))
 }
 

@@ -101,7 +101,14 @@ pub struct Program {
     time_limit: Duration,
     refine: Refine,
     expect: Vec<Expectation>,
+    /// The file of `manufacture` whose module the program uses, as an absolute path.
+    manufactured: Option<PathBuf>,
+    /// Whether levels are added to those listed while nothing is decided.
+    is_variant: bool,
 }
+
+/// The environment variable by which the module of `manufacture` chooses its solution.
+const VARIANT: &str = "MANUFACTURE_VARIANT";
 
 impl FromFile for Program {
     const KEYS: &'static [Keys] = &[&[&file::KEYS]];
@@ -207,6 +214,21 @@ impl Kind for Program {
 
     fn judge(&self, ran: &[Run]) -> Outcome {
         judge::judge(self, ran)
+    }
+
+    fn manufactured(&self) -> Option<&Path> {
+        self.manufactured.as_deref()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.manufactured()?;
+        let mut study = self.clone();
+        // The last one of a name counts.
+        study
+            .variables
+            .push((VARIANT.to_owned(), variant.to_owned()));
+        study.is_variant = true;
+        Some(study)
     }
 
     fn details(&self) -> Vec<(String, String)> {

@@ -53,7 +53,7 @@ const LARGEST_COUNT: usize = 1 << 53;
 const MOST_CASES: usize = 10_000;
 
 /// Default time in seconds for the levels of a study that adds levels.
-const BUDGET: f64 = 60.0;
+pub(super) const BUDGET: f64 = 60.0;
 
 /// Values of one parameter, coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,6 +117,12 @@ impl Refine {
             (None, Some(_)) => Axis::Time,
             _ => Axis::Space,
         }
+    }
+
+    /// Whether a level can follow the last: counts are doubled, along one path.
+    pub(super) fn can_add(&self) -> bool {
+        let mut sequences = [&self.space, &self.time].into_iter().flatten();
+        !self.grid && sequences.all(Sequence::is_count)
     }
 
     /// The number of time steps.

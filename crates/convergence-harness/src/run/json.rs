@@ -3,7 +3,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{FailedCase, Finished, Item, NotPassed};
+use super::{FailedCase, Finished, Item, Located, NotPassed};
 use crate::judge::verdict::Verdict;
 use crate::study::outcome::NotFinite;
 use crate::study::{Header, Outcome, Untested};
@@ -18,6 +18,8 @@ struct Written<'f> {
     not_finite: &'f [NotFinite],
     #[serde(skip_serializing_if = "<[Untested]>::is_empty")]
     untested: &'f [Untested],
+    #[serde(rename = "where", skip_serializing_if = "Option::is_none")]
+    located: Option<&'f Located>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     not_passed: Vec<WrittenItem>,
 }
@@ -55,6 +57,7 @@ impl Serialize for Finished {
             failed_cases: &self.failed_cases,
             not_finite: &self.not_finite,
             untested: &self.untested,
+            located: self.located.as_ref(),
             not_passed: not_passed.map(WrittenItem::from).collect(),
         };
         written.serialize(serializer)

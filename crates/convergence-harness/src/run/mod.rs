@@ -8,6 +8,7 @@ mod caught;
 mod failures;
 mod json;
 mod levels;
+mod located;
 mod queue;
 
 use rayon::prelude::*;
@@ -31,6 +32,7 @@ pub use caught::catch;
 pub use convergence_judge::time_limit;
 pub use failures::{Item, NotPassed, items, not_passed};
 pub use levels::assert_order;
+pub use located::{Fate, Located, Part, VariantRate, VariantRates};
 pub use queue::Progress;
 
 /// A study that has been run: one object of a record.
@@ -49,6 +51,9 @@ pub struct Finished {
     /// What the study fails to test although it passes; only `study` searches for it.
     #[serde(default)]
     pub untested: Vec<Untested>,
+    /// Where its order is lost; only `--where` searches for it.
+    #[serde(rename = "where", default)]
+    pub located: Option<Located>,
     /// The time taken, which differs from run to run.
     #[serde(skip)]
     pub spent: Spent,
@@ -128,7 +133,7 @@ impl From<NonZeroUsize> for Effort {
 /// # Errors
 /// [`RunError`], before anything is run.
 pub fn run(
-    studies: &[Box<dyn Study>],
+    studies: &[Box<dyn Study + '_>],
     effort: impl Into<Effort>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
@@ -137,7 +142,7 @@ pub fn run(
 
 /// The same with a work limit of each case: a case that exceeds it fails.
 pub fn run_within(
-    studies: &[Box<dyn Study>],
+    studies: &[Box<dyn Study + '_>],
     effort: Effort,
     allowed: Allowed<'_>,
     progress: &(dyn Fn(Progress) + Sync),
@@ -246,7 +251,7 @@ impl<'s> Planned<'s> {
     }
 }
 
-fn refuse_duplicates(studies: &[Box<dyn Study>]) -> Result<(), RunError> {
+fn refuse_duplicates(studies: &[Box<dyn Study + '_>]) -> Result<(), RunError> {
     let mut ids: Vec<&str> = studies
         .iter()
         .map(|study| study.header().id.as_str())
@@ -386,6 +391,7 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
         failed_cases,
         not_finite,
         untested: vec![],
+        located: None,
         spent,
         work,
     }

@@ -1,6 +1,7 @@
 //! A kind of study: typed for its author, erased for the runner; its computations, and the result
 //! of each or the reason why it is missing.
 
+use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::coverage::{Coverage, NO_RESULT};
@@ -195,6 +196,20 @@ pub trait Kind: Send + Sync {
         vec![]
     }
 
+    /// The file of `manufacture` whose module gives the study's program its solution.
+    fn manufactured(&self) -> Option<&Path> {
+        None
+    }
+
+    /// The same study with a variant of that solution, judged by itself: levels are added while it
+    /// is undecided. `None` without such a file.
+    fn with_variant(&self, _variant: &str) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// What a passing study fails to test, found by trial; only `study` requests it, because it may
     /// take longer than the study.
     fn untested(&self) -> Vec<Untested> {
@@ -303,6 +318,16 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
+
+    /// As [`Kind::manufactured`].
+    fn manufactured(&self) -> Option<&Path> {
+        None
+    }
+
+    /// As [`Kind::with_variant`]; its id ends with the variant.
+    fn with_variant(&self, _variant: &str) -> Option<Box<dyn Study + '_>> {
+        None
+    }
 }
 
 /// The cases of a study while they are run.
@@ -372,6 +397,18 @@ impl<K: Kind> Study for Described<K> {
 
     fn untested(&self) -> Vec<Untested> {
         self.kind.untested()
+    }
+
+    fn manufactured(&self) -> Option<&Path> {
+        self.kind.manufactured()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Box<dyn Study + '_>> {
+        let header = Header {
+            id: format!("{} {variant}", self.header.id),
+            ..self.header.clone()
+        };
+        Some(erased(header, self.kind.with_variant(variant)?))
     }
 }
 

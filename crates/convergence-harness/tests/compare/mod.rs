@@ -50,6 +50,7 @@ fn study(id: &str, counts: &[u32], l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> 
         failed_cases: vec![],
         not_finite: vec![],
         untested: vec![],
+        located: None,
         spent: Spent::default(),
         work: vec![],
     }

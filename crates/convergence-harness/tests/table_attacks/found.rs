@@ -212,3 +212,28 @@ fn a_name_with_a_word_on_each_level_is_said() {
         );
     }
 }
+
+#[test]
+fn forms_of_papers_and_codes_are_read() {
+    let paper = r"\begin{tabular}{c|cc|cc}
+\multirow{2}{*}{$N$} & \multicolumn{2}{c|}{$k=1$} & \multicolumn{2}{c}{$k=2$} \\ \cline{2-5}
+ & error & order & error & order \\ \hline
+$4\times 4$ & 4.0e-2 & - & 8.0e-3 & - \\
+$8\times 8$ & 1.0e-2 & 2.00 & 1.0e-3 & 3.00 \\
+$16\times 16$ & 2.5e-3 & 2.00 & 1.25e-4 & 3.00 \\
+$32\times 32$ & 6.25e-4 & 2.00 & 1.5625e-5 & 3.00 \\
+\end{tabular}
+";
+    let mesher = |k: i32| {
+        let [h, error] = [2.0_f64, 4.0].map(|ratio| ratio.powi(-k));
+        format!(
+            "Info : Meshing 2D...\nInfo : {} nodes\nInfo : Done meshing 2D (0.1s)\nmesh size: {h}\nerror: {error:e}\n",
+            10 << k
+        )
+    };
+    let log: String = (2..7).map(mesher).collect();
+    for (text, orders) in [(paper, &["k=1=2", "k=2=3"][..]), (&log, &["2"])] {
+        let sheet = answer(text, orders).unwrap_or_else(|| panic!("refused: {text}"));
+        assert!(sheet.verdict.is_pass(), "{}", sheet.text);
+    }
+}

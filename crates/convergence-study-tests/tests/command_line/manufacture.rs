@@ -63,6 +63,7 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     let study = fs::read_to_string(root.path().join("heat.study.toml")).unwrap();
     assert!(study.contains("directory = \".\"\n"), "{study}");
     let moved = study.replace("directory = \".\"", "directory = \"..\"");
+    fs::create_dir_all(root.path().join("studies")).unwrap();
     write("studies/heat.toml", &moved);
     let (status, out, err) = run(&root, &["study", "studies/heat.toml"]);
     assert_eq!(status, Some(0), "{out}{err}");

@@ -10,6 +10,8 @@ mod rates;
 mod several;
 mod tables;
 mod visible;
+#[cfg(unix)]
+mod where_lost;
 
 use convergence_harness::cli;
 use convergence_study_tests::{Ended, finished, output};

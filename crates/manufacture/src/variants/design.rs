@@ -52,7 +52,8 @@ pub(super) fn designs(problem: &Problem) -> Vec<Design> {
         designs.push(steps(switch, flat(problem, &[side])));
     }
     designs.extend(of_several(problem, &sides));
-    if problem.time.is_some() && !problem.initial.is_empty() {
+    // A program may take its initial data from the exact solution, without `[initial]`.
+    if problem.time.is_some() {
         let initial = Step::Flatten {
             variable: time,
             end: problem.intervals[time][0],
@@ -193,6 +194,33 @@ pub(super) fn sides(problem: &Problem) -> Vec<Side> {
         }
     }
     sides
+}
+
+/// The names of the data of a side of the box.
+pub(super) fn data_at<'p>(problem: &'p Problem, name: &str) -> Vec<&'p str> {
+    let sides = sides(problem);
+    let side = sides.iter().find(|side| side.name == name);
+    let faces = problem.faces.iter().filter(|face| match face.surface {
+        Surface::Side {
+            coordinate,
+            is_upper,
+        } => side.is_some_and(|side| {
+            side.coordinate == coordinate
+                && side.at == problem.intervals[coordinate][usize::from(is_upper)]
+        }),
+        Surface::Level(_) => false,
+    });
+    faces
+        .flat_map(|face| face.data.iter().map(|datum| datum.name.as_str()))
+        .collect()
+}
+
+/// The name of a face on a level that has data.
+pub(super) fn on_a_level(problem: &Problem) -> Option<&str> {
+    let mut faces = problem.faces.iter();
+    let face =
+        faces.find(|face| matches!(face.surface, Surface::Level(_)) && !face.data.is_empty())?;
+    Some(&face.name)
 }
 
 /// A parameter is zero; those made of it follow.

@@ -70,6 +70,36 @@ impl Switch {
         }
     }
 
+    /// The sort of part.
+    pub fn part(&self) -> &'static str {
+        match self {
+            Switch::Coordinate(_) => "coordinate",
+            Switch::Time(_) => "time",
+            Switch::Face(_) => "face",
+            Switch::BothFaces(_) => "both_faces",
+            Switch::AllFaces => "all_faces",
+            Switch::AllFacesBut(_) => "all_faces_but",
+            Switch::Initial => "initial",
+            Switch::AllFacesAndInitial => "all_faces_and_initial",
+            Switch::Parameter(_) => "parameter",
+            Switch::Field(_) => "field",
+        }
+    }
+
+    /// The name of the part, where there are several of its sort.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Switch::AllFaces | Switch::Initial | Switch::AllFacesAndInitial => None,
+            Switch::Coordinate(name)
+            | Switch::Time(name)
+            | Switch::Face(name)
+            | Switch::BothFaces(name)
+            | Switch::AllFacesBut(name)
+            | Switch::Parameter(name)
+            | Switch::Field(name) => Some(name),
+        }
+    }
+
     /// What the variant switches off, in words.
     pub fn words(&self) -> String {
         match self {
@@ -92,6 +122,8 @@ impl Switch {
 pub struct Variant {
     /// What it switches off.
     pub switch: Switch,
+    /// The size of its solution.
+    pub size: f64,
     model: Model,
 }
 
@@ -109,6 +141,8 @@ pub struct LeftOut {
 #[derive(Debug)]
 pub struct Variants<'m> {
     base: &'m Model,
+    /// The size of the solution of the file: the root mean square of its fields over the domain.
+    pub size: f64,
     /// Those that can be used.
     pub usable: Vec<Variant>,
     /// The others.
@@ -116,6 +150,17 @@ pub struct Variants<'m> {
 }
 
 impl Variants<'_> {
+    /// All parts of the file: those of variants that can be used, and of those that cannot.
+    pub fn switches(&self) -> impl Iterator<Item = &Switch> {
+        let usable = self.usable.iter().map(|variant| &variant.switch);
+        usable.chain(self.left_out.iter().map(|entry| &entry.switch))
+    }
+
+    /// The data of a side, by their names in the file: `flux`.
+    pub fn data_at(&self, side: &str) -> Vec<&str> {
+        design::data_at(&self.base.problem, side)
+    }
+
     /// The files of a language, whose functions are those of the variant that the environment
     /// variable `MANUFACTURE_VARIANT` names.
     ///
@@ -149,6 +194,7 @@ pub(crate) fn variants<'m>(
 ) -> Result<Variants<'m>, InputError> {
     let mut variants = Variants {
         base,
+        size: size(base, sampling)?,
         usable: vec![],
         left_out: vec![],
     };
@@ -156,7 +202,20 @@ pub(crate) fn variants<'m>(
     for part in Part::all(&base.problem) {
         Sampler::new(base, sampling.seed).points(part, 1)?;
     }
-    for design in designs(&base.problem) {
+    let problem = &base.problem;
+    if let Some(level) = design::on_a_level(problem) {
+        // Nothing is flat there, so no variant is flat at all faces.
+        variants.left_out.push(LeftOut {
+            switch: Switch::AllFaces,
+            why: format!("the face {level} lies on a level"),
+        });
+    }
+    let is_left_out = |switch: &Switch| variants.left_out.iter().any(|one| one.switch == *switch);
+    let designs = designs(problem).into_iter();
+    let designs: Vec<Design> = designs
+        .filter(|design| !is_left_out(&design.switch))
+        .collect();
+    for design in designs {
         match usable(base, &design, sampling) {
             Ok(variant) => variants.usable.push(variant),
             Err(why) => variants.left_out.push(LeftOut {
@@ -166,6 +225,19 @@ pub(crate) fn variants<'m>(
         }
     }
     Ok(variants)
+}
+
+/// The root mean square of all fields over points of the domain.
+fn size(model: &Model, sampling: &Sampling) -> Result<f64, InputError> {
+    let points = Sampler::new(model, sampling.seed).points(Part::Interior, sampling.points)?;
+    let fields: Vec<_> = model.of_role(Role::Exact).collect();
+    let rows = Rows::new(&model.graph, fields.iter().map(|field| &field.tensor));
+    let square = |point: &Vec<f64>| -> f64 {
+        let values = rows.at(point).tensors.into_iter().flatten();
+        values.map(|part| part.value.powi(2)).sum()
+    };
+    let mean = points.iter().map(square).sum::<f64>() / points.len() as f64;
+    Ok(mean.sqrt())
 }
 
 /// The values of a field at a point.
@@ -239,6 +311,7 @@ fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant,
         let Some(first) = failures.first() else {
             return Ok(Variant {
                 switch: design.switch.clone(),
+                size: size(&model, sampling).map_err(|error| error.to_string())?,
                 model,
             });
         };
@@ -413,6 +486,17 @@ u = "u"
         assert!((3.9..4.1).contains(&order), "{order}");
         let order = (at(everywhere, [0.04, t])[0] / at(everywhere, [0.02, t])[0]).log2();
         assert!((3.7..5.2).contains(&order), "{order}");
+    }
+
+    #[test]
+    fn the_size_of_a_variant_is_that_of_its_solution() {
+        let model = model(HEAT);
+        let variants = variants(&model, &few()).unwrap();
+        // The mean of sin(x)^2 is 0.27, that of exp(-2t) 0.25.
+        assert!((variants.size - 0.26).abs() < 0.06, "{}", variants.size);
+        let size = named(&variants, "flat_x_min").size;
+        // sin(x) - x + x^3/6 is x^5/120, and less than 0.0081.
+        assert!((1e-4..3e-3).contains(&size), "{size}");
     }
 
     #[test]

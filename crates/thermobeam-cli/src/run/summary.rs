@@ -10,6 +10,7 @@ use thermobeam::solve::Stopping;
 use thermobeam_study::figures::energy_at_rest;
 use thermobeam_study::run::Sample;
 use thermobeam_study::run::object::phase_name;
+use thermobeam_study::run::ringing;
 use thermobeam_study::run::simulate::Run;
 use thermobeam_study::run::tally::{EnergySummary, Extremes};
 use thermobeam_study::scene::Scene;
@@ -107,7 +108,7 @@ fn headline(scene: &Scene, run: &Run) -> String {
             run.last.t
         );
     }
-    if let Some(note) = run.note(scene.method.stopping()) {
+    if let Some(note) = ringing::note(scene, run) {
         let _ = writeln!(text, "\nNote: {note}");
     }
     text

@@ -6,6 +6,7 @@ pub mod driver;
 pub mod family;
 pub mod history;
 pub mod object;
+pub mod ringing;
 pub mod simulate;
 pub(crate) mod snapshot;
 pub mod tally;

@@ -5,6 +5,7 @@ use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::{StepError, StepFailure};
 
 use super::RunError;
+use super::ringing::note;
 use super::simulate::Run;
 use crate::scene::Scene;
 
@@ -132,7 +133,7 @@ impl Serialize for Object<'_> {
             let events: Vec<Event> = contact.events.iter().map(Event::new).collect();
             map.serialize_entry("events", &events)?;
         }
-        if let Some(note) = run.note(scene.method.stopping()) {
+        if let Some(note) = note(scene, run) {
             map.serialize_entry("note", &note)?;
         }
         if let Some(error) = &run.failure {

@@ -244,13 +244,16 @@ impl TableReader<'_> {
             (_, 1..) => "if it is a count",
             _ => "if it is no error",
         };
+        // What has the name of an error is none to be left out.
+        let is_error = |name: &LeftOut| Word::of(&names::without_markup(&name.name)) == Word::Error;
+        let as_others = Some(as_others).filter(|_| !uneven.as_ref().is_some_and(is_error));
         let as_errors = Offer {
             comment: "if it is an error",
             ..self.with_columns(&[errors, limits, counts].concat())
         };
         let as_errors = (!limits.is_empty() || !counts.is_empty()).then_some(as_errors);
         self.refuse(expected, &found)
-            .offering([as_others].into_iter().chain(as_errors))
+            .offering(as_others.into_iter().chain(as_errors))
     }
 
     /// The command with these columns as errors.

@@ -42,7 +42,7 @@ static RATES: Words = LazyLock::new(|| ranked(RATE_WORDS));
 static COSTS: Words = LazyLock::new(|| ranked(COST_WORDS));
 static ERRORS: Words = LazyLock::new(|| ranked(ERROR_WORDS));
 
-const STEP_WORDS: &str = "h dt dx dy dz hmax hmin hk diam diameter cellsize tau τ step stepsize meshsize meshwidth gridsize \
+const STEP_WORDS: &str = "h dt dx dy dz hmax hmin maxh hk diam diameter cellsize tau τ step stepsize meshsize meshwidth gridsize \
     gridspacing spacing timestep timestepsize deltat deltax deltay δt δx δy ∆t ∆x";
 /// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns, last here, this holds
 /// only in the limit.

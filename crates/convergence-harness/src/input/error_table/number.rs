@@ -95,10 +95,10 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     if is_no_number(cell) {
         return None;
     }
-    let (edge, others) = cell.split_once(['x', '×']).unwrap_or((cell, ""));
-    if edge.bytes().all(|c| c.is_ascii_digit())
-        && others.split(['x', '×']).all(|other| other == edge)
-    {
+    let edges = cell.trim_matches('$').replace("\\times", "×");
+    let mut edges = edges.split(['x', '×']).map(str::trim);
+    let edge = edges.next().unwrap_or_default();
+    if edge.bytes().all(|c| c.is_ascii_digit()) && edges.all(|other| other == edge) {
         return real(edge);
     }
     let mut text = cell.trim_matches(|c| "`_".contains(c)).to_owned();

@@ -111,7 +111,7 @@ pub(super) fn is_mark(c: char) -> bool {
 ///
 /// * `must_mark`: whether `=` or `:` must separate them.
 pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
-    if must_mark && !text.contains([':', '=']) {
+    if must_mark && !may_be_log(text) {
         return None;
     }
     let found = find_pairs(text);
@@ -171,9 +171,15 @@ impl PairedText<'_> {
     }
 }
 
+/// Whether a text has marks between names and numbers, and no rows of LaTeX, whose names may be `k=1`.
+fn may_be_log(text: &str) -> bool {
+    const ROWS: usize = 3;
+    text.contains([':', '=']) && text.matches(" & ").nth(ROWS).is_none()
+}
+
 /// The names and numbers of a log; `None` for a text of rows.
 pub(super) fn log(text: &str) -> Option<Vec<Pair<'_>>> {
-    let found = text.contains([':', '=']).then(|| find_pairs(text))?;
+    let found = may_be_log(text).then(|| find_pairs(text))?;
     found.is_log().then_some(found.pairs)
 }
 
@@ -425,6 +431,11 @@ fn name_before(text: &str) -> &str {
         .next()
         .unwrap_or_default()
         .trim_matches(is_mark);
+    // `<level h="0.1"`.
+    let attribute = name.strip_prefix('<').and_then(|tag| tag.rsplit_once(' '));
+    if let Some((_, name)) = attribute {
+        return name;
+    }
     LEVELS
         .iter()
         .find_map(|level| name.strip_prefix(level))

@@ -273,7 +273,7 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
 pub(super) fn begins_with_number(line: &&str) -> bool {
     let line = line.trim_start_matches(|c: char| c.is_whitespace() || "|\"$".contains(c));
     let first = line
-        .split(|c: char| c.is_whitespace() || ";,&|\"$".contains(c))
+        .split(|c: char| c.is_whitespace() || ";,&|\"$\\".contains(c))
         .next();
     number(first.unwrap_or_default(), true).is_some()
 }

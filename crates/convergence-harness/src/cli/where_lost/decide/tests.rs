@@ -1,0 +1,452 @@
+//! All mistakes of a model, one and two at a time, with all ways in which variants may hide them.
+
+use super::*;
+
+/// A problem: which parts its file has.
+struct Setting {
+    coordinates: &'static [&'static str],
+    faces: &'static [&'static str],
+    has_time: bool,
+    others: Vec<Switch>,
+}
+
+fn settings() -> Vec<Setting> {
+    let others = || {
+        vec![
+            Switch::Parameter("p".to_owned()),
+            Switch::Field("u".to_owned()),
+        ]
+    };
+    vec![
+        Setting {
+            coordinates: &["x", "y"],
+            faces: &["x_min", "x_max", "y_min", "y_max"],
+            has_time: true,
+            others: others(),
+        },
+        Setting {
+            coordinates: &["x", "y"],
+            faces: &["x_min", "x_max", "y_min"],
+            has_time: false,
+            others: vec![],
+        },
+        // Periodic along y.
+        Setting {
+            coordinates: &["x", "y"],
+            faces: &["x_min", "x_max"],
+            has_time: true,
+            others: vec![],
+        },
+        Setting {
+            coordinates: &["x"],
+            faces: &["x_min", "x_max"],
+            has_time: true,
+            others: others(),
+        },
+        Setting {
+            coordinates: &["x"],
+            faces: &[],
+            has_time: true,
+            others: vec![],
+        },
+    ]
+}
+
+fn owned(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+impl Setting {
+    /// The variants of such a file.
+    fn switches(&self) -> Vec<Switch> {
+        let mut switches = self.inner();
+        switches.extend(owned(self.faces).into_iter().map(Switch::Face));
+        let mut with_faces = 0;
+        for name in owned(self.coordinates) {
+            let sides = self
+                .faces
+                .iter()
+                .filter(|face| is_side(face, &name))
+                .count();
+            with_faces += usize::from(sides > 0);
+            if sides == 2 {
+                switches.push(Switch::BothFaces(name));
+            }
+        }
+        if with_faces > 1 {
+            switches.push(Switch::AllFaces);
+            switches.extend(owned(self.faces).into_iter().map(Switch::AllFacesBut));
+        }
+        if self.has_time {
+            switches.push(Switch::Initial);
+            if !self.faces.is_empty() {
+                switches.push(Switch::AllFacesAndInitial);
+            }
+        }
+        switches
+    }
+
+    /// The variants that switch off what acts inside the domain.
+    fn inner(&self) -> Vec<Switch> {
+        let mut inner: Vec<Switch> = owned(self.coordinates)
+            .into_iter()
+            .map(Switch::Coordinate)
+            .collect();
+        if self.has_time {
+            inner.push(Switch::Time("t".to_owned()));
+        }
+        inner.extend(self.others.iter().cloned());
+        inner
+    }
+
+    /// All single mistakes.
+    fn mistakes(&self) -> Vec<Mistake> {
+        let inner = self.inner();
+        let subsets = |parts: &[Switch]| -> Vec<Vec<Switch>> {
+            let count = 1usize << parts.len();
+            let subset = |bits: usize| {
+                let chosen = parts
+                    .iter()
+                    .enumerate()
+                    .filter(|(place, _)| bits >> place & 1 == 1);
+                chosen.map(|(_, part)| part.clone()).collect()
+            };
+            (0..count).map(subset).collect()
+        };
+        let mut mistakes = vec![];
+        for hidden_by in subsets(&inner) {
+            mistakes.push(Mistake::new(&[], false, &hidden_by, true));
+            for (place, face) in self.faces.iter().enumerate() {
+                mistakes.push(Mistake::new(&[face], false, &hidden_by, false));
+                if self.has_time {
+                    mistakes.push(Mistake::new(&[face], true, &hidden_by, false));
+                }
+                for other in &self.faces[place + 1..] {
+                    let is_opposite = face.split('_').next() == other.split('_').next();
+                    if !is_opposite {
+                        mistakes.push(Mistake::new(&[face, other], false, &hidden_by, false));
+                    }
+                }
+            }
+            if self.has_time {
+                mistakes.push(Mistake::new(&[], true, &hidden_by, false));
+            }
+        }
+        mistakes
+    }
+}
+
+/// A mistake: seen only where the solution is not flat at each of some faces, and at the first time;
+/// and where the solution changes in each part of `hidden_by`.
+#[derive(Debug, Clone, PartialEq)]
+struct Mistake {
+    faces: Vec<String>,
+    is_initial: bool,
+    hidden_by: Vec<Switch>,
+    is_inside: bool,
+}
+
+impl Mistake {
+    fn new(
+        faces: &[&&'static str],
+        is_initial: bool,
+        hidden_by: &[Switch],
+        is_inside: bool,
+    ) -> Self {
+        Self {
+            faces: faces.iter().map(|face| (**face).to_owned()).collect(),
+            is_initial,
+            hidden_by: hidden_by.to_vec(),
+            is_inside,
+        }
+    }
+
+    fn is_hidden_in(&self, variant: &Switch) -> bool {
+        let at = |is_flat: &dyn Fn(&str) -> bool| self.faces.iter().any(|face| is_flat(face));
+        match variant {
+            Switch::Face(name) => at(&|face| face == name),
+            Switch::BothFaces(name) => at(&|face| is_side(face, name)),
+            Switch::AllFaces => at(&|_| true),
+            Switch::AllFacesBut(name) => at(&|face| face != name),
+            Switch::Initial => self.is_initial,
+            Switch::AllFacesAndInitial => self.is_initial || at(&|_| true),
+            inner => self.hidden_by.contains(inner),
+        }
+    }
+
+    /// Whether a part that is named is one of the mistake.
+    fn has(&self, part: &Switch) -> bool {
+        match part {
+            Switch::Face(name) => self.faces.contains(name),
+            Switch::Initial => self.is_initial,
+            inner => self.hidden_by.contains(inner),
+        }
+    }
+}
+
+fn fates(switches: &[Switch], mistakes: &[&Mistake]) -> Vec<Examined> {
+    let examined = |switch: &Switch| {
+        let is_seen = mistakes.iter().any(|mistake| !mistake.is_hidden_in(switch));
+        Examined {
+            switch: switch.clone(),
+            fate: if is_seen { Fate::Lost } else { Fate::Back },
+        }
+    };
+    switches.iter().map(examined).collect()
+}
+
+fn assert_true(conclusion: &Conclusion, mistakes: &[&Mistake]) {
+    for part in conclusion.named() {
+        let is_wrong = mistakes.iter().any(|mistake| mistake.has(&part));
+        assert!(is_wrong, "{part:?} is named for {mistakes:?}");
+    }
+}
+
+#[test]
+fn one_mistake_is_named_if_no_other_part_hides_it_and_never_falsely() {
+    let mut named = 0;
+    for setting in settings() {
+        let switches = setting.switches();
+        for mistake in setting.mistakes() {
+            let conclusion = decide(&fates(&switches, &[&mistake]));
+            assert_true(&conclusion, &[&mistake]);
+            named += usize::from(!conclusion.named().is_empty());
+            let is_at_one_place = mistake.faces.len() + usize::from(mistake.is_initial) == 1;
+            if is_at_one_place {
+                assert!(
+                    !conclusion.named().is_empty(),
+                    "{mistake:?}: {conclusion:?}"
+                );
+            }
+            if mistake.is_inside && mistake.hidden_by.len() == 1 {
+                assert_eq!(conclusion.named(), mistake.hidden_by, "{conclusion:?}");
+            }
+            if mistake.is_inside && mistake.hidden_by.is_empty() {
+                assert_eq!(conclusion, Conclusion::Everywhere);
+            }
+        }
+    }
+    assert!(named > 200, "{named}");
+}
+
+#[test]
+fn of_two_mistakes_no_part_is_named_that_is_right() {
+    let mut named = 0;
+    for setting in settings() {
+        let switches = setting.switches();
+        let mistakes = setting.mistakes();
+        for (place, one) in mistakes.iter().enumerate() {
+            for other in &mistakes[place + 1..] {
+                let conclusion = decide(&fates(&switches, &[one, other]));
+                assert_true(&conclusion, &[one, other]);
+                named += usize::from(!conclusion.named().is_empty());
+            }
+        }
+    }
+    assert!(named > 1000, "{named}");
+}
+
+/// Each fate in turn is replaced by what is no evidence.
+#[test]
+fn what_is_unknown_or_round_off_names_nothing_that_is_right() {
+    for setting in settings() {
+        let switches = setting.switches();
+        let mistakes = setting.mistakes();
+        let pairs = mistakes.iter().enumerate().step_by(3);
+        for (place, one) in pairs {
+            for other in mistakes[place..].iter().step_by(5) {
+                let whole = fates(&switches, &[one, other]);
+                for changed in 0..whole.len() {
+                    for fate in [Fate::Unknown, Fate::RoundOff] {
+                        let mut examined = whole.clone();
+                        if fate == Fate::Unknown || examined[changed].fate == Fate::Back {
+                            examined[changed].fate = fate;
+                        }
+                        assert_true(&decide(&examined), &[one, other]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The fates of a plane problem in time with these variants back, and all others lost.
+fn back(names: &[&str]) -> Vec<Examined> {
+    let switches = settings()[0].switches();
+    let examined = |switch: &Switch| Examined {
+        switch: switch.clone(),
+        fate: if names.contains(&switch.variant().as_str()) {
+            Fate::Back
+        } else {
+            Fate::Lost
+        },
+    };
+    switches.iter().map(examined).collect()
+}
+
+fn with(mut examined: Vec<Examined>, variant: &str, fate: Fate) -> Vec<Examined> {
+    let mut entries = examined.iter_mut();
+    let entry = entries.find(|one| one.switch.variant() == variant);
+    entry.unwrap_or_else(|| panic!("no {variant}")).fate = fate;
+    examined
+}
+
+/// The variants that are flat at x_max.
+const AT_X_MAX: [&str; 7] = [
+    "flat_x_max",
+    "flat_x",
+    "flat_faces",
+    "flat_but_x_min",
+    "flat_but_y_min",
+    "flat_but_y_max",
+    "flat_everywhere",
+];
+
+/// A conclusion, and the variants that are back.
+struct Row {
+    conclusion: Conclusion,
+    back: Vec<&'static str>,
+}
+
+fn rows() -> Vec<Row> {
+    let faces = |names: &[&str], back: &[&'static str]| Row {
+        conclusion: Conclusion::Faces(owned(names)),
+        back: back.to_vec(),
+    };
+    let inside = |parts: Vec<Switch>, back: &[&'static str]| Row {
+        conclusion: Conclusion::Inside(parts),
+        back: back.to_vec(),
+    };
+    let at_x_max = |more: &'static str| [AT_X_MAX.as_slice(), &[more]].concat();
+    let y = Switch::Coordinate("y".to_owned());
+    let t = Switch::Time("t".to_owned());
+    let p = Switch::Parameter("p".to_owned());
+    let pair = ["flat_faces", "flat_everywhere"];
+    let with_pair = |more: &[&'static str]| [pair.as_slice(), more].concat();
+    vec![
+        faces(&["x_max"], &AT_X_MAX),
+        faces(&["x_max"], &at_x_max("constant_x")),
+        Row {
+            conclusion: Conclusion::FaceInTime {
+                face: "x_max".to_owned(),
+                time: "t".to_owned(),
+            },
+            back: at_x_max("constant_t"),
+        },
+        faces(
+            &["x_min", "x_max"],
+            &with_pair(&["constant_x", "flat_x", "flat_but_y_min", "flat_but_y_max"]),
+        ),
+        faces(
+            &["x_max", "y_max"],
+            &with_pair(&["flat_but_x_min", "flat_but_y_min"]),
+        ),
+        Row {
+            conclusion: Conclusion::Corner(["x_max".to_owned(), "y_max".to_owned()]),
+            back: [
+                AT_X_MAX.as_slice(),
+                &["flat_y_max", "flat_y", "flat_but_x_max"],
+            ]
+            .concat(),
+        },
+        inside(vec![y.clone()], &["constant_y"]),
+        inside(vec![t], &["constant_t"]),
+        inside(vec![y, p], &["constant_y", "zero_p"]),
+        Row {
+            conclusion: Conclusion::Initial,
+            back: vec!["flat_initial", "flat_everywhere"],
+        },
+        Row {
+            conclusion: Conclusion::Everywhere,
+            back: vec![],
+        },
+    ]
+}
+
+#[test]
+fn each_part_has_its_variants() {
+    for row in rows() {
+        assert_eq!(decide(&back(&row.back)), row.conclusion);
+    }
+}
+
+#[test]
+fn each_variant_that_is_flat_must_agree() {
+    // Inside the domain three variants decide; in the others the lost part may be small.
+    let decide_y = ["flat_y", "flat_faces", "flat_everywhere"];
+    for row in rows() {
+        let is_inside = matches!(row.conclusion, Conclusion::Inside(_));
+        let first = if is_inside {
+            usize::from(row.back[0] == "constant_t")
+        } else {
+            0
+        };
+        let decides = |one: &&Examined| {
+            is_flat(&one.switch)
+                && (!is_inside || decide_y[first..].contains(&one.switch.variant().as_str()))
+        };
+        for examined in back(&row.back).iter().filter(decides) {
+            let opposite = if examined.fate == Fate::Back {
+                Fate::Lost
+            } else {
+                Fate::Back
+            };
+            let variant = examined.switch.variant();
+            let conclusion = decide(&with(back(&row.back), &variant, opposite));
+            assert_ne!(conclusion, row.conclusion, "{variant}");
+        }
+    }
+}
+
+#[test]
+fn round_off_in_what_is_named_names_nothing() {
+    for (row, variant) in [
+        (0, "flat_x_max"),
+        (3, "flat_x"),
+        (4, "flat_faces"),
+        (5, "flat_y_max"),
+        (6, "constant_y"),
+        (9, "flat_initial"),
+    ] {
+        let examined = with(back(&rows()[row].back), variant, Fate::RoundOff);
+        assert_eq!(decide(&examined), Conclusion::Several, "{variant}");
+    }
+    // It does not hide that another coordinate may be the place.
+    let examined = with(back(&["constant_y"]), "constant_x", Fate::RoundOff);
+    assert_eq!(decide(&examined), Conclusion::Several);
+}
+
+#[test]
+fn a_contradiction_or_a_gap_names_nothing() {
+    // Small at x_min, not absent: what is flat there and elsewhere is lost.
+    assert_eq!(decide(&back(&["flat_x_min"])), Conclusion::Several);
+    assert_eq!(
+        decide(&back(&["constant_x", "constant_y"])),
+        Conclusion::Several
+    );
+    // Faces and initial data at once, hidden together without y.
+    assert_eq!(
+        decide(&back(&["constant_y", "flat_everywhere"])),
+        Conclusion::Several
+    );
+    for (variant, fate) in [
+        ("flat_y_min", Fate::Unknown),
+        ("flat_initial", Fate::Unknown),
+        ("flat_faces", Fate::Unknown),
+        ("flat_x", Fate::Unknown),
+        ("flat_x_max", Fate::Unknown),
+    ] {
+        let conclusion = decide(&with(back(&AT_X_MAX), variant, fate));
+        assert!(
+            matches!(conclusion, Conclusion::Open(_)),
+            "{variant}: {conclusion:?}"
+        );
+    }
+    for variant in ["flat_y", "flat_everywhere", "flat_faces", "constant_x"] {
+        let conclusion = decide(&with(back(&["constant_y"]), variant, Fate::Unknown));
+        assert!(
+            matches!(conclusion, Conclusion::Open(_)),
+            "{variant}: {conclusion:?}"
+        );
+    }
+}

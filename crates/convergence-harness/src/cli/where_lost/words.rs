@@ -1,0 +1,221 @@
+//! What the variants show, for people: at most fifteen lines.
+
+use manufacture::{Switch, Variants};
+
+use super::decide::Conclusion;
+use crate::cli::screen;
+use crate::judge::verdict::{RateVerdict, Tendency};
+use crate::run::{Fate, Located, VariantRates};
+use crate::text::number::plain_text;
+
+/// Most rows of the table; more variants stand beside each other.
+const MOST_ROWS: usize = 10;
+
+/// The table of variants, and the conclusion.
+pub(in crate::cli) fn text(located: &Located) -> String {
+    let cells = |variant: &VariantRates| {
+        let rate = variant.rates.first();
+        vec![
+            variant.name.clone(),
+            rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate)),
+            order(variant).to_owned(),
+        ]
+    };
+    let cells: Vec<Vec<String>> = located.variants.iter().map(cells).collect();
+    let columns = cells.len().div_ceil(MOST_ROWS).max(1);
+    let count = cells.len().div_ceil(columns).max(1);
+    let head = ["variant", "rate", "order"].repeat(columns);
+    let row = |place: usize| {
+        let beside = (0..columns).map(|column| cells.get(place + column * count));
+        let beside = beside.map(|cells| cells.cloned().unwrap_or(vec![String::new(); 3]));
+        beside.flatten().collect()
+    };
+    let rows: Vec<Vec<String>> = (0..count).map(row).collect();
+    format!("{}{}\n", screen::table(&head, &rows), located.conclusion)
+}
+
+fn order(variant: &VariantRates) -> &'static str {
+    match variant.order {
+        Fate::Back => "back",
+        Fate::RoundOff => "round-off",
+        Fate::Lost => "lost",
+        Fate::Unknown if variant.rates.is_empty() => "left out",
+        Fate::Unknown => "undecided",
+    }
+}
+
+/// `2.03 ± 0.04`; the last rate without an interval.
+fn interval(rate: &RateVerdict) -> String {
+    if let (Some(fitted), Some(interval)) = (rate.fitted, rate.interval) {
+        let [low, high] = <[f64; 2]>::from(interval);
+        return format!("{fitted:.2} ± {:.2}", (high - low) / 2.0);
+    }
+    let last = rate.pairwise.last();
+    last.map_or_else(|| "-".to_owned(), |rate| format!("{rate:.2}"))
+}
+
+/// The conclusion in a sentence.
+///
+/// * `tendency`: what the errors of the study tend to, if not to zero.
+pub(super) fn sentence(
+    conclusion: &Conclusion,
+    rows: &[VariantRates],
+    tendency: Option<Tendency>,
+    variants: &Variants<'_>,
+) -> String {
+    let limit = match tendency {
+        Some(Tendency::Constant { limit }) => Some(limit),
+        _ => None,
+    };
+    let lost = limit.map_or_else(
+        || "the order is lost".to_owned(),
+        |limit| {
+            format!(
+                "the errors tend to about {} by a mistake",
+                plain_text(limit)
+            )
+        },
+    );
+    let mut sentence = match conclusion {
+        Conclusion::Faces(names) => faces(&lost, names, rows, variants),
+        Conclusion::FaceInTime { face, time } => format!(
+            "{lost} at the face {face}, in time: it comes back where the solution is flat there ({}), \
+             and where it is constant in {time} ({}), and not where it is flat at any other face; \
+             look at the time at which {} is taken",
+            rate(rows, &Switch::Face(face.clone())),
+            rate(rows, &Switch::Time(time.clone())),
+            conditions(face, variants),
+        ),
+        Conclusion::Corner([one, other]) => format!(
+            "{lost} where the faces {one} and {other} meet: it comes back where the solution is flat \
+             at {one} ({}) and at {other} ({}) alike, and not where it is flat at any other face; \
+             look at what is done at this corner",
+            rate(rows, &Switch::Face(one.clone())),
+            rate(rows, &Switch::Face(other.clone())),
+        ),
+        Conclusion::Initial => format!(
+            "{lost} at the first time: it comes back where the solution is flat there ({}), and not \
+             where it is flat at any face; look at the initial data",
+            rate(rows, &Switch::Initial),
+        ),
+        Conclusion::Inside(parts) => inside(&lost, parts, rows),
+        Conclusion::Everywhere => format!(
+            "{lost} in every variant: everywhere, as by a quadrature, a coefficient or a norm, or in \
+             several parts at once; no part is named"
+        ),
+        Conclusion::Open(switches) => format!(
+            "no part is named: what would decide is undecided or left out ({}); finer levels may help",
+            listed(switches.iter().map(Switch::variant).collect()),
+        ),
+        Conclusion::Several => format!(
+            "no part is named: no single one explains that the order comes back {}",
+            back(rows)
+        ),
+    };
+    if limit.is_some() && !conclusion.named().is_empty() {
+        sentence = sentence.replace(": it comes back", ": the order comes back");
+        sentence += "; a coefficient, a sign or a value is wrong there, rather than a stencil";
+    }
+    sentence
+}
+
+fn faces(lost: &str, names: &[String], rows: &[VariantRates], variants: &Variants<'_>) -> String {
+    if let [face] = names {
+        return format!(
+            "{lost} at the face {face}: it comes back where the solution is flat there ({}), and not \
+             where it is flat at any other face; look at {}",
+            rate(rows, &Switch::Face(face.clone())),
+            conditions(face, variants),
+        );
+    }
+    let all: Vec<String> = names
+        .iter()
+        .map(|face| conditions(face, variants))
+        .collect();
+    format!(
+        "{lost} at the faces {}: it comes back where the solution is flat at these together, and not \
+         where one of them is left; look at {}, and at what serves them all",
+        listed(names.to_vec()),
+        listed(all),
+    )
+}
+
+fn inside(lost: &str, parts: &[Switch], rows: &[VariantRates]) -> String {
+    let place = |part: &Switch| match part {
+        Switch::Coordinate(name) | Switch::Time(name) => format!("in what acts along {name}"),
+        Switch::Parameter(name) => format!("in the terms with {name}"),
+        Switch::Field(name) => format!("in what acts on {name}"),
+        other => other.words(),
+    };
+    let variant = |part: &Switch| {
+        let rate = rate(rows, part);
+        match part {
+            Switch::Parameter(name) => format!("{name} is zero ({rate})"),
+            Switch::Coordinate(name) | Switch::Time(name) => {
+                format!("the solution is constant in {name} ({rate})")
+            }
+            part => format!("{} is constant ({rate})", part.name().unwrap_or_default()),
+        }
+    };
+    let hint = |part: &Switch| match part {
+        Switch::Coordinate(name) => format!("the derivatives by {name} inside the domain"),
+        Switch::Time(_) => {
+            "the time at which source and data are taken, and the time stepping".to_owned()
+        }
+        Switch::Parameter(name) => format!("the terms with {name}"),
+        part => format!("the terms with {}", part.name().unwrap_or_default()),
+    };
+    let places = listed(parts.iter().map(place).collect());
+    let variants = listed(parts.iter().map(variant).collect());
+    let hints = listed(parts.iter().map(hint).collect());
+    format!(
+        "{lost} {places}: it comes back where {variants}, and stays lost where the solution is flat \
+         at the faces and at the first time; look at {hints}"
+    )
+}
+
+/// The data of a face: `the condition flux at x_max`.
+fn conditions(face: &str, variants: &Variants<'_>) -> String {
+    let names: Vec<String> = variants
+        .data_at(face)
+        .into_iter()
+        .map(str::to_owned)
+        .collect();
+    let noun = if names.len() == 1 {
+        "condition"
+    } else {
+        "conditions"
+    };
+    format!("the {noun} {} at {face}", listed(names))
+}
+
+/// The rate with a variant.
+fn rate(rows: &[VariantRates], switch: &Switch) -> String {
+    let name = switch.variant();
+    let row = rows.iter().find(|row| row.name == name);
+    let rate = row.and_then(|row| row.rates.first());
+    rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate))
+}
+
+/// Where the order comes back.
+fn back(rows: &[VariantRates]) -> String {
+    let back = rows
+        .iter()
+        .filter(|row| matches!(row.order, Fate::Back | Fate::RoundOff));
+    let names: Vec<String> = back.map(|row| row.name.clone()).collect();
+    if names.is_empty() {
+        "in none".to_owned()
+    } else {
+        format!("in {}, and in no other", listed(names))
+    }
+}
+
+/// `a, b and c`.
+fn listed(mut names: Vec<String>) -> String {
+    let last = names.pop().unwrap_or_default();
+    if names.is_empty() {
+        last
+    } else {
+        format!("{} and {last}", names.join(", "))
+    }
+}

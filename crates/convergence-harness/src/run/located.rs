@@ -1,0 +1,64 @@
+//! Where the order of a study is lost, as far as variants of its solution show it: plain data.
+
+use serde::{Deserialize, Serialize};
+
+use crate::judge::verdict::RateVerdict;
+
+/// A part of a program, as variants of a solution switch it off.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Part {
+    /// `face`, `coordinate`, `time`, `initial`, `parameter`, `field`, or several of them.
+    pub part: String,
+    /// Its name, such as `x_max`; absent where there is only one such part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+}
+
+/// What the variants of a study's solution show.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Located {
+    /// The parts in which the order is lost; empty if nothing can be claimed.
+    pub named: Vec<Part>,
+    /// The conclusion, in words.
+    pub conclusion: String,
+    /// Each variant that was run.
+    pub variants: Vec<VariantRates>,
+}
+
+/// What became of the order in a variant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fate {
+    /// It is there.
+    Back,
+    /// The errors are round-off: the order is not lost, and nothing follows for a name.
+    RoundOff,
+    /// It is lost there, too.
+    Lost,
+    /// The levels do not tell, or there is no such variant although the file has the part.
+    Unknown,
+}
+
+/// A variant of a solution, and the rates with it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VariantRates {
+    /// Its name, the value of `MANUFACTURE_VARIANT`.
+    pub name: String,
+    /// What it switches off.
+    pub switches_off: Part,
+    /// What became of the order.
+    pub order: Fate,
+    /// The rates of the errors whose order is lost in the study; none for a variant that cannot be
+    /// used.
+    pub rates: Vec<VariantRate>,
+}
+
+/// The rate of an error with a variant.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VariantRate {
+    /// The error.
+    pub error: String,
+    /// Its judgement.
+    #[serde(flatten)]
+    pub rate: RateVerdict,
+}

@@ -1,0 +1,191 @@
+//! `study --where`: in which part of a program the order is lost.
+
+use std::fs;
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use super::run;
+
+const ROD: &str = r#"
+[manufacture]
+name = "rod"
+coordinates = ["x"]
+time = "t"
+[domain]
+x = [0, 1]
+t = [0, 1]
+[exact]
+u = "1 + sin(x)*exp(-t)"
+[equations]
+u = "dt(u) - d(u, x, x)"
+[boundary.x_min]
+u = "u"
+[boundary.x_max]
+flux = "d(u, x)"
+[initial]
+u = "u"
+"#;
+
+/// Errors h^2, and 0.3 h where the variant does not hide it: `run.sh N VARIANT...`, those that do.
+const PROGRAM: &str = r#"
+n=$1
+shift
+part=0.3
+for variant in "$@"; do
+    if [ "$variant" = "$MANUFACTURE_VARIANT" ]; then part=0; fi
+done
+# Each variant has its own solution.
+scale=1.${#MANUFACTURE_VARIANT}
+awk "BEGIN { h = 1 / $n; printf \"L2 = %.12g\n\", $scale * (h * h + $part * h) }"
+"#;
+
+/// A folder with the program, its solution, and a study that finds its order lost.
+fn project(program: &str, hidden_in: &[&str]) -> TempDir {
+    let root = TempDir::new().unwrap();
+    let words = hidden_in.iter().map(|variant| format!(", \"{variant}\""));
+    let study = format!(
+        "[study]\nid = \"rod\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
+         [program]\ncommand = [\"sh\", \"run.sh\", \"{{n}}\"{}]\nmanufacture = \"rod.toml\"\n\
+         [refine]\nn = [8, 16, 32, 64]\n[[expect]]\nerror = \"L2\"\norder = 2\n",
+        words.collect::<String>()
+    );
+    for (name, text) in [
+        ("rod.toml", ROD),
+        ("run.sh", program),
+        ("study.toml", &study),
+    ] {
+        fs::write(root.path().join(name), text).unwrap();
+    }
+    root
+}
+
+/// What `study --where` prints.
+fn located(program: &str, hidden_in: &[&str]) -> (Option<i32>, String, String) {
+    run(
+        &project(program, hidden_in),
+        &["study", "study.toml", "--where"],
+    )
+}
+
+#[test]
+fn the_face_whose_flat_variant_has_its_order_back_is_named() {
+    let hidden_in = ["flat_x_max", "flat_x", "flat_everywhere", "constant_x"];
+    let (status, out, err) = located(PROGRAM, &hidden_in);
+    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+    let conclusion = "the order is lost at the face x_max: it comes back where the solution is flat there \
+                      (2.00 ± 0.00), and not where it is flat at any other face; look at the condition flux at x_max";
+    assert!(out.contains(conclusion), "{out}");
+    let rest = &out[out.find("\nvariant ").unwrap() + 1..];
+    let block = &rest[..rest.find("\n\n").unwrap_or(rest.len())];
+    assert!(block.lines().count() <= 15, "{block}");
+    let root = project(PROGRAM, &hidden_in);
+    let words = ["study", "study.toml", "--where", "--format", "json"];
+    let record: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let place = &record["studies"][0]["where"];
+    assert_eq!(place["named"], json!([{"part": "face", "name": "x_max"}]));
+    let variants = place["variants"].as_array().unwrap();
+    assert_eq!(variants.len(), 7);
+    assert_eq!(variants[3]["name"], "flat_x_max");
+    let part = json!({"part": "face", "name": "x_max"});
+    assert_eq!(variants[3]["switches_off"], part);
+    assert_eq!(variants[3]["rates"][0]["verdict"], "pass");
+    assert_eq!(variants[2]["rates"][0]["verdict"], "fail");
+}
+
+#[test]
+fn other_parts_are_named_by_their_variants_and_none_without_one() {
+    for (hidden_in, words) in [
+        (
+            ["constant_x", "-"],
+            "the order is lost in what acts along x: it comes back where the solution is constant in x",
+        ),
+        (
+            ["constant_t", "-"],
+            "look at the time at which source and data are taken, and the time stepping",
+        ),
+        (
+            ["flat_initial", "flat_everywhere"],
+            "the order is lost at the first time",
+        ),
+        (
+            ["flat_x", "flat_everywhere"],
+            "the order is lost at the faces x_min and x_max",
+        ),
+        (
+            ["flat_x_max", "flat_x_min"],
+            "no single one explains that the order comes back in flat_x_min and flat_x_max",
+        ),
+        (["-", "-"], "the order is lost in every variant: everywhere"),
+    ] {
+        let (status, out, _) = located(PROGRAM, &hidden_in);
+        assert_eq!(status, Some(1), "{out}");
+        assert!(out.contains(words), "{words}: {out}");
+    }
+}
+
+#[test]
+fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
+    let ignoring = PROGRAM.replace("scale=1.${#MANUFACTURE_VARIANT}", "scale=1");
+    assert_ne!(ignoring, PROGRAM);
+    let root = project(&ignoring, &[]);
+    let words = ["study", "study.toml", "--where", "--out", "report"];
+    let (status, out, err) = run(&root, &words);
+    assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
+    for part in [
+        "does not notice",
+        "--variants",
+        "mpirun -x MANUFACTURE_VARIANT",
+    ] {
+        assert!(err.contains(part), "{err}");
+    }
+    let written = fs::read_dir(root.path().join("report")).map_or(0, Iterator::count);
+    assert_eq!(written, 0);
+}
+
+#[test]
+fn a_variant_that_does_not_run_is_refused_with_its_last_words() {
+    let failing = format!(
+        "if [ \"$MANUFACTURE_VARIANT\" = flat_x ]; then echo 'unknown variant' >&2; exit 3; fi\n{PROGRAM}"
+    );
+    let (status, out, err) = located(&failing, &[]);
+    assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
+    for part in ["the variant flat_x does not run", "unknown variant"] {
+        assert!(err.contains(part), "{err}");
+    }
+}
+
+#[test]
+fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
+    let root = project("exit 1", &[]);
+    let study = fs::read_to_string(root.path().join("study.toml")).unwrap();
+    let without = study.replace("manufacture = \"rod.toml\"\n", "");
+    fs::write(root.path().join("study.toml"), without).unwrap();
+    for command in ["study", "verify"] {
+        let (status, out, err) = run(&root, &[command, "study.toml", "--where"]);
+        assert_eq!((status, out.as_str()), (Some(2), ""));
+        assert!(
+            err.contains("rod: --where: found no `manufacture` in [program]"),
+            "{err}"
+        );
+    }
+    fs::write(
+        root.path().join("study.toml"),
+        study.replace("rod.toml", "rood.toml"),
+    )
+    .unwrap();
+    let (status, _, err) = run(&root, &["study", "study.toml"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        err.contains("program.manufacture") && err.contains("is no file"),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_study_that_passes_has_no_place() {
+    let right = PROGRAM.replace("part=0.3", "part=0");
+    let (status, out, err) = located(&right, &[]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    assert!(!out.contains("flat_x"), "{out}");
+}

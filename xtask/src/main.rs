@@ -18,7 +18,6 @@ use thermobeam_study::kinds::{KINDS, settings};
 /// The beam under this command, and the calibration of the rule.
 const PROJECT: Project = Project {
     kinds: &WITH_CALIBRATION,
-    fingerprints: Some(regressions::FINGERPRINTS),
     ..project("cargo xtask")
 };
 

@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     /// Plant only mistakes with this in their name or file; may be repeated
     #[arg(long, value_name = "PART")]
     only: Vec<String>,
-    /// Write reports/regressions.md, and xtask/fingerprints.json for comparison with later runs
+    /// Write reports/regressions.md
     #[arg(long)]
     write: bool,
     /// Diagnose recorded results again, and plant nothing
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     report.print()?;
     if arguments.write {
         report.write(&root, &clock.ended(&root))?;
-        screen::print(&format!("report: {REPORT}, {FINGERPRINTS}\n"))?;
+        screen::print(&format!("report: {REPORT}\n"))?;
     }
     Ok(report.verdict())
 }
@@ -162,7 +162,7 @@ impl<'r> Report<'r> {
         ))
     }
 
-    /// Writes the page and the fingerprints.
+    /// Writes the page.
     fn write(&self, root: &Path, ended: &str) -> io::Result<()> {
         let rows = self.judged.iter().map(|one| {
             let found = &one.found;
@@ -170,10 +170,7 @@ impl<'r> Report<'r> {
         });
         let table = Table::new("", SUMMARY, rows);
         let page = page(&table, &self.sentence, ended) + "\n" + &self.scores;
-        atomic::write(&root.join(REPORT), page)?;
-        let prints = serde_json::to_string(&judged::fingerprints(&self.judged))?;
-        let lines = prints.replace("{\"mistake\"", "\n{\"mistake\"") + "\n";
-        atomic::write(&root.join(FINGERPRINTS), lines)
+        atomic::write(&root.join(REPORT), page)
     }
 }
 
@@ -226,10 +223,8 @@ fn print_list(chosen: &[&Regression]) -> Outcome {
     Ok(Verdict::Pass)
 }
 
-/// Where later runs of `verify` find the effects of these mistakes.
+/// The page that is written.
 const REPORT: &str = "reports/regressions.md";
-
-pub(crate) const FINGERPRINTS: &str = "xtask/fingerprints.json";
 
 const HEAD: [&str; 4] = [
     "mistake",
@@ -304,10 +299,6 @@ fn page(table: &Table, sentence: &str, ended: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::{BTreeMap, BTreeSet};
-
-    use convergence_harness::store::diagnosis::Fingerprints;
-
     use super::*;
 
     fn root() -> std::path::PathBuf {
@@ -328,69 +319,5 @@ mod tests {
         let widest = page.lines().map(|line| line.chars().count()).max();
         assert!(widest.is_some_and(|widest| widest <= 200), "{widest:?}");
         assert!(page.len() < 40_000, "{}", page.len());
-    }
-
-    /// What is committed of each mistake finds it again, and names its module as often as all that
-    /// moves and fails with it.
-    #[test]
-    fn the_items_that_are_kept_find_the_mistakes() {
-        let text = std::fs::read_to_string(root().join(FINGERPRINTS)).expect("fingerprints");
-        let full: Fingerprints = serde_json::from_str(&text).expect("fingerprints");
-        let kept = serde_json::to_string(&full).expect("fingerprints");
-        assert!(kept.len() <= 100_000, "{}", kept.len());
-        let kept: Fingerprints = serde_json::from_str(&kept).expect("fingerprints");
-        let all = listed();
-        let by_name: BTreeMap<&str, &Regression> =
-            all.iter().map(|one| (one.name.as_str(), one)).collect();
-        let mut own = BTreeSet::new();
-        let mut modules = [0, 0];
-        for one in &full.known {
-            let nearest = kept.nearest(&one.items);
-            // Two mistakes may have the same effect: then either is first.
-            assert_eq!(nearest[0].likeness, 1.0, "{}", one.mistake);
-            if nearest.iter().any(|like| like.mistake == one.mistake) {
-                own.insert(&one.mistake);
-            }
-            let place = |name: &str| by_name.get(name).map(|listed| listed.place(&root()));
-            let listed = by_name.get(one.mistake.as_str());
-            assert_eq!(
-                listed.map(|listed| listed.file.as_str()),
-                Some(one.file.as_str()),
-                "{}",
-                one.mistake
-            );
-            let own_place = place(&one.mistake);
-            let others = |from: &Fingerprints| {
-                let others = from.known.iter();
-                Fingerprints {
-                    threshold: 0.0,
-                    known: others
-                        .filter(|other| place(&other.mistake) != own_place)
-                        .cloned()
-                        .collect(),
-                }
-            };
-            let module = one.file.rsplit_once('/').map_or("", |(folder, _)| folder);
-            let nearest = [
-                others(&full).nearest_by_all(&one.items),
-                others(&kept).nearest(&one.items),
-            ];
-            for (count, nearest) in modules.iter_mut().zip(nearest) {
-                *count += usize::from(
-                    nearest
-                        .first()
-                        .is_some_and(|first| first.file.starts_with(module)),
-                );
-            }
-        }
-        let [before, after] = modules;
-        println!(
-            "{} of {} first; module {before} before, {after} after",
-            own.len(),
-            full.known.len()
-        );
-        assert!(100 * own.len() >= 98 * full.known.len(), "{}", own.len());
-        assert!(2 * before > full.known.len(), "{before}");
-        assert!(100 * after >= 97 * before, "{before} before, {after} after");
     }
 }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use convergence_harness::judge::verdict::Verdict;
 use convergence_harness::project::Project;
 use convergence_harness::run::{Finished, Item, not_passed, run};
-use convergence_harness::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, diagnose};
+use convergence_harness::store::diagnosis::{Diagnosis, diagnose};
 use convergence_harness::store::{Baseline, Change};
 use convergence_harness::study::outcome::settle;
 use convergence_harness::study::{Study, StudyFile};
@@ -173,7 +173,6 @@ struct Conclusions {
     /// The studies that did not pass, with the verdicts of their items.
     order: Vec<(String, Vec<Verdict>)>,
     changes: Vec<Change>,
-    fingerprint: Fingerprint,
     diagnosis: Diagnosis,
     /// Of failing checks by quantity: the diagnosis quotes their claims, so it has no words here.
     failing_checks: Vec<usize>,
@@ -181,8 +180,7 @@ struct Conclusions {
 
 fn conclusions(studies: &[Finished], baseline: &Baseline) -> Conclusions {
     let changes = baseline.compare(studies, None);
-    let known = Fingerprints::default();
-    let mut diagnosis = diagnose(&project(), studies, &changes, &known).expect("a run that fails");
+    let mut diagnosis = diagnose(&project(), studies, &changes).expect("a run that fails");
     let checks = std::mem::take(&mut diagnosis.checks);
     let verdict = |study: &Finished| settle(&study.header.id, study.outcome.clone()).verdict;
     let order = not_passed(studies).into_iter().map(|study| {
@@ -192,7 +190,6 @@ fn conclusions(studies: &[Finished], baseline: &Baseline) -> Conclusions {
     Conclusions {
         verdicts: studies.iter().map(verdict).collect(),
         order: order.collect(),
-        fingerprint: Fingerprint::of(studies, &changes),
         changes,
         diagnosis,
         failing_checks: checks.into_iter().map(|(_, count)| count).collect(),

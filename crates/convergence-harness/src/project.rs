@@ -32,8 +32,6 @@ pub struct Project {
     pub front: Front,
     /// Where to look: a value of a setting or a field, and the place.
     pub places: &'static [(&'static str, &'static str)],
-    /// The file of known mistakes, relative to the project's folder.
-    pub fingerprints: Option<&'static str>,
     /// About how many seconds a unit of the cost of its cases takes on one thread; `None` if that
     /// is not known.
     pub seconds_per_cost: Option<f64>,
@@ -63,7 +61,6 @@ impl Project {
                 verified: "",
             },
             places: &[],
-            fingerprints: None,
             seconds_per_cost: None,
         }
     }

@@ -19,8 +19,7 @@ use crate::report::{Findings, NEWEST};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, Change, Provenance, Record, Refusal, ReportFolder, Works, atomic,
-    diagnosis::{Fingerprints, diagnose},
-    json, lock, write_json,
+    diagnosis::diagnose, json, lock, write_json,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
@@ -223,11 +222,6 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
-    let mistakes = project
-        .fingerprints
-        .map(|file| Fingerprints::read(&request.root.join(file)))
-        .transpose()?
-        .unwrap_or_default();
     let folder = &request.reports;
     tidy(request)?;
     // A folder that is not writable is reported before the run.
@@ -237,7 +231,7 @@ pub fn verify(
     if newest.has_any(&NEWEST) {
         locked(request, || newest.set_aside(&NEWEST))?;
     }
-    let verification = run_and_write(project, studies, request, works, &mistakes, progress);
+    let verification = run_and_write(project, studies, request, works, progress);
     if verification.is_err() {
         // The error of the run says more than one of putting back.
         let _ = locked(request, || newest.put_back(&NEWEST));
@@ -263,7 +257,6 @@ fn run_and_write(
     studies: &[Box<dyn Study>],
     request: &Request,
     mut works: Works,
-    mistakes: &Fingerprints,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
     let folder = &request.reports;
@@ -281,7 +274,7 @@ fn run_and_write(
     let blessing = bless(&mut baseline, &finished, request)?;
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
-    let record = diagnosed(project, request, finished, &changes, mistakes);
+    let record = diagnosed(project, request, finished, &changes);
     // Everything is prepared before anything is written.
     let provenance = Provenance::collect(
         &request.root,
@@ -327,13 +320,12 @@ fn diagnosed(
     request: &Request,
     finished: Vec<Finished>,
     changes: &[Change],
-    mistakes: &Fingerprints,
 ) -> Record {
     let command = request.scope.command(project);
     let verdict = verdict(&finished, changes);
     let name = request.scope.name();
     let mut record = Record::new(name, &command, verdict, Some(changes), finished);
-    record.diagnosis = diagnose(project, &record.studies, changes, mistakes);
+    record.diagnosis = diagnose(project, &record.studies, changes);
     if let Some(diagnosis) = &mut record.diagnosis {
         diagnosis.add_repetition(project, changes);
     }
@@ -406,7 +398,7 @@ pub fn report(
 ///
 /// * `command`: the command that ran them.
 pub fn record(project: &Project, finished: &[Finished], command: &str) -> Record {
-    let diagnosis = diagnose(project, finished, &[], &Fingerprints::default());
+    let diagnosis = diagnose(project, finished, &[]);
     Record {
         diagnosis,
         ..Record::new(

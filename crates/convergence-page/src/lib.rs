@@ -43,8 +43,10 @@ pub fn read(question: &str) -> String {
 /// * `question`: a JSON object with `text`, and the options of the command `rates` under their names.
 pub fn judge(question: &str) -> String {
     answered(question, |question| {
-        let judged = Judged::of(sheet_of(question)?, question.command());
-        Ok(json!(judged))
+        Ok(json!(Judged {
+            sheet: sheet_of(question)?,
+            command: question.command(),
+        }))
     })
 }
 

@@ -322,3 +322,29 @@ fn tables_read_the_same_with_other_line_ends_and_a_byte_order_mark() {
         }
     }
 }
+
+#[test]
+fn each_form_of_the_page_is_read() {
+    let page = include_str!("../book/src/tables.md");
+    let (_, forms) = page.split_once("## Each form\n").expect("forms");
+    let mut count = 0;
+    for part in forms.split("```\n") {
+        let Some((words, table)) = part.split_once("```text\n") else {
+            continue;
+        };
+        let ratio = if words.contains("--ratio 2") {
+            " --ratio 2"
+        } else {
+            ""
+        };
+        let found = found(&Sample {
+            title: words.to_owned(),
+            options: format!("--order L2=2 --order H1=1{ratio}"),
+            table: table.to_owned(),
+            found: String::new(),
+        });
+        assert_eq!(found.matches(": pass").count(), 2, "{words}{table}{found}");
+        count += 1;
+    }
+    assert!(count >= 9, "{count} forms");
+}

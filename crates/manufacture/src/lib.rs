@@ -105,6 +105,14 @@ impl Manufacture {
         )
     }
 
+    /// Whether a language can have a module of this name.
+    ///
+    /// # Errors
+    /// A name that is a keyword, or that hides a module which the emitted one needs.
+    pub fn accept(&self, language: Language) -> Result<(), InputError> {
+        emit::accept(&self.model, language)
+    }
+
     /// Other solutions, each of which switches off what a part of a program can get wrong, checked
     /// as the solution of the file is.
     ///

@@ -8,7 +8,7 @@ use crate::problem::{InputError, Surface, System};
 const FROM_SWITCHES: f64 = 1e-6;
 
 /// Points keep this share of the interval from an axis, where 1/r is not evaluated.
-const FROM_AXIS: f64 = 1e-6;
+pub(crate) const FROM_AXIS: f64 = 1e-6;
 
 /// Draws for each point that is wanted before a domain counts as empty.
 const TRIES: usize = 1000;
@@ -57,6 +57,7 @@ impl<'m> Sampler<'m> {
         let quantities = self.model.part(part);
         let rows = Rows::new(&self.model.graph, quantities.iter().map(|q| &q.tensor));
         let mut points = vec![];
+        let mut is_empty = true;
         for _ in 0..count.saturating_mul(TRIES) {
             if points.len() == count {
                 break;
@@ -64,6 +65,7 @@ impl<'m> Sampler<'m> {
             let Some(point) = self.draw(part) else {
                 continue;
             };
+            is_empty = false;
             let switches = rows.at(&point).switches;
             if !switches.iter().any(|switch| switch.abs() < FROM_SWITCHES) {
                 points.push(point);
@@ -71,6 +73,9 @@ impl<'m> Sampler<'m> {
         }
         if points.len() == count {
             return Ok(points);
+        }
+        if is_empty && !self.level_faces.is_empty() {
+            return Err(self.without_inside(part, count.saturating_mul(TRIES)));
         }
         let (place, what) = match part {
             Part::Face(index) => {
@@ -85,6 +90,32 @@ impl<'m> Sampler<'m> {
             count.saturating_mul(TRIES)
         );
         Err(InputError::whole(&self.model.problem.file, problem))
+    }
+
+    /// The error of levels that leave no domain, or of a level that is zero nowhere in it.
+    fn without_inside(&self, part: Part, draws: usize) -> InputError {
+        let problem = &self.model.problem;
+        let own = match part {
+            Part::Face(index) => Some(&problem.faces[index]),
+            _ => None,
+        };
+        if let Some(face) = own
+            && matches!(face.surface, Surface::Level(_))
+        {
+            return face.place.error(format!(
+                "the level is zero nowhere in the domain, in {draws} draws; expected a level that is negative inside \
+                 the domain and positive outside, with both signs in the box"
+            ));
+        }
+        let names = self.level_faces.join(", ");
+        let words = format!(
+            "no point of the box is inside, in {draws} draws; expected the level of {names} to be negative inside the domain"
+        );
+        let mut faces = problem.faces.iter();
+        match faces.find(|face| self.level_faces.contains(&face.name)) {
+            Some(face) => face.place.error(words),
+            None => InputError::whole(&problem.file, words),
+        }
     }
 
     /// A point of the box, for `Initial` at the first time.

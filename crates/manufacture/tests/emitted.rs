@@ -46,6 +46,34 @@ fn c_agrees() {
     agrees(Language::C, true);
 }
 
+/// A project that builds with warnings as errors can take the files as they are.
+#[test]
+fn emitted_c_compiles_without_a_warning() {
+    let files = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/files")).unwrap();
+    let mut texts = vec![HEAT.to_owned(), BEAM.to_owned()];
+    for file in files {
+        texts.push(std::fs::read_to_string(file.unwrap().path()).unwrap());
+    }
+    assert!(texts.len() > 10, "{}", texts.len());
+    let folder = tempfile::tempdir().unwrap();
+    for text in texts {
+        let files = read(&text).emit(Language::C);
+        for file in &files {
+            std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+        }
+        for file in files.iter().filter(|file| file.name.ends_with(".c")) {
+            let output = std::process::Command::new("cc")
+                .args("-std=c99 -Wall -Wextra -Werror -O1 -c".split(' '))
+                .arg(&file.name)
+                .current_dir(folder.path())
+                .output()
+                .unwrap();
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{}: {errors}", file.name);
+        }
+    }
+}
+
 #[test]
 fn rust_agrees() {
     agrees(Language::Rust, true);

@@ -3,6 +3,7 @@
 mod against;
 mod checks;
 mod closed_forms;
+mod domains;
 mod emitted;
 mod files;
 mod functions;

@@ -22,7 +22,7 @@ fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
     let message = refusal(&text);
     assert_eq!(
         message,
-        "test.toml:12: equations.heat: unknown name `kapa`, did you mean `kappa`?; expected one of x y T kappa\n    \
+        "test.toml:12:13: equations.heat: unknown name `kapa`, did you mean `kappa`?; expected one of x y T kappa\n    \
          div(kapa*grad(T))\n        ^"
     );
 }
@@ -143,7 +143,10 @@ fn shapes_are_refused_in_words() {
 #[test]
 fn the_grammar_is_refused_with_remedies() {
     for (equation, words) in [
-        ("jump(T)", "`jump`: interfaces are left out"),
+        (
+            "jump(T)",
+            "`jump`: no jumps or means: write a field for each side",
+        ),
         ("erf(T)", "`erf`: special functions are left out"),
         ("conj(T)", "`conj`: complex fields are left out"),
         ("T**2", "a power is written ^"),
@@ -247,5 +250,110 @@ fn the_logarithm_of_other_languages_is_named() {
     assert!(
         message.contains("`log`: an unknown function") && message.contains("`ln`"),
         "{message}"
+    );
+}
+
+/// A sum without brackets is as long as it needs to be, and is emitted.
+#[test]
+fn a_flat_sum_of_three_hundred_terms_is_read_and_emitted() {
+    let terms: Vec<String> = (1..=300).map(|k| format!("{k}*x^2/{}", k + 1)).collect();
+    let sum = terms.join(" + ");
+    let text = plane(
+        "u = \"exp(x)\"",
+        "",
+        &format!("a = \"u*({sum})\"\nb = \"{sum}\""),
+    );
+    let values = crate::files::at(&text, "x,y\n0.5,0.4\n");
+    let expected: f64 = (1..=300)
+        .map(|k| 0.25 * f64::from(k) / f64::from(k + 1))
+        .sum();
+    crate::files::close(&values["sources"]["b"][0], expected, 1.0);
+    for (_, language) in manufacture::Language::ALL {
+        assert!(!crate::files::read(&text).emit(language).is_empty());
+    }
+    let message = refusal(&plane(
+        "u = \"x\"",
+        "",
+        &format!("a = \"x{}\"", " + x".repeat(2000)),
+    ));
+    assert!(
+        message.contains("expected at most 1024 operations without brackets"),
+        "{message}"
+    );
+}
+
+/// A name that is a keyword of a requested language, or that hides what its module needs.
+#[test]
+fn names_that_a_language_cannot_have_are_refused_in_it_only() {
+    use manufacture::Language;
+    for (name, language, words) in [
+        ("class", Language::Python, "a keyword of Python"),
+        (
+            "numpy",
+            Language::Python,
+            "a module that the emitted one would hide",
+        ),
+        (
+            "random",
+            Language::Python,
+            "a module that the emitted one would hide",
+        ),
+        ("math", Language::C, "a header of the standard library"),
+        ("DP", Language::Fortran, "the emitted module itself"),
+        (
+            "source_a",
+            Language::Fortran,
+            "a function of the emitted module",
+        ),
+        ("iso_c_binding", Language::Fortran, "an intrinsic module"),
+        ("endfunction", Language::Octave, "a keyword of Octave"),
+        ("sin", Language::Octave, "a function of Octave"),
+        ("fn", Language::Rust, "a keyword of Rust"),
+        ("std", Language::Rust, "a crate that every program has"),
+    ] {
+        let text = plane("u = \"x\"", "", "a = \"u\"").replace("\"test\"", &format!("\"{name}\""));
+        let manufacture = crate::files::read(&text);
+        let message = manufacture.accept(language).unwrap_err().to_string();
+        let start = format!("test.toml:2: manufacture.name: found the name `{name}`, which ");
+        assert!(
+            message.starts_with(&start) && message.contains(words),
+            "{message}"
+        );
+        assert_eq!(manufacture.accept(Language::Ufl), Ok(()));
+    }
+    let heat = crate::files::read(HEAT);
+    for (_, language) in Language::ALL {
+        assert_eq!(heat.accept(language), Ok(()));
+    }
+}
+
+#[test]
+fn a_level_without_an_inside_is_named() {
+    let file = |level: &str| {
+        format!(
+            "{}[boundary.rim]\nlevel = \"{level}\"\nu = \"u\"\n",
+            plane("u = \"x\"", "", "a = \"u\"")
+        )
+    };
+    let message = |level: &str| {
+        let sampling = manufacture::Sampling {
+            points: 5,
+            ..Default::default()
+        };
+        crate::files::read(&file(level))
+            .check(&sampling)
+            .unwrap_err()
+            .to_string()
+    };
+    let outside = message("x^2 + y^2");
+    assert!(
+        outside.starts_with("test.toml:13: boundary.rim: no point of the box is inside")
+            && outside.contains("the level of rim to be negative inside the domain"),
+        "{outside}"
+    );
+    let nowhere = message("x^2 + y^2 - 100");
+    assert!(
+        nowhere.contains("boundary.rim: the level is zero nowhere"),
+        "{nowhere}"
     );
 }

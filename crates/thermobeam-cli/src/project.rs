@@ -32,7 +32,6 @@ pub const fn project(command: &'static str) -> Project {
         front_pictures: &[("section-5-beam.svg", "beam.svg")],
         front: FRONT,
         places: &PLACES,
-        fingerprints: None,
         seconds_per_cost: Some(NODE_STEP),
     }
 }

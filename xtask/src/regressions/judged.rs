@@ -1,22 +1,19 @@
 //! Whether the diagnosis of each mistake names method, term or field, and module: the table of
-//! `reports/regressions.md`, and the fingerprints with which later runs are compared.
+//! `reports/regressions.md`.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use convergence_harness::cli::exit::Unusable;
 use convergence_harness::cli::workspace;
-use convergence_harness::store::diagnosis::{
-    Diagnosis, Fingerprint, Fingerprints, Known, Resembling, diagnose,
-};
+use convergence_harness::store::diagnosis::{Diagnosis, diagnose};
 use convergence_harness::study::header::Setting;
 
 use super::list::Regression;
 use super::planted::Found;
 
-/// The lines of a diagnosis that are shown: what fails, what moved first, and the most similar
-/// mistake.
-const SHOWN: [&str; 3] = ["fails", "first", "resembles"];
+/// The lines of a diagnosis that are shown: what fails, and what moved first.
+const SHOWN: [&str; 2] = ["fails", "first"];
 
 /// Methods that are both wrong if neither must be named.
 const METHODS: [&str; 2] = ["one-step schemes", "any order"];
@@ -25,14 +22,12 @@ const METHODS: [&str; 2] = ["one-step schemes", "any order"];
 pub(super) struct Judged<'r> {
     pub(super) regression: &'r Regression,
     pub(super) found: Found,
-    place: String,
-    print: Fingerprint,
     diagnosis: Diagnosis,
     /// Whether method, term or field, and module are right; `None` if none was declared.
     right: [Option<bool>; 3],
 }
 
-/// Diagnoses every mistake by the fingerprints of the others, except those in the same function.
+/// Diagnoses every mistake.
 ///
 /// # Errors
 /// Study files that cannot be read.
@@ -53,69 +48,17 @@ pub(super) fn judged<'r>(
                 .get(study.header.id.as_str())
                 .map_or(vec![], |known| (*known).clone());
         }
-        let print = Fingerprint::of(&found.record.studies, found.record.moves());
-        let place = regression.place(root);
+        let record = &found.record;
+        let diagnosis = diagnose(&crate::PROJECT, &record.studies, record.moves());
+        let diagnosis = diagnosis.unwrap_or_default();
         all.push(Judged {
             regression,
+            right: right(regression, &diagnosis),
             found,
-            place,
-            print,
-            diagnosis: Diagnosis::default(),
-            right: [None; 3],
+            diagnosis,
         });
     }
-    let threshold = threshold(&all);
-    for k in 0..all.len() {
-        let known = known(&all, threshold, &all[k].place);
-        let record = &all[k].found.record;
-        let changes = record.moves();
-        all[k].diagnosis =
-            diagnose(&crate::PROJECT, &record.studies, changes, &known).unwrap_or_default();
-        all[k].right = right(all[k].regression, &all[k].diagnosis);
-    }
     Ok(all)
-}
-
-/// The fingerprints of all mistakes except those in the function `place`.
-fn known(all: &[Judged<'_>], threshold: f64, place: &str) -> Fingerprints {
-    let others = all.iter().filter(|one| one.place != place);
-    let known = others.map(
-        |Judged {
-             regression, print, ..
-         }| Known {
-            mistake: regression.name.clone(),
-            file: regression.file.clone(),
-            items: print.clone(),
-        },
-    );
-    Fingerprints {
-        threshold,
-        known: known.collect(),
-    }
-}
-
-/// The smallest likeness above which the nearest other mistake is more often in the same module
-/// than not.
-fn threshold(all: &[Judged<'_>]) -> f64 {
-    let mut nearest: Vec<(f64, bool)> = vec![];
-    for one in all {
-        let others = known(all, 0.0, &one.place);
-        if let Some(first) = others.nearest(&one.print).first() {
-            nearest.push((
-                first.likeness,
-                first.file.starts_with(one.regression.module()),
-            ));
-        }
-    }
-    nearest.sort_by(|(one, _), (next, _)| next.total_cmp(one));
-    let (mut least, mut right) = (1.0, 0);
-    for (count, (likeness, is_right)) in nearest.iter().enumerate() {
-        right += usize::from(*is_right);
-        if 2 * right > count {
-            least = *likeness;
-        }
-    }
-    least
 }
 
 fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
@@ -128,11 +71,7 @@ fn right(regression: &Regression, diagnosis: &Diagnosis) -> [Option<bool>; 3] {
     let names_method = methods.any(|word| names(&values, word));
     let names_topic = topics.any(|word| names(&values, word) || field == Some(word.as_str()));
     let module = regression.module();
-    let place = diagnosis.look_at.iter().any(|place| place.contains(module))
-        || diagnosis
-            .resembles
-            .iter()
-            .any(|one| one.file.starts_with(module));
+    let place = diagnosis.look_at.iter().any(|place| place.contains(module));
     [
         (!regression.method.is_empty()).then_some(names_method),
         (!regression.about.is_empty()).then_some(names_topic),
@@ -149,11 +88,6 @@ fn names(values: &[&str], word: &str) -> bool {
     }
 }
 
-/// The fingerprints in the form in which they are committed.
-pub(super) fn fingerprints(all: &[Judged<'_>]) -> Fingerprints {
-    known(all, threshold(all), "")
-}
-
 /// The scores for written mistakes and for randomly drawn ones.
 ///
 /// * `passing`: seconds of a run without a mistake.
@@ -166,29 +100,7 @@ pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
     let mut page = "## How well causes are named\n\n| mistakes | noticed | method | term or field | module | commonest answers | lines, at most | times a passing run, median | worst |\n| --- | --: | --: | --: | --: | --- | --: | --: | --: |\n".to_owned();
     page += &(scores("written", &written, passing) + &scores("drawn at random", &drawn, passing));
     page += "\nRight are those of which the diagnosis names what was declared beside the mistake. \"Commonest answers\" is the score of always giving the commonest one.\n";
-    let [every, kept] = [Fingerprints::nearest_by_all, Fingerprints::nearest].map(|nearest| {
-        all.iter()
-            .filter(|one| is_module_found(all, one, nearest))
-            .count()
-    });
-    page + &format!(
-        "\nThe most similar mistake in another function is in the same module for {every} of {} mistakes, compared by all items; for {kept}, by those that `{}` keeps.\n",
-        all.len(),
-        super::FINGERPRINTS
-    )
-}
-
-/// Whether the mistake nearest to one, except those in its own function, is in its module.
-fn is_module_found(
-    all: &[Judged<'_>],
-    one: &Judged<'_>,
-    nearest: fn(&Fingerprints, &Fingerprint) -> Vec<Resembling>,
-) -> bool {
-    let others = known(all, 0.0, &one.place);
-    let found = nearest(&others, &one.print);
-    found
-        .first()
-        .is_some_and(|first| first.file.starts_with(one.regression.module()))
+    page
 }
 
 /// The diagnosis of each, for the terminal.

@@ -79,20 +79,6 @@ pub(super) fn read(root: &Path) -> Result<Vec<Regression>, Unusable> {
 }
 
 impl Regression {
-    /// File and function of the first edit.
-    pub(super) fn place(&self, root: &Path) -> String {
-        let text = fs::read_to_string(root.join(&self.file)).unwrap_or_default();
-        let before = self
-            .edits
-            .first()
-            .and_then(|edit| text.find(&edit.old))
-            .map_or("", |at| &text[..at]);
-        let name = before.rsplit_once("fn ").map_or("", |(_, rest)| {
-            rest.split(['(', '<']).next().unwrap_or(rest)
-        });
-        format!("{} {name}", self.file)
-    }
-
     /// The study or the test that must notice it, in words.
     pub(super) fn noticed_by(&self) -> &str {
         match (self.study.as_str(), self.test.as_str()) {

@@ -16,11 +16,9 @@ use serde::{Deserialize, Serialize};
 
 use super::list::Regression;
 
-/// What the copy omits: build results, output of the program, and hidden files except `.cargo`. No
-/// run may know in advance what these mistakes did.
+/// What the copy omits: build results, output of the program, and hidden files except `.cargo`.
 fn is_left_out(name: &str) -> bool {
-    matches!(name, "target" | "reports" | "fingerprints.json")
-        || (name.starts_with('.') && name != ".cargo")
+    matches!(name, "target" | "reports") || (name.starts_with('.') && name != ".cargo")
 }
 
 /// Profile of `cargo build`: optimised enough that the quick tier takes seconds, and compiled
@@ -380,7 +378,7 @@ mod tests {
 
     #[test]
     fn what_is_built_and_what_is_hidden_is_not_copied() {
-        for name in ["target", "reports", ".git", ".ci", "fingerprints.json"] {
+        for name in ["target", "reports", ".git", ".ci"] {
             assert!(is_left_out(name), "{name}");
         }
         for name in [".cargo", "crates", "xtask", "regressions.toml"] {

@@ -117,7 +117,7 @@ pub fn term(project: &Project, name: &str) -> Option<String> {
             &[("what it means", &format!("{}.", term.text))],
         ));
     }
-    if let Some(reason) = Reason::ALL.into_iter().find(|reason| reason.code() == name) {
+    if let Some(reason) = Reason::all().find(|reason| reason.code() == name) {
         let in_short = format!("{}.", reason.text());
         let (advice, mathematics) = (reason.advice(), reason.mathematics());
         let parts = [
@@ -170,7 +170,7 @@ fn groups(project: &Project) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut groups = grouped(project.terms.iter().map(|term| (term.what, term.name)));
     groups.push((
         "reasons for a verdict",
-        Reason::ALL.map(Reason::code).to_vec(),
+        Reason::all().map(Reason::code).collect(),
     ));
     groups.push(("reasons for which a case fails", vec![WORK]));
     groups.push((

@@ -102,7 +102,7 @@ impl Flags {
         screen::print(&store::json(&exchange::refused(refusal))?)
     }
 
-    /// The same; also writes the object as `COMMAND.json` to the folder given.
+    /// As [`print`](Self::print); also writes the object as `COMMAND.json` to the folder given.
     pub fn show(
         &self,
         command: &str,

@@ -109,6 +109,9 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         let comparisons = question.compare(&answer, command)?;
         return compared(arguments, &manufacture, &comparisons);
     }
+    for language in &arguments.language {
+        manufacture.accept(*language)?;
+    }
     let mut check = manufacture.check(&sampling)?;
     let variants = arguments
         .variants

@@ -54,12 +54,9 @@ pub enum Command {
     #[cfg(feature = "manual")]
     #[command(flatten)]
     Manual(manual::Command),
-    /// End a process group when standard input ends (the harness starts this itself)
+    /// Start a program, and end all that it has started (the harness starts this itself)
     #[command(hide = true)]
-    Guard {
-        /// The mark of the processes of the group
-        mark: String,
-    },
+    Guard,
 }
 
 /// The names of [`Command`] in the order of `--help`, which does not list `guard`.
@@ -101,7 +98,7 @@ impl Command {
             Self::Manufacture(arguments) => manufacture::run(arguments),
             #[cfg(feature = "manual")]
             Self::Manual(command) => command.run(project, whole),
-            Self::Guard { mark } => serve(mark),
+            Self::Guard => serve(),
         }
     }
 }
@@ -117,18 +114,18 @@ fn visible_commands(line: &clap::Command) -> Vec<&str> {
     names
 }
 
-/// Guards the process group that this process leads; the harness starts it next to every program
-/// that it runs.
+/// Starts the program of a case and ends what it has started; the harness starts this next to every
+/// program that it runs.
 ///
 /// # Errors
-/// Started by anyone except the harness: it would end the process group of its caller.
-fn serve(mark: &str) -> exit::Outcome {
+/// Started by anyone except the harness, or the program cannot be waited for.
+fn serve() -> exit::Outcome {
     if !guard::is_guard() {
         return Err(exit::Unusable::because(
             "found the command guard; expected another: the harness starts its guards itself",
         ));
     }
-    guard::serve(mark);
+    guard::serve()?;
     Ok(Verdict::Pass)
 }
 

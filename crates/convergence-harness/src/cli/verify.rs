@@ -16,7 +16,7 @@ use crate::report::{
     Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures,
 };
 use crate::run::{Effort, Finished};
-use crate::store::{Change, Record, diagnosis::Diagnosis, json, without_baseline};
+use crate::store::{Change, Record, json, without_baseline};
 use crate::study::{Study, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
@@ -245,10 +245,7 @@ fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
 /// What was blessed, or which command blesses.
 fn blessed(project: &Project, found: &Verification) -> String {
     let Record {
-        command,
-        studies,
-        diagnosis,
-        ..
+        command, studies, ..
     } = &found.record;
     match &found.blessing {
         Blessing::Taken => "baseline: blessed, see studies/baseline.json\n".to_owned(),
@@ -259,14 +256,8 @@ fn blessed(project: &Project, found: &Verification) -> String {
             String::new()
         }
         Blessing::NotAsked => {
-            let alike = diagnosis.as_ref().map(Diagnosis::alike).unwrap_or_default();
-            let alike = if alike.is_empty() {
-                alike
-            } else {
-                format!("planted mistakes that move them alike: {alike}\n")
-            };
             let command = blessing(project, command, studies, found.record.moves());
-            format!("{alike}if that is meant: {command}\n")
+            format!("if that is meant: {command}\n")
         }
     }
 }

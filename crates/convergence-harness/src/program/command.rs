@@ -1,15 +1,15 @@
 //! The command of a case: its words, with placeholders such as `{n}`, and its run from start to
 //! end: no shell, no inherited standard input, a time limit, and nothing left behind.
 
-use std::io::{self, Read, Write};
+use std::io::Read;
 use std::path::PathBuf;
-use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::process::{ChildStdout, Command, ExitStatus};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::answer::{Answer, Expectation, STEPS_AND_WORK, object_of_lines};
-use super::guard::Group;
+use super::guard::{Ending, NotStarted, Running};
 use super::output::{NoAnswer, read_last_words, read_output};
 use super::refine::Parameter;
 use crate::input::Misread;
@@ -18,17 +18,11 @@ use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::plain_text;
 use crate::text::visible::visible;
 
-/// Between the request to end and the signal that cannot be ignored.
-const GRACE: Duration = Duration::from_secs(1);
-
 /// How long the output of an ended program may stay open: a process that escaped may still hold it.
 const DRAIN: Duration = Duration::from_secs(5);
 
 /// Why the output of a program that has ended is not known.
 const HELD_OPEN: &str = "a process that it has started holds its standard output open";
-
-/// Longest pause between two looks at a program; the first ones are shorter.
-const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
 /// A command with its arguments, ready to run.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,9 +103,19 @@ impl Invocation {
     }
 
     /// Why the program is not there: a relative path is one of its folder.
-    fn not_started(&self, error: &io::Error) -> String {
-        let folder = visible(&self.directory.display().to_string());
-        format!("cannot be started in the folder {folder}: {error}")
+    fn not_started(&self, reason: &NotStarted) -> CaseFailure {
+        match reason {
+            NotStarted::Guard(error) => CaseFailure::new(format!(
+                "the guard of {} cannot be started: {error}",
+                visible(&self.words[0])
+            )),
+            NotStarted::Program(error) => {
+                let folder = visible(&self.directory.display().to_string());
+                self.failed(&format!(
+                    "cannot be started in the folder {folder}: {error}"
+                ))
+            }
+        }
     }
 
     /// Runs the command to its end with status 0.
@@ -124,26 +128,18 @@ impl Invocation {
         &self,
         read: impl FnOnce(ChildStdout) -> T + Send + 'static,
     ) -> Result<Ended<T>, CaseFailure> {
-        let program = visible(&self.words[0]);
-        let mut group = Group::new().map_err(|error| {
-            CaseFailure::new(format!("the guard of {program} cannot be started: {error}"))
-        })?;
-        let child = group.start(&mut self.command());
-        let mut child = child.map_err(|error| self.failed(&self.not_started(&error)))?;
-        let printed = in_background(child.stdout.take(), read);
-        let words = in_background(child.stderr.take(), read_last_words);
-        let input = self.input.clone();
-        let _ = in_background(child.stdin.take(), move |stdin| feed(stdin, &input));
-        let ended = self.wait(&mut child, &group);
-        group.end(&mut child);
-        let ended = ended.and_then(|in_time| Ok((child.wait()?, in_time)));
+        let running = Running::start(self.command(), self.input.clone());
+        let mut running = running.map_err(|reason| self.not_started(&reason))?;
+        let printed = in_background(running.stdout.take(), read);
+        let words = in_background(running.stderr.take(), read_last_words);
+        let ended = running.end(self.time_limit);
         let words = words.recv_timeout(DRAIN).unwrap_or_default();
         let words = if words.is_empty() {
             words
         } else {
             format!("; its last words: {words}")
         };
-        let (status, in_time) =
+        let Ending { status, in_time } =
             ended.map_err(|error| self.failed(&format!("cannot be waited for: {error}")))?;
         if !in_time {
             return Err(self.failed(&format!(
@@ -178,55 +174,11 @@ impl Invocation {
 
     fn command(&self) -> Command {
         let mut command = Command::new(self.program());
-        let input = if self.input.is_empty() {
-            Stdio::null()
-        } else {
-            Stdio::piped()
-        };
         command.args(&self.words[1..]).current_dir(&self.directory);
         let variables = self.variables.iter();
         command.envs(variables.map(|(name, value)| (name, value)));
         command
-            .stdin(input)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        command
     }
-
-    /// Waits until the program has ended; returns whether it ended in time. Otherwise it is asked
-    /// to end and given a moment to do so.
-    fn wait(&self, child: &mut Child, group: &Group) -> io::Result<bool> {
-        let start = Instant::now();
-        if has_ended_by(child, start.checked_add(self.time_limit))? {
-            return Ok(true);
-        }
-        group.ask_to_end(child);
-        has_ended_by(child, Instant::now().checked_add(GRACE))?;
-        Ok(false)
-    }
-}
-
-/// Polls the program until it has ended or the time is up; without a limit, until it has ended.
-fn has_ended_by(child: &mut Child, end: Option<Instant>) -> io::Result<bool> {
-    let mut pause = Duration::from_micros(500);
-    loop {
-        if child.try_wait()?.is_some() {
-            return Ok(true);
-        }
-        let left = end.map_or(Duration::MAX, |end| {
-            end.saturating_duration_since(Instant::now())
-        });
-        if left.is_zero() {
-            return Ok(false);
-        }
-        thread::sleep(pause.min(left));
-        pause = (pause * 2).min(LONGEST_PAUSE);
-    }
-}
-
-/// Writes the case to standard input and closes it. A program may ignore it.
-fn feed(mut stdin: ChildStdin, input: &str) {
-    let _ = stdin.write_all(input.as_bytes());
 }
 
 /// Serves a stream in a separate thread: a program that prints must not wait, and one that does not

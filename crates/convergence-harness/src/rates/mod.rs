@@ -7,6 +7,7 @@ mod forms;
 mod refusal;
 mod shown;
 
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::exchange;
@@ -154,7 +155,7 @@ impl Rule {
 }
 
 /// What a page shows of the tables of a text.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sheet {
     /// The worst verdict of the tables.
     pub verdict: Verdict,
@@ -171,7 +172,7 @@ pub struct Sheet {
 }
 
 /// What a page shows of a table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TableSheet {
     /// Its heading, if the text has several tables; otherwise the name of the text.
     pub name: String,
@@ -188,7 +189,7 @@ pub struct TableSheet {
 }
 
 /// What a page shows of a column.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ColumnSheet {
     /// The name of the column.
     pub name: String,

@@ -117,11 +117,14 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
             words += &format!(", and {more} more");
         }
     }
+    let tables = || findings.iter().map(|findings| &findings.source.table);
+    let mut rows = tables().flat_map(|table| &table.rows_outside);
+    if let Some(first) = rows.next() {
+        let count = counted(1 + rows.count(), "line");
+        words += &format!("; outside the tables: {count} of numbers, from line {first}");
+    }
     let mut doubts: Vec<&Doubt> = vec![];
-    for doubt in findings
-        .iter()
-        .flat_map(|findings| &findings.source.table.doubts)
-    {
+    for doubt in tables().flat_map(|table| &table.doubts) {
         if !doubts.contains(&doubt) {
             doubts.push(doubt);
         }

@@ -5,7 +5,7 @@ use super::Findings;
 use super::markdown::{cell, table, text};
 use super::section::folded;
 use super::words::{blessing, can_be_blessed};
-use crate::store::{Change, Movement, Record, diagnosis::Diagnosis, without_baseline};
+use crate::store::{Change, Movement, Record, without_baseline};
 use crate::text::number::short_text;
 
 /// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may
@@ -111,13 +111,9 @@ fn multiple_of_tolerance(movement: &Movement) -> String {
 fn acceptance(findings: &Findings<'_>) -> String {
     let Findings {
         project,
-        record:
-            Record {
-                command,
-                studies,
-                diagnosis,
-                ..
-            },
+        record: Record {
+            command, studies, ..
+        },
         ..
     } = findings;
     match findings.record.moves() {
@@ -127,17 +123,8 @@ fn acceptance(findings: &Findings<'_>) -> String {
             format!("`{command}` accepts them.\n\n")
         }
         moves if can_be_blessed(studies) => {
-            let alike = diagnosis
-                .as_ref()
-                .map(Diagnosis::alike)
-                .filter(|alike| !alike.is_empty());
-            let alike = alike.map_or(String::new(), |alike| {
-                format!("Planted mistakes that move them alike: {alike}.\n\n")
-            });
-            format!(
-                "{alike}If it is meant: `{}`.\n\n",
-                blessing(project, command, studies, moves)
-            )
+            let command = blessing(project, command, studies, moves);
+            format!("If it is meant: `{command}`.\n\n")
         }
         _ => "`--bless` refuses until the studies that did not pass are mended.\n\n".to_owned(),
     }

@@ -199,33 +199,7 @@ pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
     };
     let mut lines = format!("## {TITLE}\n\n");
     for (word, words) in diagnosis.lines() {
-        // A line without a word continues the one before.
-        lines += &match word {
-            "" => format!("  - {}\n", text(&words)),
-            word => format!("- **{word}**: {}\n", text(&words)),
-        };
+        lines += &format!("- **{word}**: {}\n", text(&words));
     }
     lines + "\n"
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::store::diagnosis::Resembling;
-
-    #[test]
-    fn a_line_of_the_diagnosis_without_a_word_belongs_to_the_one_before() {
-        let resembling = |mistake: &str| Resembling {
-            mistake: mistake.to_owned(),
-            file: "f.rs".to_owned(),
-            likeness: 0.9,
-        };
-        let diagnosis = Diagnosis {
-            resembles: ["one", "two"].map(resembling).to_vec(),
-            ..Diagnosis::default()
-        };
-        let text = diagnosis_in_markdown(Some(&diagnosis));
-        let lines = "- **resembles**: \"one\" (0.90)  f.rs\n  - \"two\" (0.90)  f.rs\n";
-        assert!(text.ends_with(&format!("\n{lines}\n")), "{text}");
-    }
 }

@@ -171,7 +171,7 @@ impl<'f> NotPassed<'f> {
             }
         }
         let mut advice = vec![];
-        for reason in Reason::ALL {
+        for reason in Reason::all() {
             let of_reason = rates.iter().filter(|rate| rate.kind == reason);
             let tendencies = of_reason.map(|rate| (rate.tendency.map(kind_of), rate.tendency));
             for (_, alike) in grouped(tendencies) {

@@ -1,9 +1,8 @@
 //! What a failing run says about its cause: which settings separate failing from passing items,
-//! which fields moved first, which known mistake it resembles, and where to look.
+//! which fields moved first, and where to look.
 
 mod contrast;
 mod fields;
-mod fingerprint;
 
 use serde::{Deserialize, Serialize};
 
@@ -11,14 +10,14 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement, baseline::signed_percent};
+use crate::study::header::Setting;
 use crate::study::{Check, Header, NamedRate, Origin, Outcome, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::{decimals, short_text};
-use contrast::{Vote, contrast};
+use contrast::{PartOf, Vote, contrast};
 
 pub use contrast::Contrast;
-pub use fingerprint::{Fingerprint, Fingerprints, Known, Resembling};
 
 /// How many of the clearest failures, of fields, and of groups of moved numbers are named.
 const NAMED: usize = 3;
@@ -26,8 +25,7 @@ const NAMED: usize = 3;
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Claims that changed, in words. They may be the cause: then no known mistake of the solver is
-    /// named, and no place.
+    /// Claims that changed, in words. They may be the cause: then no place is named.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
     /// Which settings separate failing from passing items.
@@ -36,9 +34,6 @@ pub struct Diagnosis {
     pub first: Vec<Field>,
     /// Claims of failing checks, the commonest first, and how many fail.
     pub checks: Vec<(String, usize)>,
-    /// Known mistakes with similar failures and movements.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub resembles: Vec<Resembling>,
     /// Where to look.
     pub look_at: Vec<String>,
     /// The studies with the clearest failures, the worst first.
@@ -55,24 +50,34 @@ pub struct Field {
     /// Its share of the movement, on the finest levels, summed over studies.
     #[serde(deserialize_with = "json::nan")]
     pub share: f64,
-    /// The farthest rate that does not pass, with its order.
-    #[serde(deserialize_with = "json::nan_pair")]
-    pub rate: Option<[f64; 2]>,
+    /// The farthest rate that does not pass.
+    pub rate: Option<WrongRate>,
     /// The largest factor by which one of its errors grew, or by which another number changed.
     #[serde(deserialize_with = "json::nan")]
     pub factor: f64,
 }
 
+/// A rate that does not pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WrongRate {
+    /// The rate.
+    #[serde(deserialize_with = "json::nan")]
+    pub observed: f64,
+    /// The order claimed.
+    #[serde(deserialize_with = "json::nan")]
+    pub claimed: f64,
+}
+
+impl WrongRate {
+    fn distance(&self) -> f64 {
+        (self.observed - self.claimed).abs()
+    }
+}
+
 /// Diagnoses a run that does not pass; `None` for one that passes.
 ///
 /// * `changes`: differences from the baseline.
-/// * `known`: mistakes that were planted earlier.
-pub fn diagnose(
-    project: &Project,
-    finished: &[Finished],
-    changes: &[Change],
-    known: &Fingerprints,
-) -> Option<Diagnosis> {
+pub fn diagnose(project: &Project, finished: &[Finished], changes: &[Change]) -> Option<Diagnosis> {
     let failing: Vec<&Finished> = finished
         .iter()
         .filter(|study| study.outcome.verdict != Verdict::Pass)
@@ -102,17 +107,11 @@ pub fn diagnose(
     } else {
         vec![]
     };
-    let resembles = if claims.is_empty() {
-        known.nearest(&Fingerprint::of(finished, changes))
-    } else {
-        vec![]
-    };
     Some(Diagnosis {
         claims,
         contrast,
         first,
         checks: checks(&failing),
-        resembles,
         look_at,
         clearest,
         moved: groups_of_moved_numbers(finished, changes),
@@ -216,25 +215,31 @@ struct StudyVotes<'s> {
 }
 
 impl StudyVotes<'_> {
-    /// Adds an item to the vote of its settings.
+    /// Adds an item to the vote of its settings; a ratio of two methods to the votes of both.
     ///
     /// * `counts`: whether it is one of the items that the diagnosis counts; others only decide
     ///   whether the vote fails.
     fn count(&mut self, subject: &Subject, fails: bool, counts: bool) {
-        let settings = self.project.settings(self.header, subject);
+        for side in subject.sides() {
+            let settings = self.project.settings(self.header, &side);
+            self.count_with(settings, fails, counts);
+        }
+    }
+
+    fn count_with(&mut self, settings: Vec<Setting>, fails: bool, counts: bool) {
         let known = self.votes.iter().position(|vote| vote.settings == settings);
         let place = known.unwrap_or(self.votes.len());
         if known.is_none() {
             self.votes.push(Vote {
                 settings,
                 fails: false,
-                count: [0, 0],
+                failing: PartOf::default(),
             });
         }
         let vote = &mut self.votes[place];
         vote.fails |= fails;
-        vote.count[0] += usize::from(fails && counts);
-        vote.count[1] += usize::from(counts);
+        vote.failing.part += usize::from(fails && counts);
+        vote.failing.of += usize::from(counts);
     }
 }
 
@@ -359,15 +364,6 @@ fn list_of_first(mut items: Vec<String>, what: &str) -> String {
 }
 
 impl Diagnosis {
-    /// The planted mistakes with a similar effect, in words; empty if there are none.
-    pub fn alike(&self) -> String {
-        let mistakes = self.resembles.iter();
-        let words: Vec<String> = mistakes
-            .map(|one| format!("\"{}\" ({:.2}) in {}", one.mistake, one.likeness, one.file))
-            .collect();
-        words.join(", ")
-    }
-
     /// The known facts about the cause, in words: a keyword, and its text.
     pub fn lines(&self) -> Vec<(&'static str, String)> {
         let mut lines = vec![];
@@ -397,21 +393,6 @@ impl Diagnosis {
             }
             lines.push(("also fails", list_of_first(claims, "")));
         }
-        for (
-            count,
-            Resembling {
-                mistake,
-                file,
-                likeness,
-                ..
-            },
-        ) in self.resembles.iter().enumerate()
-        {
-            lines.push((
-                if count == 0 { "resembles" } else { "" },
-                format!("\"{mistake}\" ({likeness:.2})  {file}"),
-            ));
-        }
         if !self.moved.is_empty() {
             lines.push((
                 "moved",
@@ -431,15 +412,15 @@ impl Diagnosis {
         let Contrast {
             settings,
             shared,
-            fails: [failed, all],
-            passes,
+            failing,
+            others,
             ..
         } = &self.contrast;
         let mut lines = vec![];
         let what = if !settings.is_empty() {
             let settings = settings.iter().map(|setting| self.contrast.words(setting));
             settings.collect::<Vec<_>>().join(", ")
-        } else if failed == all {
+        } else if failing.part == failing.of {
             "everything".to_owned()
         } else {
             "here and there: no setting separates it from what passes".to_owned()
@@ -450,16 +431,16 @@ impl Diagnosis {
         } else {
             format!("; all with {}", shared.join(", "))
         };
-        let count = if *failed == 0 {
+        let count = if failing.part == 0 {
             "numbers moved".to_owned()
         } else {
-            format!("{failed} of {all}")
+            failing.to_string()
         };
         lines.push(("fails", format!("{what}: {count}{all_with}")));
-        if !passes.is_empty() {
-            let groups: Vec<String> = passes
+        if !others.is_empty() {
+            let groups: Vec<String> = others
                 .iter()
-                .map(|(name, [passing, all])| format!("{name}: {passing} of {all}"))
+                .map(|known| format!("{}: {}", known.name, known.passing))
                 .collect();
             lines.push(("passes", groups.join("; ")));
         }
@@ -471,7 +452,7 @@ impl Field {
     fn words(&self) -> String {
         let rate = self
             .rate
-            .map(|[rate, order]| format!("rate {} for {order}", decimals(rate, 3)));
+            .map(|rate| format!("rate {} for {}", decimals(rate.observed, 3), rate.claimed));
         let times = short_text(self.factor);
         let factor = match self.factor.is_finite() {
             true => (times != "1").then(|| format!("by a factor up to {times}")),

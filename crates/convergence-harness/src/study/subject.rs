@@ -15,6 +15,9 @@ pub struct Subject {
     /// The method that computed it, in a word of the project; `None` if it is that of the study.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
+    /// The other method of a ratio or a difference: either may be the cause.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub against: Option<String>,
     /// The level of refinement, or another parameter that distinguishes numbers of one quantity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<String>,
@@ -45,6 +48,21 @@ impl Subject {
             method: Some(method.into()),
             ..self
         }
+    }
+
+    /// The same compared with another method.
+    #[must_use]
+    pub fn against(self, method: impl Into<String>) -> Self {
+        Self {
+            against: Some(method.into()),
+            ..self
+        }
+    }
+
+    /// The same by each of its methods.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = Self> {
+        let other = self.against.clone().map(|method| self.clone().by(method));
+        [self.clone()].into_iter().chain(other)
     }
 
     /// The same at a level.

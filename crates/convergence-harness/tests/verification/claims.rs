@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use convergence_harness::judge::verdict::Verdict;
+use convergence_harness::project::Project;
 use convergence_harness::report::{blessing, sentence};
-use convergence_harness::run::Finished;
-use convergence_harness::store::diagnosis::{Fingerprint, Fingerprints, Known, diagnose};
+use convergence_harness::store::diagnosis::diagnose;
 use convergence_harness::store::{Baseline, BlessedClaim, Change, junit};
 use convergence_harness::study::{Header, Study, Tier};
 use convergence_harness::verify::{Blessing, Request, Scope, Verification, verify};
@@ -314,30 +314,16 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
         ..fake("", Does::Stay)
     }
     .erased();
-    let known = |ran: &[Finished]| {
-        let items = Fingerprint::of(ran, &baseline.compare(ran, None));
-        let known = vec![Known {
-            mistake: "half of rho".to_owned(),
-            file: "force.rs".to_owned(),
-            items,
-        }];
-        Fingerprints {
-            threshold: 0.5,
-            known,
-        }
+    let project = Project {
+        places: &[("finest error", "force.rs")],
+        ..PROJECT
     };
     let diagnosed = |study: Box<dyn Study>| {
         let ran = finished(vec![study]);
-        diagnose(&PROJECT, &ran, &baseline.compare(&ran, None), &known(&ran))
+        diagnose(&project, &ran, &baseline.compare(&ran, None))
     };
     let found = diagnosed(failing).expect("a study fails");
-    assert_eq!(
-        (found.claims.as_slice(), found.resembles.len()),
-        (
-            &["a: expect[0].tolerance 0.002, now 0.49".to_owned()][..],
-            0
-        )
-    );
+    assert_eq!(found.claims, ["a: expect[0].tolerance 0.002, now 0.49"]);
     let lines = found.lines();
     assert!(
         lines[0]
@@ -350,7 +336,7 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     assert!(!format!("{lines:?}").contains("force"), "{lines:?}");
     // Where nothing fails and no number moved, the list of changed claims says it all.
     assert_eq!(diagnosed(study(&loose)), None);
-    // Without a changed claim the known mistake is named.
+    // Without a changed claim a place is named.
     let same = Fake {
         header: header("b", &CLAIMS),
         ..fake("", Does::Stay)
@@ -358,7 +344,7 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     .erased();
     let found = diagnosed(same).expect("a study fails");
     assert!(
-        found.claims.is_empty() && found.resembles[0].file == "force.rs",
+        found.claims.is_empty() && found.look_at == ["force.rs"],
         "{found:?}"
     );
 }

@@ -4,6 +4,7 @@
 mod baseline;
 mod browser;
 mod claims;
+mod diagnosis;
 mod failures;
 mod fake;
 mod file_set;

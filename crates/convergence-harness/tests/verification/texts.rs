@@ -3,7 +3,7 @@
 
 use convergence_harness::judge::verdict::{Reason, Verdict};
 use convergence_harness::run::{Finished, not_passed};
-use convergence_harness::store::diagnosis::{Diagnosis, Fingerprint, Fingerprints, diagnose};
+use convergence_harness::store::diagnosis::{Diagnosis, diagnose};
 use convergence_harness::store::{Baseline, Change};
 use convergence_harness::study::outcome::settle;
 use convergence_harness::study::{Check, NamedRate, Outcome, Subject};
@@ -80,21 +80,19 @@ struct Conclusions {
     verdicts: Vec<Verdict>,
     order: Vec<(String, Verdict)>,
     changes: Vec<Change>,
-    fingerprint: Fingerprint,
     diagnosis: Diagnosis,
 }
 
 fn conclusions(studies: &[Finished], baseline: &Baseline) -> Conclusions {
     let changes = baseline.compare(studies, None);
     let verdict = |study: &Finished| settle("id", study.outcome.clone()).verdict;
-    let diagnosis = diagnose(&PROJECT, studies, &changes, &Fingerprints::default());
+    let diagnosis = diagnose(&PROJECT, studies, &changes);
     Conclusions {
         verdicts: studies.iter().map(verdict).collect(),
         order: not_passed(studies)
             .into_iter()
             .map(|study| (study.id().to_owned(), study.verdict()))
             .collect(),
-        fingerprint: Fingerprint::of(studies, &changes),
         changes,
         diagnosis: diagnosis.expect("a run that fails"),
     }

@@ -28,7 +28,7 @@ use crate::text::number::{committed_rate, order_text};
 ///
 /// The tolerance is that of the claim. A rule with a tolerance of its own beside it is not accepted:
 ///
-/// ```compile_fail
+/// ```compile_fail,E0308
 /// # use convergence_judge::{Claim, Level, judge::verdict::Judge};
 /// # let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
 /// Claim::new(2.0, 0.01).judge(&Judge::default(), &levels);
@@ -36,7 +36,7 @@ use crate::text::number::{committed_rate, order_text};
 ///
 /// No claim is no order: a rate that is observed has none.
 ///
-/// ```compile_fail
+/// ```compile_fail,E0308
 /// # use convergence_judge::{Floor, Level, observe};
 /// # let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
 /// let order: f64 = observe(&levels, Floor::NONE).order();

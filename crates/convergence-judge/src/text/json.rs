@@ -18,12 +18,6 @@ pub fn nans<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::E
         .collect())
 }
 
-/// The same for both ends of an interval.
-pub fn nan_pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 2]>, D::Error> {
-    let ends: Option<[Option<f64>; 2]> = Option::deserialize(deserializer)?;
-    Ok(ends.map(|ends| ends.map(|end| end.unwrap_or(f64::NAN))))
-}
-
 /// Names and numbers as an object.
 pub mod named {
     use super::{Deserializer, Named, SerializeMap, Serializer};

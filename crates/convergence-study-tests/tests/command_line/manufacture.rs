@@ -59,6 +59,14 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     write("solver.py", solver);
     let (status, out, err) = run(&root, &["study", "heat.study.toml"]);
     assert_eq!(status, Some(0), "{out}{err}");
+    // Moved to the other studies, it names the folder of its program.
+    let study = fs::read_to_string(root.path().join("heat.study.toml")).unwrap();
+    assert!(study.contains("directory = \".\"\n"), "{study}");
+    let moved = study.replace("directory = \".\"", "directory = \"..\"");
+    write("studies/heat.toml", &moved);
+    let (status, out, err) = run(&root, &["study", "studies/heat.toml"]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    fs::remove_file(root.path().join("studies/heat.toml")).unwrap();
     write(
         "solver.py",
         &solver.replace("+ 2.5 + step / 2", "- 2.5 + step / 2"),
@@ -135,7 +143,27 @@ fn exit_status_and_output_are_those_of_every_command() {
     assert_eq!((status, out.as_str()), (Some(2), ""));
     assert!(
         err.starts_with(
-            "error: heat.toml:26: equations.heat.loss: unknown name `TT`; expected one of x h T k q"
+            "error: heat.toml:26:9: equations.heat.loss: unknown name `TT`; expected one of x h T k q"
+        ),
+        "{err}"
+    );
+    assert!(!root.path().join("unusable").exists());
+    // So is one whose solution has a pole inside.
+    let pole = sound.replace("1 + exp(x)*sin(2*x)", "x/(x - 0.37)");
+    fs::write(&path, pole).unwrap();
+    let arguments = [
+        "manufacture",
+        "heat.toml",
+        "--language",
+        "c",
+        "--out",
+        "unusable",
+    ];
+    let (status, out, err) = run(&root, &arguments);
+    assert_eq!((status, out.as_str()), (Some(2), ""));
+    assert!(
+        err.starts_with(
+            "error: heat.toml:18:9: exact.T: a pole inside the domain: `x - 0.37` is zero at about x = 0.370000"
         ),
         "{err}"
     );

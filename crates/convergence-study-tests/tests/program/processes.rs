@@ -7,6 +7,12 @@ use std::time::{Duration, Instant};
 
 use super::{Place, SOLVER};
 
+/// Modes in which the program does not end by itself; the last one has a child, too.
+const HANGING: [&str; 3] = ["hang", "ignore-term", "daemon-hang"];
+
+/// Modes in which the program ends with status 0 and leaves a child.
+const CHILDREN: [&str; 3] = ["fork", "leave", "daemon"];
+
 /// The one line about the case n = 16.
 #[track_caller]
 fn complaint(place: &Place) -> String {
@@ -66,7 +72,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     );
     // Children that outlive their program, inside or outside its group, harm neither this case nor
     // the others.
-    for mode in ["fork", "leave"] {
+    for mode in CHILDREN {
         let place = Place::new(mode, "");
         let (status, out, err) = place.study(&[]);
         assert_eq!(status, Some(0), "{mode}: {out}{err}");
@@ -77,7 +83,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
 #[test]
 fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
     // Long enough for the programs that do not hang, on a busy machine.
-    for mode in ["hang", "ignore-term"] {
+    for mode in HANGING {
         let line = complaint(&Place::new(mode, "time_limit = 3"));
         assert!(
             line.contains("was stopped at its time limit of 3 s"),
@@ -91,6 +97,13 @@ fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
         "{out}"
     );
     assert_eq!(place.running(), [""; 0]);
+}
+
+#[test]
+fn a_program_that_kills_its_guard_fails_and_leaves_nothing() {
+    let line = complaint(&Place::new("kill-guard", ""));
+    let told = "cannot be waited for: its guard has ended: signal: 9 (SIGKILL)";
+    assert!(line.contains(told), "{line}");
 }
 
 #[test]
@@ -117,19 +130,19 @@ fn much_output_takes_little_memory() {
 
 /// Processes of every kind end when this signal ends the harness.
 fn nothing_is_left_after(name: &str) {
-    for mode in ["hang", "ignore-term", "fork", "leave"] {
+    for mode in HANGING.into_iter().chain(CHILDREN) {
         let mut place = Place::new(mode, "");
         // So that a program whose child hangs is still running, too.
         place.more = "time_limit = 100".to_owned();
-        let hangs = |mode: &str| matches!(mode, "hang" | "ignore-term");
+        let hangs = HANGING.contains(&mode);
         let harness = place.start();
-        if hangs(mode) {
+        if hangs {
             place.wait_for(|running| running > 0);
         }
         sleep(Duration::from_millis(50));
         signal(harness.id(), name);
         let status = finished(harness).status;
-        assert!(!hangs(mode) || !status.success(), "{mode}: {status}");
+        assert!(!hangs || !status.success(), "{mode}: {status}");
         place.wait_for(|running| running == 0);
     }
 }

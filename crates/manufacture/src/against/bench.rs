@@ -10,7 +10,7 @@ use crate::arithmetic::{Graph, NodeId};
 use crate::derive::{Basis, Elaborator, Part, Role, Tensor};
 use crate::language::tree::{Kind, Tree};
 use crate::model::Model;
-use crate::problem::{Expression, Parameter, Place, Problem, mentions};
+use crate::problem::{Expression, LineColumn, Parameter, Place, Problem, mentions};
 
 /// The names of unknown factors; no file can contain them.
 pub(crate) const FACTORS: [&str; 2] = [" first factor", " second factor"];
@@ -314,6 +314,7 @@ fn one() -> Expression {
             file: String::new(),
             line: 0,
             start: 0,
+            text: LineColumn { line: 0, column: 1 },
             key: String::new(),
         },
         text: "1".to_owned(),

@@ -150,33 +150,3 @@ fn closed(text: &str, from: usize) -> usize {
     let blanks = rest.len() - rest.trim_start().len();
     (from + blanks + 1).min(text.len())
 }
-
-/// A place in the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct LineColumn {
-    pub(crate) line: usize,
-    /// In characters, from 1.
-    pub(crate) column: usize,
-}
-
-/// The place of a byte of an expression's text.
-pub(crate) fn line_and_column(problem: &Problem, within: &Expression, byte: usize) -> LineColumn {
-    let file = &problem.text;
-    let value = file.get(within.place.start..).unwrap_or("");
-    // A number is its own text; the others begin with one or three quotes.
-    let quote = ["\"\"\"", "'''", "\"", "'"]
-        .into_iter()
-        .find(|quote| value.starts_with(quote))
-        .unwrap_or("");
-    let mut start = within.place.start + quote.len();
-    if quote.len() == 3 && file[start..].starts_with('\n') {
-        start += 1;
-    }
-    let place = (start + byte).min(file.len());
-    let before = file.get(..place).unwrap_or("");
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    LineColumn {
-        line: before.matches('\n').count() + 1,
-        column: before[line_start..].chars().count() + 1,
-    }
-}

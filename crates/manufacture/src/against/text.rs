@@ -3,7 +3,7 @@
 use super::bench::{Alteration, FACTORS, Rewrite};
 use super::candidates::{Candidate, Change, number};
 use super::cause::{Edit, Named, kind};
-use super::site::{self, Home, Span, line_and_column};
+use super::site::{self, Home, Span};
 use super::solve::simple;
 use crate::derive::Basis;
 use crate::language::names::{self, Callee, Operator};
@@ -44,7 +44,7 @@ pub(crate) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, fac
             match rewrite.home.expression(problem) {
                 Some(expression) => Edit {
                     kind,
-                    ..rewritten(problem, expression, rewrite, change, factor)
+                    ..rewritten(expression, rewrite, change, factor)
                 },
                 None => about_all(String::new(), String::new()),
             }
@@ -79,13 +79,7 @@ struct Texts {
     new: String,
 }
 
-fn rewritten(
-    problem: &Problem,
-    expression: &Expression,
-    rewrite: &Rewrite,
-    change: Change,
-    factor: f64,
-) -> Edit {
+fn rewritten(expression: &Expression, rewrite: &Rewrite, change: Change, factor: f64) -> Edit {
     let part = site::at(&expression.tree, &rewrite.route).unwrap_or(&expression.tree);
     let own = Span::of(part, &expression.text);
     let texts = match change {
@@ -123,7 +117,7 @@ fn rewritten(
         },
     };
     let Span { start, end } = texts.span;
-    let place = line_and_column(problem, expression, start);
+    let place = expression.place.of_text(&expression.text, start);
     Edit {
         kind: "",
         key: expression.place.key.clone(),

@@ -1,8 +1,13 @@
 //! Arithmetics that expressions are computed in: a graph with symbolic derivatives, Taylor jets at
 //! a point, and the number of derivatives that a jet needs.
 
+pub(crate) mod conditions;
+#[cfg(test)]
+mod containment;
 mod depth;
+pub(crate) mod enclosure;
 pub(crate) mod graph;
+pub(crate) mod interval;
 pub(crate) mod jet;
 pub(crate) mod quadrature;
 pub(crate) mod tape;

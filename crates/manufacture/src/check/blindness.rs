@@ -7,7 +7,7 @@ use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::derive::{Part, Role};
 use crate::language::tree::Binary;
-use crate::model::{Model, Rows};
+use crate::model::Model;
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -30,31 +30,8 @@ pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
             }
             _ => (),
         }
-        if matches!(quantity.role, Role::Source | Role::Exact) {
-            findings.extend(kink(model, sampled, index));
-        }
     }
     findings
-}
-
-/// A switch inside the domain, which is on one side at some points and on the other at others.
-fn kink(model: &Model, sampled: &Sampled<'_>, index: usize) -> Option<Finding> {
-    let quantity = &sampled.quantities[index];
-    let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
-    let mut sides: Vec<[bool; 2]> = vec![];
-    for point in &sampled.points {
-        let switches = rows.at(point).switches;
-        sides.resize(switches.len(), [false; 2]);
-        for (side, switch) in sides.iter_mut().zip(switches) {
-            side[usize::from(switch > 0.0)] = true;
-        }
-    }
-    let inside = sides.iter().filter(|side| **side == [true; 2]).count();
-    let text = format!(
-        "{inside} switch(es) of abs, min, max, where or heaviside inside the domain: derivatives are taken on each side, \
-         and a jump of a flux there is no source"
-    );
-    (inside > 0).then(|| finding("kink", &quantity.key, text, Some(inside as f64)))
 }
 
 /// The degree in space, if all components are polynomials as they are written.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::{Finding, finding};
 use crate::against::{Right, ask, questions};
-use crate::emit::{Language, emit};
+use crate::emit::{Language, accept, emit};
 use crate::model::Model;
 use crate::problem::InputError;
 
@@ -46,6 +46,7 @@ pub(crate) fn emitted(
     seed: u64,
     points: usize,
 ) -> Result<Vec<Finding>, InputError> {
+    accept(model, language)?;
     let name = language.name();
     let not_run = |reason: &str| {
         vec![Finding {
@@ -55,7 +56,7 @@ pub(crate) fn emitted(
     };
     let Some((command, missing)) = probe(language) else {
         return Ok(not_run(
-            "its expressions have values only inside a finite element code",
+            "values need fenics-ufl and basix, which are not run here; Python has the same statements",
         ));
     };
     if !succeeds(command) {

@@ -1,9 +1,11 @@
 //! The check: what is right, what is wrong, and what a test with this solution would not notice.
 
 mod blindness;
+mod domain;
 pub(crate) mod emitted;
 mod general;
 mod second_way;
+mod spot;
 mod symmetry;
 mod terms;
 mod unseen;
@@ -120,7 +122,7 @@ pub(crate) fn check(
     is_strict: bool,
 ) -> Result<Check, InputError> {
     let mut sampler = Sampler::new(model, seed);
-    let mut findings = vec![];
+    let mut findings = domain::examine(model)?;
     let mut shares = vec![];
     for (part, quantities) in &model.parts {
         // Data that depend on nothing need no more points than others: one rule for all.

@@ -65,7 +65,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         }
     }
 
-    pub(super) fn tree(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
+    pub(crate) fn tree(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
         match &tree.kind {
             Kind::Number(value, _) => Ok(Tensor::scalar(self.algebra.number(*value))),
             Kind::Name(name) => self.name(name, tree, within),
@@ -78,12 +78,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                     shape: operand.shape.clone(),
                 })
             }
-            Kind::Binary(operator, operands) => {
-                let left = self.tree(&operands[0], within)?;
-                let right = self.tree(&operands[1], within)?;
-                self.binary(*operator, &left, &right)
-                    .map_err(|problem| refused(within, tree, problem))
-            }
+            Kind::Binary(..) => self.chain(tree, within),
             Kind::Call(callee, parts) => {
                 let value = self.call(*callee, parts, tree, within)?;
                 if self.algebra.nodes() > MOST_NODES {
@@ -104,6 +99,25 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                 Err(refused(within, tree, problem))
             }
         }
+    }
+
+    /// Operations from left to right. Sums of many terms are one below the other in their left
+    /// operands: a loop goes along them.
+    fn chain(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
+        let mut chain = vec![];
+        let mut first = tree;
+        while let Kind::Binary(operator, operands) = &first.kind {
+            chain.push((first, *operator, &operands[1]));
+            first = &operands[0];
+        }
+        let mut value = self.tree(first, within)?;
+        for (operation, operator, right) in chain.into_iter().rev() {
+            let right = self.tree(right, within)?;
+            value = self
+                .binary(operator, &value, &right)
+                .map_err(|problem| refused(within, operation, problem))?;
+        }
+        Ok(value)
     }
 
     fn name(&mut self, name: &str, tree: &Tree, within: &Expression) -> Elaborated<A> {

@@ -4,6 +4,7 @@ mod answer;
 mod dialect;
 mod functions;
 mod lower;
+mod reserved;
 mod runtime;
 mod study;
 mod write;
@@ -12,6 +13,7 @@ use std::path::Path;
 
 use crate::language::names::name_in;
 use crate::model::Model;
+use crate::problem::InputError;
 
 use functions::functions;
 
@@ -130,6 +132,11 @@ pub(crate) fn emit(model: &Model, language: Language) -> Vec<EmittedFile> {
     let mut files = write::library(model, language, &functions);
     files.extend(answer::program(model, language, &functions));
     files
+}
+
+/// Refuses a model whose name a language cannot have.
+pub(crate) fn accept(model: &Model, language: Language) -> Result<(), InputError> {
+    reserved::refuse(model, language, &functions(model, language))
 }
 
 /// The study file, if the file has `[study]`.

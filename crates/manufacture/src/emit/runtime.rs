@@ -396,6 +396,10 @@ fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> S
         Language::C => format!("x + {dimension}*k"),
         _ => "&x[k]".to_owned(),
     };
+    let unused = match norm {
+        "Linf" => "    (void)weights;\n",
+        _ => "",
+    };
     fill(
         templates(writer.language).error,
         &[
@@ -409,6 +413,7 @@ fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> S
             ("CALL", &array_call(writer, function, &point)),
             ("COLONS", &":, ".repeat(function.shape.len().min(2))),
             ("EXACT", &function.name),
+            ("UNUSED", unused),
             ("ADD", &add),
             ("ROOT", &root),
         ],

@@ -66,7 +66,7 @@ pub(super) fn library(
     };
     let text = format!(
         "{head}{opening}{}{}{body}{closing}",
-        writer.constants(),
+        writer.constants(functions),
         runtime::helpers(&writer)
     );
     let mut files = vec![EmittedFile {
@@ -158,12 +158,63 @@ impl Writer<'_> {
         head
     }
 
-    fn constants(&self) -> String {
+    /// Whether a function or an integral uses a parameter.
+    fn has_parameter(&self, place: usize, functions: &[Function]) -> bool {
+        let mut roots: Vec<NodeId> = functions.iter().flat_map(|f| f.roots.clone()).collect();
+        for integral in &self.integrals {
+            if let Node::Integral { body, .. } = self.model.graph.node(*integral) {
+                roots.push(*body);
+            }
+        }
+        self.uses(&roots, |node| *node == Node::Parameter(place))
+    }
+
+    /// Whether some node below the roots is such a node.
+    fn uses(&self, roots: &[NodeId], is_such: impl Fn(&Node) -> bool) -> bool {
+        let graph = &self.model.graph;
+        let mut nodes = nodes_below(graph, roots).into_iter();
+        nodes.any(|id| is_such(graph.node(id)))
+    }
+
+    /// Whether a value below the roots depends on time; an integral is called with it.
+    fn has_time(&self, roots: &[NodeId]) -> bool {
+        let dimension = self.model.problem.coordinates.len();
+        self.uses(roots, |node| match node {
+            Node::Variable(variable) => *variable >= dimension,
+            node => matches!(node, Node::Integral { .. }),
+        })
+    }
+
+    /// The same for coordinates.
+    fn has_point(&self, roots: &[NodeId]) -> bool {
+        let dimension = self.model.problem.coordinates.len();
+        self.uses(roots, |node| match node {
+            Node::Variable(variable) => *variable < dimension,
+            node => matches!(node, Node::Integral { .. }),
+        })
+    }
+
+    /// Statements of C that use the arguments of a function where nothing else does: compilers warn
+    /// about those that are not used.
+    fn unused(&self, function: &Function) -> String {
+        let mut text = String::new();
+        if !self.has_point(&function.roots) {
+            text += "    (void)x;\n";
+        }
+        if function.has_time && !self.has_time(&function.roots) {
+            text += "    (void)t;\n";
+        }
+        text
+    }
+
+    fn constants(&self, functions: &[Function]) -> String {
         let mut text = String::new();
         let values = self.model.graph.parameters.iter();
-        for (name, value) in self.parameters.iter().zip(values) {
+        for (place, (name, value)) in self.parameters.iter().zip(values).enumerate() {
             let value = self.language.number(*value);
             let _ = match self.language {
+                // Compilers warn about a constant that nothing uses.
+                Language::C if !self.has_parameter(place, functions) => Ok(()),
                 Language::C => writeln!(text, "static const double {name} = {value};"),
                 Language::Fortran => {
                     writeln!(text, "real(dp), parameter, private :: {name} = {value}")
@@ -227,7 +278,11 @@ impl Writer<'_> {
             first.as_deref().unwrap_or("t")
         };
         let Lowered { constants, roots } = self.statements(&function.roots, "x", time);
-        let mut body = String::new();
+        let mut body = if self.language == Language::C {
+            self.unused(function)
+        } else {
+            String::new()
+        };
         let indent = runtime::indent(self.language);
         for [name, value] in &constants {
             let _ = writeln!(body, "{indent}{}", self.language.assign(name, value));
@@ -256,7 +311,14 @@ impl Writer<'_> {
         } else {
             ""
         };
-        let mut statements = String::new();
+        let has_time = self.model.problem.time.is_some();
+        // The point is copied.
+        let mut statements = if self.language == Language::C && has_time && !self.has_time(&[*body])
+        {
+            format!("{indent}(void)t;\n")
+        } else {
+            String::new()
+        };
         for [name, value] in &constants {
             let _ = writeln!(
                 statements,
@@ -269,7 +331,7 @@ impl Writer<'_> {
         let call = self.call_of_integral(id, "", "");
         let name = call.split('(').next().unwrap_or("");
         fill(
-            &runtime::integral(self.language, self.model.problem.time.is_some()),
+            &runtime::integral(self.language, has_time),
             &[
                 ("NAME", name),
                 ("DECLARED", &declared(self.language, &constants)),

@@ -133,7 +133,8 @@ pub(crate) const LEFT_OUT: [(&str, &str); 10] = [
     ("conj", COMPLEX),
 ];
 
-const INTERFACES: &str = "interfaces are left out; write two files, or use `where`";
+const INTERFACES: &str =
+    "no jumps or means: write a field for each side, and a face with `level` for the interface";
 
 const SPECIAL: &str = "special functions are left out; not every language has them";
 

@@ -5,9 +5,14 @@ use super::names::{CALLEES, Callee, LEFT_OUT, Piecewise, nearest};
 use super::token::{Token, TokenKind, next_token};
 use super::tree::{Binary, Comparison, Kind, Tree};
 
-/// Largest depth of the syntax tree. Parsing, evaluating and dropping it are recursive: this bounds
-/// their stack.
+/// Largest number of operations one inside the other, where the operands of a sum or a product
+/// without brackets stand beside each other. Parsing and evaluating are recursive: this bounds their
+/// stack.
 pub const MAX_DEPTH: usize = 256;
+
+/// Largest height of the syntax tree, in which a sum of n terms has the height n. Walks that print,
+/// compare and drop it are recursive with small frames; its evaluation goes along sums in a loop.
+const MAX_HEIGHT: usize = 1024;
 
 /// Precedence of a sign: above a product, below a power.
 const SIGN: u8 = 5;
@@ -36,16 +41,38 @@ pub fn parse(text: &str) -> Result<Tree, SyntaxError> {
     }
 }
 
-/// A tree and the depth below it.
-struct Deep {
-    tree: Tree,
+/// How far a tree reaches down.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// Operations one inside the other.
     depth: usize,
+    height: usize,
 }
 
-/// Parts between brackets, and the depth of the deepest.
+impl Reach {
+    const NONE: Self = Self {
+        depth: 0,
+        height: 0,
+    };
+
+    fn max(self, other: Self) -> Self {
+        Self {
+            depth: self.depth.max(other.depth),
+            height: self.height.max(other.height),
+        }
+    }
+}
+
+/// A tree and its reach.
+struct Deep {
+    tree: Tree,
+    reach: Reach,
+}
+
+/// Parts between brackets, and the reach of the deepest.
 struct Parts {
     trees: Vec<Tree>,
-    depth: usize,
+    reach: Reach,
 }
 
 struct Parser<'s> {
@@ -68,9 +95,13 @@ impl Parser<'_> {
             }
             let at = self.advance().start;
             let right = self.expression(binds_right)?;
-            let depth = left.depth.max(right.depth);
+            let reach = Reach {
+                // The next operand stands beside the others, not inside.
+                depth: left.reach.depth.saturating_sub(1).max(right.reach.depth),
+                height: left.reach.height.max(right.reach.height),
+            };
             let operands = Box::new([left.tree, right.tree]);
-            left = self.grow(at, depth, Kind::Binary(operator, operands))?;
+            left = self.grow(at, reach, Kind::Binary(operator, operands))?;
         }
         self.depth -= 1;
         Ok(left)
@@ -82,9 +113,9 @@ impl Parser<'_> {
         while self.token.kind == TokenKind::Symbol('[') {
             let opened = self.advance().start;
             let indices = self.parts(opened, ']', false)?;
-            let depth = operand.depth.max(indices.depth);
+            let reach = operand.reach.max(indices.reach);
             let kind = Kind::Index(Box::new(operand.tree), indices.trees);
-            operand = self.grow(opened, depth, kind)?;
+            operand = self.grow(opened, reach, kind)?;
         }
         Ok(operand)
     }
@@ -104,7 +135,7 @@ impl Parser<'_> {
                     return Err(self.error(at, problem));
                 }
                 let kind = Kind::Number(value, self.slice(token).to_owned());
-                self.grow(at, 0, kind)
+                self.grow(at, Reach::NONE, kind)
             }
             TokenKind::Name => {
                 self.advance();
@@ -120,18 +151,18 @@ impl Parser<'_> {
                         kind: Kind::Bracket(Box::new(inner.tree)),
                         at,
                     },
-                    depth: inner.depth,
+                    reach: inner.reach,
                 })
             }
             TokenKind::Symbol('[') => {
                 self.advance();
                 let parts = self.parts(at, ']', false)?;
-                self.grow(at, parts.depth, Kind::List(parts.trees))
+                self.grow(at, parts.reach, Kind::List(parts.trees))
             }
             TokenKind::Symbol('-') => {
                 self.advance();
                 let operand = self.expression(SIGN)?;
-                self.grow(at, operand.depth, Kind::Negate(Box::new(operand.tree)))
+                self.grow(at, operand.reach, Kind::Negate(Box::new(operand.tree)))
             }
             TokenKind::Symbol('+') => {
                 self.advance();
@@ -154,7 +185,7 @@ impl Parser<'_> {
             if is_called {
                 return Err(self.no_function(token, &name));
             }
-            return self.grow(token.start, 0, Kind::Name(name));
+            return self.grow(token.start, Reach::NONE, Kind::Name(name));
         };
         if !is_called {
             return Err(self.unexpected(&format!("`(` after the function `{name}`")));
@@ -172,7 +203,7 @@ impl Parser<'_> {
             let problem = format!("`{name}`: expected {expected} argument(s), found {count}");
             return Err(self.error(token.start, problem));
         }
-        self.grow(token.start, parts.depth, Kind::Call(callee, parts.trees))
+        self.grow(token.start, parts.reach, Kind::Call(callee, parts.trees))
     }
 
     /// The error of a call of `name`, which is neither a function nor an operator.
@@ -219,16 +250,16 @@ impl Parser<'_> {
         } else {
             self.expression(0)?
         };
-        let mut depth = first.depth;
+        let mut reach = first.reach;
         let mut trees = vec![first.tree];
         while self.token.kind == TokenKind::Symbol(',') {
             self.advance();
             let next = self.expression(0)?;
-            depth = depth.max(next.depth);
+            reach = reach.max(next.reach);
             trees.push(next.tree);
         }
         self.close(opened, closing)?;
-        Ok(Parts { trees, depth })
+        Ok(Parts { trees, reach })
     }
 
     /// Parses two expressions with a comparison between them.
@@ -243,9 +274,9 @@ impl Parser<'_> {
         };
         let at = self.advance().start;
         let right = self.expression(0)?;
-        let depth = left.depth.max(right.depth);
+        let reach = left.reach.max(right.reach);
         let operands = Box::new([left.tree, right.tree]);
-        self.grow(at, depth, Kind::Compare(comparison, operands))
+        self.grow(at, reach, Kind::Compare(comparison, operands))
     }
 
     /// Consumes the bracket that closes the one at byte `opened`.
@@ -272,13 +303,22 @@ impl Parser<'_> {
         }
     }
 
-    /// The tree of `kind`, whose subtrees have at most the depth `below`.
-    fn grow(&self, at: usize, below: usize, kind: Kind) -> Result<Deep, SyntaxError> {
-        let depth = below + 1;
-        self.limit(depth, at)?;
+    /// The tree of `kind`, whose subtrees reach no further than `below`.
+    fn grow(&self, at: usize, below: Reach, kind: Kind) -> Result<Deep, SyntaxError> {
+        let reach = Reach {
+            depth: below.depth + 1,
+            height: below.height + 1,
+        };
+        self.limit(reach.depth, at)?;
+        if reach.height > MAX_HEIGHT {
+            let problem = format!(
+                "expected at most {MAX_HEIGHT} operations without brackets, found more: split long sums by brackets"
+            );
+            return Err(self.error(at, problem));
+        }
         Ok(Deep {
             tree: Tree { kind, at },
-            depth,
+            reach,
         })
     }
 
@@ -287,7 +327,7 @@ impl Parser<'_> {
             return Ok(());
         }
         let problem = format!(
-            "expected at most {MAX_DEPTH} nested operations, found more: split long sums by brackets"
+            "expected at most {MAX_DEPTH} nested operations, found more: give parts names in [define]"
         );
         Err(self.error(at, problem))
     }

@@ -91,24 +91,20 @@ pub struct Summand<'t> {
 impl Tree {
     /// The summands at the top level; brackets hold a sum together.
     pub fn summands(&self) -> Vec<Summand<'_>> {
-        let is_subtraction = match &self.kind {
-            Kind::Binary(Binary::Add, _) => false,
-            Kind::Binary(Binary::Subtract, _) => true,
-            _ => {
-                return vec![Summand {
-                    is_negative: false,
-                    tree: self,
-                }];
-            }
-        };
-        let Kind::Binary(_, operands) = &self.kind else {
-            return vec![];
-        };
-        let mut summands = operands[0].summands();
+        let mut summands = vec![];
+        let mut rest = self;
+        while let Kind::Binary(operator @ (Binary::Add | Binary::Subtract), operands) = &rest.kind {
+            summands.push(Summand {
+                is_negative: *operator == Binary::Subtract,
+                tree: &operands[1],
+            });
+            rest = &operands[0];
+        }
         summands.push(Summand {
-            is_negative: is_subtraction,
-            tree: &operands[1],
+            is_negative: false,
+            tree: rest,
         });
+        summands.reverse();
         summands
     }
 

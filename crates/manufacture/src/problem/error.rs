@@ -11,8 +11,10 @@ use crate::language::excerpt;
 pub struct InputError {
     /// The file, as given.
     pub file: String,
-    /// The line of the value, from 1; 0 for the whole file.
+    /// The line of the value, or of the part of an expression, from 1; 0 for the whole file.
     pub line: usize,
+    /// The character of the line, from 1, of an error in an expression; 0 for the whole line.
+    pub column: usize,
     /// The path of the key, such as `define.k`; empty for the whole file.
     pub key: String,
     /// What is wrong.
@@ -27,6 +29,7 @@ impl InputError {
         Self {
             file: file.to_owned(),
             line: 0,
+            column: 0,
             key: String::new(),
             problem: problem.into(),
             excerpt: None,
@@ -48,6 +51,9 @@ impl fmt::Display for InputError {
         if self.line > 0 {
             write!(f, ":{}", self.line)?;
         }
+        if self.column > 0 {
+            write!(f, ":{}", self.column)?;
+        }
         if !self.key.is_empty() {
             write!(f, ": {}", self.key)?;
         }
@@ -59,6 +65,13 @@ impl fmt::Display for InputError {
     }
 }
 
+/// A line and a character of it, both from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct LineColumn {
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+}
+
 /// A place in the file: whose value, and in which line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Place {
@@ -66,6 +79,8 @@ pub(crate) struct Place {
     pub(crate) line: usize,
     /// The byte of the file at which the value begins.
     pub(crate) start: usize,
+    /// Where the text begins, behind the quotes.
+    pub(crate) text: LineColumn,
     pub(crate) key: String,
 }
 
@@ -74,6 +89,7 @@ impl Place {
         InputError {
             file: self.file.clone(),
             line: self.line,
+            column: 0,
             key: self.key.clone(),
             problem: problem.into(),
             excerpt: None,
@@ -87,9 +103,27 @@ impl Place {
         offset: usize,
         problem: impl Into<String>,
     ) -> InputError {
+        let LineColumn { line, column } = self.of_text(text, offset);
         InputError {
+            line,
+            column,
             excerpt: Some(excerpt(text, offset)),
             ..self.error(problem)
+        }
+    }
+
+    /// The place of a byte of the value's text.
+    pub(crate) fn of_text(&self, text: &str, offset: usize) -> LineColumn {
+        let before = text.get(..offset).unwrap_or(text);
+        match before.rfind('\n') {
+            None => LineColumn {
+                column: self.text.column + before.chars().count(),
+                ..self.text
+            },
+            Some(end) => LineColumn {
+                line: self.text.line + before.matches('\n').count(),
+                column: before[end + 1..].chars().count() + 1,
+            },
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::variants::Variation;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
-pub(crate) use error::Place;
+pub(crate) use error::{LineColumn, Place};
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,6 +152,7 @@ pub(crate) struct Problem {
     pub(crate) file: String,
     pub(crate) text: String,
     pub(crate) name: String,
+    pub(crate) name_place: Place,
     pub(crate) coordinates: Vec<String>,
     pub(crate) time: Option<String>,
     pub(crate) system: System,

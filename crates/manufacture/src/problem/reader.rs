@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Expression, InputError, Place, Value};
+use super::{Expression, InputError, LineColumn, Place, Value};
 use crate::language::names::did_you_mean;
 use crate::language::parse;
 
@@ -43,6 +43,27 @@ impl<'t> Reader<'t> {
             + 1
     }
 
+    pub(super) fn place(&self, offset: usize) -> LineColumn {
+        let before = self.text.get(..offset).unwrap_or(self.text);
+        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+        LineColumn {
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        }
+    }
+
+    /// Where the text of a value begins: a number is its own text, others have one or three quotes.
+    fn start_of_text(&self, start: usize) -> LineColumn {
+        let value = self.text.get(start..).unwrap_or("");
+        let mut quotes = ["\"\"\"", "'''", "\"", "'"].into_iter();
+        let quote = quotes.find(|quote| value.starts_with(quote)).unwrap_or("");
+        let mut start = start + quote.len();
+        if quote.len() == 3 && self.text[start..].starts_with('\n') {
+            start += 1;
+        }
+        self.place(start)
+    }
+
     pub(super) fn parse(&self) -> Result<Spanned<DeTable<'t>>, InputError> {
         DeTable::parse(self.text).map_err(|error| InputError {
             line: error.span().map_or(0, |span| self.line(span.start)),
@@ -68,6 +89,7 @@ impl<'t> Reader<'t> {
                 file: self.file.to_owned(),
                 line: self.line(span.start),
                 start: span.start,
+                text: self.start_of_text(span.start),
                 key: joined(path, name),
             },
             value: value.get_ref(),
@@ -91,6 +113,10 @@ impl<'t> Section<'t> {
             file: self.reader.file.to_owned(),
             line: self.line,
             start: 0,
+            text: LineColumn {
+                line: self.line,
+                column: 1,
+            },
             key: self.path.clone(),
         }
     }
@@ -196,6 +222,7 @@ impl<'t> Field<'t> {
                     place: Place {
                         line: self.reader.line(value.span().start),
                         start: value.span().start,
+                        text: self.reader.start_of_text(value.span().start),
                         ..self.place.clone()
                     },
                     ..self.reader.field("", &self.name, value)

@@ -24,6 +24,7 @@ impl Problem {
             file: file.to_owned(),
             text: text.to_owned(),
             name: name(&head.require("name")?)?,
+            name_place: head.require("name")?.place,
             coordinates: vec![],
             time: time.as_ref().map(name).transpose()?,
             system: System::Cartesian,

@@ -2,7 +2,7 @@
 //! the contact force agrees.
 
 use super::contact_event::{ContactEvent, Fall, Polynomial, bounds};
-use super::simulation::Dg;
+use super::simulation::{Crowd, Dg};
 use crate::contact::Phase;
 use crate::error::{StepError, StepFailure};
 
@@ -249,14 +249,18 @@ impl Dg {
 
     /// Enters another phase at time t.
     pub(super) fn change_phase(&mut self, to: Phase, t: f64) -> Result<(), StepFailure> {
-        if t - self.crowd.0 > self.stepping.restart_dt {
-            self.crowd = (t, 0);
+        if t - self.crowd.since > self.stepping.restart_dt {
+            self.crowd = Crowd {
+                since: t,
+                events: 0,
+            };
         }
-        self.crowd.1 += 1;
-        if self.crowd.1 > CROWD {
+        self.crowd.events += 1;
+        let Crowd { since, events } = self.crowd;
+        if events > CROWD {
             return Err(StepFailure::EventsTooClose {
-                events: self.crowd.1,
-                within: t - self.crowd.0,
+                events,
+                within: t - since,
             });
         }
         self.events.push(ContactEvent {

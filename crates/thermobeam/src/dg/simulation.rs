@@ -45,8 +45,25 @@ pub struct Dg {
     pub(super) steps: usize,
     /// Steps repeated with a shorter length.
     pub(super) shortened: usize,
-    /// Number of events since the given time, all within `restart_dt`.
-    pub(super) crowd: (f64, usize),
+    pub(super) crowd: Crowd,
+}
+
+/// Contact events that follow each other within `restart_dt`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Crowd {
+    /// The time of the first.
+    pub(super) since: f64,
+    /// How many there are.
+    pub(super) events: usize,
+}
+
+/// What an attempt at a step changes before it can fail.
+#[derive(Debug, Clone, Copy)]
+struct BeforeAttempt {
+    phase: Phase,
+    /// The number of contact events.
+    events: usize,
+    crowd: Crowd,
 }
 
 impl Dg {
@@ -109,7 +126,7 @@ impl Dg {
             events: Vec::with_capacity(EVENTS),
             steps: 0,
             shortened: 0,
-            crowd: (0.0, 0),
+            crowd: Crowd::default(),
         })
     }
 
@@ -260,6 +277,27 @@ impl Dg {
         outcome.map_err(|failure| self.failed(h, failure))
     }
 
+    fn before_attempt(&self) -> BeforeAttempt {
+        BeforeAttempt {
+            phase: self.phase,
+            events: self.events.len(),
+            crowd: self.crowd,
+        }
+    }
+
+    /// Undoes an attempt that has failed. Its polynomials predict nothing.
+    fn put_back(&mut self, before: BeforeAttempt) {
+        let BeforeAttempt {
+            phase,
+            events,
+            crowd,
+        } = before;
+        self.phase = phase;
+        self.events.truncate(events);
+        self.crowd = crowd;
+        self.smooth = false;
+    }
+
     /// The current level.
     pub fn level(&self) -> &DgLevel {
         &self.level
@@ -301,18 +339,13 @@ impl Motion for Dg {
     /// # Errors
     /// [`StepError`] of the first attempt, which is the most informative.
     fn step(&mut self, limit: f64) -> Result<Option<StepReport>, StepError> {
-        let phase = self.phase;
-        let events = self.events.len();
-        let crowd = self.crowd;
+        let before = self.before_attempt();
         let rung = self.lengths.next;
         let mut first = None;
         loop {
             let outcome = self.try_step(limit);
             let Err(error) = outcome else { return outcome };
-            self.phase = phase;
-            self.events.truncate(events);
-            self.crowd = crowd;
-            self.smooth = false;
+            self.put_back(before);
             // Shorter steps may succeed after a failure; otherwise the first failure is the most
             // informative.
             let error = first.get_or_insert(error);

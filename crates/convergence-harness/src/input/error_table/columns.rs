@@ -198,19 +198,15 @@ impl Cells<'_> {
             return None;
         }
         let half = 1.2 * self.widest_half();
-        // Three rates are proof enough; two need a name, or an end without a rate; one needs an end
-        // without a number.
-        let is_proof = last > 2 || self.word == Word::Rate;
-        // Each rate stands on the finer level of its pair, or on the coarser one.
+        // Each rate stands on the finer level of its pair, or on the coarser one. Three rates are
+        // proof enough, fewer need a name or an end without a number; so does a column of one
+        // number, for an error that stands still at 1 looks like a rate of 1.
+        let is_named = self.word == Word::Rate && last > 1;
         let is_end = |row: usize| {
-            if last < 2 {
-                !self.is_number[row]
-            } else {
-                self.has_no_rate(row)
-            }
+            let value = self.values[row];
+            let is_proof = is_named || last > 2 && !self.is_constant();
+            is_proof || !value.is_finite() || last > 1 && value == 0.0
         };
-        let finer = is_proof && last > 1 || is_end(0);
-        let coarser = is_proof && last > 1 || is_end(last);
         [
             Derived::Rates,
             Derived::RatesOfHalvedSteps,
@@ -222,13 +218,8 @@ impl Cells<'_> {
                 let mut rows = printed.iter().enumerate();
                 rows.all(|(k, value)| derived.value(error, steps, k).is_near(*value, half))
             };
-            finer && agree(&self.values[1..]) || coarser && agree(&self.values[..last])
+            is_end(0) && agree(&self.values[1..]) || is_end(last) && agree(&self.values[..last])
         })
-    }
-
-    /// Whether a cell holds no rate, or what tables print in its place.
-    fn has_no_rate(&self, row: usize) -> bool {
-        !self.values[row].is_finite() || [0.0, 1.0].contains(&self.values[row])
     }
 
     /// What a column of unknown name may hold but an error.

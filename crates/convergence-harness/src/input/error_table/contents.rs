@@ -2,7 +2,7 @@
 //! checked says otherwise. Nothing is left out because its numbers look wrong.
 
 use super::Offer;
-use super::columns::{Derived, Holdings, Trend};
+use super::columns::{Cells, Derived, Holdings, Trend};
 use super::names::{self, Word};
 use super::pairs::LeftOut;
 use super::reader::{NEIGHBOURS, TableReader};
@@ -79,9 +79,13 @@ impl TableReader<'_> {
         let others: Vec<usize> = (0..self.columns.len()).filter(|k| !is_chosen(k)).collect();
         for cells in others.into_iter().map(|k| &self.columns[k]) {
             let is_state = cells.word == Word::State && !cells.is_claimed;
+            let solved = !names::is_failure_name(&cells.name);
             for (row, is_solved) in self.is_solved.iter_mut().enumerate() {
-                let by_word = names::state(cells.texts[row]) == Some(false);
-                let by_number = is_state && cells.is_flag() && cells.values[row] == 0.0;
+                let by_word = names::state(cells.texts[row]) == Some(!solved);
+                let flag = if solved { 0.0 } else { 1.0 };
+                // The reasons of PETSc are negative where a solver has failed.
+                let by_number = is_state
+                    && (cells.is_flag() && cells.values[row] == flag || cells.values[row] < 0.0);
                 if (cells.holdings() == Holdings::States || is_state) && by_word || by_number {
                     *is_solved = false;
                 }
@@ -175,6 +179,7 @@ impl TableReader<'_> {
             name,
             reason: words,
             is_checked,
+            is_single: false,
         });
     }
 
@@ -260,9 +265,12 @@ impl TableReader<'_> {
             return Ok(Content::Error);
         }
         match column.holdings() {
-            Holdings::Nothing => return Ok(Content::checked("no number")),
+            Holdings::Nothing => return Ok(Content::named("no number")),
             Holdings::States => return Ok(Content::States),
-            Holdings::Words => return Ok(Content::checked("words")),
+            Holdings::Words if names::is_group(&column.name) => {
+                return Ok(Content::checked("words"));
+            }
+            Holdings::Words => return Ok(Content::named("words")),
             Holdings::Numbers | Holdings::NumbersAndWords => {}
         }
         if column.is_index {
@@ -271,15 +279,20 @@ impl TableReader<'_> {
         if let Some(derived) = self.derived(k, step, steps) {
             return Ok(derived);
         }
-        let is_whole = column.values.iter().all(|value| value.fract() == 0.0);
-        if names::is_group(&column.name) && is_whole && column.is_constant() {
+        let is_whole = column.texts.iter().all(|cell| cell.parse::<i64>().is_ok());
+        let is_group = names::is_group(&column.name) && column.word != Word::Rate;
+        if is_group && is_whole && column.is_constant() {
             return Ok(Content::checked("the same in each row"));
         }
         match (column.word, column.word.noun()) {
             (Word::Residual, _) => Ok(Content::Residual),
             // A pressure may be named like a degree.
             (Word::Group, _) if !column.is_constant() => Ok(Content::Error),
-            (_, Some(_)) if column.is_constant() => Ok(Content::checked("the same in each row")),
+            (Word::Step | Word::Count(_) | Word::Cost, Some(_)) if column.is_constant() => {
+                Ok(Content::named("the same in each row"))
+            }
+            // The marks of a code are whole numbers.
+            (Word::State, _) if !is_whole && !column.is_flag() => Ok(Self::unknown(column, steps)),
             (Word::Rate, _) if column.is_steep() => Ok(Content::Error),
             (Word::Count(_), Some(noun)) if column.is_count_over(steps) => {
                 Ok(Content::checked(noun))
@@ -287,17 +300,32 @@ impl TableReader<'_> {
             (Word::Step, Some(noun)) if column.is_in_proportion(&self.columns[step]) => {
                 Ok(Content::checked(noun))
             }
+            (Word::Rate, Some(noun)) => {
+                Ok(match column.values.iter().rev().find(|v| v.is_finite()) {
+                    Some(last) => {
+                        Content::named(format!("{noun}, but of no column: {}", plain_text(*last)))
+                    }
+                    None => Content::named(noun),
+                })
+            }
             (_, Some(noun)) => Ok(Content::named(noun)),
             (Word::Error, None) => Ok(Content::Error),
-            _ if column.counts_meshes(steps) => Ok(Content::checked("a count")),
-            _ => Ok(match column.trend() {
-                Trend::Error => Content::Error,
-                Trend::Grows => Content::Growth,
-                Trend::Limit(limit) => Content::Limit(format!(
-                    "tends to {}: a value, not an error",
-                    plain_text(limit)
-                )),
-            }),
+            _ => Ok(Self::unknown(column, steps)),
+        }
+    }
+
+    /// What a column holds whose name does not say it.
+    fn unknown(column: &Cells<'_>, steps: &[f64]) -> Content {
+        if column.counts_meshes(steps) {
+            return Content::checked("a count");
+        }
+        match column.trend() {
+            Trend::Error => Content::Error,
+            Trend::Grows => Content::Growth,
+            Trend::Limit(limit) => Content::Limit(format!(
+                "tends to {}: a value, not an error",
+                plain_text(limit)
+            )),
         }
     }
 

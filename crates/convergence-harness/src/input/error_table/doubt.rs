@@ -27,6 +27,18 @@ pub enum Doubt {
         /// The step behind it.
         behind: f64,
     },
+    /// A step is smaller than the ratio of the others says, by a power of ten, and the errors do not
+    /// follow it.
+    Unit {
+        /// The name of the column.
+        column: String,
+        /// The step before it.
+        before: f64,
+        /// The step behind it.
+        behind: f64,
+        /// The ratio of the other steps.
+        ratio: f64,
+    },
     /// The rates that the table prints are those of another dimension than the chosen one.
     Dimension {
         /// The dimension that the user has chosen.
@@ -54,6 +66,19 @@ impl Display for Doubt {
                 visible(column),
                 plain_text(*before),
                 plain_text(*behind)
+            ),
+            Self::Unit {
+                column,
+                before,
+                behind,
+                ratio,
+            } => write!(
+                f,
+                "the step falls from {} to {} and not by {}, and {} does not follow: another unit?",
+                plain_text(*before),
+                plain_text(*behind),
+                plain_text(*ratio),
+                visible(column)
             ),
             Self::Dimension {
                 chosen,
@@ -95,6 +120,38 @@ pub(super) fn jump(column: &Column) -> Option<Doubt> {
         column: column.name.clone(),
         before: column.levels[k].step,
         behind: column.levels[k + 1].step,
+    })
+}
+
+/// A step that is written in another unit than those before it, if the errors of a column say so.
+pub(super) fn unit(column: &Column) -> Option<Doubt> {
+    /// Largest relative difference of equal ratios.
+    const SAME: f64 = 0.02;
+    /// Least difference between the rate at the change and the others.
+    const OTHER: f64 = 0.5;
+    let ratios: Vec<f64> = column
+        .levels
+        .windows(2)
+        .map(|two| two[0].step / two[1].step)
+        .collect();
+    let ratio = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_regular = |one: &f64| (one / ratio - 1.0).abs() < SAME;
+    let k = ratios.iter().position(|one| !is_regular(one))?;
+    let others = ratios.iter().filter(|one| is_regular(one)).count();
+    let power = (ratios[k] / ratio).log10();
+    let is_unit = power.round() >= 1.0 && (power - power.round()).abs() < SAME;
+    let rates = pairwise_rates(&column.levels);
+    let is_near = |other: usize| {
+        rates
+            .get(other)
+            .is_some_and(|rate| (rate - rates[k]).abs() < OTHER)
+    };
+    let follows = is_near(k + 1) || k > 0 && is_near(k - 1);
+    (others > 1 && others + 1 == ratios.len() && is_unit && !follows).then(|| Doubt::Unit {
+        column: column.name.clone(),
+        before: column.levels[k].step,
+        behind: column.levels[k + 1].step,
+        ratio,
     })
 }
 

@@ -32,12 +32,8 @@ pub(super) fn find<'t>(
             groups: vec![],
         });
     }
-    if let Some(found) = names(heads, rows, separator, width) {
-        let groups = groups(&heads[..found.line], &found.names, separator);
-        return Some(Names {
-            names: found.names,
-            groups,
-        });
+    if let Some(NamesInLine { names, line }) = names(heads, rows, separator, width) {
+        return Some(with_groups(names, &heads[..line], separator));
     }
     let names = heads
         .iter()
@@ -50,23 +46,51 @@ pub(super) fn find<'t>(
 }
 
 /// The names of groups of columns, above names that come again in each group: those of variables
-/// above `error EOC`.
-fn groups<'t>(heads: &[&'t str], names: &[&str], separator: Option<char>) -> Vec<&'t str> {
-    let Some(line) = heads.last() else {
-        return vec![];
-    };
-    for groups in splits(line, separator) {
+/// above `error EOC`. The first column may have its name in the line of the groups.
+fn with_groups<'t>(
+    mut names: Vec<&'t str>,
+    heads: &[&'t str],
+    separator: Option<char>,
+) -> Names<'t> {
+    let lead = usize::from(names.first().is_some_and(|name| name.is_empty()));
+    for cells in heads
+        .last()
+        .map_or(vec![], |line| splits(line, separator).to_vec())
+    {
+        let has_lead = lead == 1 && cells.len() == names.len();
+        let (first, groups) = cells.split_at(usize::from(has_lead));
+        let groups: Vec<&str> = groups
+            .iter()
+            .copied()
+            .filter(|cell| !cell.is_empty())
+            .collect();
+        let width = names.len() - lead;
         let count = groups.len();
-        if count == 0 || !names.len().is_multiple_of(count) || names.len() == count {
+        if count < 2
+            || !width.is_multiple_of(count)
+            || width == count
+            || groups.iter().any(is_no_name)
+        {
             continue;
         }
-        let size = names.len() / count;
-        let come_again = names.iter().zip(&names[size..]).all(|(a, b)| a == b);
-        if come_again && count > 1 && !groups.iter().any(is_no_name) {
-            return (0..names.len()).map(|k| groups[k / size]).collect();
+        let size = width / count;
+        let mut pairs = names[lead..].iter().zip(&names[lead + size..]);
+        if pairs.all(|(a, b)| a == b) {
+            let all = (0..names.len()).map(|k| match k.checked_sub(lead) {
+                Some(k) => groups[k / size],
+                None => "",
+            });
+            let groups = all.collect();
+            if let Some(first) = first.first() {
+                names[0] = first;
+            }
+            return Names { names, groups };
         }
     }
-    vec![]
+    Names {
+        names,
+        groups: vec![],
+    }
 }
 
 /// Names that stand above their columns and have several words, parted by several blanks: the only
@@ -145,6 +169,7 @@ fn is_no_name(cell: &&str) -> bool {
     let is_finite = number(cell, false).is_some_and(|number| number.value.is_finite());
     is_finite
         || cell.ends_with(',')
+        || cell.contains("  ")
         || !(matches!(*cell, "" | "#")
             || cell.contains(|c: char| c.is_alphabetic() || c.is_control()))
 }

@@ -24,12 +24,19 @@ fn unquoted(line: &str) -> &str {
     rest
 }
 
-/// `\multicolumn{3}{|c|}{name}` as a cell with this name, and two without.
+/// `\multicolumn{3}{|c|}{name}` as a cell with this name, and two without; `\multirow{2}{*}{name}`
+/// as one with it.
 fn with_spans(text: &str) -> String {
-    const SPAN: &str = "\\multicolumn";
-    /// No table has so many columns.
-    const WIDEST: usize = 100;
-    let mut parts = text.split(SPAN);
+    let text = with_span(text, "\\multirow", 1);
+    with_span(&text, "\\multicolumn", WIDEST)
+}
+
+/// No table has so many columns.
+const WIDEST: usize = 100;
+
+/// * `widest`: the most columns of such a cell.
+fn with_span(text: &str, command: &str, widest: usize) -> String {
+    let mut parts = text.split(command);
     let mut plain = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let groups = Group::first(part).and_then(|columns| {
@@ -40,10 +47,10 @@ fn with_spans(text: &str) -> String {
             Some((columns, name)) => {
                 let columns: usize = columns.trim().parse().unwrap_or(1);
                 plain += name.inside;
-                plain += &" & ".repeat(columns.clamp(1, WIDEST) - 1);
+                plain += &" & ".repeat(columns.clamp(1, widest) - 1);
                 plain += name.behind;
             }
-            None => plain = plain + SPAN + part,
+            None => plain = plain + command + part,
         }
     }
     plain

@@ -21,7 +21,8 @@
 //! 3. Columns: which one is the step (`step`), and what the others hold (`contents`).
 //!
 //! [`RateTable::reading`] says in a line how a table was read, [`RateTable::doubts`] why none of it
-//! should pass. A level without a result is NaN, and its column fails.
+//! should pass (`failed_run`, `doubt`), and lines that belong to no table are counted (`lines`). A
+//! level without a result is NaN, and its column fails.
 
 mod cleaned;
 mod columns;
@@ -34,6 +35,7 @@ mod frame;
 mod groups;
 mod heads;
 mod limits;
+mod lines;
 mod markup;
 pub(crate) mod names;
 mod number;
@@ -92,6 +94,8 @@ pub struct RateTable {
     pub parameters: Vec<Parameter>,
     /// Why none of its columns should pass.
     pub doubts: Vec<Doubt>,
+    /// Of the first table of a text: the lines that belong to no table and look like rows, from 1.
+    pub rows_outside: Vec<usize>,
 }
 
 /// A column that is not an error.

@@ -53,10 +53,10 @@ const RATE_WORDS: &str =
     "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
 const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters niter its nit gflops mem memory nnz cond \
     cfl row index cycle level lvl refinement i k l";
-const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms diff difference dev deviation u v w p velocity pressure \
-    displacement temperature stress flux solution gradient";
+const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
+    temperature stress flux solution gradient";
 /// Names of values and of their limits.
-const VALUE_WORDS: [&str; 10] = [
+const VALUE_WORDS: [&str; 14] = [
     "value",
     "values",
     "exact",
@@ -67,9 +67,23 @@ const VALUE_WORDS: [&str; 10] = [
     "extrapolation",
     "reference",
     "computed",
+    "theor",
+    "theory",
+    "theoretical",
+    "expected",
+];
+/// Words in the name of an error, whatever else stands there: `u - u_exact, difference`.
+const DIFFERENCE_WORDS: [&str; 7] = [
+    "diff",
+    "difference",
+    "differences",
+    "dev",
+    "deviation",
+    "discrepancy",
+    "misfit",
 ];
 /// Names of columns that say whether a level was solved.
-const STATE_WORDS: [&str; 12] = [
+const STATE_WORDS: [&str; 13] = [
     "converged",
     "success",
     "succeeded",
@@ -81,10 +95,15 @@ const STATE_WORDS: [&str; 12] = [
     "outcome",
     "result",
     "passed",
+    "reason",
     "convergedreason",
 ];
+/// Those in which `true` and 1 say that a level was not solved.
+const FAILURE_WORDS: [&str; 2] = ["failed", "diverged"];
 /// Words in the name of a step: `panel_size`.
 const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
+/// Words of what has a size that counts: `size of linear system`.
+const SYSTEM_WORDS: [&str; 3] = ["system", "matrix", "problem"];
 const NORMS: [&str; 11] = [
     "err", "norm", "‖", "|", "l1", "l2", "h1", "h2", "linf", "l∞", "hdiv",
 ];
@@ -127,12 +146,18 @@ impl Word {
         if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") {
             return Self::Rate;
         }
-        if joined.contains("resid") {
+        if joined.contains("resid") || joined.contains("functionnorm") {
             return Self::Residual;
+        }
+        // `Nonlinear solve converged due to CONVERGED_FNORM_RELATIVE iterations`.
+        let last = words.last().copied().unwrap_or_default();
+        if ["iterations", "iters", "its"].contains(&last) {
+            return Self::Cost;
         }
         if NORMS
             .iter()
             .any(|part| lower.contains(part) || joined.contains(part))
+            || words.iter().any(|word| DIFFERENCE_WORDS.contains(word))
         {
             return Self::Error;
         }
@@ -142,10 +167,10 @@ impl Word {
         if words.iter().any(|word| VALUE_WORDS.contains(word)) {
             return Self::Value;
         }
-        if has(&ERRORS) && !words.contains(&"time") {
+        if has(&ERRORS) && (words.contains(&"e") || !words.contains(&"time")) {
             return Self::Error;
         }
-        if STATE_WORDS.contains(&joined.as_str()) {
+        if STATE_WORDS.contains(&joined.as_str()) || is_failure_name(name) {
             return Self::State;
         }
         if joined.len() > 1 && is_group(name) {
@@ -178,7 +203,12 @@ impl Word {
             return Self::Count(COUNTS.len());
         }
         if words.len() > 1 && words.iter().any(|word| SIZE_WORDS.contains(word)) {
-            return Self::Step;
+            let is_count = words.iter().any(|word| SYSTEM_WORDS.contains(word));
+            return if is_count {
+                Self::Count(COUNTS.len())
+            } else {
+                Self::Step
+            };
         }
         Self::Unknown
     }
@@ -220,13 +250,14 @@ const NOT_SOLVED: [&str; 14] = [
 ];
 
 /// Words of a cell that stands for a number that a code did not find.
-const FAILURES: [&str; 11] = [
-    "nan", "nanq", "nans", "inf", "infinity", "diverged", "failed", "fail", "error", "crashed",
-    "unstable",
-];
+const FAILURES: &str = "nan nanq nans nat inf infinity ∞ \\infty diverged div failed fail error crash crashed aborted \
+    unstable killed timeout oom singular overflow undefined breakdown blowup blow-up n/c nc n.c 0/0 #num! #div/0! \
+    #value! #n/a <na>";
+/// Words with which such a cell begins.
+const FAILURE_BEGINNINGS: [&str; 4] = ["not conv", "no conv", "did not", "out of memory"];
 
 /// Names of what tells several tables in one apart.
-const GROUP_WORDS: [&str; 14] = [
+const GROUP_WORDS: [&str; 15] = [
     "p",
     "q",
     "deg",
@@ -236,6 +267,7 @@ const GROUP_WORDS: [&str; 14] = [
     "order",
     "method",
     "scheme",
+    "stencil",
     "case",
     "test",
     "element",
@@ -261,13 +293,22 @@ pub(super) fn state(cell: &str) -> Option<bool> {
 /// `diverged`.
 pub(super) fn is_failure(cell: &str) -> bool {
     let lower = cell.to_lowercase();
-    let word = lower.trim_start_matches(['-', '+']);
-    let word = word.split(['(', ' ']).next().unwrap_or_default();
-    let is_stars = cell.len() > 1 && cell.chars().all(|c| c == '*');
-    let is_mark_of_c = ["#qnan", "#snan", "#ind", "#inf"]
+    let phrase = lower.trim_matches(|c| "-+$(){}[]%. ".contains(c));
+    let word = phrase.split(['(', ' ']).next().unwrap_or_default();
+    let is_stars = !cell.is_empty() && cell.chars().all(|c| c == '*');
+    let is_mark_of_c = ["#qnan", "#snan", "#ind", "#inf", "#j"]
         .iter()
         .any(|mark| lower.contains(mark));
-    is_stars || is_mark_of_c || FAILURES.contains(&word)
+    let has_beginning = |beginning: &&str| phrase.starts_with(*beginning);
+    is_stars
+        || is_mark_of_c
+        || FAILURES.split_whitespace().any(|known| known == word)
+        || FAILURE_BEGINNINGS.iter().any(has_beginning)
+}
+
+/// Whether a column of states says by `true` or 1 that a level was not solved.
+pub(super) fn is_failure_name(name: &str) -> bool {
+    FAILURE_WORDS.contains(&name.trim().to_lowercase().as_str())
 }
 
 /// Whether a name is that of groups of rows: of a degree, a method.

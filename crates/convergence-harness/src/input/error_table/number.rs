@@ -1,8 +1,8 @@
 //! Numbers as tables write them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`, `32x32`.
 
 /// What tables write if there is no number: the rate of the coarsest level.
-const DASHES: [&str; 12] = [
-    "", "-", "--", "---", "–", "—", "n/a", "N/A", "NA", "None", "null", "(-)",
+const DASHES: [&str; 14] = [
+    "", "-", "--", "---", "–", "—", "n/a", "n.a.", "na", "none", "null", "nil", "missing", "(-)",
 ];
 
 /// Markup around a number that does not change it, and what it stands for.
@@ -77,7 +77,8 @@ pub(super) fn common_unit<'t>(cells: &[&'t str]) -> Option<&'t str> {
 
 /// Whether a cell says that it has no number.
 pub(super) fn is_dash(cell: &str) -> bool {
-    DASHES.contains(&cell.trim_matches('$'))
+    let plain = cell.trim_matches(['$', '{', '}']).to_lowercase();
+    DASHES.contains(&plain.as_str())
 }
 
 /// The value of a cell; `None` if it is not a number.

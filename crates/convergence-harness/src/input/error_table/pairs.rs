@@ -61,14 +61,15 @@ pub(super) struct LeftOut {
     pub(super) reason: String,
     /// Whether its numbers show the reason, and not its name alone.
     pub(super) is_checked: bool,
+    /// Whether it is one number beside lists, and so no column.
+    pub(super) is_single: bool,
 }
 
 impl LeftOut {
     /// Whether its name does not say that it is something else.
     pub(super) fn may_be_error(&self) -> bool {
-        Word::of(&names::without_markup(&self.name))
-            .noun()
-            .is_none()
+        let word = Word::of(&names::without_markup(&self.name));
+        !self.is_single && word.noun().is_none()
     }
 }
 
@@ -127,7 +128,11 @@ pub(super) fn read(text: &str, must_mark: bool) -> Option<RawTable<'_>> {
     Some(if longest > 1 && !repeats_a_list(&pairs) {
         lists(pairs, longest)
     } else {
-        records(&pairs)
+        let mut table = records(&pairs);
+        table
+            .left_out
+            .extend(words(&found.worded, table.rows.len()));
+        table
     })
 }
 
@@ -154,6 +159,8 @@ struct PairedText<'t> {
     pairs: Vec<Pair<'t>>,
     /// The lines that begin with a nameless number: that number.
     rows: Vec<&'t str>,
+    /// Names with a word in place of a number, as often as they occur.
+    worded: Vec<&'t str>,
 }
 
 impl PairedText<'_> {
@@ -195,7 +202,7 @@ pub(super) fn namings(text: &str) -> Vec<NamedPlace<'_>> {
     if !text.contains([':', '=']) {
         return vec![];
     }
-    let PairedText { pairs, rows } = find_pairs(text);
+    let PairedText { pairs, rows, .. } = find_pairs(text);
     let offset = |cell: &str| cell.as_ptr() as usize - text.as_ptr() as usize;
     let nameless = rows.into_iter().map(|cell| NamedPlace {
         offset: offset(cell),
@@ -248,6 +255,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
     let mut pairs: Vec<Pair<'_>> = vec![];
     let mut known: HashSet<&str> = HashSet::new();
     let mut rows = vec![];
+    let mut worded = vec![];
     let mut is_row = false;
     let mut depth = 0_usize;
     let mut label = 0;
@@ -259,26 +267,15 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         position = text[start..]
             .find(is_mark)
             .map_or(text.len(), |end| start + end);
-        let before = &text[label..start];
-        let word = &text[start..position];
-        let behind = text[position..].trim_start_matches([' ', '\t', '"', '\'']);
-        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
-        let is_marked = before
-            .trim_end_matches(|c| is_mark(c) && !":=".contains(c))
-            .ends_with([':', '=']);
-        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        let is_number = (begins || is_last) && number(word, false).is_some();
-        let is_in_list = depth > 0 && label > 0 && !before.contains(']');
-        let is_state = names::state(word).is_some();
-        let stands_for_number = is_dash(word) || names::is_failure(word);
-        // After a name that has a number elsewhere, any word means that the number is missing.
-        let is_missing = is_last
-            && (is_in_list && (stands_for_number || is_state)
-                || is_marked && (stands_for_number || may_be_missing(before, is_state, &known)));
-        let is_value = is_number || is_missing;
-        if !is_value {
+        let gap = Gap {
+            text: &text[label..position],
+            behind: &text[position..],
+            is_in_list: depth > 0 && label > 0,
+        };
+        let Some(Value { before, word }) = gap.value(start - label, &known) else {
+            worded.extend(gap.name_of_word(start - label));
             continue;
-        }
+        };
         let marks = &before[before.trim_end_matches(is_mark).len()..];
         depth = (depth + marks.matches('[').count()).saturating_sub(before.matches(']').count());
         let name = name_before(before);
@@ -292,7 +289,7 @@ fn find_pairs(text: &str) -> PairedText<'_> {
             pairs.push(Pair {
                 name,
                 values: vec![word],
-                is_marked,
+                is_marked: ends_with_mark(before),
             });
             known.insert(name);
         } else if let Some(last) = pairs.last_mut()
@@ -304,7 +301,84 @@ fn find_pairs(text: &str) -> PairedText<'_> {
         }
         label = position;
     }
-    PairedText { pairs, rows }
+    PairedText {
+        pairs,
+        rows,
+        worded,
+    }
+}
+
+/// A number, or what stands for one.
+struct Value<'t> {
+    /// The text between it and the number before.
+    before: &'t str,
+    word: &'t str,
+}
+
+/// The text between two numbers, with a word that may be the second.
+struct Gap<'t> {
+    /// It ends with the word.
+    text: &'t str,
+    behind: &'t str,
+    /// Whether the number before stands in a list that has not ended.
+    is_in_list: bool,
+}
+
+impl<'t> Gap<'t> {
+    /// The value at the end of the gap, if it is one: a number, or the words of a level without a
+    /// result, in a list or behind a name.
+    ///
+    /// * `start`: of the last word.
+    fn value(&self, start: usize, known: &HashSet<&str>) -> Option<Value<'t>> {
+        let (before, word) = self.text.split_at(start);
+        let behind = self.behind.trim_start_matches("(ind)");
+        let behind = behind.trim_start_matches([' ', '\t', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}', ')', ']']);
+        let begins = word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        if (begins || is_last) && number(word, false).is_some() {
+            return Some(Value { before, word });
+        }
+        if !is_last {
+            return None;
+        }
+        // `did not converge` stands for a number, as `diverged` does.
+        let words = phrase(self.text);
+        let start = self.text.len() - words.len();
+        if words.contains(' ') && names::is_failure(words) && start > 0 {
+            let (before, word) = self.text.split_at(start);
+            return Some(Value { before, word });
+        }
+        let is_in_list = self.is_in_list && !before.contains(']');
+        let is_element = before.contains(',')
+            && before
+                .chars()
+                .all(|c| c.is_whitespace() || ",\"'".contains(c));
+        let is_state = names::state(word).is_some();
+        let stands_for_number = is_dash(word) || names::is_failure(word);
+        // After a name that has a number elsewhere, any word means that the number is missing.
+        let is_missing = is_in_list && (is_element || stands_for_number || is_state)
+            || ends_with_mark(before)
+                && (stands_for_number || may_be_missing(before, is_state, known));
+        is_missing.then_some(Value { before, word })
+    }
+}
+
+impl<'t> Gap<'t> {
+    /// The name before the only word behind it: `T = lost`.
+    fn name_of_word(&self, start: usize) -> Option<&'t str> {
+        let (before, word) = self.text.split_at(start);
+        let behind = self.behind.trim_start_matches([' ', '"', '\'']);
+        let is_last = behind.is_empty() || behind.starts_with(['\n', ',', ';', '}']);
+        let is_word = is_last && ends_with_mark(before) && names::state(word) != Some(true);
+        let name = is_word.then(|| name_before(before))?;
+        name.contains(char::is_alphabetic).then_some(name)
+    }
+}
+
+/// Whether a text ends with `=` or `:`, perhaps before brackets and quotes.
+fn ends_with_mark(text: &str) -> bool {
+    text.trim_end_matches(|c| is_mark(c) && !":=".contains(c))
+        .ends_with([':', '='])
 }
 
 /// Whether a word stands behind a name that has a number elsewhere, or says that a level was solved,
@@ -314,16 +388,28 @@ fn may_be_missing(before: &str, is_state: bool, known: &HashSet<&str>) -> bool {
     known.contains(name) || is_state && Word::of(name) == Word::State
 }
 
-/// The name that a text ends with, before marks.
-fn name_before(text: &str) -> &str {
-    let words = text.trim_end_matches(is_mark);
-    // The search for a name is bounded, because a text may have a hundred thousand words before its
-    // next number.
-    let mut start = words.len().saturating_sub(LONGEST_LABEL);
-    while !words.is_char_boundary(start) {
+/// The last words of a text behind a mark of a value: `did not converge`. The search is bounded, as
+/// that for a name is.
+fn phrase(text: &str) -> &str {
+    let tail = end(text);
+    let mark = tail.rfind([':', '=', ',', '[', '{', ';']);
+    tail[mark.map_or(0, |mark| mark + 1)..].trim_start_matches(is_mark)
+}
+
+/// The last bytes of a text in which a name is looked for: a text may have a hundred thousand words
+/// before its next number.
+fn end(text: &str) -> &str {
+    let mut start = text.len().saturating_sub(LONGEST_LABEL);
+    while !text.is_char_boundary(start) {
         start += 1;
     }
-    let words = words[start..].rsplit('\n').next().unwrap_or_default();
+    &text[start..]
+}
+
+/// The name that a text ends with, before marks.
+fn name_before(text: &str) -> &str {
+    let words = end(text.trim_end_matches(is_mark));
+    let words = words.rsplit('\n').next().unwrap_or_default();
     // `Level(h=0.1, error=2e-3)`, but not `error (L2) = 2e-3`.
     let separators: &[char] = if words.contains(')') {
         &[',', ';', '{', '\t']
@@ -369,6 +455,7 @@ fn lists(pairs: Vec<Pair<'_>>, longest: usize) -> RawTable<'_> {
                     counted(pair.values.len(), "number")
                 ),
                 is_checked: false,
+                is_single: pair.values.len() == 1 && longest > 2,
             });
         }
     }
@@ -420,6 +507,25 @@ fn count_levels(repetitions: &[Repetition<'_>]) -> usize {
     common.map_or(0, |repetition| repetition.count)
 }
 
+/// The names that have a word on each of several levels.
+fn words(worded: &[&str], levels: usize) -> Vec<LeftOut> {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    let mut left_out = vec![];
+    for name in worded {
+        let count = counts.entry(name).or_default();
+        *count += 1;
+        if levels > 1 && *count == levels {
+            left_out.push(LeftOut {
+                name: (*name).to_owned(),
+                reason: "words".to_owned(),
+                is_checked: names::is_group(name),
+                is_single: true,
+            });
+        }
+    }
+    left_out
+}
+
 /// A row for each repetition of the names. Names that a solver prints more often than the step are
 /// left out.
 fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
@@ -435,6 +541,7 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
                 name: key.name.to_owned(),
                 reason: format!("printed {count} times for {levels} levels"),
                 is_checked: false,
+                is_single: false,
             });
             continue;
         }

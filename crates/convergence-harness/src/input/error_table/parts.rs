@@ -17,6 +17,8 @@ use super::text::{self, begins_with_number, is_closing, is_rule};
 pub(super) struct Part<'t> {
     /// The first of several lines above its rows, or its number.
     pub(super) heading: String,
+    /// The words of the heading in the text.
+    pub(super) words: Option<&'t str>,
     pub(super) table: RawTable<'t>,
 }
 
@@ -34,9 +36,11 @@ pub(super) fn read(text: &str) -> Vec<Part<'_>> {
             Some(table) if earlier.is_empty() => table,
             _ => text::read(text, earlier),
         };
-        let heading = heading(text, &table);
+        let words = heading(text, &table);
+        let number = parts.len() + 1;
         parts.push(Part {
-            heading: heading.unwrap_or_else(|| format!("table {}", parts.len() + 1)),
+            heading: words.map_or_else(|| format!("table {number}"), str::to_owned),
+            words,
             table,
         });
     }
@@ -153,8 +157,8 @@ struct Occurrences<'p> {
     gaps: usize,
     /// Whether the first gap is one of them.
     is_in_first: bool,
-    /// The values, each once.
-    values: HashSet<&'p str>,
+    /// The values of each gap, each list once.
+    values: HashSet<&'p [&'p str]>,
 }
 
 impl Occurrences<'_> {
@@ -168,10 +172,8 @@ impl Occurrences<'_> {
 
     /// Whether it stands in all gaps, with words of which some come again.
     fn is_group(&self, gaps: usize) -> bool {
-        let is_state = self
-            .values
-            .iter()
-            .all(|value| names::state(value).is_some());
+        let mut values = self.values.iter().copied().flatten();
+        let is_state = values.all(|value| names::state(value).is_some());
         self.gaps == gaps && (2..gaps).contains(&self.values.len()) && !is_state
     }
 }
@@ -179,34 +181,43 @@ impl Occurrences<'_> {
 /// Where gaps have a piece that others lack, or a name with other words behind it than in the gap
 /// before: the first such piece of each gap.
 fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
+    let values: Vec<HashMap<&str, Vec<&str>>> = gaps.iter().map(|gap| values(gap)).collect();
     let mut occurrences: HashMap<&str, Occurrences<'_>> = HashMap::new();
-    for (k, gap) in gaps.iter().enumerate() {
-        let mut own = HashSet::new();
-        for piece in gap {
-            let shape = occurrences.entry(&piece.shape).or_default();
-            shape.values.insert(&piece.value);
-            if own.insert(&piece.shape) {
-                shape.gaps += 1;
-                shape.is_in_first |= k == 0;
-            }
+    for (k, values) in values.iter().enumerate() {
+        for (shape, values) in values {
+            let shape = occurrences.entry(shape).or_default();
+            shape.gaps += 1;
+            shape.is_in_first |= k == 0;
+            shape.values.insert(values);
         }
     }
-    let mut values: HashMap<&str, &str> = HashMap::new();
+    let mut before: HashMap<&str, &[&str]> = HashMap::new();
     let mut cuts = vec![];
-    for gap in gaps {
+    for (gap, values) in gaps.iter().zip(&values) {
         let cut = gap.iter().find(|piece| {
-            let shape = &occurrences[piece.shape.as_str()];
-            let before = values.get(piece.shape.as_str());
-            let changes = before.is_some_and(|before| *before != piece.value);
+            let shape = piece.shape.as_str();
+            let changes = before
+                .get(shape)
+                .is_some_and(|before| *before != values[shape]);
+            let shape = &occurrences[shape];
             !shape.is_common(piece, gaps.len()) || changes && shape.is_group(gaps.len())
         });
         cuts.extend(cut.map(|piece| piece.offset));
-        values.extend(
-            gap.iter()
-                .map(|piece| (piece.shape.as_str(), piece.value.as_str())),
-        );
+        before.extend(values.iter().map(|(shape, values)| (*shape, &values[..])));
     }
     cuts
+}
+
+/// The values of each shape in a gap, which may have several lines of one, as a log has levels.
+fn values(gap: &[Piece]) -> HashMap<&str, Vec<&str>> {
+    let mut values: HashMap<&str, Vec<&str>> = HashMap::new();
+    for piece in gap {
+        let values = values.entry(&piece.shape).or_default();
+        if !piece.value.is_empty() {
+            values.push(&piece.value);
+        }
+    }
+    values
 }
 
 /// What stands between the lines of rows.
@@ -373,11 +384,18 @@ fn log_gaps(text: &str, pairs: &[Pair<'_>]) -> Vec<Vec<Piece>> {
 fn pieces(start: usize, between: &str) -> Vec<Piece> {
     let mut pieces = vec![];
     let mut offset = start;
+    // A list ends, and another one begins.
+    if let Some(end) = between.find(']')
+        && between[end..].contains('[')
+    {
+        pieces.push(Piece::of_words(start + end, "]["));
+    }
     let lines: Vec<&str> = between.split('\n').collect();
     for (k, line) in lines.iter().enumerate() {
         let words = line.trim_matches(|c| pairs::is_mark(c) || "-=_*#|".contains(c));
         let is_blank_line = line.trim().is_empty() && 0 < k && k + 1 < lines.len();
-        let is_ruler = words.is_empty() && is_rule(line) && !line.trim().is_empty();
+        let is_drawn = is_rule(line) && !line.trim().is_empty();
+        let is_ruler = words.is_empty() && (is_drawn || line.contains(|c| !pairs::is_mark(c)));
         if is_blank_line || is_ruler || !words.is_empty() {
             pieces.push(Piece::of_words(offset, if is_ruler { "-" } else { words }));
         }
@@ -417,7 +435,7 @@ fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
 
 /// The first line of words above the rows, if there is another, which has the names, or if names
 /// stand beside the numbers.
-fn heading(section: &str, table: &RawTable<'_>) -> Option<String> {
+fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
     let above = above(section, table);
     let end = above.rfind('\n').map_or(0, |end| end + 1);
     let is_name = |line: &str| {
@@ -435,5 +453,5 @@ fn heading(section: &str, table: &RawTable<'_>) -> Option<String> {
     });
     let words = lines.next()?;
     let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));
-    Some(words.to_owned()).filter(|words| !words.is_empty())
+    Some(words).filter(|words| !words.is_empty())
 }

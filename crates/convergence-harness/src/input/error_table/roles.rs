@@ -10,6 +10,7 @@ use super::failed_run;
 use super::frame::Original;
 use super::groups;
 use super::limits;
+use super::lines;
 use super::names::Word;
 use super::pairs::{LeftOut, RawTable};
 use super::parameters::{self, Parameter};
@@ -41,10 +42,17 @@ pub(super) fn read_all(
     let parts = parts::read(original.text);
     limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
+    let outside = lines::outside(original.text, &parts);
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {
         for (_, table) in &mut tables {
             table.doubts.extend(failure.clone());
+        }
+        if let Some((_, first)) = tables.first_mut()
+            && outside.lines > 0
+        {
+            first.reading += &format!("; outside the tables: {}", counted(outside.lines, "line"));
+            first.rows_outside = outside.rows;
         }
         tables
     });
@@ -129,7 +137,7 @@ fn attempt_all(
     let mut without_errors: Vec<String> = vec![];
     if grids.iter().any(has_errors) {
         let others = grids.iter().filter(|grid| !has_errors(grid));
-        without_errors = others.map(|grid| format!("`{}`", grid.heading)).collect();
+        without_errors = others.map(|grid| grid.heading.clone()).collect();
         grids.retain(has_errors);
     }
     let mut tables = vec![];
@@ -151,7 +159,14 @@ fn attempt_all(
     if let Some((_, first)) = tables.first_mut()
         && !without_errors.is_empty()
     {
-        first.reading += &format!("; without errors: {}", listed(without_errors.into_iter()));
+        let quoted = without_errors.iter().map(|heading| format!("`{heading}`"));
+        first.reading += &format!("; without errors: {}", listed(quoted));
+        let not_errors = without_errors.into_iter().map(|heading| NotError {
+            column: heading,
+            because: "a table without errors".to_owned(),
+            is_checked: false,
+        });
+        first.not_errors.extend(not_errors);
     }
     Ok(tables)
 }
@@ -229,7 +244,9 @@ fn attempt(
             .collect()
     };
     let errors_over_steps = columns(&errors)?;
-    let jumps = errors_over_steps.iter().filter_map(doubt::jump);
+    let jumps = errors_over_steps
+        .iter()
+        .filter_map(|column| doubt::unit(column).or_else(|| doubt::jump(column)));
     let doubts = jumps.chain(reader.contradiction(step.column));
     Ok(RateTable {
         reading: reading(&reader, &step, [&errors, &values], &others),
@@ -242,6 +259,7 @@ fn attempt(
                      name,
                      reason,
                      is_checked,
+                     ..
                  }| NotError {
                     column: name,
                     because: reason,
@@ -251,6 +269,7 @@ fn attempt(
             .collect(),
         parameters: vec![],
         doubts: doubts.collect(),
+        rows_outside: vec![],
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })

@@ -2,7 +2,7 @@
 
 use super::Offer;
 use super::columns::Cells;
-use super::names::{Word, reciprocal};
+use super::names::{self, Word, reciprocal};
 use super::reader::{NEIGHBOURS, TableReader, listed};
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
@@ -77,7 +77,7 @@ impl TableReader<'_> {
             None => self.natural_step()?,
         };
         let (measure, by_rates) = self.measure(column)?;
-        let how = how + &by_rates;
+        let how = how + &by_rates + &self.adaptive(column, measure);
         let name = &self.columns[column].name;
         let label = match measure {
             Measure::Step => name.to_owned(),
@@ -93,6 +93,35 @@ impl TableReader<'_> {
             label,
             how,
         })
+    }
+
+    /// What is said of counts of meshes that are refined in some places only.
+    fn adaptive(&self, column: usize, measure: Measure) -> String {
+        /// How much such counts grow from level to level.
+        const GROWTH: std::ops::RangeInclusive<f64> = 1.8..=2.7;
+        /// Largest difference between the factors of uniform refinement along an edge.
+        const UNIFORM: f64 = 0.3;
+        let mut counts = self.columns[column].values.clone();
+        counts.sort_by(f64::total_cmp);
+        let factors: Vec<f64> = counts.windows(2).map(|two| two[1] / two[0]).collect();
+        let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = factors.iter().copied().fold(0.0, f64::max);
+        let is_adaptive = match measure {
+            Measure::Count(1.0) => most - least > UNIFORM,
+            Measure::Count(_) => true,
+            Measure::Step | Measure::Level(_) => false,
+        };
+        if is_adaptive && GROWTH.contains(&least) && GROWTH.contains(&most) {
+            let [least, most] = [least, most].map(|factor| (10.0 * factor).round() / 10.0);
+            let range = if least < most {
+                format!("{least} to {most}")
+            } else {
+                least.to_string()
+            };
+            format!(", whose counts grow by {range}, as along an edge or on adaptive meshes")
+        } else {
+            String::new()
+        }
     }
 
     /// The column that numbers the levels: one named so rather than any that counts the rows, or the
@@ -229,7 +258,8 @@ impl TableReader<'_> {
         let offers_rows = with_first.is_none()
             && !has_levels
             && self.columns.iter().any(is_steep_error)
-            && !self.columns.iter().any(has_power_of_step);
+            && !self.columns.iter().any(has_power_of_step)
+            && !self.columns.iter().any(counts_orders);
         let with_rows = offers_rows.then(|| Offer {
             comment: "if each row halves the step",
             ..self.offer(|choice| choice.ratio = Some(2.0))
@@ -427,9 +457,16 @@ fn has_power_of_step(column: &Cells<'_>) -> bool {
     power.is_some_and(|(base, _)| Word::of(base) == Word::Step)
 }
 
+/// Whether a column has the orders of several methods, which are no levels: 2, 4, 6, 8.
+fn counts_orders(column: &Cells<'_>) -> bool {
+    let is_order = column.word == Word::Rate || names::is_group(&column.name);
+    is_order && column.is_whole() && column.values.is_sorted_by(|a, b| a < b)
+}
+
 /// The name of a column in a message, with the reason why it is not the step.
 fn name_with_reason(column: &Cells<'_>) -> String {
     let reason = match column.word {
+        _ if counts_orders(column) => " (orders of methods, no steps)",
         _ if column.is_index => " (the number of the row)",
         Word::Logarithm => " (give the values, not their logarithms)",
         Word::Step => " (the same in each row)",

@@ -1,6 +1,7 @@
 //! Any text as rows of cells below names.
 
 use super::heads::{self, Names};
+use super::names;
 use super::number::number;
 use super::pairs::{self, RawTable};
 use super::turned;
@@ -120,8 +121,7 @@ fn sort_lines(text: &str) -> Lines<'_> {
             quoted_names = Some(names);
             continue;
         }
-        // A row without the comment after it.
-        let cells = split(&line[..line.find(" #").unwrap_or(line.len())], separator);
+        let cells = split(without_comment(line), separator);
         let is_first = rows.is_empty();
         if !is_comment(&line)
             && (is_first || !is_closing(line))
@@ -138,6 +138,15 @@ fn sort_lines(text: &str) -> Lines<'_> {
         quoted_names,
         separator,
     }
+}
+
+/// A row without the comment after it; spreadsheets write `#N/A` and `#DIV/0!` for a failed cell.
+fn without_comment(line: &str) -> &str {
+    let comment = line.find(" #").filter(|start| {
+        let word = line[*start..].split_whitespace().next();
+        !word.is_some_and(names::is_failure)
+    });
+    &line[..comment.unwrap_or(line.len())]
 }
 
 /// Whether a line closes a table: the mean of its rows.
@@ -362,7 +371,8 @@ pub(super) fn counts_rows(cells: &[&str]) -> bool {
     let [first, .., last] = values[..] else {
         return matches!(values[..], [0 | 1]);
     };
-    matches!(first.min(last), 0 | 1)
+    first != last
+        && matches!(first.min(last), 0 | 1)
         && values
             .windows(2)
             .all(|two| two[1] - two[0] == (last - first).signum())

@@ -9,11 +9,17 @@ const LEAST: usize = 5;
 const NEAR: f64 = 6e-3;
 
 /// A text in which each line is a variable, with the rates of its errors between them, as
-/// `name error rate error rate error`; `None` if a rate of some line is not that of halved steps.
+/// `name error rate error rate error`, perhaps below a line of names; `None` if a rate of some line
+/// is not that of halved steps.
 pub(super) fn with_rates_between(text: &str) -> Option<RawTable<'_>> {
     let mut names = vec![];
     let mut columns: Vec<Vec<&str>> = vec![];
-    for line in text.lines().filter(|line| !line.trim().is_empty()) {
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty())
+        .peekable();
+    lines.next_if(|head| Variable::of_line(head).is_none());
+    for line in lines {
         let Variable { name, errors } = Variable::of_line(line)?;
         if columns
             .first()

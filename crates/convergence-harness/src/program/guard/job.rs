@@ -11,12 +11,9 @@ use std::process::{Child, Command};
 
 use win32job::{ExtendedLimitInfo, Job};
 
-use super::{MARK, new_mark};
-
 /// The job of one case.
 #[derive(Debug)]
 pub(in crate::program) struct Group {
-    mark: String,
     /// Empty once the case has ended.
     job: Option<Job>,
 }
@@ -27,15 +24,12 @@ impl Group {
         let mut limits = ExtendedLimitInfo::new();
         limits.limit_kill_on_job_close();
         let job = Job::create_with_limit_info(&limits).map_err(io::Error::other)?;
-        Ok(Self {
-            mark: new_mark(),
-            job: Some(job),
-        })
+        Ok(Self { job: Some(job) })
     }
 
     /// Starts the program in the job.
     pub(in crate::program) fn start(&mut self, command: &mut Command) -> io::Result<Child> {
-        let mut child = command.env(MARK, &self.mark).spawn()?;
+        let mut child = command.spawn()?;
         let Some(job) = &self.job else {
             return Ok(child);
         };

@@ -4,6 +4,8 @@
 //! For failing items F and items S with a setting the coefficient is |F ∩ S| / √(|F| |S|): 1 if
 //! exactly those with the setting fail.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::study::header::{STUDY, Setting};
@@ -26,9 +28,8 @@ const COMBINED: usize = 80;
 /// Most groups of passing items that are named.
 const GROUPS: usize = 3;
 
-/// A setting shared by all failing items is informative if at most this share of the passing ones
-/// has it.
-const RARE: f64 = 0.95;
+/// A setting shared by all failing items says something if at most this share of all items has it.
+const RARE: f64 = 0.8;
 
 /// Most settings shared by all failing items that are named.
 const SHARED: usize = 3;
@@ -40,8 +41,47 @@ pub(super) struct Vote {
     pub(super) settings: Vec<Setting>,
     /// Whether any of them fails, or has moved.
     pub(super) fails: bool,
-    /// How many of them fail, and how many there are.
-    pub(super) count: [usize; 2],
+    /// Those that fail, of how many there are.
+    pub(super) failing: PartOf,
+}
+
+/// Some of a number of items.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct PartOf {
+    /// How many.
+    pub part: usize,
+    /// Of how many.
+    pub of: usize,
+}
+
+impl PartOf {
+    fn add(&mut self, other: Self) {
+        self.part += other.part;
+        self.of += other.of;
+    }
+
+    /// Those that are not in the part.
+    fn rest(self) -> Self {
+        Self {
+            part: self.of - self.part,
+            ..self
+        }
+    }
+}
+
+impl fmt::Display for PartOf {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.part, self.of)
+    }
+}
+
+/// Items without the settings of a contrast that share one alternative setting.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Others {
+    /// The setting.
+    pub name: String,
+    /// Those that pass.
+    pub passing: PartOf,
 }
 
 /// The conjunction of at most two settings that best separates failing from passing items; empty if
@@ -57,13 +97,13 @@ pub struct Contrast {
     /// Ochiai's coefficient of the conjunction, 0.02 less for a second setting, 0.06 less for a
     /// study.
     pub score: f64,
-    /// Items with these settings: how many fail, and how many there are.
-    pub fails: [usize; 2],
-    /// Other settings that every failing item has, but few of the passing ones: the rarest first.
+    /// Items with these settings: those that fail.
+    pub failing: PartOf,
+    /// Other settings that every failing item has, but not most of all items: the rarest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shared: Vec<Setting>,
-    /// Items without them, by their alternative settings: how many pass, and how many there are.
-    pub passes: Vec<(String, [usize; 2])>,
+    /// Items without them, by their alternative settings.
+    pub others: Vec<Others>,
 }
 
 impl Contrast {
@@ -161,11 +201,11 @@ pub(super) fn contrast(votes: &[Vote]) -> Contrast {
 
 /// The contrast of the best set, with what passes instead.
 fn contrast_of(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
-    let mut fails = [0, 0];
-    let mut passes: Vec<(String, [usize; 2])> = vec![];
+    let mut failing = PartOf::default();
+    let mut others: Vec<Others> = vec![];
     for (vote, holds) in votes.iter().zip(&best.holds) {
         if *holds {
-            fails = [fails[0] + vote.count[0], fails[1] + vote.count[1]];
+            failing.add(vote.failing);
             continue;
         }
         let missing = best
@@ -178,15 +218,18 @@ fn contrast_of(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
             _ => None,
         };
         let name = alternative.map_or("the others", |(_, value)| value);
-        let [failed, all] = vote.count;
-        match passes.iter_mut().find(|(known, _)| known == name) {
-            Some((_, count)) => *count = [count[0] + all - failed, count[1] + all],
-            None => passes.push((name.to_owned(), [all - failed, all])),
+        let passing = vote.failing.rest();
+        match others.iter_mut().find(|known| known.name == name) {
+            Some(known) => known.passing.add(passing),
+            None => others.push(Others {
+                name: name.to_owned(),
+                passing,
+            }),
         }
     }
-    passes.sort_by_key(|(_, [passing, _])| std::cmp::Reverse(*passing));
-    passes.truncate(GROUPS);
-    passes.retain(|(_, [passing, _])| *passing > 0);
+    others.sort_by_key(|known| std::cmp::Reverse(known.passing.part));
+    others.truncate(GROUPS);
+    others.retain(|known| known.passing.part > 0);
     let settings: Vec<Setting> = best
         .settings
         .iter()
@@ -202,8 +245,8 @@ fn contrast_of(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
         shared: vec![],
         settings,
         score,
-        fails,
-        passes,
+        failing,
+        others,
     };
     contrast.shared = shared(votes, &contrast);
     contrast
@@ -218,10 +261,10 @@ fn kind_of_study(votes: &[Vote], settings: &[Setting]) -> Option<String> {
     distinguishes.then(|| kind.1.clone())
 }
 
-/// The settings of all failing votes, except those that the contrast names and those that most
-/// passing votes share.
+/// The settings of all failing votes, except those that the contrast names and those that most of
+/// all items have.
 fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
-    let (failing, passing): (Vec<&Vote>, Vec<&Vote>) = votes.iter().partition(|vote| vote.fails);
+    let failing: Vec<&Vote> = votes.iter().filter(|vote| vote.fails).collect();
     // One item shares everything with itself.
     let [first, others @ ..] = &failing[..] else {
         return vec![];
@@ -236,7 +279,7 @@ fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
         if is_named || !others.iter().all(|vote| vote.settings.contains(setting)) {
             continue;
         }
-        let share = share_with(&passing, setting);
+        let share = share_with(votes, setting);
         if share <= RARE {
             shared.push(RareSetting { setting, share });
         }
@@ -251,31 +294,33 @@ fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
         .collect()
 }
 
-/// A setting of all failing votes, and the share of the passing ones that has it.
+/// A setting of all failing votes, and the share of all items that has it.
 struct RareSetting<'v> {
     setting: &'v Setting,
     share: f64,
 }
 
-/// The share of votes that have a setting.
-fn share_with(votes: &[&Vote], setting: &Setting) -> f64 {
+/// The share of items that have a setting.
+fn share_with(votes: &[Vote], setting: &Setting) -> f64 {
+    let items = |vote: &Vote| vote.failing.of;
     let with = votes.iter().filter(|vote| vote.settings.contains(setting));
-    with.count() as f64 / votes.len() as f64
+    let all: usize = votes.iter().map(items).sum();
+    with.map(items).sum::<usize>() as f64 / all as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn vote(settings: &[(&str, &str)], count: [usize; 2]) -> Vote {
+    fn vote(settings: &[(&str, &str)], [part, of]: [usize; 2]) -> Vote {
         let settings = settings
             .iter()
             .map(|(key, value)| ((*key).to_owned(), (*value).to_owned()))
             .collect();
         Vote {
             settings,
-            fails: count[0] > 0,
-            count,
+            fails: part > 0,
+            failing: PartOf { part, of },
         }
     }
 
@@ -292,14 +337,13 @@ mod tests {
             .iter()
             .map(|(_, value)| value.as_str())
             .collect();
-        assert_eq!((values, found.fails), (vec!["one step", "a > 0"], [60, 62]));
-        assert_eq!(
-            found.passes,
-            [
-                ("a = 0".to_owned(), [31, 31]),
-                ("any order".to_owned(), [24, 24])
-            ]
-        );
+        assert_eq!(values, ["one step", "a > 0"]);
+        assert_eq!(found.failing, PartOf { part: 60, of: 62 });
+        let others = found.others.iter();
+        let others: Vec<String> = others
+            .map(|known| format!("{}: {}", known.name, known.passing))
+            .collect();
+        assert_eq!(others, ["a = 0: 31 of 31", "any order: 24 of 24"]);
         assert!((found.score - 0.98).abs() < 1e-12);
         // A second setting that adds nothing is not named.
         let one = contrast(&votes[..2]);
@@ -336,6 +380,11 @@ mod tests {
         };
         let nothing = Contrast::default();
         assert_eq!(values(&nothing), ["any order", "graded"]);
+        // What 76 of 86 items have says nothing of the two that fail.
+        let common = vote(&[("method", "any order")], [0, 73]);
+        let votes_with = [&votes[..], &[common]].concat();
+        let names = |votes: &[Vote]| shared(votes, &nothing).len();
+        assert_eq!(names(&votes_with), 1);
         let named = Contrast {
             settings: vec![("method".to_owned(), "any order".to_owned())],
             ..Contrast::default()
@@ -374,10 +423,9 @@ mod tests {
             vote(&[("method", "one step")], [2, 2]),
             vote(&[("method", "any order")], [1, 1]),
         ];
-        assert_eq!(
-            (contrast(&all).settings, contrast(&all).fails),
-            (vec![], [3, 3])
-        );
+        let found = contrast(&all);
+        assert_eq!(found.settings, []);
+        assert_eq!(found.failing, PartOf { part: 3, of: 3 });
         let mixed = ["one step", "any order"]
             .map(|method| [0, 1].map(|failed| vote(&[("method", method)], [failed, 1])));
         assert_eq!(contrast(&mixed.concat()).settings, []);

@@ -1,6 +1,6 @@
 //! Which fields moved, and how much of the movement each has.
 
-use super::{Field, moved_numbers, subject_of_number};
+use super::{Field, WrongRate, moved_numbers, subject_of_number};
 use crate::run::Finished;
 use crate::store::{Change, Movement};
 use crate::study::{NamedRate, Sort};
@@ -43,8 +43,8 @@ struct MovedField {
     weight: f64,
     /// By what its error on the finest level was multiplied.
     factor: f64,
-    /// The rate that does not pass, with its order.
-    rate: Option<[f64; 2]>,
+    /// The rate that does not pass.
+    rate: Option<WrongRate>,
 }
 
 /// The fields of a study whose errors moved, then those of which only the rate does not pass.
@@ -75,11 +75,12 @@ fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
         });
     }
     let rates = outcome.rates.iter();
-    let wrong: Vec<(String, Option<[f64; 2]>)> = rates
+    let wrong: Vec<(String, Option<WrongRate>)> = rates
         .filter(|named| !named.rate.verdict.is_pass())
         .map(|NamedRate { subject, rate, .. }| {
-            let orders = rate.fitted.zip(rate.order()).map(<[f64; 2]>::from);
-            (subject.quantity.clone(), orders)
+            let known = rate.fitted.zip(rate.order());
+            let wrong = known.map(|(observed, claimed)| WrongRate { observed, claimed });
+            (subject.quantity.clone(), wrong)
         })
         .collect();
     let unmoved: Vec<MovedField> = wrong
@@ -117,7 +118,7 @@ fn add(fields: &mut Vec<Field>, moved: &MovedField, share: f64) {
     field.rate = [field.rate, moved.rate]
         .into_iter()
         .flatten()
-        .max_by(|a, b| (a[0] - a[1]).abs().total_cmp(&(b[0] - b[1]).abs()));
+        .max_by(|a, b| a.distance().total_cmp(&b.distance()));
     if moved.factor.ln().abs() > field.factor.ln().abs() {
         field.factor = moved.factor;
     }

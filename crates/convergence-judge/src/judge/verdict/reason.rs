@@ -1,6 +1,9 @@
 //! The reasons for verdicts: one list, with the words that every command, report and file uses.
 
+mod mathematics;
+
 use super::words::Verdict;
+use mathematics::{LOST_ORDER, NEXT_TERM, NO_ERROR, OTHER_CONSTANT, PLATEAU, ROUND_OFF, TOO_FAST};
 
 /// The reason for a verdict; each reason has one verdict.
 #[derive(
@@ -79,85 +82,21 @@ impl TryFrom<String> for Reason {
     type Error = String;
 
     fn try_from(code: String) -> Result<Self, String> {
-        // Records of earlier versions have codes of vetoes that the rule no longer has.
-        let is_earlier = ["wild", "outlier", "last-pair"].contains(&code.as_str());
-        let code = if is_earlier {
-            Self::NotAsymptotic.code()
-        } else {
-            &code
-        };
-        Self::ALL
-            .into_iter()
-            .find(|reason| reason.code() == code)
+        let row = ROWS.iter().find(|row| row.code == code);
+        row.map(|row| row.reason)
             .ok_or_else(|| format!("unknown reason `{code}`"))
     }
 }
 
 impl Reason {
-    /// Every reason, for listing.
-    pub const ALL: [Self; 28] = [
-        Self::Agrees,
-        Self::NoResult,
-        Self::NonFiniteError,
-        Self::NegativeError,
-        Self::ErrorGrows,
-        Self::FallsAway,
-        Self::WrongLimit,
-        Self::TooLow,
-        Self::TooHigh,
-        Self::ConstantOff,
-        Self::ZeroError,
-        Self::StepsNotDecreasing,
-        Self::NotClaimed,
-        Self::ClaimUnusable,
-        Self::ToleranceTooWide,
-        Self::TooFewLevels,
-        Self::NotAsymptotic,
-        Self::Departs,
-        Self::LowerOrderLikely,
-        Self::Jump,
-        Self::RoundOffFloor,
-        Self::Digits,
-        Self::ConstantUnsure,
-        Self::Value,
-        Self::LeftOver,
-        Self::LevelsTooClose,
-        Self::IntervalTooWide,
-        Self::AtTheEdge,
-    ];
+    /// Every reason, in the order of the enumeration.
+    pub fn all() -> impl Iterator<Item = Self> {
+        ROWS.iter().map(|row| row.reason)
+    }
 
     /// The verdict that goes with this reason.
     pub fn verdict(self) -> Verdict {
-        match self {
-            Self::Agrees => Verdict::Pass,
-            Self::NoResult
-            | Self::NonFiniteError
-            | Self::NegativeError
-            | Self::ErrorGrows
-            | Self::FallsAway
-            | Self::WrongLimit
-            | Self::TooLow
-            | Self::TooHigh
-            | Self::ConstantOff => Verdict::Fail,
-            Self::ZeroError
-            | Self::StepsNotDecreasing
-            | Self::NotClaimed
-            | Self::ClaimUnusable
-            | Self::ToleranceTooWide
-            | Self::TooFewLevels
-            | Self::NotAsymptotic
-            | Self::Departs
-            | Self::LowerOrderLikely
-            | Self::Jump
-            | Self::RoundOffFloor
-            | Self::Digits
-            | Self::ConstantUnsure
-            | Self::Value
-            | Self::LeftOver
-            | Self::LevelsTooClose
-            | Self::IntervalTooWide
-            | Self::AtTheEdge => Verdict::Inconclusive,
-        }
+        self.row().verdict
     }
 
     /// Whether what the errors tend to says more than the reason: where they do not fall as claimed.
@@ -169,20 +108,9 @@ impl Reason {
             )
     }
 
-    /// Whether a finer level would probably decide.
+    /// Whether a finer level may decide.
     pub fn wants_a_level(self) -> bool {
-        matches!(
-            self,
-            Self::TooFewLevels
-                | Self::NotAsymptotic
-                | Self::Departs
-                | Self::LowerOrderLikely
-                | Self::LeftOver
-                | Self::ConstantUnsure
-                | Self::LevelsTooClose
-                | Self::IntervalTooWide
-                | Self::AtTheEdge
-        )
+        self.row().wants_a_level
     }
 
     /// Whether a failure for this reason is none of the rule's estimates, so that no finer level can
@@ -196,69 +124,12 @@ impl Reason {
 
     /// The short code for looking up the reason: the same in every output.
     pub fn code(self) -> &'static str {
-        self.words()[0]
+        self.row().code
     }
 
     /// The reason in words.
     pub fn text(self) -> &'static str {
-        self.words()[1]
-    }
-
-    /// What the reason means, and what to do next.
-    pub fn advice(self) -> &'static str {
-        self.words()[2]
-    }
-
-    /// The mathematics of the reason, and what to try, most promising first.
-    pub fn mathematics(self) -> &'static str {
-        match self {
-            Self::TooLow | Self::ErrorGrows | Self::NotAsymptotic | Self::LowerOrderLikely => {
-                "The error is e(h) = C h^p + D h^q + ...; the rate between two steps tends to the smallest exponent with a coefficient \
-                 that is not zero. What is lost tells what is wrong. Half an order: a singular solution, a boundary or initial layer, \
-                 data that do not match at a corner, a maximum norm. One order: a term at the wrong time level or point, a one-sided \
-                 difference at the boundary, a rule that is too weak for the load, a derivative measured in place of the function, a \
-                 first step of lower order repeated at every restart. All of it, a rate of 0: a term is missing or has the wrong sign or \
-                 coefficient, so that e tends to a constant. A rate below 0: the scheme is unstable. To try, in this order: one level \
-                 coarser and one finer; the other errors of the same run, for the field that lost most is next to the cause; terms \
-                 switched off one by one, until the order is back; a solution that is a polynomial in the discrete space, whose error \
-                 must be round-off; the residual of the exact solution in the discrete equations."
-            }
-            Self::FallsAway | Self::Departs | Self::WrongLimit | Self::LeftOver | Self::Value => {
-                "A plateau: e(h) = |E + C h^p| with E that does not depend on h. The rates are p - log2 of something that doubles 2^p \
-                 times as fast as the error falls: they leave p within one or two levels, then are 0. E is what does not change with the \
-                 step. To try, in this order: a tenth of the solver's tolerance (E falls with it); the other step halved (E falls by its \
-                 order: isolate the axis, or couple the steps); a finer reference; double precision, where the plateau rises again as \
-                 h falls, like 1/h or 1/h^2: round-off. If nothing moves E, it is a wrong coefficient: e(h) - e(h/2) still has order p."
-            }
-            Self::TooHigh | Self::ZeroError => {
-                "A scheme converges faster than its order only where the leading coefficient C vanishes: by symmetry, on an equidistant \
-                 mesh, at points of superconvergence, for a polynomial, or before the coarse levels resolve the solution (D h^q with \
-                 q > p is still larger). To try: a solution without symmetry; a mapped or perturbed mesh; a norm that is not taken at \
-                 nodes; finer levels, until C h^p is the larger one. If it stays, claim the higher order."
-            }
-            Self::ConstantOff | Self::ConstantUnsure => {
-                "e(h) = C h^p with the right p: what is wrong is itself of order p. A factor 2 in C is a weight of a quadrature or a half \
-                 of a coefficient; a factor 2^p a step taken for its half; anything else a norm that is another one. To try: the same \
-                 level by hand, or by an independent program; the local truncation error, term by term."
-            }
-            Self::NoResult | Self::NonFiniteError | Self::NegativeError => {
-                "No rate can be had from what is no error. A run that breaks down on coarse levels alone meets a step restriction \
-                 (dt <= C h or C h^2); on fine ones alone a lost pivot, a Jacobian that is not the derivative, or a tolerance below \
-                 round-off; on all levels an instability or missing data. To try: the first step of the coarsest failing level; the same \
-                 with a tenth of dt; the energy step by step, which shows the step at which it begins."
-            }
-            Self::RoundOffFloor | Self::Digits => {
-                "Subtraction leaves an error of about 1e-16 times the condition of the problem, which grows like 1/h or 1/h^2: the sum \
-                 C h^p + eps/h^k has a minimum, and levels beyond it say nothing. To try: coarser levels; a larger solution error by \
-                 a less smooth solution; more digits in the output."
-            }
-            _ => {
-                "From levels h_1 > h_2 > ... the rate at h -> 0 is fitted, with the next term of e(h) = C h^p (1 + a h^r) unknown: the \
-                 interval holds every p that some such law gives. It narrows like the finest h^r, and with the number of levels. To \
-                 try: a finer level, which is worth more than three coarse ones; steps in one fixed ratio; an error without changes \
-                 of sign; then a wider tolerance, below half an order."
-            }
-        }
+        self.row().text
     }
 
     /// The reason in brief, as after a rate and its claim:
@@ -271,177 +142,325 @@ impl Reason {
         }
     }
 
-    /// Code, reason and advice.
-    #[expect(clippy::too_many_lines, reason = "a table")]
-    fn words(self) -> [&'static str; 3] {
-        match self {
-            Self::Agrees => [
-                "agrees",
-                "the rate agrees with the order",
-                "The whole interval of the rate lies within the tolerance of the order.",
-            ],
-            Self::NoResult => [
-                "no-result",
-                "a level has no result",
-                "A case failed, or its answer lacks the error. The rate is that of the levels that have \
-                 one; it decides nothing. Mend that case.",
-            ],
-            Self::NonFiniteError => [
-                "non-finite",
-                "an error is NaN or infinite",
-                "An error is NaN or infinite: a case broke down, or did not come to its end. Mend that \
-                 case.",
-            ],
-            Self::NegativeError => [
-                "negative",
-                "an error is negative",
-                "An error is negative, which no norm can be: a sign was lost, or a difference was given.",
-            ],
-            Self::ErrorGrows => [
-                "grows",
-                "the error does not fall on the finest refinement",
-                "Refining does not make the error smaller, though it is above the round-off floor: no \
-                 convergence. Are the levels those of these errors, and is the exact solution that of the \
-                 problem?",
-            ],
-            Self::FallsAway => [
-                "falls-away",
-                "the rates fall away from the order",
-                "The finest rates fall, by more than half an order: the error tends to a limit that is \
-                 not zero, or to a lower order. Look for what does not change with the step: the \
-                 reference, the solver's tolerance, round-off (set a floor), the error of the other axis.",
-            ],
-            Self::WrongLimit => [
-                "limit",
-                "the errors tend to a wrong limit",
-                "The errors fall with h and dt as claimed, towards a number that is not zero. Look for \
-                 what changes with neither: the reference, the solver's tolerance, a wrong coefficient, a \
-                 third step.",
-            ],
-            Self::TooLow => [
-                "too-low",
-                "the rate is too low",
-                "The whole interval lies below the band: an order is lost. Look for a term of lower \
-                 order: boundary or initial data, the quadrature, the first step, a coefficient at the \
-                 wrong time.",
-            ],
-            Self::TooHigh => [
-                "too-high",
-                "the rate is too high",
-                "The whole interval lies above the band: the exact solution may be too simple, or the \
-                 error not the one that was meant.",
-            ],
-            Self::ConstantOff => [
-                "constant",
-                "the constant is outside its interval",
-                "The order agrees, and the error is a multiple of the one claimed: a mistake of the \
-                 scheme's own order, such as a factor in a term or in the norm.",
-            ],
-            Self::ZeroError => [
-                "zero",
-                "an error of exactly zero carries no rate",
-                "An error of exactly zero has no logarithm: the solution lies in the discrete space. \
-                 Choose another one, or claim that it is exact.",
-            ],
-            Self::StepsNotDecreasing => [
-                "steps",
-                "the step sizes are not positive and decreasing",
-                "Levels must be given coarse to fine, each once.",
-            ],
-            Self::NotClaimed => [
-                "unclaimed",
-                "no order is claimed",
-                "Where no order is claimed, none is confirmed. Claim what theory says.",
-            ],
-            Self::ClaimUnusable => [
-                "claim",
-                "the order and the tolerance must be positive numbers",
-                "The order and the tolerance must be positive numbers.",
-            ],
-            Self::ToleranceTooWide => [
-                "tolerance",
-                "the tolerance is too wide to tell anything",
-                "Half an order or more on either side accepts two integer orders. Claim more narrowly.",
-            ],
-            Self::TooFewLevels => [
-                "levels",
-                "too few levels",
-                "A rate with an interval needs three levels above the round-off floor; four or more make \
-                 the interval narrow.",
-            ],
-            Self::NotAsymptotic => [
-                "asymptotic",
-                "not yet asymptotic",
-                "The rates are still changing. Add finer levels; where they scatter, take an error that \
-                 does not change its sign.",
-            ],
-            Self::Departs => [
-                "departs",
-                "the rates move away",
-                "The rates change more and more: a term of lower order, or a wrong limit, is about to \
-                 show. Add a finer level; look for what does not change with the step: the reference, the \
-                 solver's tolerance, the error of the other axis.",
-            ],
-            Self::LowerOrderLikely => [
-                "lower-order",
-                "a lower order may hide in the scatter",
-                "A term of lower order explains the errors five times as well as the order claimed. Add finer \
-                 levels, where it shows or does not, or take errors that scatter less: a tighter tolerance of \
-                 the solver, the mean over shifted meshes.",
-            ],
-            Self::Jump => [
-                "jump",
-                "a rate does not belong to its neighbours",
-                "One rate is far from those before and after it, which agree: another table begins there, the \
-                 unit changes, or a level is wrong. Judge the parts by themselves, or mend that level.",
-            ],
-            Self::RoundOffFloor => [
-                "floor",
-                "at the round-off floor",
-                "Errors so small are taken for round-off. Add coarser levels, or set a lower floor where \
-                 they are known better.",
-            ],
-            Self::Digits => [
-                "digits",
-                "too few digits",
-                "The errors are given with too few digits for a rate that is known so well. Print more of \
-                 them.",
-            ],
-            Self::ConstantUnsure => [
-                "constant-edge",
-                "the constant may be outside its interval",
-                "The order agrees, and the interval of the constant holds an end of the one claimed. Add a finer level, or claim less narrowly.",
-            ],
-            Self::Value => [
-                "value",
-                "a value, not an error",
-                "The numbers tend to a value: they are no errors. Judge their differences, or subtract \
-                 the exact value.",
-            ],
-            Self::LeftOver => [
-                "left-over",
-                "h and dt may leave a part of the errors",
-                "Both orders agree, and do not explain the finest error. Add finer levels: either it is a \
-                 limit that is not zero, or the rates are not known well enough.",
-            ],
-            Self::LevelsTooClose => [
-                "close",
-                "the levels are too close to each other",
-                "The coarsest step is less than 1.5 times the finest: a term of lower order would not \
-                 show. Refine further.",
-            ],
-            Self::IntervalTooWide => [
-                "wide",
-                "the interval is too wide for the tolerance",
-                "The errors leave their order open by more than this tolerance: they scatter, or approach \
-                 it slowly. Add levels, take an error that does not change its sign, or claim less narrowly.",
-            ],
-            Self::AtTheEdge => [
-                "edge",
-                "the interval crosses the edge of the tolerance",
-                "The interval is narrow, but holds an end of the band: the claim is neither confirmed nor \
-                 refuted.",
-            ],
+    /// What the reason means, and what to do next.
+    pub fn advice(self) -> &'static str {
+        self.row().advice
+    }
+
+    /// The mathematics of the reason, and what to try, most promising first.
+    pub fn mathematics(self) -> &'static str {
+        self.row().mathematics
+    }
+
+    /// The rows are in the order of the enumeration.
+    fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+}
+
+/// What is said about a reason.
+struct Row {
+    reason: Reason,
+    verdict: Verdict,
+    wants_a_level: bool,
+    code: &'static str,
+    text: &'static str,
+    advice: &'static str,
+    mathematics: &'static str,
+}
+
+static ROWS: [Row; 28] = [
+    Row {
+        reason: Reason::Agrees,
+        verdict: Verdict::Pass,
+        wants_a_level: false,
+        code: "agrees",
+        text: "the rate agrees with the order",
+        advice: "The whole interval of the rate lies within the tolerance of the order.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::NoResult,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "no-result",
+        text: "a level has no result",
+        advice: "A case failed, or its answer lacks the error. The rate is that of the levels that have \
+              one; it decides nothing. Mend that case.",
+        mathematics: NO_ERROR,
+    },
+    Row {
+        reason: Reason::NonFiniteError,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "non-finite",
+        text: "an error is NaN or infinite",
+        advice: "An error is NaN or infinite: a case broke down, or did not come to its end. Mend that \
+              case.",
+        mathematics: NO_ERROR,
+    },
+    Row {
+        reason: Reason::NegativeError,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "negative",
+        text: "an error is negative",
+        advice: "An error is negative, which no norm can be: a sign was lost, or a difference was given.",
+        mathematics: NO_ERROR,
+    },
+    Row {
+        reason: Reason::ErrorGrows,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "grows",
+        text: "the error does not fall on the finest refinement",
+        advice: "Refining does not make the error smaller, though it is above the round-off floor: no \
+              convergence. Are the levels those of these errors, and is the exact solution that of the \
+              problem?",
+        mathematics: LOST_ORDER,
+    },
+    Row {
+        reason: Reason::FallsAway,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "falls-away",
+        text: "the rates fall away from the order",
+        advice: "The finest rates fall, by more than half an order: the error tends to a limit that is \
+              not zero, or to a lower order. Look for what does not change with the step: the \
+              reference, the solver's tolerance, round-off (set a floor), the error of the other axis.",
+        mathematics: PLATEAU,
+    },
+    Row {
+        reason: Reason::WrongLimit,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "limit",
+        text: "the errors tend to a wrong limit",
+        advice: "The errors fall with h and dt as claimed, towards a number that is not zero. Look for \
+              what changes with neither: the reference, the solver's tolerance, a wrong coefficient, a \
+              third step.",
+        mathematics: PLATEAU,
+    },
+    Row {
+        reason: Reason::TooLow,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "too-low",
+        text: "the rate is too low",
+        advice: "The whole interval lies below the band: an order is lost. Look for a term of lower \
+              order: boundary or initial data, the quadrature, the first step, a coefficient at the \
+              wrong time.",
+        mathematics: LOST_ORDER,
+    },
+    Row {
+        reason: Reason::TooHigh,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "too-high",
+        text: "the rate is too high",
+        advice: "The whole interval lies above the band: the exact solution may be too simple, or the \
+              error not the one that was meant.",
+        mathematics: TOO_FAST,
+    },
+    Row {
+        reason: Reason::ConstantOff,
+        verdict: Verdict::Fail,
+        wants_a_level: false,
+        code: "constant",
+        text: "the constant is outside its interval",
+        advice: "The order agrees, and the error is a multiple of the one claimed: a mistake of the \
+              scheme's own order, such as a factor in a term or in the norm.",
+        mathematics: OTHER_CONSTANT,
+    },
+    Row {
+        reason: Reason::ZeroError,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "zero",
+        text: "an error of exactly zero carries no rate",
+        advice: "An error of exactly zero has no logarithm: the solution lies in the discrete space. \
+              Choose another one, or claim that it is exact.",
+        mathematics: TOO_FAST,
+    },
+    Row {
+        reason: Reason::StepsNotDecreasing,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "steps",
+        text: "the step sizes are not positive and decreasing",
+        advice: "Levels must be given coarse to fine, each once.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::NotClaimed,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "unclaimed",
+        text: "no order is claimed",
+        advice: "Where no order is claimed, none is confirmed. Claim what theory says.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::ClaimUnusable,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "claim",
+        text: "the order and the tolerance must be positive numbers",
+        advice: "The order and the tolerance must be positive numbers.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::ToleranceTooWide,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "tolerance",
+        text: "the tolerance is too wide to tell anything",
+        advice: "Half an order or more on either side accepts two integer orders. Claim more narrowly.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::TooFewLevels,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "levels",
+        text: "too few levels",
+        advice: "A rate with an interval needs three levels above the round-off floor; four or more make \
+              the interval narrow.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::NotAsymptotic,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "asymptotic",
+        text: "not yet asymptotic",
+        advice: "The rates are still changing. Add finer levels; where they scatter, take an error that \
+              does not change its sign.",
+        mathematics: LOST_ORDER,
+    },
+    Row {
+        reason: Reason::Departs,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "departs",
+        text: "the rates move away",
+        advice: "The rates change more and more: a term of lower order, or a wrong limit, is about to \
+              show. Add a finer level; look for what does not change with the step: the reference, the \
+              solver's tolerance, the error of the other axis.",
+        mathematics: PLATEAU,
+    },
+    Row {
+        reason: Reason::LowerOrderLikely,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "lower-order",
+        text: "a lower order may hide in the scatter",
+        advice: "A term of lower order explains the errors five times as well as the order claimed. Add finer \
+              levels, where it shows or does not, or take errors that scatter less: a tighter tolerance of \
+              the solver, the mean over shifted meshes.",
+        mathematics: LOST_ORDER,
+    },
+    Row {
+        reason: Reason::Jump,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "jump",
+        text: "a rate does not belong to its neighbours",
+        advice: "One rate is far from those before and after it, which agree: another table begins there, the \
+              unit changes, or a level is wrong. Judge the parts by themselves, or mend that level.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::RoundOffFloor,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "floor",
+        text: "at the round-off floor",
+        advice: "Errors so small are taken for round-off. Add coarser levels, or set a lower floor where \
+              they are known better.",
+        mathematics: ROUND_OFF,
+    },
+    Row {
+        reason: Reason::Digits,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "digits",
+        text: "too few digits",
+        advice: "The errors are given with too few digits for a rate that is known so well. Print more of \
+              them.",
+        mathematics: ROUND_OFF,
+    },
+    Row {
+        reason: Reason::ConstantUnsure,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "constant-edge",
+        text: "the constant may be outside its interval",
+        advice: "The order agrees, and the interval of the constant holds an end of the one claimed. Add a finer level, or claim less narrowly.",
+        mathematics: OTHER_CONSTANT,
+    },
+    Row {
+        reason: Reason::Value,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "value",
+        text: "a value, not an error",
+        advice: "The numbers tend to a value: they are no errors. Judge their differences, or subtract \
+              the exact value.",
+        mathematics: PLATEAU,
+    },
+    Row {
+        reason: Reason::LeftOver,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "left-over",
+        text: "h and dt may leave a part of the errors",
+        advice: "Both orders agree, and do not explain the finest error. Add finer levels: either it is a \
+              limit that is not zero, or the rates are not known well enough.",
+        mathematics: PLATEAU,
+    },
+    Row {
+        reason: Reason::LevelsTooClose,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "close",
+        text: "the levels are too close to each other",
+        advice: "The coarsest step is less than 1.5 times the finest: a term of lower order would not \
+              show. Refine further.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::IntervalTooWide,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "wide",
+        text: "the interval is too wide for the tolerance",
+        advice: "The errors leave their order open by more than this tolerance: they scatter, or approach \
+              it slowly. Add levels, take an error that does not change its sign, or claim less narrowly.",
+        mathematics: NEXT_TERM,
+    },
+    Row {
+        reason: Reason::AtTheEdge,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: true,
+        code: "edge",
+        text: "the interval crosses the edge of the tolerance",
+        advice: "The interval is narrow, but holds an end of the band: the claim is neither confirmed nor \
+              refuted.",
+        mathematics: NEXT_TERM,
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_reason_has_its_row() {
+        for (place, reason) in Reason::all().enumerate() {
+            assert_eq!(reason as usize, place, "{reason:?}");
+            assert_eq!(Reason::try_from(reason.code().to_owned()), Ok(reason));
         }
+        assert_eq!(Reason::AtTheEdge as usize + 1, ROWS.len());
     }
 }

@@ -156,6 +156,19 @@ fn misbehave(token: &str, mode: &str, n: u32) {
                 .spawn()
                 .unwrap(),
         ),
+        // Its child has another session, no parent of the case and no environment.
+        "daemon" => daemon(token),
+        "daemon-hang" => {
+            daemon(token);
+            hang()
+        }
+        // The guard is its parent.
+        "kill-guard" => {
+            drop(start(token, "hang").spawn().unwrap());
+            let guard = nix::unistd::Pid::from_raw(std::os::unix::process::parent_id() as i32);
+            nix::sys::signal::kill(guard, Signal::SIGKILL).unwrap();
+            hang()
+        }
         "flood" => flood(),
         "read" => {
             let mut text = String::new();
@@ -166,6 +179,18 @@ fn misbehave(token: &str, mode: &str, n: u32) {
             );
         }
         _ => {}
+    }
+}
+
+/// Starts a process that has cut every tie but its descent; waits until it is there.
+fn daemon(token: &str) {
+    let script = r#"(setsid env -i sh -c 'echo > started; sleep 318; : "$1"' sh "$1" &)"#;
+    let status = Command::new("sh")
+        .args(["-c", script, "sh", token])
+        .status();
+    assert!(status.unwrap().success());
+    while !std::path::Path::new("started").exists() {
+        sleep(Duration::from_millis(1));
     }
 }
 

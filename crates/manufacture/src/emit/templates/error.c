@@ -2,7 +2,7 @@ double @P@error_@F@_@NORM@(
     size_t m, const double x[], const double weights[]@T@, const double values[])
 {
     double sum = 0.0;
-    for (size_t k = 0; k < m; ++k) {
+@UNUSED@    for (size_t k = 0; k < m; ++k) {
         double value[@N@];
         @CALL@
         for (int j = 0; j < @N@; ++j) {

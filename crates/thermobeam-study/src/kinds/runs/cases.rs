@@ -73,15 +73,21 @@ pub enum End {
     IterationLimit,
     /// At a step with numbers that are not finite.
     NotFinite,
+    /// After its last step, with a balance of the energy that is open: a study of the energy claims it.
+    Unbalanced,
 }
 
 impl End {
+    /// Those of a run that a step has ended.
+    pub const FAILURES: [End; 3] = [End::Indefinite, End::IterationLimit, End::NotFinite];
+
     /// All ends, with their names in study files and reports.
-    pub const ALL: [(&str, End); 4] = [
+    pub const ALL: [(&str, End); 5] = [
         ("answer", End::Answer),
         ("indefinite", End::Indefinite),
         ("iteration-limit", End::IterationLimit),
         ("not-finite", End::NotFinite),
+        ("unbalanced", End::Unbalanced),
     ];
 
     /// The end of a run.

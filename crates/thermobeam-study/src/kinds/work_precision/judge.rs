@@ -81,11 +81,12 @@ impl Ratio<'_> {
         Check::that(ratio >= self.times && ratio.is_finite(), claim, evidence).about(self.subject())
     }
 
-    /// The work of the dearer method, at the error of the target.
+    /// The work of the dearer method against that of the other, at the error of the target.
     fn subject(&self) -> Subject {
         let Target { measure, error, .. } = self.target;
         Subject::of(format!("work, {}", measure.name()))
             .by(self.dear.name)
+            .against(self.cheap.name)
             .at(format!("{error:e}"))
     }
 }

@@ -21,7 +21,7 @@ const ANSWERS: Key = Key::new(
 );
 const FAILS: Key = Key::new(
     "ends",
-    Form::Choice(|| End::ALL[1..].iter().map(|(name, _)| *name).collect()),
+    Form::Choice(|| End::FAILURES.map(End::name).to_vec()),
     "how its run must end",
 );
 const ANSWER: Key = Key::new(

@@ -32,7 +32,9 @@
 //! t_end = 1.0
 //! ```
 
+mod contact;
 mod file;
+mod norm;
 mod shown;
 
 use super::cases::{ClaimedScene, named_cases};
@@ -44,7 +46,8 @@ use crate::kinds::tables::cost_of_run;
 use crate::predict::Work;
 use crate::predict::choice::{Quantity as Accuracy, choose};
 use crate::predict::estimate::estimate;
-use crate::run::together::run_together;
+use crate::run::together::{Together, run_together};
+use contact::ContactCount;
 use shown::{NamedNumbers, STEADY, listed, unsolved};
 
 pub use shown::{COUNTS, NUMBERS, Shown};
@@ -159,13 +162,13 @@ impl Runs for Scenes {
     fn run(&self, place: &usize) -> Result<Shown, CaseFailure> {
         let whole = &self.scenes[*place];
         let scene = &whole.case.scene;
-        let shown =
-            Shown::of(&Simulator::new(scene)?.run(Recording::Curve(TIMES), &mut |_, _| ()))?;
-        let lanes = run_together(std::slice::from_ref(scene))?;
-        let lane = lanes.first().map(Shown::of).transpose()?;
+        let mut count = ContactCount::new(scene);
+        let run = Simulator::new(scene)?.watched(Recording::Curve(TIMES), &[], &mut count);
+        let shown = Shown::of(&run)?;
         let unsolved = whole.most.unsolved.map(|_| unsolved(scene)).transpose()?;
         Ok(Shown {
-            alike_in_lanes: lane.map(|lane| lane.has_the_bits_of(&shown)),
+            alike_in_lanes: self.alike_in_lanes(*place, &shown)?,
+            miscounted: count.miscounted(),
             others: whole.others()?,
             unsolved,
             ..shown
@@ -221,6 +224,7 @@ impl Runs for Scenes {
             checks.extend(whole.most.checks(&whole.case.name, shown));
         }
         checks.push(alike_in_lanes(&shown));
+        checks.push(contacts_counted(&shown));
         let mut headline = format!("{} scenes", shown.len());
         let strains = shown
             .iter()
@@ -316,6 +320,40 @@ impl Most {
     }
 }
 
+impl Scenes {
+    /// Whether a scene has the bits of `shown` in lanes: by itself, and in groups of all scenes of
+    /// the study that can share a group, each of which is once the first; `None` where it can only
+    /// run alone.
+    fn alike_in_lanes(&self, place: usize, shown: &Shown) -> Result<Option<bool>, CaseFailure> {
+        let scene = |place: usize| &self.scenes[place].case.scene;
+        let Some(common) = Together::of(scene(place)) else {
+            return Ok(None);
+        };
+        let mut sharing: Vec<usize> = (0..self.scenes.len())
+            .filter(|&other| Together::of(scene(other)) == Some(common))
+            .collect();
+        let mut is_alike = is_alike_in(&[scene(place).clone()], 0, shown)?;
+        let orders = match sharing.len() {
+            1 => 0,
+            count => count,
+        };
+        for _ in 0..orders {
+            sharing.rotate_left(1);
+            let scenes: Vec<Scene> = sharing.iter().map(|&other| scene(other).clone()).collect();
+            let lane = sharing.iter().position(|&other| other == place);
+            is_alike &= is_alike_in(&scenes, lane.unwrap_or(0), shown)?;
+        }
+        Ok(Some(is_alike))
+    }
+}
+
+/// Whether the scene of this lane has the bits of `shown`.
+fn is_alike_in(scenes: &[Scene], lane: usize, shown: &Shown) -> Result<bool, CaseFailure> {
+    let runs = run_together(scenes)?;
+    let found = runs.get(lane).map(Shown::of).transpose()?;
+    Ok(found.is_some_and(|found| found.has_the_bits_of(shown)))
+}
+
 impl Whole {
     fn check(&self, shown: &Shown) -> Check {
         let ClaimedScene {
@@ -384,8 +422,27 @@ fn alike_in_lanes(shown: &[(&Whole, &Shown)]) -> Check {
         apart.join(", ")
     );
     all(
-        "in lanes, in a group that is not full, each scene that can run so has the same bits",
+        "in lanes, by itself and in each group that it can share, each scene has the same bits",
         Subject::of("lanes"),
         [Condition::that(compared > 0 && apart.is_empty(), evidence)],
+    )
+}
+
+fn contacts_counted(shown: &[(&Whole, &Shown)]) -> Check {
+    let mut wrong = vec![];
+    for (whole, shown) in shown {
+        if shown.miscounted.is_some_and(|steps| steps > 0) {
+            wrong.push(whole.case.name.as_str());
+        }
+    }
+    let evidence = format!(
+        "{} scenes with other counts: {}",
+        wrong.len(),
+        wrong.join(", ")
+    );
+    all(
+        "a step of a one-step scheme counts as one in contact where the free end has passed an obstacle",
+        Subject::of("contact").by(ItemMethod::OneStep),
+        [Condition::that(wrong.is_empty(), evidence)],
     )
 }

@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use crate::error::reference::distance;
 use crate::kinds::prelude::*;
 use crate::kinds::runs::cases::End;
 use crate::kinds::runs::watch::SOLVED;
 use crate::run::tally::Extremes;
+
+use super::norm::OwnNorm;
 
 /// Numbers by their names: some of [`NUMBERS`] and of [`super::PREDICTED`], and those of lists of
 /// pairs.
@@ -50,9 +51,11 @@ pub struct Shown {
     pub numbers: [f64; NUMBERS.len()],
     /// Counts, in the order of [`COUNTS`].
     pub counts: [usize; COUNTS.len()],
-    /// Whether the scene has the same bits in a lane of a group that is not full; `None` where it
-    /// can only run alone.
+    /// Whether the scene has the same bits in lanes, by itself and in each group that it can share;
+    /// `None` where it can only run alone.
     pub alike_in_lanes: Option<bool>,
+    /// Steps whose contact is counted wrongly; `None` for the scheme of any order.
+    pub miscounted: Option<usize>,
     /// `(t, u(1, t))`.
     pub tip: Vec<(f64, f64)>,
     /// Beginning and end of each contact.
@@ -141,6 +144,7 @@ impl Shown {
                 contact,
             ],
             alike_in_lanes: None,
+            miscounted: None,
             tip: run.tip(),
             contact: run.contact_phases(),
             others: vec![],
@@ -171,7 +175,7 @@ pub(super) fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
         .iter()
         .map(|x| scene.beam.theta_a * (1.0 - x))
         .collect();
-    let lengths: Vec<f64> = scene.mesh.lengths().collect();
+    let norm = OwnNorm::new(&scene.mesh);
     let mut driver = Driver::new(problem.clone(), stepping)?;
     let mut farthest = 0.0;
     let mut solve_again = |driver: &mut Driver<'_>, _: &Report| {
@@ -192,7 +196,7 @@ pub(super) fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
         };
         let mut same = Driver::new(problem.clone(), solved)?;
         run_to(&mut same, solved.dt, |_, _| ())?;
-        farthest = max_or_nan(farthest, distance(&lengths, driver.level(), same.level()));
+        farthest = max_or_nan(farthest, norm.of_difference(driver.level(), same.level()));
         Ok(ControlFlow::Continue(()))
     };
     run(&mut driver, scene.t_end, &[], &mut [&mut solve_again])?;

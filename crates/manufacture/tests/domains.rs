@@ -1,0 +1,305 @@
+//! Domains: free of poles by proof, a pole with its place, or undecided.
+
+use manufacture::{InputError, Manufacture, Sampling};
+use proptest::prelude::*;
+
+use crate::files::{check, found, plane};
+
+/// A stationary file on a box with sides `[0, 1]` under these names.
+fn unit_box(coordinates: &[&str], exact: &str, equation: &str) -> String {
+    let names: Vec<String> = coordinates
+        .iter()
+        .map(|name| format!("\"{name}\""))
+        .collect();
+    let sides: Vec<String> = coordinates
+        .iter()
+        .map(|name| format!("{name} = [0, 1]\n"))
+        .collect();
+    format!(
+        "[manufacture]\nname = \"test\"\ncoordinates = [{}]\n[domain]\n{}[exact]\nu = \"{exact}\"\n\
+         [equations]\na = \"{equation}\"\n",
+        names.join(", "),
+        sides.concat()
+    )
+}
+
+/// The error of a check that must refuse its file.
+#[track_caller]
+fn refused(text: &str) -> InputError {
+    let sampling = Sampling {
+        points: 20,
+        ..Sampling::default()
+    };
+    match Manufacture::parse(text, "test.toml")
+        .unwrap()
+        .check(&sampling)
+    {
+        Ok(check) => panic!("accepted: {text}\n{check:#?}"),
+        Err(error) => error,
+    }
+}
+
+#[track_caller]
+fn is_refused(text: &str, words: &[&str]) {
+    let message = refused(text).to_string();
+    for word in words {
+        assert!(message.contains(word), "`{word}` in {message}");
+    }
+}
+
+#[test]
+fn a_pole_in_the_middle_is_refused_with_its_place_in_the_file() {
+    let error = refused(&unit_box(&["x"], "1/(x - 0.5)", "d(u, x)"));
+    assert_eq!((error.line, error.column), (7, 9));
+    assert_eq!(
+        error.to_string(),
+        "test.toml:7:9: exact.u: a pole inside the domain: `x - 0.5` is zero at about x = 0.500000; \
+         expected a divisor that is zero nowhere\n    1/(x - 0.5)\n       ^"
+    );
+}
+
+#[test]
+fn poles_are_found_in_two_and_three_dimensions() {
+    // Points, curves and surfaces, at numbers that are no fractions of two.
+    is_refused(
+        &unit_box(&["x", "y"], "1/((x - 0.3)^2 + (y - 0.7)^2)", "u"),
+        &["a pole inside", "x = 0.300000, y = 0.700000"],
+    );
+    is_refused(
+        &unit_box(&["x", "y"], "exp(x)/(x^2 + y^2 - 0.5)", "u"),
+        &["a pole inside", "`x^2 + y^2 - 0.5`"],
+    );
+    is_refused(
+        &unit_box(
+            &["x", "y", "z"],
+            "1/sqrt((x - 0.1)^2 + (y - 0.2)^2 + (z - 0.9)^2)",
+            "u",
+        ),
+        &["a pole inside", "x = 0.100000, y = 0.200000, z = 0.900000"],
+    );
+    is_refused(
+        &unit_box(&["x", "y", "z"], "sin(x)", "u + 1/(x - y*z)"),
+        &["equations.a: a pole inside", "`x - y*z`"],
+    );
+}
+
+#[test]
+fn a_pole_only_in_time_is_found() {
+    let text = "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\nt = [0, 2]\n\
+                [exact]\nu = \"sin(x)/(t - 0.7)\"\n[equations]\na = \"dt(u)\"\n";
+    is_refused(
+        text,
+        &["exact.u", "`t - 0.7` is zero at about t = 0.700000;"],
+    );
+}
+
+#[test]
+fn logarithms_roots_and_others_are_refused_where_they_have_no_value() {
+    for (expression, words) in [
+        ("ln(x - 0.3)", "`x - 0.3` is not positive"),
+        ("log10(x - 0.999)", "`x - 0.999` is not positive"),
+        ("sqrt(x - 0.001)", "`x - 0.001` is negative"),
+        ("(x - 0.001)^1.5", "`x - 0.001` is negative"),
+        ("asin(1.0001*x)", "`1.0001*x` is not between -1 and 1"),
+        ("tan(3*x)", "`3*x` has no tangent at about x = 0.523599"),
+        ("(x - 0.3)^-2", "`x - 0.3` is zero at about x = 0.300000"),
+        (
+            "tanh(x)/(x*(x - 0.3))",
+            "`x*(x - 0.3)` is zero at about x = 0.300000",
+        ),
+    ] {
+        is_refused(
+            &unit_box(&["x", "y"], expression, "u + y"),
+            &["exact.u", words],
+        );
+    }
+}
+
+/// A narrow range that random points miss.
+#[test]
+fn what_random_points_miss_is_found() {
+    is_refused(
+        &unit_box(&["x", "y"], "sqrt((x - 0.5)^2 + (y - 0.5)^2 - 1e-7)", "u"),
+        &["is negative", "x = 0.5"],
+    );
+}
+
+/// The exact solution must be bounded up to the boundary; a source need not be.
+#[test]
+fn a_pole_at_a_face_is_refused_in_the_solution_and_noted_elsewhere() {
+    is_refused(
+        &unit_box(&["x"], "1/x", "u"),
+        &["a pole on the boundary of the domain", "x = 0.000000"],
+    );
+    is_refused(
+        &unit_box(&["x"], "ln(1 - x)", "u"),
+        &["no value on the boundary", "x = 1.000000"],
+    );
+    let check = check(&unit_box(&["x"], "x^1.5", "d(u, x, x) + exp(x)"));
+    let notes = found(&check, "pole");
+    assert_eq!(notes.len(), 1);
+    assert!(
+        notes
+            .iter()
+            .any(|note| !note.fails && note.text.contains("x = 0.000000")),
+        "{check:#?}"
+    );
+    assert_eq!(check.verdict, "pass");
+    // The solution is bounded, its gradient is not.
+    let check = crate::files::check(&unit_box(&["x"], "sqrt(x)", "u + exp(x)"));
+    let note = &found(&check, "pole")[0].text;
+    assert!(
+        note.starts_with("the gradient of u: a pole on the boundary"),
+        "{note}"
+    );
+}
+
+#[test]
+fn a_removable_singularity_is_undecided() {
+    let check = check(&unit_box(&["x"], "sin(x)/x", "u + exp(x)"));
+    let notes = found(&check, "undecided");
+    assert!(
+        notes[0]
+            .text
+            .starts_with("the exact u: 0/0 at about x = 0.000000, where `x` is zero"),
+        "{check:#?}"
+    );
+    assert_eq!((notes[0].key.as_str(), check.verdict), ("exact.u", "pass"));
+    let inside = unit_box(&["x"], "sin(x - 0.3)/(x - 0.3)", "u + exp(x)");
+    let check = crate::files::check(&inside);
+    assert!(
+        found(&check, "undecided")[0].text.contains("x = 0.300000"),
+        "{check:#?}"
+    );
+}
+
+#[test]
+fn a_domain_that_is_free_of_poles_has_no_note() {
+    for (exact, equation) in [
+        ("1/(x - 1.2)", "laplacian(u)"),
+        ("(x - 0.2)^1.5*(y - 0.3)^2", "u"),
+        ("ln(x*y)/(2 + sin(9*x))", "laplacian(u)"),
+        ("atan(y/x)*sqrt(x^2 + y^2)", "laplacian(u) + u"),
+        ("(x^2 + y^2 - 0.1)^0.5", "laplacian(u) + u"),
+        ("sqrt(abs(x - 0.5))*0 + exp(x)", "u"),
+        ("where(x > 0.5, ln(x - 0.4), y)", "u"),
+        ("1/max(x - 0.5, 0.1)", "u"),
+    ] {
+        let check = check(&plane(
+            &format!("u = \"{exact}\""),
+            "",
+            &format!("a = \"{equation} + y\""),
+        ));
+        for code in ["undecided", "pole"] {
+            assert!(found(&check, code).is_empty(), "{exact}: {check:#?}");
+        }
+    }
+}
+
+/// A hole that a level cuts out takes the pole away; a smaller one does not.
+#[test]
+fn a_level_that_cuts_out_the_pole_makes_the_domain_free() {
+    let file = |radius: &str| {
+        let text = unit_box(
+            &["x", "y"],
+            "ln((x - 0.3)^2 + (y - 0.6)^2)",
+            "laplacian(u) + x*y",
+        );
+        format!(
+            "{text}[boundary.hole]\nlevel = \"{radius}^2 - (x - 0.3)^2 - (y - 0.6)^2\"\nu = \"u\"\n"
+        )
+    };
+    let sound = check(&file("0.1"));
+    assert!(found(&sound, "undecided").is_empty(), "{sound:#?}");
+    let other = file("0.1").replace("0.1^2 - (x - 0.3)", "0.1^2 - (x - 0.5)");
+    is_refused(&other, &["exact.u", "x = 0.300000, y = 0.600000"]);
+}
+
+/// Kinks that random points see on one side only.
+#[test]
+fn a_switch_that_random_points_miss_is_noted_with_its_place() {
+    let check = check(&plane(
+        "u = \"max(x - 1.0999999, 0) + exp(y)\"",
+        "",
+        "a = \"u\"",
+    ));
+    let notes = found(&check, "kink");
+    assert!(
+        notes
+            .iter()
+            .all(|note| note.text.contains("at about x = 1.1")),
+        "{check:#?}"
+    );
+    assert_eq!(notes.len(), 2);
+}
+
+type Argument = fn(f64, f64, [f64; 3]) -> f64;
+
+type IsMissing = fn(f64, f64) -> bool;
+
+/// An argument with two factors and a shift: on the square its least and largest values are known
+/// from samples.
+const ARGUMENTS: [(&str, Argument); 4] = [
+    ("A*x + B*y - C", |x, y, [a, b, c]| a * x + b * y - c),
+    ("A*x^2 + B*y^2 - C", |x, y, [a, b, c]| {
+        a * x * x + b * y * y - c
+    }),
+    ("sin(3*A*x)*cos(B*y) - C", |x, y, [a, b, c]| {
+        (3.0 * a * x).sin() * (b * y).cos() - c
+    }),
+    ("exp(A*x)*B - y*x - C", |x, y, [a, b, c]| {
+        (a * x).exp() * b - y * x - c
+    }),
+];
+
+/// The argument in a function, and whether it has no value for an argument from `lo` to `hi`.
+const FUNCTIONS: [(&str, IsMissing); 5] = [
+    ("1/(ARG)", |lo, hi| lo <= 0.0 && 0.0 <= hi),
+    ("ln(ARG)", |lo, _| lo <= 0.0),
+    ("sqrt(ARG)", |lo, _| lo < 0.0),
+    ("(ARG)^-3", |lo, hi| lo <= 0.0 && 0.0 <= hi),
+    ("asin(ARG)", |lo, hi| lo < -1.0 || hi > 1.0),
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// No false "free of poles", and no note where dense samples keep their distance.
+    #[test]
+    fn the_proof_agrees_with_dense_samples(
+        argument in 0..4usize, function in 0..5usize,
+        a in -200..200i32, b in -200..200i32, c in -300..300i32,
+    ) {
+        const CELLS: usize = 200;
+        let numbers = [a, b, c].map(|number| f64::from(number) / 100.0);
+        let (text, value) = ARGUMENTS[argument];
+        let (call, is_missing) = FUNCTIONS[function];
+        let [mut lo, mut hi] = [f64::INFINITY, f64::NEG_INFINITY];
+        for i in 0..=CELLS {
+            for j in 0..=CELLS {
+                let [x, y] = [i, j].map(|k| k as f64 / CELLS as f64);
+                let sample = value(x, y, numbers);
+                lo = lo.min(sample);
+                hi = hi.max(sample);
+            }
+        }
+        let mut text = call.replace("ARG", text);
+        for (name, number) in ["A", "B", "C"].iter().zip(numbers) {
+            text = text.replace(name, &format!("({number})"));
+        }
+        let file = unit_box(&["x", "y"], &text, "u + x");
+        let sampling = Sampling { points: 10, ..Sampling::default() };
+        let check = Manufacture::parse(&file, "test.toml").unwrap().check(&sampling);
+        // Slopes are at most 60: a sample lies within 0.21 of any value.
+        const DISTANCE: f64 = 60.0 * 0.5 / CELLS as f64 * 1.42;
+        let is_free = check.is_ok_and(|check| {
+            found(&check, "pole").is_empty() && found(&check, "undecided").is_empty() && found(&check, "singular").is_empty()
+        });
+        if is_missing(lo, hi) {
+            prop_assert!(!is_free, "{text} from {lo} to {hi}");
+        }
+        if !is_missing(lo - DISTANCE, hi + DISTANCE) {
+            prop_assert!(is_free, "{text} from {lo} to {hi}");
+        }
+    }
+}

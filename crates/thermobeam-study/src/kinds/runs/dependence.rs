@@ -158,16 +158,8 @@ impl Runs for Dependence {
                     Reading::new("of the bound", used).scientific(1),
                 ],
             ));
+            checks.push(below_bound(&case, used, bound));
             let evidence = format!("relative change {change:.1e}");
-            checks.push(all(
-                "difference/δ is at most the bound by Lipschitz constants",
-                Subject::of("bound of the difference").in_case(&case),
-                [at_most(
-                    used,
-                    1.0,
-                    format!("{used:.1e} of the bound {bound:.2e}"),
-                )],
-            ));
             checks.push(all(
                 format!(
                     "difference/δ is the same for every δ, within {:e}",
@@ -261,6 +253,16 @@ impl Dependence {
         }
         ratios
     }
+}
+
+/// * `used`: difference/δ in units of the bound.
+fn below_bound(case: &str, used: f64, bound: f64) -> Check {
+    let evidence = format!("{used:.1e} of the bound {bound:.2e}");
+    all(
+        "difference/δ is at most the bound by Lipschitz constants",
+        Subject::of("bound of the difference").in_case(case),
+        [at_most(used, 1.0, evidence)],
+    )
 }
 
 /// ‖u_x‖² of a function with these values at the nodes on which runs are compared.

@@ -74,6 +74,7 @@ fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f
         failed_cases: vec![],
         not_finite: vec![],
         untested: vec![],
+        located: None,
         spent: Spent::default(),
         work: vec![],
     }

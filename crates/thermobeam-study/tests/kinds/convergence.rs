@@ -236,6 +236,26 @@ fn the_constant_sees_a_mistake_that_keeps_the_order() {
     }
 }
 
+/// (5.1): a coefficient that is off by a hundredth is no pass.
+#[test]
+fn a_mistake_in_the_papers_coefficients_fails() {
+    for axis in ["space", "time"] {
+        let name = format!("theorem-3.4-data-{axis}.toml");
+        let study = Orders::<Convergence>::read(file().with_file_name(name)).unwrap();
+        let mut runs: Vec<_> = run_cases_here(&study);
+        assert_eq!(study.judge(&runs).verdict, Verdict::Pass, "{axis}");
+        for run in &mut runs {
+            let (elements, steps) = run.case.data;
+            let mut solver = study.solver;
+            solver.beam.rho *= 1.01;
+            run.found = Prepared::new(&study, elements)
+                .unwrap()
+                .run(steps, solver, None);
+        }
+        assert_ne!(study.judge(&runs).verdict, Verdict::Pass, "{axis}");
+    }
+}
+
 #[test]
 fn a_constant_is_refused_where_none_is_known() {
     let text = std::fs::read_to_string(file()).unwrap();

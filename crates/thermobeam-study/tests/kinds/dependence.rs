@@ -1,5 +1,5 @@
 use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::FromFile;
+use convergence_harness::study::{FromFile, Kind, run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::dependence::{self, ROW};
 
@@ -17,7 +17,8 @@ const FILE: &str = "theorem-2.6.toml";
 fn a_jump_of_one_solution_fails() {
     let study = Dependence::read(file(FILE)).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
-    for (case, sample) in [(4, 0), (4, 11), (0, 5)] {
+    // Every tenth level is compared.
+    for (case, sample) in [(4, 9), (4, 119), (0, 59)] {
         let verdict = verdict_with(&study, &sound, case, |traced| {
             traced.levels[sample].v.iter_mut().for_each(|v| *v += 1e-7);
         });
@@ -31,6 +32,31 @@ fn a_jump_of_one_solution_fails() {
             "case {case} without sample {sample}"
         );
     }
+}
+
+/// In free flight the bound is nearly the difference of the data: solutions that part faster are
+/// beyond it, however constant their difference/δ is.
+#[test]
+fn solutions_that_part_faster_than_their_bound_fail() {
+    let study = Dependence::read(file(FILE)).unwrap_or_else(|error| panic!("{error}"));
+    let sound = run_cases_here(&study);
+    let base = sound[0].found.clone().expect("the run with δ = 0");
+    let mut apart = sound.clone();
+    for ran in &mut apart[1..] {
+        let traced = ran.found.as_mut().expect("a run");
+        for (level, of_base) in traced.levels.iter_mut().zip(&base.levels) {
+            for (v, of_base) in level.v.iter_mut().zip(&of_base.v) {
+                *v += 9.0 * (*v - of_base);
+            }
+        }
+    }
+    let outcome = study.judge(&apart);
+    let mut failed = outcome
+        .checks
+        .iter()
+        .filter(|check| check.verdict == Verdict::Fail);
+    assert!(failed.all(|check| check.claim.contains("at most the bound")));
+    assert_eq!(outcome.verdict, Verdict::Fail);
 }
 
 #[test]

@@ -357,3 +357,15 @@ fn figures_begin_with_the_initial_energy_and_tables_show_what_is_allowed() {
         "drift.svg"
     ));
 }
+
+/// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no pass.
+#[test]
+fn a_beam_of_any_rho_that_blows_up_fails() {
+    let study = runs("theorem-2.8.toml");
+    let sound = passes_but_not_without_each_case(&study);
+    for index in 0..sound.len() {
+        let beyond = verdict_with(&study, &sound, index, |found| found.of_bound = Some(1.01));
+        let ended = verdict_with(&study, &sound, index, |found| found.end = End::NotFinite);
+        assert_eq!([beyond, ended], [Verdict::Fail; 2], "case {index}");
+    }
+}

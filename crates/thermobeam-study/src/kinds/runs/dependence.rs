@@ -2,7 +2,8 @@
 //! C δ of each other, and difference/δ is constant as δ → 0.
 //!
 //! The scene is run by dG, whose solution is known to round-off; the differences are those of the
-//! norm of (3.14) at several times, before and after contacts.
+//! norm of (3.14) at several times, before and after contacts. There they stay below a bound by
+//! Lipschitz constants along the run: THEORY.md, "Continuous dependence".
 
 use super::checks::{Condition, all, at_most};
 use super::{Findings, Listing, Results, RunStudy, Runs};
@@ -16,7 +17,8 @@ pub const ROW: KindRow = KindRow {
     read: reader::<RunStudy<Dependence>>,
     why: "Theorem 2.6: a solution is unique. Its proof is an estimate for the difference of two solutions, by which data δ apart \
           cause a difference of at most C δ.",
-    judged: "A scene is run with data δ apart. At each time difference/δ is the same for every δ, through contacts too.",
+    judged: "A scene is run with data δ apart. At each time difference/δ is the same for every δ, through contacts too, and at most \
+             the bound that Lipschitz constants along the run give.",
     failure: "The motion depends on its data by jumps: a contact event is missed, or a step has several solutions.",
     settings: |header, item| {
         Topic::new("experiments with contact", ItemMethod::AnyOrder).settings(header, item)
@@ -25,6 +27,9 @@ pub const ROW: KindRow = KindRow {
 
 /// Elements on whose nodes runs are compared.
 const COMPARED: usize = 64;
+
+/// Times from one comparison to the next at which the Lipschitz constant is taken.
+const FINE: usize = 10;
 
 /// Relative change of a ratio that the baseline tolerates: round-off over the smallest δ.
 const GUARDED: f64 = 1e-3;
@@ -113,7 +118,8 @@ impl Runs for Dependence {
             let sum = Expression::parse(&text, Variable::X);
             scene.initial.u = Some(sum.map_err(|error| CaseFailure::new(error.to_string()))?);
         }
-        Traced::compute(&scene, Mesh::uniform(COMPARED)?, self.samples)
+        // All runs have the same steps, which end at these times.
+        Traced::compute(&scene, Mesh::uniform(COMPARED)?, FINE * self.samples)
     }
 
     fn numbers(&self, _: &Option<usize>, traced: &Traced) -> Vec<Reading> {
@@ -128,6 +134,9 @@ impl Runs for Dependence {
         let mut rows = vec![];
         let mut checks = vec![];
         let mut largest = 0.0;
+        let bounds = results
+            .of(&None)
+            .map_or_else(Vec::new, |base| self.bounds(base));
         for sample in 0..self.samples {
             let t = self.t_end * (sample + 1) as f64 / self.samples as f64;
             let case = format!("t = {t:.2}");
@@ -135,6 +144,8 @@ impl Runs for Dependence {
             let change = change(&ratios);
             largest = max_or_nan(largest, change);
             let smallest = ratios.last().copied();
+            let bound = bounds.get(sample).copied().unwrap_or(f64::NAN);
+            let used = smallest.unwrap_or(f64::NAN) / bound;
             rows.push((
                 vec![case.clone()],
                 vec![
@@ -143,8 +154,11 @@ impl Runs for Dependence {
                         .fixed(6)
                         .guarded_in(&case, "ratio", GUARDED),
                     Reading::new("relative change", change).scientific(1),
+                    Reading::new("bound", bound).scientific(2),
+                    Reading::new("of the bound", used).scientific(1),
                 ],
             ));
+            checks.push(below_bound(&case, used, bound));
             let evidence = format!("relative change {change:.1e}");
             checks.push(all(
                 format!(
@@ -177,17 +191,61 @@ impl Runs for Dependence {
 }
 
 impl Dependence {
+    /// At each sample the bound of difference/δ as δ → 0: the norm of the direction times
+    /// `exp(∫ L²/(4ζB²) dt) Π √(1 + 1/(εB))`, L = |β| + 3ρ‖u_x‖², with a factor for each contact that
+    /// has begun.
+    fn bounds(&self, base: &Traced) -> Vec<f64> {
+        let Beam {
+            zeta, beta, rho, ..
+        } = self.scene.beam;
+        let length = self.t_end / (FINE * self.samples) as f64;
+        let mut logarithm = self.direction_slope(base).ln();
+        let mut was_in_contact = false;
+        let mut bounds = vec![];
+        for (index, level) in base.levels.iter().enumerate() {
+            let lipschitz = beta.abs() + 3.0 * rho * slope_squared(base, &level.u);
+            logarithm += length * lipschitz.powi(2) / (4.0 * zeta * BUCKLING.powi(2));
+            let tip = level.u.last().copied().unwrap_or(f64::NAN);
+            let compliance = self
+                .scene
+                .obstacles
+                .as_ref()
+                .filter(|obstacles| tip < obstacles.g1 || tip > obstacles.g2)
+                .map(|obstacles| obstacles.epsilon);
+            if let (Some(epsilon), false) = (compliance, was_in_contact) {
+                logarithm += 0.5 * (1.0 + 1.0 / (epsilon * BUCKLING)).ln();
+            }
+            was_in_contact = compliance.is_some();
+            if (index + 1).is_multiple_of(FINE) {
+                bounds.push(logarithm.exp());
+            }
+        }
+        bounds
+    }
+
+    /// The norm of (3.14) of the direction, which is one of u alone.
+    fn direction_slope(&self, base: &Traced) -> f64 {
+        let values: Vec<f64> = base
+            .mesh
+            .nodes()
+            .iter()
+            .map(|x| self.direction.eval(*x))
+            .collect();
+        slope_squared(base, &values).sqrt()
+    }
+
     /// Difference/δ at a time for each δ; empty if a run is missing.
     fn ratios(&self, results: &Results<'_, Self>, sample: usize) -> Vec<f64> {
         let Some(base) = results.of(&None) else {
             return vec![];
         };
+        let index = FINE * (sample + 1) - 1;
         let lengths: Vec<f64> = base.mesh.lengths().collect();
         let mut ratios = vec![];
         for (place, delta) in self.differences.iter().enumerate() {
             let other = results.of(&Some(place));
             let pair =
-                other.and_then(|other| Some((base.levels.get(sample)?, other.levels.get(sample)?)));
+                other.and_then(|other| Some((base.levels.get(index)?, other.levels.get(index)?)));
             let Some((one, other)) = pair else {
                 return vec![];
             };
@@ -195,6 +253,24 @@ impl Dependence {
         }
         ratios
     }
+}
+
+/// * `used`: difference/δ in units of the bound.
+fn below_bound(case: &str, used: f64, bound: f64) -> Check {
+    let evidence = format!("{used:.1e} of the bound {bound:.2e}");
+    all(
+        "difference/δ is at most the bound by Lipschitz constants",
+        Subject::of("bound of the difference").in_case(case),
+        [at_most(used, 1.0, evidence)],
+    )
+}
+
+/// ‖u_x‖² of a function with these values at the nodes on which runs are compared.
+fn slope_squared(traced: &Traced, values: &[f64]) -> f64 {
+    let pairs = values.windows(2).zip(traced.mesh.lengths());
+    pairs
+        .map(|(pair, length)| (pair[1] - pair[0]).powi(2) / length)
+        .sum()
 }
 
 /// The largest relative change of numbers against the last; NaN without numbers.

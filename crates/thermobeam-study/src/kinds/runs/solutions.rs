@@ -4,13 +4,17 @@
 //! The step starts at rest, u = φ = θ = 0, so u = 0 solves it. For a given mean axial force m it is
 //! linear but for the contact force F at the tip: u = -F r(m), where r is the answer to a unit load
 //! with the dense matrix A(m). Every other solution has an m = β + ½ρ‖u_x‖² in (β, m*), where `λ(m*) =
-//! B (ζ + dt/2) + m* dt/2 = 0`. There they are all found:
+//! B (ζ + dt/2) + m* dt/2 = 0`. There none is missed, since A(m) = A(0) + ½ m dt K is symmetric:
 //!
-//! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `β + ½ρ F² ‖r_x‖² - m`;
-//! * free of contact: A(m) is singular, a root of 1/r(1); its vector has the size that m asks for, and
-//!   both signs.
+//! * free of contact: A(m) is singular, for an eigenvalue of (A(0), K); its vector has the size that m
+//!   asks for, and both signs;
+//! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `f(m) = β + ½ρ F² ‖r_x‖² - m`. In the
+//!   eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows between its
+//!   poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1) by s, `F² ‖r_x‖²`
+//!   is g² times its derivative: f is convex between two poles, where it has two roots or none. The
+//!   poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 use super::checks::{Condition, all, at_most};
 use super::{Findings, Results, RunStudy, Runs};
@@ -32,9 +36,6 @@ pub const ROW: KindRow = KindRow {
         Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
     },
 };
-
-/// Intervals of (β, m*) in which at most one root is expected.
-const INTERVALS: usize = 200;
 
 /// Relative change of a number that the baseline tolerates: that of round-off in dense matrices.
 const GUARDED: f64 = 1e-9;
@@ -133,7 +134,7 @@ impl Runs for Solutions {
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
-        let cost = INTERVALS as f64 * (self.mesh.elements() as f64).powi(3);
+        let cost = 100.0 * (self.mesh.elements() as f64).powi(3);
         let steps = self.steps.iter().enumerate();
         steps
             .map(|(place, step)| Case::new(format!("dt = {}", step.dt), cost, place))
@@ -144,7 +145,7 @@ impl Runs for Solutions {
         let step = Step::new(self, self.steps[place].dt)?;
         Ok(Found {
             lambda: step.lambda(self.beam.beta),
-            tips: step.tips(),
+            tips: step.tips()?,
         })
     }
 
@@ -228,8 +229,6 @@ struct Step<'a> {
 
 /// The answer of u to a unit load at the tip.
 struct Answer {
-    /// The mean axial force.
-    m: f64,
     /// r(1).
     tip: f64,
     /// ‖r_x‖².
@@ -271,56 +270,101 @@ impl<'a> Step<'a> {
         load[n - 1] = 1.0;
         let Some(velocity) = matrix.lu().solve(&load) else {
             return Answer {
-                m,
                 tip: f64::NAN,
                 slope_squared: f64::NAN,
             };
         };
         let u = self.dt * velocity;
         Answer {
-            m,
             tip: u[n - 1],
             slope_squared: u.dot(&(&self.stiffness * &u)),
         }
     }
 
     /// u(1) of all solutions, ascending.
-    fn tips(&self) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// [`CaseFailure`] if K is not positive definite.
+    fn tips(&self) -> Result<Vec<f64>, CaseFailure> {
         let mut tips = vec![0.0];
-        let Beam {
-            beta, rho, zeta, ..
-        } = self.study.beam;
-        let Obstacles { g1, g2, .. } = self.study.obstacles;
         // λ(m*) = 0.
-        let end = -BUCKLING * (1.0 + 2.0 * zeta / self.dt);
-        if end <= beta {
-            return tips;
-        }
-        let place = |k: usize| beta + (end - beta) * k as f64 / INTERVALS as f64;
-        let answers: Vec<Answer> = (0..=INTERVALS).map(|k| self.answer(place(k))).collect();
-        for g in [g1, g2] {
-            for m in self.roots(&answers, |answer| self.in_contact(answer, g).1 - answer.m) {
-                // Contact pushes: a root with the tip before the obstacle is none.
-                let (tip, _) = self.in_contact(&self.answer(m), g);
-                let touches = tip.abs() > g.abs() && tip * g > 0.0;
-                tips.extend(touches.then_some(tip));
-            }
-        }
-        for m in self.roots(&answers, |answer| 1.0 / answer.tip) {
-            let Answer {
-                tip, slope_squared, ..
-            } = self.answer(m);
-            let size = (2.0 * (m - beta) / rho / slope_squared).sqrt();
-            let free = [-tip * size, tip * size];
-            // 1/r(1) changes its sign where r(1) vanishes, too.
-            let is_singular = tip.abs() > 1.0;
-            tips.extend(
-                free.into_iter()
-                    .filter(|tip| is_singular && (g1..=g2).contains(tip)),
-            );
+        let end = -BUCKLING * (1.0 + 2.0 * self.study.beam.zeta / self.dt);
+        if end > self.study.beam.beta {
+            let k = Cholesky::new(self.stiffness.clone())
+                .ok_or_else(|| CaseFailure::new("K is not positive definite"))?;
+            tips.extend(self.free_tips(&k, end));
+            tips.extend(self.contact_tips(&k, end));
         }
         tips.sort_by(f64::total_cmp);
+        Ok(tips)
+    }
+
+    /// The tips of the solutions that touch no obstacle.
+    fn free_tips(&self, k: &Cholesky<f64, Dyn>, end: f64) -> Vec<f64> {
+        let Beam { beta, rho, .. } = self.study.beam;
+        let Obstacles { g1, g2, .. } = self.study.obstacles;
+        let modes = eigen(&self.matrix, k);
+        let mut tips = vec![];
+        for (value, vector) in modes
+            .eigenvalues
+            .iter()
+            .zip(modes.eigenvectors.column_iter())
+        {
+            let m = self.force(*value);
+            if !(beta..end).contains(&m) {
+                continue;
+            }
+            // xᵀKx = 1 for x = L⁻ᵀy.
+            let Some(x) = k.l().tr_solve_lower_triangular(&vector) else {
+                continue;
+            };
+            let tip = x[x.len() - 1] * (2.0 * (m - beta) / rho).sqrt();
+            tips.extend(
+                [-tip, tip]
+                    .into_iter()
+                    .filter(|tip| (g1..=g2).contains(tip)),
+            );
+        }
         tips
+    }
+
+    /// The tips of the solutions that touch an obstacle.
+    fn contact_tips(&self, k: &Cholesky<f64, Dyn>, end: f64) -> Vec<f64> {
+        let Beam { beta, .. } = self.study.beam;
+        let Obstacles {
+            g1, g2, epsilon, ..
+        } = self.study.obstacles;
+        let n = self.study.mesh.elements();
+        let mut held = self.matrix.clone();
+        held[(n - 1, n - 1)] += self.dt / epsilon;
+        let values = eigen(&held, k).eigenvalues;
+        let mut ends = vec![beta, end];
+        ends.extend(
+            values
+                .iter()
+                .map(|value| self.force(*value))
+                .filter(|m| (beta..end).contains(m)),
+        );
+        ends.sort_by(f64::total_cmp);
+        let mut tips = vec![];
+        for g in [g1, g2] {
+            let excess = |m: f64| self.in_contact(&self.answer(m), g).1 - m;
+            for pair in ends.windows(2) {
+                for m in convex_roots(excess, pair[0], pair[1]) {
+                    // Contact pushes: a root with the tip before the obstacle is none.
+                    let (tip, _) = self.in_contact(&self.answer(m), g);
+                    let touches = tip.abs() > g.abs() && tip * g > 0.0;
+                    tips.extend(touches.then_some(tip));
+                }
+            }
+        }
+        tips
+    }
+
+    /// The mean axial force m for which A(0) + ½ m dt K has an eigenvalue 0 in units of K, where A(0) has
+    /// this one.
+    fn force(&self, value: f64) -> f64 {
+        -2.0 * value / self.dt
     }
 
     /// u(1), and the mean axial force that follows, in contact with an obstacle at `g`.
@@ -330,18 +374,52 @@ impl<'a> Step<'a> {
         let slope_squared = force * force * answer.slope_squared;
         (-force * answer.tip, beta + 0.5 * rho * slope_squared)
     }
+}
 
-    /// The forces m at which a function of the answer changes its sign, at most one between two
-    /// neighbours of `answers`.
-    fn roots(&self, answers: &[Answer], function: impl Fn(&Answer) -> f64) -> Vec<f64> {
-        let mut roots = vec![];
-        for pair in answers.windows(2) {
-            if function(&pair[0]) * function(&pair[1]) < 0.0 {
-                roots.push(bisect(|m| function(&self.answer(m)), pair[0].m, pair[1].m));
-            }
+/// Eigenvalues and vectors of L⁻¹ A L⁻ᵀ, those of (A, K) for K = L Lᵀ.
+fn eigen(a: &DMatrix<f64>, k: &Cholesky<f64, Dyn>) -> SymmetricEigen<f64, Dyn> {
+    let l = k.l();
+    let half = l.solve_lower_triangular(a).unwrap_or_else(|| a.clone());
+    let whole = l.solve_lower_triangular(&half.transpose()).unwrap_or(half);
+    SymmetricEigen::new(0.5 * (&whole + whole.transpose()))
+}
+
+/// Steps of the search for the minimum: each leaves 0.62 of the interval.
+const SEARCH: usize = 80;
+
+/// The roots of a function that is convex between these ends, where it may be infinite: none, one or
+/// two.
+fn convex_roots(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Vec<f64> {
+    // Just inside: at a pole the value is round-off.
+    let margin = 1e-9 * (high - low);
+    let [low, high] = [low + margin, high - margin];
+    let mut roots = vec![];
+    let least = minimum(&function, low, high);
+    for (a, b) in [(low, least), (least, high)] {
+        if function(a) * function(b) < 0.0 {
+            roots.push(bisect(&function, a, b));
         }
-        roots
     }
+    roots
+}
+
+/// Where a convex function is least, or a place where it is negative, by golden sections.
+fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut left = high - share * (high - low);
+    let mut right = low + share * (high - low);
+    for _ in 0..SEARCH {
+        if function(left) < function(right) {
+            high = right;
+            right = left;
+            left = high - share * (high - low);
+        } else {
+            low = left;
+            left = right;
+            right = low + share * (high - low);
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// The matrix of V, W and Θ of (3.7) without axial force: u and φ at nodes 1 to n, θ at 1 to n - 1.
@@ -375,4 +453,21 @@ fn dense(study: &Solutions, dt: f64) -> DMatrix<f64> {
         }
     }
     matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::convex_roots;
+
+    /// Two roots within a hundredth of the bracket, which signs at equal distances would not show.
+    #[test]
+    fn two_roots_close_to_each_other_are_both_found() {
+        let near = |x: f64| (x - 0.5001) * (x - 0.5003);
+        let roots = convex_roots(near, 0.0, 1.0);
+        assert_eq!(roots.len(), 2, "{roots:?}");
+        assert!((roots[0] - 0.5001).abs() < 1e-9 && (roots[1] - 0.5003).abs() < 1e-9);
+        assert!(convex_roots(|x| near(x) + 1e-7, 0.0, 1.0).is_empty());
+        // Infinite at one end, negative at the other.
+        assert_eq!(convex_roots(|x| 1.0 / x - 2.0, 0.0, 1.0).len(), 1);
+    }
 }

@@ -132,7 +132,7 @@ impl Destination {
 pub(crate) fn folder_of_figures(record: &Record, folder: &Path) -> std::path::PathBuf {
     use crate::judge::verdict::Verdict;
 
-    let reports = super::reports_around(folder);
+    let reports = super::folder::reports_around(folder);
     scopes()
         .into_iter()
         .filter(|scope| scope.report_folder(&reports).folder == folder)

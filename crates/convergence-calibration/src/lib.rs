@@ -21,7 +21,7 @@
 //! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].
 //! * *compared*: this rule and what people do today on nine [laws](fresh) written for it, each with
 //!   the band that lets as many wrong claims pass.
-//! * *unaligned*: kinks and interfaces in their cells; see [`unaligned`].
+//! * *unaligned*: kinks and interfaces in their cells; see `unaligned.rs`.
 //! * *three*: three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the
 //!   finest error.
 //! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often

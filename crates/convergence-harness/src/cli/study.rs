@@ -49,6 +49,29 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     )
 }
 
+/// What failed, where orders are lost, and the verdict.
+fn conclusions(findings: &Findings<'_>) -> String {
+    let studies = &findings.record.studies;
+    let located = studies.iter().filter_map(|study| study.located.as_ref());
+    let conclusions: String = located
+        .map(|located| format!("{}\n", located.conclusion))
+        .collect();
+    format!(
+        "{}{conclusions}{}: {}\n",
+        text_of_failures(studies, None),
+        screen::verdict(findings.record.verdict),
+        findings.sentence()
+    )
+}
+
+/// What each study found, and the cause of what fails.
+fn all_found(findings: &Findings<'_>) -> String {
+    let studies: Vec<String> = findings.record.studies.iter().map(text).collect();
+    let diagnosis = findings.record.diagnosis.as_ref();
+    let cause = diagnosis.map(|diagnosis| format!("\n{}", text_of_diagnosis(diagnosis)));
+    studies.join("\n") + &cause.unwrap_or_default()
+}
+
 /// Runs the studies of files and prints what they found.
 ///
 /// * `located`: whether to search where the order is lost.
@@ -101,25 +124,8 @@ pub(super) fn run_files(
     };
     let text = match flags.format {
         Format::Json => json(&record)?,
-        _ if flags.quiet => {
-            let located = finished.iter().filter_map(|study| study.located.as_ref());
-            let conclusions: String = located
-                .map(|located| format!("{}\n", located.conclusion))
-                .collect();
-            format!(
-                "{}{conclusions}{}: {}\n",
-                text_of_failures(&finished, None),
-                screen::verdict(verdict),
-                findings.sentence()
-            )
-        }
-        _ => {
-            let cause = record
-                .diagnosis
-                .as_ref()
-                .map(|diagnosis| format!("\n{}", text_of_diagnosis(diagnosis)));
-            finished.iter().map(text).collect::<Vec<_>>().join("\n") + &cause.unwrap_or_default()
-        }
+        _ if flags.quiet => conclusions(&findings),
+        _ => all_found(&findings),
     };
     // The results are printed first, so that a file that cannot be written does not lose them.
     screen::print(&text)?;

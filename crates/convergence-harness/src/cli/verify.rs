@@ -2,6 +2,7 @@
 
 mod selection;
 
+use std::io;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -122,23 +123,33 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
         let finished = &mut verification.record.studies;
         where_lost::locate(&studies, finished, request.effort, flags.quiet)?;
     }
-    let record = &verification.record;
-    screen::print(&if flags.format == Format::Json {
-        json(record)?
+    let took = started.elapsed();
+    print(project, &verification, &request, arguments, took)?;
+    Ok(verification.record.verdict)
+}
+
+/// Prints what was found, and announces it to a CI server.
+fn print(
+    project: &Project,
+    found: &Verification,
+    request: &Request,
+    arguments: &Arguments,
+    took: Duration,
+) -> io::Result<()> {
+    let format = arguments.flags.format;
+    let findings = Findings {
+        project,
+        record: &found.record,
+        see_also: None,
+        provenance: None,
+    };
+    screen::print(&if format == Format::Json {
+        json(&found.record)?
     } else {
-        let took = started.elapsed();
-        text(project, &verification, &request, arguments, took)
+        text(project, found, request, arguments, took)
     })?;
-    github::announce(
-        &Findings {
-            project,
-            record,
-            see_also: None,
-            provenance: None,
-        },
-        flags.format,
-    );
-    Ok(record.verdict)
+    github::announce(&findings, format);
+    Ok(())
 }
 
 /// * `scope`: what is run; `root`: the folder of the project.

@@ -21,7 +21,8 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
-use crate::study::kind::{plan, reasons};
+use crate::study::erased::plan;
+use crate::study::kind::reasons;
 use crate::study::outcome::{self, NotFinite};
 use crate::study::{
     Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,

@@ -4,8 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
+use super::erased::{Described, Study, erased};
 use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
-use super::kind::{Described, Kind, Study, erased};
+use super::kind::Kind;
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
 use crate::interval::Interval;
 use crate::judge::claims::{Claim, order_from_text};

@@ -6,6 +6,7 @@
 //! and only the report writes Markdown.
 
 pub mod coverage;
+pub(crate) mod erased;
 mod errors_over_levels;
 #[cfg(feature = "files")]
 mod file;
@@ -19,6 +20,7 @@ pub mod subject;
 pub mod until_decided;
 
 pub use coverage::Coverage;
+pub use erased::{Described, Plan, Study, erased};
 pub use errors_over_levels::{
     ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, first_repeated, levels,
 };
@@ -27,9 +29,7 @@ pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, Reader, StudyFile, allow_only, read_claim, reader};
 pub use header::{Exercised, Header, Tier};
-pub use kind::{
-    Case, CaseFailure, Described, Kind, Plan, Ran, Study, Untested, erased, run_cases_here,
-};
+pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
 pub use outcome::{Check, Figure, LevelErrors, NamedRate, Origin, Outcome, Quantity, Table};
 pub use over_levels::{Axis, Claim, Refinement};
 pub use readings::Reading;

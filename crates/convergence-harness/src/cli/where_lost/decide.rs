@@ -156,7 +156,9 @@ impl Table<'_> {
         let conditions = [
             self.are_back(this),
             self.are_lost(other),
-            self.are_lost(|switch| *switch == Switch::Initial),
+            // Data at a face act little on a solution that is flat at the first time, and a variant
+            // in which the lost part may hide is undecided.
+            self.are_not_back(|switch| *switch == Switch::Initial),
             self.agrees(face),
         ];
         Found::if_all(&conditions, conclusion)
@@ -239,7 +241,7 @@ impl Table<'_> {
             self.are_back(this),
             self.are_lost(is_single_face),
             self.are_lost(other),
-            self.are_lost(|switch| *switch == Switch::Initial),
+            self.are_not_back(|switch| *switch == Switch::Initial),
             self.are_not_back(but_these),
             self.are_not_lost(but_others),
             self.are_back(|switch| *switch == Switch::AllFaces),

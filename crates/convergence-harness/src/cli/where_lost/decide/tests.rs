@@ -431,7 +431,6 @@ fn a_contradiction_or_a_gap_names_nothing() {
     );
     for (variant, fate) in [
         ("flat_y_min", Fate::Unknown),
-        ("flat_initial", Fate::Unknown),
         ("flat_faces", Fate::Unknown),
         ("flat_x", Fate::Unknown),
         ("flat_x_max", Fate::Unknown),
@@ -442,6 +441,9 @@ fn a_contradiction_or_a_gap_names_nothing() {
             "{variant}: {conclusion:?}"
         );
     }
+    // All mistakes are where the solution is flat: what hides at the first time is there, too.
+    let hidden = with(back(&AT_X_MAX), "flat_initial", Fate::Unknown);
+    assert_eq!(decide(&hidden), Conclusion::Faces(vec!["x_max".to_owned()]));
     for variant in ["flat_y", "flat_everywhere", "flat_faces", "constant_x"] {
         let conclusion = decide(&with(back(&["constant_y"]), variant, Fate::Unknown));
         assert!(

@@ -111,7 +111,7 @@ fn a_program_has_the_variables_of_its_study() {
         ),
         (
             "environment = {}",
-            "unknown key `environment`; expected command, directory, env, time_limit",
+            "unknown key `environment`; expected command, directory, env, manufacture, time_limit",
         ),
     ] {
         let (status, _, err) = study(program, env, MAX).study(&[]);

@@ -256,17 +256,17 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "time_limit = 9",
             "files = [\"x\"]",
-            "program.files: unknown key `files`; expected command, directory, env, time_limit",
+            "program.files: unknown key `files`; expected command, directory, env, manufacture, time_limit",
         ),
         (
             "time_limit = 9",
             "cache = true",
-            "program.cache: unknown key `cache`; expected command, directory, env, time_limit",
+            "program.cache: unknown key `cache`; expected command, directory, env, manufacture, time_limit",
         ),
         (
             "time_limit = 9",
             "shell = true",
-            "program.shell: unknown key `shell`; expected command, directory, env, time_limit",
+            "program.shell: unknown key `shell`; expected command, directory, env, manufacture, time_limit",
         ),
         (
             "n = [4, ",

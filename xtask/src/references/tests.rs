@@ -417,8 +417,9 @@ fn manufacture_files() -> Vec<(String, String)> {
 }
 
 /// The changes of files of `manufacture` that only the reader refuses, beside those of [`is_a_name`].
-const STRICTER_OF_MANUFACTURE: [&str; 2] = [
+const STRICTER_OF_MANUFACTURE: [&str; 3] = [
     "[boundary.ball] without level",
+    "[boundary.circle] without level",
     "[manufacture] without time",
 ];
 

@@ -76,10 +76,12 @@ pub(super) fn sentence(
             )
         },
     );
+    // Errors that tend to a constant are the subject: then `it` would be unclear.
+    let it = if limit.is_some() { "the order" } else { "it" };
     let mut sentence = match conclusion {
-        Conclusion::Faces(names) => faces(&lost, names, rows, variants),
+        Conclusion::Faces(names) => faces([&lost, it], names, rows, variants),
         Conclusion::FaceInTime { face, time } => format!(
-            "{lost} at the face {face}, in time: it comes back where the solution is flat there ({}), \
+            "{lost} at the face {face}, in time: {it} comes back where the solution is flat there ({}), \
              and where it is constant in {time} ({}), and not where it is flat at any other face; \
              look at the time at which {} is taken",
             rate(rows, &Switch::Face(face.clone())),
@@ -87,18 +89,18 @@ pub(super) fn sentence(
             conditions(face, variants),
         ),
         Conclusion::Corner([one, other]) => format!(
-            "{lost} where the faces {one} and {other} meet: it comes back where the solution is flat \
+            "{lost} where the faces {one} and {other} meet: {it} comes back where the solution is flat \
              at {one} ({}) and at {other} ({}) alike, and not where it is flat at any other face; \
              look at what is done at this corner",
             rate(rows, &Switch::Face(one.clone())),
             rate(rows, &Switch::Face(other.clone())),
         ),
         Conclusion::Initial => format!(
-            "{lost} at the first time: it comes back where the solution is flat there ({}), and not \
+            "{lost} at the first time: {it} comes back where the solution is flat there ({}), and not \
              where it is flat at any face; look at the initial data",
             rate(rows, &Switch::Initial),
         ),
-        Conclusion::Inside(parts) => inside(&lost, parts, rows),
+        Conclusion::Inside(parts) => inside([&lost, it], parts, rows),
         Conclusion::Everywhere => format!(
             "{lost} in every variant: everywhere, as by a quadrature, a coefficient or a norm, or in \
              several parts at once; no part is named"
@@ -113,16 +115,21 @@ pub(super) fn sentence(
         ),
     };
     if limit.is_some() && !conclusion.named().is_empty() {
-        sentence = sentence.replace(": it comes back", ": the order comes back");
         sentence += "; a coefficient, a sign or a value is wrong there, rather than a stencil";
     }
     sentence
 }
 
-fn faces(lost: &str, names: &[String], rows: &[VariantRates], variants: &Variants<'_>) -> String {
+/// * `lost`, `it`: how the sentence begins, and the order in it.
+fn faces(
+    [lost, it]: [&str; 2],
+    names: &[String],
+    rows: &[VariantRates],
+    variants: &Variants<'_>,
+) -> String {
     if let [face] = names {
         return format!(
-            "{lost} at the face {face}: it comes back where the solution is flat there ({}), and not \
+            "{lost} at the face {face}: {it} comes back where the solution is flat there ({}), and not \
              where it is flat at any other face; look at {}",
             rate(rows, &Switch::Face(face.clone())),
             conditions(face, variants),
@@ -133,14 +140,15 @@ fn faces(lost: &str, names: &[String], rows: &[VariantRates], variants: &Variant
         .map(|face| conditions(face, variants))
         .collect();
     format!(
-        "{lost} at the faces {}: it comes back where the solution is flat at these together, and not \
+        "{lost} at the faces {}: {it} comes back where the solution is flat at these together, and not \
          where one of them is left; look at {}, and at what serves them all",
         listed(names.to_vec()),
         listed(all),
     )
 }
 
-fn inside(lost: &str, parts: &[Switch], rows: &[VariantRates]) -> String {
+/// * `lost`, `it`: as for [`faces`].
+fn inside([lost, it]: [&str; 2], parts: &[Switch], rows: &[VariantRates]) -> String {
     let place = |part: &Switch| match part {
         Switch::Coordinate(name) | Switch::Time(name) => format!("in what acts along {name}"),
         Switch::Parameter(name) => format!("in the terms with {name}"),
@@ -169,7 +177,7 @@ fn inside(lost: &str, parts: &[Switch], rows: &[VariantRates]) -> String {
     let variants = listed(parts.iter().map(variant).collect());
     let hints = listed(parts.iter().map(hint).collect());
     format!(
-        "{lost} {places}: it comes back where {variants}, and stays lost where the solution is flat \
+        "{lost} {places}: {it} comes back where {variants}, and stays lost where the solution is flat \
          at the faces and at the first time; look at {hints}"
     )
 }

@@ -237,3 +237,26 @@ $32\times 32$ & 6.25e-4 & 2.00 & 1.5625e-5 & 3.00 \\
         assert!(sheet.verdict.is_pass(), "{}", sheet.text);
     }
 }
+
+/// A line of nothing but separators between some rows begins another table, as a blank line does;
+/// one between all rows parts nothing.
+#[test]
+fn a_line_of_separators_between_some_rows_cuts() {
+    let log = |k: i32| format!("h = {}, L2 = {:e}\n", 0.5_f64.powi(k), 0.25_f64.powi(k));
+    let json = |k: i32| {
+        let [h, error] = [0.5_f64, 0.25].map(|ratio| ratio.powi(k));
+        format!("{{\"h\": {h}, \"L2\": {error:e}}}\n")
+    };
+    let rows: [&dyn Fn(i32) -> String; 2] = [&log, &json];
+    for row in rows {
+        let rows: Vec<String> = (2..8).map(row).collect();
+        assert!(passes(&rows.concat()));
+        for separator in [",\n", ";\n", "\"\"\n", " , \n"] {
+            // Of the second table there are too few levels.
+            let two = [rows[..4].concat(), separator.to_owned(), rows[4..].concat()];
+            assert!(!passes(&two.concat()), "{}", two.concat());
+            let all = rows.join(separator);
+            assert!(passes(&all), "{all}");
+        }
+    }
+}

@@ -393,7 +393,10 @@ fn pieces(start: usize, between: &str) -> Vec<Piece> {
     let lines: Vec<&str> = between.split('\n').collect();
     for (k, line) in lines.iter().enumerate() {
         let words = line.trim_matches(|c| pairs::is_mark(c) || "-=_*#|".contains(c));
-        let is_blank_line = line.trim().is_empty() && 0 < k && k + 1 < lines.len();
+        let is_whole_line = 0 < k && k + 1 < lines.len();
+        // A line of nothing but separators is a blank one; brackets open and close records.
+        let is_empty = |c: char| c.is_whitespace() || ",;\"'".contains(c);
+        let is_blank_line = is_whole_line && line.chars().all(is_empty);
         let is_drawn = is_rule(line) && !line.trim().is_empty();
         let is_ruler = words.is_empty() && (is_drawn || line.contains(|c| !pairs::is_mark(c)));
         if is_blank_line || is_ruler || !words.is_empty() {

@@ -1,4 +1,4 @@
-//! What the page is told.
+//! The answers to the page, as JSON.
 
 use convergence_harness::rates::{Sheet, TableSheet};
 use serde::Serialize;

@@ -3,9 +3,10 @@
 use std::slice;
 
 use super::{JudgedColumn, Judgement};
-use crate::input::error_table::{Doubt, NotError};
+use crate::input::error_table::NotError;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Tendency, Verdict};
+use crate::text::lists::distinct;
 use crate::text::number::{counted, pair_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
@@ -123,12 +124,7 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
         let count = counted(1 + rows.count(), "line");
         words += &format!("; outside the tables: {count} of numbers, from line {first}");
     }
-    let mut doubts: Vec<&Doubt> = vec![];
-    for doubt in tables().flat_map(|table| &table.doubts) {
-        if !doubts.contains(&doubt) {
-            doubts.push(doubt);
-        }
-    }
+    let doubts = distinct(tables().flat_map(|table| &table.doubts));
     words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));
     words
 }

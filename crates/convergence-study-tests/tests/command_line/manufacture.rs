@@ -13,6 +13,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::run;
+use super::where_lost::ROD;
 
 const PAGE: &str = include_str!("../../../manufacture/TEN-MINUTES.md");
 
@@ -199,31 +200,21 @@ fn a_program_that_hangs_ends_with_all_that_it_has_started() {
     assert!(!root.path().join("not-stopped").exists());
 }
 
-const TWO_FACES: &str = r#"
-[manufacture]
-name = "heat"
-coordinates = ["x"]
-time = "t"
-[domain]
-x = [0, 1]
-t = [0, 1]
-[exact]
-u = "1 + sin(x)*exp(-t)"
-[equations]
-u = "dt(u) - d(u, x, x)"
-[boundary.x_min]
-u = { of = "u", is = "1" }
-[boundary.x_max]
-flux = "d(u, x)"
-[initial]
-u = "u"
-"#;
+/// A rod with one value prescribed at x_min, which a solution that is constant along x cannot have.
+fn with_a_fixed_value() -> String {
+    let fixed = ROD.replace(
+        "[boundary.x_min]\nu = \"u\"",
+        "[boundary.x_min]\nu = { of = \"u\", is = \"1\" }",
+    );
+    assert_ne!(fixed, ROD);
+    fixed
+}
 
 #[test]
 fn the_variants_are_listed_with_what_each_switches_off() {
     let root = TempDir::new().unwrap();
-    fs::write(root.path().join("heat.toml"), TWO_FACES).unwrap();
-    let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--variants"]);
+    fs::write(root.path().join("rod.toml"), with_a_fixed_value()).unwrap();
+    let (status, out, err) = run(&root, &["manufacture", "rod.toml", "--variants"]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     for line in [
         "flat_x_min       the data at x_min",
@@ -231,7 +222,7 @@ fn the_variants_are_listed_with_what_each_switches_off() {
     ] {
         assert!(out.contains(line), "{line}: {out}");
     }
-    let words = ["manufacture", "heat.toml", "--variants", "--format", "json"];
+    let words = ["manufacture", "rod.toml", "--variants", "--format", "json"];
     let object: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
     let name = &object["variants"][0]["name"];
     assert_eq!(
@@ -244,8 +235,8 @@ fn the_variants_are_listed_with_what_each_switches_off() {
 #[test]
 fn a_language_without_variants_is_refused_and_nothing_is_written() {
     let root = TempDir::new().unwrap();
-    fs::write(root.path().join("heat.toml"), TWO_FACES).unwrap();
-    let words = ["manufacture", "heat.toml", "--variants", "--language", "c"];
+    fs::write(root.path().join("rod.toml"), with_a_fixed_value()).unwrap();
+    let words = ["manufacture", "rod.toml", "--variants", "--language", "c"];
     let (status, out, err) = run(&root, &words);
     assert_eq!((status, out.as_str()), (Some(2), ""));
     assert!(

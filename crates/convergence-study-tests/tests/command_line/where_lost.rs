@@ -7,7 +7,8 @@ use tempfile::TempDir;
 
 use super::run;
 
-const ROD: &str = r#"
+/// Equations with a solution that has data at both faces.
+pub(super) const ROD: &str = r#"
 [manufacture]
 name = "rod"
 coordinates = ["x"]

@@ -104,8 +104,8 @@ fn a_program_that_kills_its_guard_fails_and_leaves_nothing() {
     let place = Place::new("kill-guard", "");
     let (status, out, err) = place.study(&["--jobs", "2"]);
     assert_eq!(status, Some(1), "{out}{err}");
-    let told = "cannot be waited for: its guard has ended: signal: 9 (SIGKILL)";
-    assert!(out.contains(told), "{out}");
+    let message = "cannot be waited for: its guard has ended: signal: 9 (SIGKILL)";
+    assert!(out.contains(message), "{out}");
     // The harness is no parent of the program: it kills it, and cannot wait for it.
     place.wait_for(|running| running == 0);
 }

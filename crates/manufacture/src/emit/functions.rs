@@ -69,7 +69,7 @@ fn parts_of_sources(model: &Model) -> Vec<Function> {
             let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
             let is_name = label.chars().all(is_letter) && !label.is_empty();
             let number = (number + 1).to_string();
-            // A term of a text has no name: its place in the text is told.
+            // A term of a text has no name: its place in the text stands for one.
             let label = if is_name { label } else { &number };
             let name = format!("term_{}_{label}", source.name);
             functions.push(part_of_source(model, Role::Term, name, tensor));

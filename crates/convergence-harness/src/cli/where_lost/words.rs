@@ -47,8 +47,7 @@ fn order(variant: &VariantRates) -> &'static str {
 /// `2.03 ± 0.04`; the last rate without an interval.
 fn interval(rate: &RateVerdict) -> String {
     if let (Some(fitted), Some(interval)) = (rate.fitted, rate.interval) {
-        let [low, high] = <[f64; 2]>::from(interval);
-        return format!("{fitted:.2} ± {:.2}", (high - low) / 2.0);
+        return format!("{fitted:.2} ± {:.2}", interval.width() / 2.0);
     }
     let last = rate.pairwise.last();
     last.map_or_else(|| "-".to_owned(), |rate| format!("{rate:.2}"))

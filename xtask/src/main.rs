@@ -9,9 +9,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use convergence_calibration::kind;
-use convergence_study::KindRow;
-use convergence_study::Project;
-use convergence_study::internal::cli::{command_line, ended};
+use convergence_study::{
+    KindRow, Project,
+    internal::cli::{command_line, ended},
+};
 use thermobeam_cli::{GROUPS, PAGES, project};
 use thermobeam_study::kinds::{KINDS, settings};
 

@@ -3,7 +3,9 @@
 
 #[cfg(feature = "command-line")]
 pub mod cli {
-    pub use crate::cli::{COMMANDS, Command, command_line, ended, main, main_with, program};
+    pub use crate::cli::{
+        COMMANDS, Command, command_line, ended, program, run_command_line, status_of,
+    };
     pub mod exit {
         pub use crate::cli::exit::{Outcome, Unusable, say};
     }
@@ -145,5 +147,5 @@ pub mod study {
 }
 #[cfg(feature = "reports")]
 pub mod verify {
-    pub use crate::verify::{publish, report};
+    pub use crate::verify::publish;
 }

@@ -29,7 +29,7 @@ use crate::text::names::quoted;
 pub(crate) use destination::folder_of_figures;
 #[cfg(feature = "command-line")]
 pub(crate) use folder::reports_around;
-pub use rebuilt::{publish, report};
+pub use rebuilt::{publish, write_report};
 pub(crate) use rebuilt::{rebuild, record};
 
 use destination::{Destination, scopes, tiers};

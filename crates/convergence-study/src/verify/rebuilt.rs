@@ -14,7 +14,7 @@ use crate::store::{Provenance, Record, ReportFolder, diagnosis::diagnose, lock};
 /// Writes a report on studies that have run, without a baseline.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
-pub fn report(
+pub fn write_report(
     project: &Project,
     finished: &[Finished],
     folder: &Path,

@@ -115,7 +115,7 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///
 /// ```
 /// use convergence_study::{Case, CaseFailure, Check, Kind, Outcome, Quantity, Ran, Subject, Table};
-/// use convergence_study::{completion, run_one};
+/// use convergence_study::{completion_check, run_one};
 ///
 /// /// Sums of the series 1 + 1/2 + 1/4 + ..., which tends to 2.
 /// struct Series;

@@ -25,7 +25,7 @@
 //! threads or clocks. `reports` adds all but the command line, `command-line` that.
 //!
 //! Each module uses only those before it: `text`, `judge`, `input`, `plots`, `exchange`,
-//! `rates`, `study`, `run`, `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. The
+//! `rates`, `study`, `run`, `where_lost`, `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. The
 //! first two are the crate `convergence-judge`, with `run::time_limit`.
 
 #[cfg(feature = "command-line")]
@@ -52,6 +52,8 @@ pub mod store;
 pub mod study;
 #[cfg(feature = "reports")]
 pub mod verify;
+#[cfg(feature = "tables")]
+pub mod where_lost;
 
 pub use convergence_judge::{interval, judge, text};
 pub use run::assert_order;

@@ -33,7 +33,7 @@ pub use caught::catch;
 pub use convergence_judge::time_limit;
 pub use failures::{Item, NotPassed, items, not_passed};
 pub use levels::assert_order;
-pub use located::{Fate, Located, Part, VariantRate, VariantRates};
+pub use located::{Fate, Located, VariantRate, VariantRates};
 pub use queue::Progress;
 
 /// A study that has been run: one object of a record.

@@ -18,6 +18,7 @@ pub mod over_levels;
 pub mod readings;
 pub mod subject;
 pub mod until_decided;
+pub mod variants;
 
 pub use coverage::Coverage;
 pub use erased::{Described, Plan, Study, erased};

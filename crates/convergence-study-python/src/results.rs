@@ -32,6 +32,8 @@ pub(crate) struct Options {
     #[pyo3(from_py_with = floor_from, into_py_with = floor_into)]
     pub(crate) floor: Floor,
     pub(crate) allow_inconclusive: bool,
+    /// Whether it is run with a variant of its solution: levels are added to those requested.
+    pub(crate) is_variant: bool,
 }
 
 fn floor_from(value: &Bound<'_, PyAny>) -> PyResult<Floor> {

@@ -50,7 +50,7 @@ pub mod input {
 #[cfg(feature = "tables")]
 pub mod plots {
     pub use crate::plots::{
-        Axis, ErrorSeries, ForestRow, Guide, Phases, Scale, Series, SpaceTime, Surface,
+        Axis, ErrorSeries, ForestAxis, ForestRow, Guide, Phases, Scale, Series, SpaceTime, Surface,
         convergence, forest, history, iterations, panels, space_time, surface, work_precision,
     };
     pub mod canvas {
@@ -148,4 +148,9 @@ pub mod study {
 #[cfg(feature = "reports")]
 pub mod verify {
     pub use crate::verify::publish;
+}
+#[cfg(feature = "tables")]
+pub mod where_lost {
+    pub use crate::run::Located;
+    pub use crate::where_lost::{figure, is_unnoticed, located, lost, text_of_located};
 }

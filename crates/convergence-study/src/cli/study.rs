@@ -12,6 +12,7 @@ use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::visible;
 use crate::verify::{publish, record};
+use crate::where_lost::text_of_located;
 
 use super::exit::Outcome;
 use super::flags::Flags;
@@ -189,7 +190,7 @@ fn text(finished: &Finished) -> String {
     let located = finished
         .located
         .as_ref()
-        .map(|located| format!("\n{}", where_lost::text(located)));
+        .map(|located| format!("\n{}", text_of_located(located)));
     text + &located.unwrap_or_default() + &no_test_of(&finished.untested)
 }
 

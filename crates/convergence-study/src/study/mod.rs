@@ -18,6 +18,7 @@ pub(crate) mod over_levels;
 pub(crate) mod readings;
 pub(crate) mod subject;
 pub(crate) mod until_decided;
+pub(crate) mod variants;
 
 pub use coverage::Coverage;
 pub(crate) use erased::Plan;

@@ -5,7 +5,11 @@ use std::borrow::Cow;
 use convergence_study::Floor;
 use convergence_study::internal::study::over_levels::Levels;
 use convergence_study::internal::study::until_decided::{self, Looks, Next};
-use convergence_study::{Axis, Claim, ErrorsOverLevels, Header, internal::study::{NamedErrors, STEPS, header::is_name, run_cases_here}, levels};
+use convergence_study::{
+    Axis, Claim, ErrorsOverLevels, Header,
+    internal::study::{NamedErrors, STEPS, header::is_name, run_cases_here},
+    levels,
+};
 use pyo3::prelude::*;
 
 use crate::studied::Study;

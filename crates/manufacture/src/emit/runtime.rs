@@ -391,11 +391,10 @@ fn average(writer: &Writer<'_>, function: &Function) -> String {
 }
 
 /// What is summed, and what is done with the sum.
-fn summed(language: Language, function: &Function, norm: &str) -> [String; 2] {
-    let is_root = norm == "L2" || norm == "H1";
-    let [add, root] = match (language, norm) {
+fn summed(language: Language, norm: &str) -> [&'static str; 2] {
+    match (language, norm) {
         (Language::C | Language::Rust, "L1") => ["sum += weights[k]*difference;", "sum"],
-        // NaN stays: no comparison holds with it.
+        // NaN stays: no comparison holds with it; `max` of Fortran and Octave may lose it.
         (Language::C, "Linf") => [
             "if (!(difference <= sum)) sum = difference + 0.0*sum;",
             "sum",
@@ -413,32 +412,22 @@ fn summed(language: Language, function: &Function, norm: &str) -> [String; 2] {
         (Language::Python, "Linf") => ["", "np.max(difference)"],
         (Language::Python, _) => ["", "np.sqrt(np.sum(weights*difference**2))"],
         (Language::Octave, "L1") => ["", "sum(sum(weights(:).'.*difference))"],
-        (Language::Octave, "Linf") => ["", "max(max(difference))"],
+        (Language::Octave, "Linf") => ["", "max(difference(:)) + 0*sum(difference(:))"],
         (Language::Octave, _) => ["", "sqrt(sum(sum(weights(:).'.*difference.^2)))"],
-        (_, _) if is_root => ["", "sqrt(out)"],
-        _ => ["", "out"],
-    };
-    if language != Language::Fortran {
-        return [add.to_owned(), root.to_owned()];
+        (Language::Fortran, "L1") => ["out = out + weights(k)*sum(difference)", "out"],
+        (Language::Fortran, "Linf") => [
+            "if (.not. all(difference <= out)) out = maxval(difference) + 0.0_dp*(out + sum(difference))",
+            "out",
+        ],
+        (Language::Fortran, _) => ["out = out + weights(k)*sum(difference**2)", "sqrt(out)"],
+        (Language::Ufl, _) => ["", ""],
     }
-    let colons = ":, ".repeat(function.shape.len().min(2));
-    let time = call_time(function.has_time);
-    let difference = format!("abs(values({colons}k) - {}(x(:, k){time}))", function.name);
-    let is_scalar = function.shape.is_empty();
-    let power = if is_root { "**2" } else { "" };
-    let add = match (norm, is_scalar) {
-        ("Linf", true) => format!("out = max(out, {difference})"),
-        ("Linf", false) => format!("out = max(out, maxval({difference}))"),
-        (_, true) => format!("out = out + weights(k)*{difference}{power}"),
-        (_, false) => format!("out = out + weights(k)*sum({difference}{power})"),
-    };
-    [add, root.to_owned()]
 }
 
 fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> String {
     let dimension = writer.model.problem.coordinates.len();
     let [time_declared, time_extra] = time(writer.language, function.has_time);
-    let [add, root] = summed(writer.language, function, norm);
+    let [add, root] = summed(writer.language, norm);
     let point = match writer.language {
         Language::C => format!("x + {dimension}*k"),
         _ => "&x[k]".to_owned(),
@@ -464,8 +453,8 @@ fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> S
                     ""
                 },
             ),
-            ("ADD", &add),
-            ("ROOT", &root),
+            ("ADD", add),
+            ("ROOT", root),
         ],
     )
 }

@@ -9,7 +9,7 @@ use manufacture::Language;
 
 use crate::files::read;
 
-const FILE: &str = r#"
+pub(crate) const FILE: &str = r#"
 [manufacture]
 name = "every"
 coordinates = ["x", "y"]
@@ -35,7 +35,7 @@ v = ["L2"]
 /// At (0.5, 0.25) and t = 0.75; averages over [0, 1] x [0, 2]; errors at that point and at (1, 2),
 /// with the weights 0.25 and 0.5 and the differences 1 and -2 of T, 1 in each component of its
 /// gradient, and 1 in the first component of v.
-const EXPECTED: [f64; 22] = [
+pub(crate) const EXPECTED: [f64; 22] = [
     0.8125, // T
     0.25,
     0.25, // its gradient
@@ -60,7 +60,7 @@ const EXPECTED: [f64; 22] = [
     f64::NAN,           // Linf of T where the first value is NaN
 ];
 
-const C: &str = r#"
+pub(crate) const C: &str = r#"
 #include <math.h>
 #include <stdio.h>
 #include "every.h"
@@ -91,7 +91,7 @@ int main(void)
 }
 "#;
 
-const RUST: &str = r#"
+pub(crate) const RUST: &str = r#"
 #[path = "every.rs"]
 mod every;
 use every::*;
@@ -119,7 +119,7 @@ fn main() {
 }
 "#;
 
-const FORTRAN: &str = r#"
+pub(crate) const FORTRAN: &str = r#"
 program driver
     use every
     implicit none
@@ -147,7 +147,7 @@ program driver
 end program driver
 "#;
 
-const PYTHON: &str = r#"
+pub(crate) const PYTHON: &str = r#"
 import numpy as np
 from every import *
 x, w, t = np.array([[0.5, 1.0], [0.25, 2.0]]), np.array([0.25, 0.5]), 0.75
@@ -164,7 +164,7 @@ for part in parts:
         print(repr(float(value)))
 "#;
 
-const OCTAVE: &str = r#"
+pub(crate) const OCTAVE: &str = r#"
 1;
 p = every();
 x = [0.5 1; 0.25 2]; w = [0.25 0.5]; t = 0.75; y = x(:, 1); lo = [0 0]; hi = [1 2];

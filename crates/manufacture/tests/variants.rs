@@ -340,6 +340,59 @@ fn a_fortran_program_that_does_not_choose_ends_and_says_what_it_has_to_call() {
     }
 }
 
+/// A program that prints b, k, and both where b is set to 2.
+fn parameters_program(language: Language) -> &'static str {
+    match language {
+        Language::C => {
+            "#include <stdio.h>\n#include \"rich.h\"\nint main(void)\n{\n\
+             printf(\"%.17g %.17g \", rich_get_parameter(\"b\"), rich_get_parameter(\"k\"));\n\
+             rich_set_parameter(\"b\", 2.0);\n\
+             printf(\"%.17g %.17g\\n\", rich_get_parameter(\"b\"), rich_get_parameter(\"k\"));\nreturn 0;\n}\n"
+        }
+        Language::Fortran => {
+            "program driver\nuse rich\nimplicit none\ncall choose_variant()\n\
+             print '(2es25.16)', parameter_b, parameter_k\ncall set_parameter('b', 2.0d0)\n\
+             print '(2es25.16)', parameter_b, parameter_k\nend program driver\n"
+        }
+        Language::Rust => {
+            "#[path = \"rich.rs\"]\nmod rich;\nfn main() {\n\
+             let print = || println!(\"{:?} {:?}\", rich::get_parameter(\"b\").unwrap(), rich::get_parameter(\"k\").unwrap());\n\
+             print();\nrich::set_parameter(\"b\", 2.0).unwrap();\nprint();\n}\n"
+        }
+        Language::Octave => {
+            "p = rich();\nprintf('%.17g ', p.get_parameter('b'), p.get_parameter('k'));\n\
+             p.set_parameter('b', 2);\nprintf('%.17g ', p.get_parameter('b'), p.get_parameter('k'));\n"
+        }
+        Language::Python => {
+            "import rich\nprint(rich.parameter_b, rich.parameter_k)\nrich.set_parameter('b', 2.0)\n\
+             print(rich.parameter_b, rich.parameter_k)\n"
+        }
+        Language::Ufl => {
+            "import sys, types\nsys.modules['ufl'] = types.ModuleType('ufl')\nimport rich_ufl as rich\n\
+             print(rich.parameter_b, rich.parameter_k)\nrich.set_parameter('b', 2.0)\n\
+             print(rich.parameter_b, rich.parameter_k)\n"
+        }
+    }
+}
+
+/// A program that takes its parameters from the module has those of the variant; one that it sets
+/// replaces that of the variant, and those that depend on it follow.
+#[test]
+fn a_program_reads_the_parameters_of_the_variant() {
+    for language in languages() {
+        let module = Module::new(RICH, language);
+        let command = module.built(language, parameters_program(language));
+        for (variant, expected) in [
+            ("", [0.4, 1.2, 2.0, 2.0]),
+            ("constant_x", [0.4, 1.2, 2.0, 2.0]),
+            ("zero_b", [0.0, 1.0, 2.0, 2.0]),
+        ] {
+            let values = module.numbers(&command, variant);
+            assert_eq!(values, expected, "{language:?}: {variant}");
+        }
+    }
+}
+
 /// Initial data, normals, averages and errors follow the variant as well.
 #[test]
 fn functions_that_no_answering_program_calls_follow_the_variant() {

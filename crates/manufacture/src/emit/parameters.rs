@@ -134,67 +134,80 @@ fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Br
     }
 }
 
-/// How a language sets a parameter by its name.
-struct Setter {
-    function: &'static str,
+/// How a language sets a parameter by its name, and returns it.
+struct Access {
+    setter: &'static str,
     /// The statements around all cases.
     body: &'static str,
     first: &'static str,
     later: &'static str,
     indent: usize,
     close: &'static str,
+    /// The function that returns one; empty where programs read the variables of the module.
+    getter: &'static str,
+    getter_case: &'static str,
 }
 
-fn texts(language: Language) -> Setter {
+fn texts(language: Language) -> Access {
     match language {
-        Language::C => Setter {
-            function: include_str!("templates/setter.c"),
+        Language::C => Access {
+            setter: include_str!("templates/setter.c"),
             body: "@CASES@",
             first: "    if (strcmp(name, \"@NAME@\") == 0) {\n",
             later: "    if (strcmp(name, \"@NAME@\") == 0) {\n",
             indent: 8,
             close: "        return 0;\n    }\n",
+            getter: include_str!("templates/getter.c"),
+            getter_case: "    if (strcmp(name, \"@NAME@\") == 0) return @VALUE@;\n",
         },
-        Language::Fortran => Setter {
-            function: include_str!("templates/setter.f90"),
+        Language::Fortran => Access {
+            setter: include_str!("templates/setter.f90"),
             body: "    select case (name)\n@CASES@    case default\n        \
                    error stop 'unknown parameter'\n    end select\n",
             first: "    case ('@NAME@')\n",
             later: "    case ('@NAME@')\n",
             indent: 8,
             close: "",
+            getter: "",
+            getter_case: "",
         },
-        Language::Rust => Setter {
-            function: include_str!("templates/setter.rs"),
+        Language::Rust => Access {
+            setter: include_str!("templates/setter.rs"),
             body: "    match name {\n@CASES@        \
                    _ => return Err(format!(\"unknown parameter `{name}`\")),\n    }\n",
             first: "        \"@NAME@\" => {\n",
             later: "        \"@NAME@\" => {\n",
             indent: 12,
             close: "        }\n",
+            getter: include_str!("templates/getter.rs"),
+            getter_case: "        \"@NAME@\" => Some(@VALUE@),\n",
         },
-        Language::Octave => Setter {
-            function: include_str!("templates/setter.m"),
+        Language::Octave => Access {
+            setter: include_str!("templates/setter.m"),
             body: "  switch name\n@CASES@    otherwise\n      \
                    error('unknown parameter %s', name);\n  end\n",
             first: "    case '@NAME@'\n",
             later: "    case '@NAME@'\n",
             indent: 6,
             close: "",
+            getter: include_str!("templates/getter.m"),
+            getter_case: "    case '@NAME@'\n      value = @VALUE@;\n",
         },
-        Language::Python | Language::Ufl => Setter {
-            function: include_str!("templates/setter.py"),
+        Language::Python | Language::Ufl => Access {
+            setter: include_str!("templates/setter.py"),
             body: "@CASES@    else:\n        raise ValueError(f\"unknown parameter {name}\")\n",
             first: "    if name == \"@NAME@\":\n",
             later: "    elif name == \"@NAME@\":\n",
             indent: 8,
             close: "",
+            getter: "",
+            getter_case: "",
         },
     }
 }
 
-/// The function `set_parameter`; empty without parameters.
-pub(super) fn setter(writer: &Writer<'_>) -> String {
+/// The functions that set and return a parameter; empty without parameters.
+pub(super) fn functions(writer: &Writer<'_>) -> String {
     if writer.parameters.is_empty() {
         return String::new();
     }
@@ -226,8 +239,8 @@ pub(super) fn setter(writer: &Writer<'_>) -> String {
         .iter()
         .map(|name| format!("    global {name}\n"))
         .collect();
-    fill(
-        texts.function,
+    let setter = fill(
+        texts.setter,
         &[
             ("GLOBALS", &globals),
             ("DECLARED", &declared(writer.language, &longest)),
@@ -235,7 +248,23 @@ pub(super) fn setter(writer: &Writer<'_>) -> String {
             ("BODY", &choice::body(writer, &bodies)),
             ("P", &writer.prefix),
         ],
-    )
+    );
+    setter + &getter(writer, &texts)
+}
+
+fn getter(writer: &Writer<'_>, texts: &Access) -> String {
+    let parameters = &writer.model.problem.parameters;
+    let cases = writer.parameters.iter().zip(parameters);
+    let cases: String = cases
+        .map(|(name, parameter)| {
+            let value = read(writer, name);
+            fill(
+                texts.getter_case,
+                &[("NAME", &parameter.name), ("VALUE", &value)],
+            )
+        })
+        .collect();
+    fill(texts.getter, &[("CASES", &cases), ("P", &writer.prefix)])
 }
 
 /// What the answering program does with arguments `NAME=VALUE` behind the face.

@@ -74,6 +74,7 @@ const OCTAVE: [Taken; 2] = [
     Taken {
         by: "a function of Octave that the emitted one would hide",
         names: "abs acos any argv asin atan cos cosh error exp fgetl find floor fscanf gauss getenv \
+                get_parameter \
                 isempty isfield isscalar log log10 max min mod num2cell numel ones parameters pick \
                 printf puts rule set_parameter sin sinh size sprintf sqrt stdin store strcmp \
                 strsplit strtrim sum tan tanh true variant zeros",

@@ -104,7 +104,7 @@ pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
             let exact = functions.iter().filter(|f| f.role == Role::Exact);
             names.extend(exact.map(|f| format!("average_{}", suffix(f))));
             if !writer.parameters.is_empty() {
-                names.push("set_parameter".to_owned());
+                names.extend(["set_parameter", "get_parameter"].map(str::to_owned));
             }
             // An unknown variant is refused at once.
             let variant = if writer.has_alternatives() {
@@ -499,6 +499,12 @@ pub(super) fn header(writer: &Writer<'_>, functions: &[Function], head: &str) ->
         let _ = writeln!(
             text,
             "int {}set_parameter(const char *name, double value);",
+            writer.prefix
+        );
+        text += "/* NaN if no parameter has the name. */\n";
+        let _ = writeln!(
+            text,
+            "double {}get_parameter(const char *name);",
             writer.prefix
         );
     }

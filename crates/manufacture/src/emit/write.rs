@@ -57,7 +57,7 @@ pub(super) fn library(
         body += &writer.function(place);
     }
     body += &runtime::norms(&writer, functions);
-    body += &parameters::setter(&writer);
+    body += &parameters::functions(&writer);
     let opening = runtime::opening(&writer, functions);
     let closing = runtime::closing(&writer);
     let ending = match language {

@@ -128,7 +128,7 @@ impl Manufacture {
     /// all together, data, averages, norms, and `set_parameter`, by which another value replaces
     /// that of the file. The domain, and the points of an integral, are those of the file.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
-        emit::emit(&self.model, language)
+        emit::emit(&self.model, &[], language)
     }
 
     /// The study file, if the file has `[study]`.
@@ -147,8 +147,7 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::emitted(&self.model, language, folder, seed, points)
+        check::emitted::emitted(&self.model, &[], language, folder, sampling)
     }
 
     /// Builds and runs the files of a language that are in a folder already, and compares their
@@ -162,8 +161,7 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::run(&self.model, language, folder, seed, points)
+        check::emitted::run(&self.model, &[], language, folder, sampling)
     }
 
     /// Values at the points of a table with a header: coordinates, time, and optionally `face`.

@@ -32,6 +32,7 @@ mod doubt;
 mod failed_run;
 mod forms;
 mod frame;
+mod grid;
 mod groups;
 mod heads;
 mod limits;
@@ -39,6 +40,7 @@ mod lines;
 mod markup;
 pub(crate) mod names;
 mod number;
+mod original;
 pub(crate) mod pairs;
 mod parameters;
 mod parts;
@@ -58,7 +60,7 @@ use crate::input::{self, InputError};
 pub use digits::Column;
 pub use doubt::Doubt;
 pub use frame::FrameColumn;
-use frame::Original;
+use original::Original;
 pub use parameters::{Parameter, is_degree};
 
 /// A table of errors that was read.

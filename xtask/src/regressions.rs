@@ -14,13 +14,18 @@ mod planted;
 use std::io;
 use std::path::Path;
 
-use convergence_harness::cli::exit::{self, Outcome, Unusable};
-use convergence_harness::cli::running::LongRun;
-use convergence_harness::cli::{screen, workspace};
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::report;
-use convergence_harness::store::atomic;
-use convergence_harness::study::outcome::Table;
+use convergence_study::{
+    Table, Verdict,
+    internal::{
+        cli::{
+            exit::{self, Outcome, Unusable},
+            running::LongRun,
+            screen, workspace,
+        },
+        report,
+        store::atomic,
+    },
+};
 
 use judged::Judged;
 use list::Regression;

@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::cli::exit::{Outcome, Unusable};
-use convergence_harness::input::error_table::Choice;
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::rates::{self, Claimed, Refusal, Request, Tables, claimed};
+use convergence_study::{
+    Choice, Verdict,
+    internal::{
+        cli::exit::{Outcome, Unusable},
+        rates::{self, Claimed, Refusal, Request, Tables, claimed},
+    },
+};
 use serde::Deserialize;
 use serde_json::Value;
 

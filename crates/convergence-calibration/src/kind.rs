@@ -16,13 +16,14 @@
 
 use std::path::Path;
 
-use convergence_harness::input::{Form, InputError, Key, Keys, Section};
-use convergence_harness::plots;
-use convergence_harness::plots::xy::Xy;
-use convergence_harness::study::kind::completion;
-use convergence_harness::study::{
-    Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Subject, Table, header, reader,
+use convergence_study::{
+    Case, CaseFailure, Check, Figure, Form, FromFile, Header, InputError, Key, Keys, Kind, KindRow,
+    Outcome, Quantity, Ran, Section, Subject, Table, completion_check,
+    internal::{
+        plots::{self, xy::Xy},
+        study::header,
+    },
+    read_study,
 };
 use plots::Axis;
 
@@ -37,7 +38,7 @@ use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
 pub const ROW: KindRow = KindRow {
     name: "calibration",
     keys: Calibration::KEYS,
-    read: reader::<Calibration>,
+    read: read_study::<Calibration>,
     why: "The rules that turn errors into verdicts, and values into error bars, are applied to thousands of made-up sequences and grids whose order or limit \
           is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
@@ -246,7 +247,7 @@ impl Kind for Calibration {
             .iter()
             .flat_map(|expected| expected.checks(&sheets))
             .collect();
-        checks.push(completion(ran, |_| vec![]));
+        checks.push(completion_check(ran, |_| vec![]));
         let summary = format!(
             "{} shares of {} sheets are within their limits",
             checks.len() - 1,

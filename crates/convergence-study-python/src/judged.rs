@@ -1,14 +1,18 @@
 //! Judges tables of errors.
 
-use convergence_harness::interval::Interval;
-use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::shown::{self, MOST_PLACES, Shown};
-use convergence_harness::judge::verdict::{
-    DEFAULT_TOLERANCE, Floor, RateVerdict, Reason, Verdict, observe,
+use convergence_judge::{
+    judge::{
+        fit::Level,
+        shown::{self, MOST_PLACES, Shown},
+        verdict::DEFAULT_TOLERANCE,
+    },
+    text::number::decimals,
 };
-use convergence_harness::study::over_levels::{ErrorColumn, Levels};
-use convergence_harness::study::{Axis, Claim, NamedRate, Refinement};
-use convergence_harness::text::number::decimals;
+use convergence_study::{
+    Axis, Claim, Floor, Interval, NamedRate, RateVerdict, Reason, Refinement, Verdict,
+    internal::study::over_levels::{ErrorColumn, Levels},
+    observe,
+};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

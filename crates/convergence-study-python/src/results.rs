@@ -2,12 +2,16 @@
 
 use std::borrow::Cow;
 
-use convergence_harness::judge::verdict::Floor;
-use convergence_harness::study::over_levels::Levels;
-use convergence_harness::study::until_decided::{self, Looks, Next};
-use convergence_harness::study::{
-    Axis, Claim, ErrorsOverLevels, Header, NamedErrors, STEPS, header::is_name, levels,
-    run_cases_here,
+use convergence_study::{
+    Axis, Claim, ErrorsOverLevels, Floor, Header,
+    internal::study::{
+        NamedErrors, STEPS,
+        header::is_name,
+        over_levels::Levels,
+        run_cases_here,
+        until_decided::{self, Looks, Next},
+    },
+    levels,
 };
 use pyo3::prelude::*;
 

@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::project::Project;
-use convergence_harness::run::{self, Finished};
-use convergence_harness::store::{Baseline, Change, Movement, Record, atomic};
-use convergence_harness::study::Header;
-use convergence_harness::verify;
+use convergence_study::{
+    Finished, Header, Project, Verdict,
+    internal::{
+        run,
+        store::{Baseline, Change, Movement, Record, atomic},
+        verify,
+    },
+};
 use pyo3::prelude::*;
 
 use crate::results::TEST;

@@ -4,12 +4,14 @@ use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::program;
-use convergence_harness::run::Finished;
-use convergence_harness::study::until_decided::Next;
-use convergence_harness::study::{NamedErrors, NamedRate, STEPS, first_repeated};
-use convergence_harness::verify;
+use convergence_study::{
+    Finished, NamedRate, Verdict,
+    internal::{
+        program,
+        study::{NamedErrors, STEPS, first_repeated, until_decided::Next},
+    },
+    write_report,
+};
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -128,7 +130,7 @@ impl Study {
     }
 
     fn report(&self, folder: PathBuf) -> PyResult<()> {
-        verify::report(
+        write_report(
             &program::PROJECT,
             std::slice::from_ref(&self.finished),
             &folder,

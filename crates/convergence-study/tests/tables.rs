@@ -5,11 +5,10 @@
 
 use std::{env, fs, path::Path};
 
-use convergence_harness::input::advice::CommandLine;
-use convergence_harness::input::error_table::{Choice, Column, RateTable};
-use convergence_harness::judge::claims::Claim;
-use convergence_harness::judge::richardson::Estimator;
-use convergence_harness::judge::verdict::{Floor, Verdict};
+use convergence_study::{
+    Choice, Claim, Column, Estimator, Floor, RateTable, Verdict,
+    internal::input::advice::CommandLine,
+};
 
 /// The tolerance of all claims of the page.
 const TOLERANCE: f64 = 0.25;

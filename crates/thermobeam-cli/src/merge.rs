@@ -5,9 +5,13 @@ use std::path::PathBuf;
 
 use thermobeam_study::sweep;
 
-use convergence_harness::cli::exit::{Outcome, Unusable};
-use convergence_harness::cli::flags::Flags;
-use convergence_harness::judge::verdict::Verdict;
+use convergence_study::{
+    Verdict,
+    internal::cli::{
+        exit::{Outcome, Unusable},
+        flags::Flags,
+    },
+};
 
 /// Writes `results.jsonl` to the folder of `--out`, with a line for each case in order.
 ///

@@ -10,15 +10,19 @@ mod step_time;
 
 use std::path::{Path, PathBuf};
 
-use convergence_harness::cli::exit::{Outcome, Unusable};
-use convergence_harness::cli::running::LongRun;
-use convergence_harness::cli::workspace;
-use convergence_harness::input;
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::project::Project;
-use convergence_harness::report;
-use convergence_harness::store::atomic;
-use convergence_harness::study::{CaseFailure, Described, Table};
+use convergence_study::{
+    CaseFailure, Project, Table, Verdict,
+    internal::{
+        cli::{
+            exit::{Outcome, Unusable},
+            running::LongRun,
+            workspace,
+        },
+        input, report,
+        store::atomic,
+        study::Described,
+    },
+};
 use serde::Deserialize;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{METHODS, NamedMethod};

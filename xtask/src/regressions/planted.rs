@@ -8,10 +8,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use convergence_harness::cli::exit::Unusable;
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run::not_passed;
-use convergence_harness::store::{Record, atomic, content_hash, json};
+use convergence_study::{
+    Verdict,
+    internal::{
+        cli::exit::Unusable,
+        run::not_passed,
+        store::{Record, atomic, content_hash, json},
+    },
+};
 use serde::{Deserialize, Serialize};
 
 use super::list::Regression;

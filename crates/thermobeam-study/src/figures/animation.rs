@@ -1,11 +1,12 @@
 //! Self-animating SVG of the beam moving between its obstacles.
 
-use convergence_harness::plots::Scale;
-use convergence_harness::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
-use convergence_harness::plots::look::look;
-use convergence_harness::plots::ruler::{Ruler, fixed, on_scale};
-use convergence_harness::plots::style::elide;
-use convergence_harness::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
+use convergence_study::internal::plots::{
+    Scale,
+    canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid},
+    look::look,
+    ruler::{Ruler, fixed, on_scale},
+    style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE, elide},
+};
 
 pub use crate::run::history::Frames;
 use crate::run::snapshot::thinned;
@@ -169,7 +170,10 @@ impl Stage {
         }
         let power = match ticks.exponent {
             0 => String::new(),
-            e => format!(" / {}", convergence_harness::plots::ruler::power_of_ten(e)),
+            e => format!(
+                " / {}",
+                convergence_study::internal::plots::ruler::power_of_ten(e)
+            ),
         };
         pen.text_upwards(
             &format!("displacement u (dimensionless){power}"),

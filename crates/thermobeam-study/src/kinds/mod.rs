@@ -18,9 +18,10 @@ pub mod work_precision;
 pub use settings::PLACES;
 pub use tables::TERMS;
 
-use convergence_harness::input::InputError;
-use convergence_harness::program;
-use convergence_harness::study::{KindRow, Study, StudyFile};
+use convergence_study::{
+    InputError, KindRow, Study,
+    internal::{program, study::StudyFile},
+};
 use orders::Source;
 use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;

@@ -2,25 +2,26 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_harness::input::{
-    Field, Form, InputError, Key, Keys, POSITIVE, Section, keys,
+pub(crate) use convergence_judge::{
+    judge::{random::SplitMix, richardson, verdict::Judge},
+    text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text},
+    time_limit::Patience,
 };
-pub(crate) use convergence_harness::judge::random::SplitMix;
-pub(crate) use convergence_harness::judge::richardson;
-pub(crate) use convergence_harness::judge::verdict::{Floor, Judge, Verdict};
-pub(crate) use convergence_harness::plots;
-pub(crate) use convergence_harness::plots::xy::Xy;
-pub(crate) use convergence_harness::run::time_limit::Patience;
-pub(crate) use convergence_harness::study::coverage::NO_RESULT;
-pub(crate) use convergence_harness::study::kind::completion;
-pub(crate) use convergence_harness::study::over_levels::{ErrorColumn, Levels, summary};
-pub(crate) use convergence_harness::study::{
-    Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
-    KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject,
-    Table, Untested, allow_only, read_claim, reader, readings,
-};
-pub(crate) use convergence_harness::text::number::{
-    counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
+pub(crate) use convergence_study::{
+    Axis, Case, CaseFailure, Check, Claim, Coverage, Field, Figure, Floor, Form, FromFile, Header,
+    InputError, Key, Keys, Kind, KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading,
+    Refinement, Section, Sort, Study, Subject, Table, Untested, Verdict, completion_check,
+    internal::{
+        input::{POSITIVE, keys},
+        plots::{self, xy::Xy},
+        study::{
+            Described, allow_only,
+            coverage::NO_RESULT,
+            over_levels::{ErrorColumn, Levels, summary},
+            readings,
+        },
+    },
+    read_claim, read_study,
 };
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
@@ -80,7 +81,7 @@ pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Opti
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
 }
 
-/// Names of the numbers that are NaN or infinite, for [`completion`]; `None` is neither.
+/// Names of the numbers that are NaN or infinite, for [`completion_check`]; `None` is neither.
 pub(crate) fn not_finite<'n>(
     numbers: impl IntoIterator<Item = (&'n str, impl Into<Option<f64>>)>,
 ) -> Vec<String> {

@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::input::error_table::{Choice, RateTable};
-use convergence_harness::judge::{claims::Claim, verdict::Floor};
-use convergence_harness::store::Baseline;
+use convergence_study::{Choice, Claim, Floor, RateTable, internal::store::Baseline};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use convergence_harness::judge::verdict::{Reason, Verdict};
-use convergence_harness::run::run_one;
-use convergence_harness::study::{CaseFailure, Check, FromFile, Kind, Outcome, run_cases_here};
+use convergence_study::{
+    CaseFailure, Check, FromFile, Kind, Outcome, Reason, Verdict, internal::study::run_cases_here,
+    run_one,
+};
 use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};

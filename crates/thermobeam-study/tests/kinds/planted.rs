@@ -1,7 +1,6 @@
 //! One planted defect at a time.
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::Kind;
+use convergence_study::{Kind, Verdict};
 
 use super::typed::Runs;
 

@@ -1,7 +1,6 @@
 //! Study files with errors.
 
-use convergence_harness::input;
-use convergence_harness::study::{Header, KindRow};
+use convergence_study::{Header, KindRow, internal::input};
 
 use super::{file, text};
 

@@ -1,8 +1,10 @@
 use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, text};
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run::run_one;
-use convergence_harness::study::{Described, FromFile, Kind, NamedRate, run_cases_here};
+use convergence_study::{
+    FromFile, Kind, NamedRate, Verdict,
+    internal::study::{Described, run_cases_here},
+    run_one,
+};
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::self_convergence::{self, Traced};

@@ -1,0 +1,96 @@
+//! `report`: writes the pages of a record anew; runs nothing.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use super::exit::{Outcome, Unusable};
+use super::flags::Flags;
+use super::screen;
+use crate::project::Project;
+use crate::report::{sentence, shared};
+use crate::store::{FIGURES, MANIFEST, Provenance, Record};
+use crate::text::visible;
+use crate::verify::{Reports, folder_of_figures, rebuild};
+
+/// Write the report on a record anew, without running anything
+///
+/// The record is results.json of a report, with its pictures in figures/, or what
+/// `study --format json` printed, without pictures. The exit status is that of the run.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The record
+    record: PathBuf,
+    #[command(flatten)]
+    flags: Flags,
+}
+
+/// Writes the report to `--out`, otherwise to the record's folder if that holds a report.
+///
+/// # Errors
+/// A record that cannot be used, and a report that cannot be written.
+pub(super) fn run(
+    project: &Project,
+    Arguments {
+        record: path,
+        flags,
+    }: &Arguments,
+) -> Outcome {
+    let mut record = Record::read(path)?;
+    let beside = path.parent().unwrap_or(Path::new(""));
+    let is_report = beside.join(MANIFEST).is_file();
+    let own = is_report.then(|| beside.to_owned());
+    let folder = flags.out.clone().or(own).ok_or_else(|| {
+        let path = visible::path(path);
+        Unusable::because(&format!(
+            "{path}: found outside of a report's folder; expected --out DIR for the new report"
+        ))
+    })?;
+    let pictures = folder_of_figures(&record, beside);
+    let missing = add_pictures(&mut record, &pictures)?;
+    let times = Reports::around(beside).provenance();
+    let provenance = Provenance::read(&times)?;
+    let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
+    let verdict = record.verdict;
+    let sentence = sentence(&record.studies, record.changes.as_deref());
+    let folder = rebuild(project, record, provenance.as_ref(), &folder)?;
+    missing.iter().for_each(|file| {
+        screen::tell(&format!(
+            "note: no picture {}/{file}",
+            visible::path(&pictures.join(FIGURES))
+        ));
+    });
+    let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
+    let words = flags.words(verdict, &sentence, whole);
+    Ok(flags.print(
+        verdict,
+        &json!({"report": folder, "missing": missing}),
+        &words,
+    )?)
+}
+
+/// Reads the pictures of all figures; a figure without one is left out and named.
+fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusable> {
+    let mut missing = vec![];
+    for study in &mut record.studies {
+        for mut figure in std::mem::take(&mut study.outcome.figures) {
+            let is_name = Path::new(&figure.file)
+                .file_name()
+                .is_some_and(|name| *name == *figure.file);
+            let path = shared::picture(beside, &figure.file)?;
+            match fs::read_to_string(&path) {
+                Ok(svg) if is_name => {
+                    figure.svg = svg;
+                    study.outcome.figures.push(figure);
+                }
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(Unusable::file(&path, &error));
+                }
+                _ => missing.push(visible::visible(&figure.file)),
+            }
+        }
+    }
+    Ok(missing)
+}

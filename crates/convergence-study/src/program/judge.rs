@@ -1,0 +1,284 @@
+//! From answers to an outcome: errors, and values without a known error, with their rate, their
+//! limit and the distance to it.
+
+use super::answer::{Answer, Expectation};
+use super::{Program, Run, refine, values};
+use crate::judge::claims;
+use crate::judge::grid::SpaceTime;
+use crate::plots::{self, Series};
+use crate::study::grid::{Grid, GridColumn};
+use crate::study::kind;
+use crate::study::outcome::joined;
+use crate::study::over_levels::{self, ErrorColumn, Levels};
+use crate::study::until_decided::{self, Looks, Next};
+use crate::study::{Axis, Case, Check, Figure, LevelErrors, NamedRate, Outcome, Ran, Subject};
+use crate::text::number::{error_text, plain_text};
+
+pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
+    if let Some(mixed) = mixed_steps(study, ran) {
+        let check = Check::that(
+            false,
+            "every level answers its step, or none does",
+            mixed.clone(),
+        )
+        .about(Subject::of("step"));
+        return Outcome::new(mixed, vec![], vec![check, completion_check(ran)]);
+    }
+    let levels = levels(study, ran);
+    let mut outcome = if study.refine.grid {
+        over_grid(study, ran, &levels)
+    } else {
+        along_path(study, ran, &levels)
+    };
+    // Answered numbers are finite. An answer may lack some numbers, and a failed case fails its
+    // check; the baseline notices a guarded number that is missing.
+    outcome
+        .quantities
+        .retain(|quantity| quantity.value.is_finite());
+    outcome
+}
+
+/// Both orders of each error at once.
+fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+    let column = |expected: &Expectation| GridColumn {
+        name: expected.name.clone(),
+        space: expected.claim,
+        time: expected.time,
+        errors: ran.iter().map(|ran| number(ran, expected)).collect(),
+    };
+    let grid = Grid {
+        points: ran
+            .iter()
+            .map(|ran| SpaceTime {
+                space: step(ran, Axis::Space),
+                time: step(ran, Axis::Time),
+            })
+            .collect(),
+        times: study.refine.times(),
+        columns: study.expect.iter().map(column).collect(),
+        squares_add: false,
+    };
+    let mut outcome = grid.judge();
+    outcome.extend(Outcome::new("", vec![], vec![completion_check(ran)]));
+    let mut figures = grid.figures(|name| format!("error {name}"));
+    figures.extend(work_precision(levels, ran));
+    Outcome {
+        // These errors are not judged over either step alone.
+        levels: errors(levels, ran)
+            .into_iter()
+            .map(|level| LevelErrors {
+                step: None,
+                ..level
+            })
+            .collect(),
+        figures,
+        quantities: levels.quantities(&outcome.rates),
+        ..outcome
+    }
+}
+
+/// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
+pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
+    let of_variant = study.is_variant && study.refine.can_add();
+    let budget = study
+        .refine
+        .budget
+        .or(of_variant.then_some(refine::BUDGET))?;
+    let seconds: Vec<f64> = ran
+        .iter()
+        .map(|ran| Some(ran.ok()?.seconds))
+        .collect::<Option<_>>()?;
+    let now = rates(study, ran);
+    let looks = if study.refine.budget.is_some() {
+        Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]))
+    } else {
+        // Levels that are listed decide by what they show.
+        Looks {
+            now: &now,
+            before: now.clone(),
+        }
+    };
+    Some(until_decided::next_by_time(&looks, &seconds, budget))
+}
+
+/// The rates of errors and of values over these levels.
+fn rates(study: &Program, ran: &[Run]) -> Vec<NamedRate> {
+    let levels = levels(study, ran);
+    let values = values::judge(study, ran, &levels.refinements);
+    [levels.judge(), values.rates].concat()
+}
+
+fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+    let rates = levels.judge();
+    let mut checks = exact(study, ran);
+    checks.push(completion_check(ran));
+    let values = values::judge(study, ran, &levels.refinements);
+    let quantities = [levels.quantities(&rates), values.quantities].concat();
+    let mut figures = vec![];
+    // The figure is over h.
+    if !levels.columns.is_empty() && !by_degree(study) {
+        let caption = "Errors over levels of refinement.".to_owned();
+        figures.push(levels.figure("errors", None, caption, &rates));
+        figures.extend(work_precision(levels, ran));
+    }
+    let rates = [rates, values.rates].concat();
+    let summary = joined(&over_levels::summary(&rates), &values.summary);
+    let outcome = Outcome {
+        levels: if levels.columns.is_empty() {
+            vec![]
+        } else {
+            errors(levels, ran)
+        },
+        tables: values.tables,
+        figures: [figures, values.figures].concat(),
+        quantities,
+        ..Outcome::new(summary, rates, checks).summed_up_by_rates(values.summary)
+    };
+    match next(study, ran).zip(study.refine.budget) {
+        Some((next, budget)) => until_decided::conclude(outcome, next, levels, budget, "s"),
+        None => outcome,
+    }
+}
+
+/// Whether n is a degree.
+fn by_degree(study: &Program) -> bool {
+    study.expect.iter().any(|expected| expected.by_degree)
+}
+
+/// A check for each error that should vanish.
+fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
+    let check = |expected: &Expectation| {
+        let bound = expected.exact?;
+        let (largest, is_exact) = claims::exact(ran.iter().map(|ran| number(ran, expected)), bound);
+        let claim = format!("{} is exact: at most {}", expected.name, plain_text(bound));
+        let evidence = format!("largest {}", error_text(largest));
+        Some(Check::that(is_exact, claim, evidence).about(Subject::of(&expected.name)))
+    };
+    study.expect.iter().filter_map(check).collect()
+}
+
+/// The number that a case answered; NaN if it did not.
+fn number(ran: &Run, expected: &Expectation) -> f64 {
+    ran.ok()
+        .and_then(|answer| answer.number(expected))
+        .unwrap_or(f64::NAN)
+}
+
+/// A case that answered less than required counts as failed.
+fn completion_check(ran: &[Run]) -> Check {
+    let whole = |Ran { case, found }: &Run| {
+        let answered = found.as_ref().map_err(Clone::clone);
+        let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
+        Ran {
+            case: Case::new(case.label.clone(), case.cost, ()),
+            found,
+        }
+    };
+    kind::completion_check(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+}
+
+/// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace
+/// the missing ones.
+fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
+    let space = study.refine.space.is_some();
+    let time = study.refine.time.is_some();
+    let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
+        let labels = |has: bool| {
+            let answered = ran
+                .iter()
+                .filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
+            answered
+                .map(|ran| ran.case.label.as_str())
+                .collect::<Vec<_>>()
+                .join("; ")
+        };
+        let [with, without] = [true, false].map(labels);
+        let is_mixed = !with.is_empty() && !without.is_empty();
+        let expected = format!("expected {name} in the answers of all levels or of none");
+        is_mixed
+            .then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
+    };
+    let h = || space.then(|| mixed("h", |answer| answer.h)).flatten();
+    let dt = || {
+        (time && (study.refine.grid || !space))
+            .then(|| mixed("dt", |answer| answer.dt))
+            .flatten()
+    };
+    h().or_else(dt)
+}
+
+/// The step of a case: as reported by the program, otherwise the nominal one.
+fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
+    let answered = found.as_ref().ok();
+    match axis {
+        Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
+        Axis::Time => answered
+            .and_then(|answer| answer.dt)
+            .unwrap_or(case.data.dt),
+    }
+}
+
+/// Every error of every answer.
+fn levels(study: &Program, ran: &[Run]) -> Levels {
+    let axis = study.refine.axis();
+    let over = |step: f64| {
+        if by_degree(study) {
+            claims::step_of_degree(step.recip())
+        } else {
+            step
+        }
+    };
+    let found: Vec<_> = ran
+        .iter()
+        .map(|ran| ran.ok().map(|answer| answer.errors.as_slice()))
+        .collect();
+    let refinements = ran
+        .iter()
+        .map(|ran| ran.case.data.refinement(over(step(ran, axis))));
+    Levels::new(
+        axis,
+        refinements,
+        ErrorColumn::of(&study.claims(false), &found),
+    )
+}
+
+/// Every error of every level, with the work that the program counts.
+fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
+    let work = ran
+        .iter()
+        .map(|ran| ran.ok().and_then(|answer| answer.work));
+    levels
+        .errors()
+        .into_iter()
+        .zip(work)
+        .map(|(level, work)| LevelErrors { work, ..level })
+        .collect()
+}
+
+/// Errors over the work that the program counts, if every answer contains it.
+fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
+    let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
+    let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
+    let series = |column: &ErrorColumn| {
+        let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
+        let points = work
+            .iter()
+            .copied()
+            .zip(errors)
+            .filter(|(work, error)| !(work.is_nan() && error.is_nan()));
+        Series::new(column.name.clone(), points)
+    };
+    let claimed = levels
+        .columns
+        .iter()
+        .filter(|column| column.claim.is_some());
+    let series: Vec<Series> = claimed.map(series).collect();
+    let drawn = plots::work_precision("work, as the program counts it", "error", &series)
+        .titled("Errors fall with work: lower and further left is better")
+        .draw();
+    Some(Figure::new(
+        "work",
+        "Errors over the work that they cost: the lower and the further left, the better.",
+        drawn,
+    ))
+}

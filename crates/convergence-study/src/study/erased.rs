@@ -1,0 +1,172 @@
+//! Studies of any kind in one form, as the runner sees them: their types are erased.
+
+use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::header::Header;
+use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
+use super::outcome::Outcome;
+
+/// A study of any kind, as the runner sees it.
+pub trait Study: Send + Sync {
+    /// Id, claim, tier and kind.
+    fn header(&self) -> &Header;
+
+    /// Lists the cases, with a place for the result of each.
+    fn plan(&self) -> Box<dyn Plan + '_>;
+
+    /// What this study does, for `explain`: paragraphs, each with its title.
+    fn details(&self) -> Vec<(String, String)>;
+
+    /// What it fails to test although it passes.
+    fn untested(&self) -> Vec<Untested>;
+
+    /// As [`Kind::manufactured`].
+    fn manufactured(&self) -> Option<&Path> {
+        None
+    }
+
+    /// As [`Kind::with_variant`]; its id ends with the variant.
+    fn with_variant(&self, _variant: &str) -> Option<Box<dyn Study + '_>> {
+        None
+    }
+}
+
+/// The cases of a study while they are run.
+pub trait Plan: Send + Sync {
+    /// Label and cost of each case.
+    fn cases(&self) -> Vec<Case<()>>;
+
+    /// Adds the case that [`Kind::more`] requests after all others have run; its number, or `None`
+    /// if there are enough.
+    fn more(&self) -> Option<usize>;
+
+    /// Runs case number `index` and keeps its result.
+    fn run(&self, index: usize);
+
+    /// Replaces the result of case number `index` by a failure.
+    fn fail(&self, index: usize, failure: CaseFailure);
+
+    /// Why case number `index` has no result; `None` if it has one.
+    fn failure(&self, index: usize) -> Option<CaseFailure>;
+
+    /// Judges the results after each case has run.
+    fn judge(&self) -> Outcome;
+}
+
+/// A typed study in the form that the runner takes.
+pub fn boxed_study<'k, K: Kind + 'k>(header: Header, kind: K) -> Box<dyn Study + 'k> {
+    Box::new(Described { header, kind })
+}
+
+/// The cases of a typed study, with a place for the result of each.
+pub(crate) fn plan<K: Kind>(kind: &K) -> Box<dyn Plan + '_> {
+    let ran = kind
+        .cases()
+        .into_iter()
+        .map(|case| Ran {
+            case,
+            found: Err(never_run()),
+        })
+        .collect();
+    Box::new(Typed {
+        kind,
+        ran: Mutex::new(ran),
+    })
+}
+
+/// A typed study with its header.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Described<K> {
+    /// Id, claim, tier and kind.
+    pub header: Header,
+    /// What is run and judged.
+    pub kind: K,
+}
+
+impl<K: Kind> Study for Described<K> {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+
+    fn plan(&self) -> Box<dyn Plan + '_> {
+        plan(&self.kind)
+    }
+
+    fn details(&self) -> Vec<(String, String)> {
+        self.kind.details()
+    }
+
+    fn untested(&self) -> Vec<Untested> {
+        self.kind.untested()
+    }
+
+    fn manufactured(&self) -> Option<&Path> {
+        self.kind.manufactured()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Box<dyn Study + '_>> {
+        let header = Header {
+            id: format!("{} {variant}", self.header.id),
+            ..self.header.clone()
+        };
+        Some(boxed_study(header, self.kind.with_variant(variant)?))
+    }
+}
+
+/// Cases of one kind and their results.
+struct Typed<'k, K: Kind> {
+    kind: &'k K,
+    ran: Mutex<Vec<Ran<K::Data, K::Found>>>,
+}
+
+impl<K: Kind> Typed<'_, K> {
+    fn ran(&self) -> MutexGuard<'_, Vec<Ran<K::Data, K::Found>>> {
+        self.ran.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn never_run() -> CaseFailure {
+    CaseFailure::new("the case was not run")
+}
+
+impl<K: Kind> Plan for Typed<'_, K> {
+    fn cases(&self) -> Vec<Case<()>> {
+        let mut cases = vec![];
+        for Ran { case, .. } in self.ran().iter() {
+            cases.push(Case::new(case.label.clone(), case.cost, ()));
+        }
+        cases
+    }
+
+    fn more(&self) -> Option<usize> {
+        let mut ran = self.ran();
+        let case = self.kind.more(&ran)?;
+        ran.push(Ran {
+            case,
+            found: Err(never_run()),
+        });
+        Some(ran.len() - 1)
+    }
+
+    fn run(&self, index: usize) {
+        let data = self.ran()[index].case.data.clone();
+        let found = self.kind.run(&data);
+        self.ran()[index].found = found;
+    }
+
+    fn fail(&self, index: usize, failure: CaseFailure) {
+        self.ran()[index].found = Err(failure);
+    }
+
+    fn failure(&self, index: usize) -> Option<CaseFailure> {
+        match &self.ran()[index].found {
+            Ok(found) => self.kind.failure(found),
+            Err(failure) => Some(failure.clone()),
+        }
+    }
+
+    fn judge(&self) -> Outcome {
+        judge(self.kind, &self.ran())
+    }
+}

@@ -1,0 +1,402 @@
+//! Verification, without command line and terminal: run, judge, compare with the baseline, bless,
+//! write the report.
+
+mod destination;
+mod rebuilt;
+mod reports;
+
+use std::fs::File;
+use std::io;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::thread;
+
+use glob::Pattern;
+use thiserror::Error;
+
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::report::{Findings, NEWEST};
+use crate::run::{self, Effort, Finished, Progress, RunError};
+use crate::store::{
+    Baseline, Change, Provenance, Record, Refusal, Works, atomic, diagnosis::diagnose, json,
+    write_json,
+};
+use crate::study::{Header, Study, Tier};
+use crate::text::names::quoted;
+
+#[cfg(feature = "command-line")]
+pub(crate) use destination::folder_of_figures;
+pub use rebuilt::{publish, write_report};
+pub(crate) use rebuilt::{rebuild, record};
+
+use destination::Destination;
+pub(crate) use reports::Reports;
+
+/// Which studies to run. This decides where the report goes: a report on a selection never replaces
+/// one on a tier.
+///
+/// | scope | reports |
+/// | --- | --- |
+/// | the quick tier | `reports/`; if it does not pass, `reports/local/quick/` |
+/// | the full tier | `reports/full/`; if it does not pass, `reports/local/full/` |
+/// | a selection | `reports/local/partial/` |
+///
+/// Git ignores `reports/local/`: a run that does not pass leaves the committed report as it is. The
+/// files in `reports/` that git ignores and other programs read, such as `junit.xml` ([`NEWEST`]),
+/// are always those of the newest run: while it is under way, and after it has been killed, there
+/// are none.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Scope {
+    /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims
+    /// of all are compared.
+    Tier(Tier, Vec<Header>),
+    /// Some studies, as named on the command line.
+    Selection(Vec<String>),
+}
+
+impl Scope {
+    /// The name in records.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Tier(tier, _) => tier.name(),
+            Self::Selection(_) => "selection",
+        }
+    }
+
+    /// The command of a project that runs it.
+    pub fn command(&self, project: &Project) -> String {
+        let verify = format!("{} verify", project.command);
+        match self {
+            Self::Tier(Tier::Quick, _) => verify,
+            Self::Tier(Tier::Full, _) => verify + " --tier full",
+            Self::Selection(asked) => {
+                let words = asked.iter().map(|word| quoted(word)).collect::<Vec<_>>();
+                format!("{verify} {}", words.join(" "))
+            }
+        }
+    }
+
+    /// One of each kind: the quick tier, the full one, a selection.
+    fn one_of_each() -> [Self; 3] {
+        [
+            Self::Tier(Tier::Quick, vec![]),
+            Self::Tier(Tier::Full, vec![]),
+            Self::Selection(vec![]),
+        ]
+    }
+
+    /// The headers of all existing studies, if a whole tier is run.
+    pub fn known(&self) -> Option<&[Header]> {
+        match self {
+            Self::Tier(_, known) => Some(known),
+            Self::Selection(_) => None,
+        }
+    }
+}
+
+/// A verification to be done.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// Which studies these are.
+    pub scope: Scope,
+    /// Threads and time.
+    pub effort: Effort,
+    /// Whether to accept the new numbers as baseline.
+    pub bless: bool,
+    /// Why claims have changed, for blessing them.
+    pub reason: Option<String>,
+    /// Names or patterns of the changes to accept; if empty, all. Needs a reason.
+    pub only: Vec<String>,
+    /// The project's folder, which contains `studies/baseline.json`.
+    pub root: PathBuf,
+    /// The folder of its reports, usually `reports/` in it.
+    pub reports: PathBuf,
+}
+
+impl Request {
+    /// All these studies, as those of a tier, on all processors; nothing is blessed.
+    ///
+    /// * `root`: the project's folder; the reports go to `reports/` in it.
+    pub fn of_tier(tier: Tier, studies: &[Box<dyn Study>], root: impl Into<PathBuf>) -> Self {
+        let root = root.into();
+        let headers = studies.iter().map(|study| study.header().clone()).collect();
+        let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        Self {
+            scope: Scope::Tier(tier, headers),
+            effort: jobs.into(),
+            bless: false,
+            reason: None,
+            only: vec![],
+            reports: root.join("reports"),
+            root,
+        }
+    }
+
+    /// The file of the baseline.
+    pub fn baseline(&self) -> PathBuf {
+        self.root.join("studies").join("baseline.json")
+    }
+
+    /// Waits for other processes that write the reports, and then blocks them; for a blessing first
+    /// for those that write the baseline, whose lock is in the project, wherever the reports go.
+    fn lock(&self) -> io::Result<[Option<File>; 2]> {
+        let reports = Reports::at(&self.reports);
+        let of_project = self.reports_of_project();
+        let baseline = self.bless.then(|| of_project.lock()).transpose()?;
+        // A second lock on the same file would wait for the first.
+        let is_held = baseline.is_some() && of_project.shares_its_lock(&reports);
+        let reports = (!is_held).then(|| reports.lock()).transpose()?;
+        Ok([baseline, reports])
+    }
+
+    /// Those that have the lock of the baseline.
+    fn reports_of_project(&self) -> Reports {
+        Reports::at(self.root.join("reports"))
+    }
+}
+
+/// Whether the numbers and claims of a run have become the baseline.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Blessing {
+    /// That was not requested.
+    NotAsked,
+    /// They have.
+    Taken,
+    /// They have not, for this reason.
+    Refused(Refusal),
+}
+
+impl Blessing {
+    fn of(taken: Result<(), Refusal>) -> Self {
+        taken.map_or_else(Self::Refused, |()| Self::Taken)
+    }
+}
+
+/// The result of a verification.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Verification {
+    /// The record of the run, with all digits and times: the studies in the order given; no changes
+    /// after a blessing.
+    pub record: Record,
+    /// Whether the baseline was replaced.
+    pub blessing: Blessing,
+    /// The folder of the reports.
+    pub reports: PathBuf,
+}
+
+/// Why there is no verification.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum VerificationError {
+    /// The studies cannot be run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The baseline cannot be used, or the reports cannot be written.
+    #[error(transparent)]
+    Files(#[from] io::Error),
+    /// A pattern of [`Request::only`] that matches no change.
+    #[error("--only: found `{pattern}`, which matches no change; expected one of {changes}{}", .some.iter().map(|id| format!(", `{id}`")).collect::<String>())]
+    NoChange {
+        /// The pattern.
+        pattern: String,
+        /// How many changes there are.
+        changes: usize,
+        /// The first of them.
+        some: Vec<String>,
+    },
+}
+
+/// Runs the studies and writes the reports, and the baseline if requested.
+///
+/// The page "Test in Rust" of the book has an example.
+///
+/// # Errors
+/// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are reported
+/// before anything is run.
+pub fn verify(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    request: &Request,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Verification, VerificationError> {
+    let baseline_file = request.baseline();
+    Baseline::read(&baseline_file)?;
+    let reports = Reports::at(&request.reports);
+    if reports.is_used() {
+        locked(request, &reports, || remove_leftovers(request, &reports))?;
+    }
+    reports.prepare()?;
+    let works = Works::read(&works_file(request))?;
+    let newest = reports.report(&request.scope);
+    if newest.has_any(&NEWEST) {
+        locked(request, &reports, || newest.set_aside(&NEWEST))?;
+    }
+    let verification = run_and_write(project, studies, request, &reports, works, progress);
+    if verification.is_err() {
+        // The error of the run says more than one of putting back.
+        let _ = locked(request, &reports, || newest.put_back(&NEWEST));
+    }
+    verification
+}
+
+/// The file of the work limits.
+fn works_file(request: &Request) -> PathBuf {
+    request.root.join("studies/work.json")
+}
+
+/// Changes files of the reports while no other process writes them.
+fn locked(
+    request: &Request,
+    reports: &Reports,
+    change: impl FnOnce() -> io::Result<()>,
+) -> io::Result<()> {
+    let _lock = request.lock()?;
+    let _writing = atomic::begin_write();
+    change().map_err(|error| reports.unwritable(&error))
+}
+
+/// The part of [`verify`] behind the checks of its input.
+fn run_and_write(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    request: &Request,
+    reports: &Reports,
+    mut works: Works,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Verification, VerificationError> {
+    let baseline_file = request.baseline();
+    // Blessed runs may take longer than before.
+    let allowed =
+        |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
+    let finished = run::run_within(studies, request.effort, &allowed, progress)?;
+
+    let _lock = request.lock()?;
+    // A request to end the process waits until everything is written.
+    let _writing = atomic::begin_write();
+    // Another run may have blessed in the meantime: the baseline is read again under the lock.
+    let mut baseline = Baseline::read(&baseline_file)?;
+    let blessing = bless(&mut baseline, &finished, request)?;
+    let changes = baseline.compare(&finished, request.scope.known());
+    let command = request.scope.command(project);
+    let record = diagnosed(project, request, finished, &changes);
+    // Everything is prepared before anything is written.
+    let provenance = Provenance::collect(
+        &request.root,
+        command,
+        request.effort.jobs.get(),
+        &record.studies,
+    );
+    let committed = record.clone().committed();
+    // A blessing of some changes, or of one tier, can leave others: the run then still fails.
+    let passes = record.verdict == Verdict::Pass;
+    let destination = Destination::new(&request.scope, reports, passes);
+    let see_also = destination.see_also(&committed);
+    let findings = Findings {
+        project,
+        record: &committed,
+        see_also,
+        provenance: Some(&provenance),
+    };
+    let unwritable = |error| reports.unwritable(&error);
+    let files = findings.files().map_err(unwritable)?;
+    let provenance = json(&provenance).map_err(unwritable)?;
+    if blessing == Blessing::Taken {
+        baseline.write(&baseline_file)?;
+        works.take(&record.studies);
+        if !works.is_empty() {
+            write_json(&works_file(request), &works)?;
+        }
+    }
+    destination.publish(files, reports).map_err(unwritable)?;
+    atomic::write(&reports.provenance(), provenance).map_err(unwritable)?;
+    Ok(Verification {
+        record,
+        blessing,
+        reports: destination.folder().to_owned(),
+    })
+}
+
+/// The record of a run, with the diagnosis of one that does not pass.
+fn diagnosed(
+    project: &Project,
+    request: &Request,
+    finished: Vec<Finished>,
+    changes: &[Change],
+) -> Record {
+    let command = request.scope.command(project);
+    let verdict = verdict(&finished, changes);
+    let name = request.scope.name();
+    let mut record = Record::new(name, &command, verdict, Some(changes), finished);
+    record.diagnosis = diagnose(project, &record.studies, changes);
+    if let Some(diagnosis) = &mut record.diagnosis {
+        diagnosis.add_repetition(project, changes);
+    }
+    record
+}
+
+/// Accepts all changes into the baseline, or those selected: all of them or none.
+fn bless(
+    baseline: &mut Baseline,
+    finished: &[Finished],
+    request: &Request,
+) -> Result<Blessing, VerificationError> {
+    let known = request.scope.known();
+    let reason = request.reason.as_deref();
+    if !request.bless {
+        return Ok(Blessing::NotAsked);
+    }
+    if request.only.is_empty() {
+        return Ok(Blessing::of(baseline.bless(finished, known, reason)));
+    }
+    let changes = baseline.compare(finished, known);
+    let mut is_chosen = vec![false; changes.len()];
+    for word in &request.only {
+        let pattern = Pattern::new(word).ok();
+        let matches =
+            |id: &str| id == word || pattern.as_ref().is_some_and(|pattern| pattern.matches(id));
+        let mut occurs = false;
+        for (change, is_chosen) in changes.iter().zip(&mut is_chosen) {
+            if matches(&change.id()) {
+                *is_chosen = true;
+                occurs = true;
+            }
+        }
+        if !occurs {
+            return Err(VerificationError::NoChange {
+                pattern: word.clone(),
+                changes: changes.len(),
+                some: changes.iter().take(3).map(Change::id).collect(),
+            });
+        }
+    }
+    let mut new = baseline.clone();
+    let chosen = changes.iter().zip(is_chosen).filter(|(_, chosen)| *chosen);
+    for (change, _) in chosen {
+        if let Err(refusal) = new.accept(finished, change, reason.unwrap_or_default()) {
+            return Ok(Blessing::Refused(refusal));
+        }
+    }
+    *baseline = new;
+    Ok(Blessing::Taken)
+}
+
+/// Completes or removes what runs that were killed have left.
+fn remove_leftovers(request: &Request, reports: &Reports) -> io::Result<()> {
+    // If the lock of the baseline is not held, another process may be writing it.
+    if request.bless || request.reports_of_project().shares_its_lock(reports) {
+        atomic::remove_leftovers(&request.baseline())?;
+    }
+    reports.tidy()
+}
+
+/// The worst verdict of all studies; fail if the baseline differs.
+fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
+    let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
+    if changes.is_empty() {
+        own
+    } else {
+        Verdict::Fail
+    }
+}

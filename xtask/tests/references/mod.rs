@@ -1,0 +1,314 @@
+//! The schemas and the readers allow the same keys: every file of the repository satisfies its
+//! schema, and a file with a key too many, a key too few or a value of another type is refused by
+//! both or by none.
+
+mod mutants;
+mod schema;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use convergence_study::{
+    Keys,
+    internal::{
+        cli::{
+            explain,
+            schema::{MANUFACTURE, of_studies, of_tables_file, other_files},
+            workspace,
+        },
+        program,
+        study::StudyFile,
+    },
+};
+use manufacture::Manufacture;
+use serde_json::Value;
+use thermobeam_study::scene::{self, Scene};
+
+use xtask::PROJECT;
+use xtask::references::{Reference, files};
+
+use mutants::{Mutant, insertions, mutants};
+use schema::complaint;
+
+/// Both answers to a text: of the schema, and of the reader.
+#[derive(Debug)]
+struct Answers {
+    schema: Option<String>,
+    reader: Option<String>,
+}
+
+impl Answers {
+    /// * `read`: what the reader makes of the text.
+    fn new<T, E: std::fmt::Display>(schema: &Value, text: &str, read: Result<T, E>) -> Self {
+        Self {
+            schema: complaint(schema, &as_json(text), ""),
+            reader: read.err().map(|error| error.to_string()),
+        }
+    }
+}
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The TOML files of a folder, in the order of their names.
+fn toml_files(folder: &str) -> impl Iterator<Item = PathBuf> {
+    let entries = fs::read_dir(repository().join(folder)).unwrap();
+    let files = entries.map(|entry| entry.unwrap().path());
+    let files: BTreeSet<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .collect();
+    files.into_iter()
+}
+
+fn as_json(text: &str) -> Value {
+    let table: toml::Table = toml::from_str(text).expect("TOML");
+    serde_json::to_value(table).expect("JSON")
+}
+
+/// The changes that a reader refuses and a schema does not, because the reader compares values of
+/// several keys or counts tables.
+const STRICTER: [&str; 13] = [
+    "[obstacles] is missing",
+    "[beam] is missing",
+    "[beam] without theta_a",
+    "[exact] without theta",
+    "[[reference]] is missing",
+    "[[discretisations]] is missing",
+    "[case.beam] without theta_a",
+    "[case.initial] without theta",
+    "[case.answer] without estimated_error",
+    "[case.answer] without chosen_u_tip",
+    "[refine] without solver",
+    "[refine] without iterations",
+    "[refine] without steps",
+];
+
+/// Tries all changes but the `known` ones; returns those to which the two answers differ.
+///
+/// * `sets`: the keys of the file.
+fn compare(
+    text: &str,
+    name: &str,
+    sets: &[Keys],
+    known: &mut BTreeSet<String>,
+    answers: impl Fn(&str) -> Answers,
+) -> Vec<Differing> {
+    let own = answers(text);
+    assert_eq!((own.schema, own.reader), (None, None), "{name}");
+    let mut differing = vec![];
+    for Mutant { text, change } in mutants(text).into_iter().chain(insertions(text, sets)) {
+        if known.contains(&change) || toml::from_str::<toml::Table>(&text).is_err() {
+            continue;
+        }
+        known.insert(change.clone());
+        let answers = answers(&text);
+        if answers.schema.is_some() != answers.reader.is_some() {
+            differing.push(Differing { change, answers });
+        }
+    }
+    differing
+}
+
+/// A change to which the answers differ.
+#[derive(Debug)]
+struct Differing {
+    change: String,
+    answers: Answers,
+}
+
+impl Differing {
+    /// Whether only the reader refuses the text.
+    fn is_stricter(&self) -> bool {
+        self.answers.schema.is_none()
+    }
+}
+
+#[test]
+fn schema_and_readers_of_studies_allow_the_same_keys() {
+    let schema = of_studies(&PROJECT);
+    let mut known = std::collections::BTreeMap::<String, BTreeSet<String>>::new();
+    let mut differing = vec![];
+    for path in toml_files("studies").chain(toml_files("studies/programs")) {
+        let text = fs::read_to_string(&path).unwrap();
+        let file = StudyFile::parse(PROJECT.kinds, &text, &path).unwrap();
+        let kind = file.study.header().kind.clone();
+        let answers = |text: &str| {
+            Answers::new(
+                &schema,
+                text,
+                StudyFile::parse(PROJECT.kinds, text, &file.path),
+            )
+        };
+        let name = file.path.display().to_string();
+        let known = known.entry(kind.clone()).or_default();
+        let row = PROJECT.kinds.iter().find(|row| row.name == kind).unwrap();
+        differing.extend(compare(&text, &name, row.keys, known, answers));
+    }
+    let kinds: Vec<&str> = PROJECT.kinds.iter().map(|row| row.name).collect();
+    assert_eq!(known.len(), kinds.len(), "each of {kinds:?} has a study");
+    let stricter = differing.iter().filter(|found| found.is_stricter());
+    let stricter: Vec<&str> = stricter.map(|found| found.change.as_str()).collect();
+    assert_eq!(stricter.len(), differing.len(), "{differing:#?}");
+    let stricter = BTreeSet::from_iter(stricter);
+    assert_eq!(stricter, BTreeSet::from(STRICTER), "{differing:#?}");
+    let tried: usize = known.values().map(BTreeSet::len).sum();
+    assert!(tried > 700, "{tried}");
+}
+
+#[test]
+fn schema_and_reader_of_scenes_allow_the_same_keys() {
+    let schema = of_tables_file("scene", &[&scene::KEYS]);
+    let mut known = BTreeSet::new();
+    let mut differing = vec![];
+    for path in toml_files("studies/scenes") {
+        let text = fs::read_to_string(&path).unwrap();
+        let name = path.display().to_string();
+        let answers = |text: &str| Answers::new(&schema, text, Scene::parse(text, &name));
+        differing.extend(compare(
+            &text,
+            &name,
+            &[&[&scene::KEYS]],
+            &mut known,
+            answers,
+        ));
+    }
+    assert!(known.len() > 30, "{known:?}");
+    assert!(differing.is_empty(), "{differing:#?}");
+}
+
+/// The files of `manufacture` in the repository: those of folders, the template, and those of pages.
+fn manufacture_files() -> Vec<(String, String)> {
+    let folders = ["studies/manufactured", "crates/manufacture/tests/files"];
+    let paths = folders.into_iter().flat_map(toml_files);
+    let mut files: Vec<(String, String)> = paths
+        .map(|path| {
+            (
+                path.display().to_string(),
+                fs::read_to_string(&path).unwrap(),
+            )
+        })
+        .collect();
+    let template = program::MANUFACTURE.files[0].1;
+    files.push(("the template".to_owned(), template.replace("NAME", "name")));
+    for page in ["TEN-MINUTES.md", "NOTES.md"] {
+        let path = repository().join("crates/manufacture").join(page);
+        let text = fs::read_to_string(path).unwrap();
+        let blocks = text.split("```toml\n").skip(1);
+        let blocks = blocks.map(|block| block.split("```").next().unwrap());
+        let whole = blocks.filter(|block| block.contains("[manufacture]"));
+        files.extend(whole.map(|block| (page.to_owned(), block.to_owned())));
+    }
+    files
+}
+
+/// The changes of files of `manufacture` that only the reader refuses, beside those of [`is_a_name`].
+const STRICTER_OF_MANUFACTURE: [&str; 3] = [
+    "[boundary.ball] without level",
+    "[boundary.circle] without level",
+    "[manufacture] without time",
+];
+
+/// Whether a change takes away a name of the user's that expressions of the file have, or a term of
+/// an equation, or adds one of another shape: only a reader that parses them can notice.
+fn is_a_name(change: &str) -> bool {
+    let tables = ["[domain]", "[parameters]", "[exact]", "[define]"];
+    let is_gone = change.contains(" without ") || change.ends_with(" is missing");
+    let is_in = |table: &&str| change.starts_with(*table);
+    is_gone && tables.iter().any(is_in)
+        || change.starts_with("[equations.") && (is_gone || change.ends_with(" has surplus"))
+}
+
+#[test]
+fn schema_and_reader_of_manufacture_allow_the_same_keys() {
+    let others = other_files(&PROJECT);
+    let (name, keys) = others
+        .iter()
+        .find(|(name, _)| *name == MANUFACTURE)
+        .unwrap();
+    let schema = of_tables_file(name, keys);
+    let mut known = BTreeSet::new();
+    let mut differing = vec![];
+    let files = manufacture_files();
+    assert!(files.len() > 10, "{}", files.len());
+    for (name, text) in files {
+        let answers = |text: &str| Answers::new(&schema, text, Manufacture::parse(text, &name));
+        differing.extend(compare(&text, &name, &[*keys], &mut known, answers));
+    }
+    assert!(known.len() > 100, "{known:?}");
+    assert!(
+        differing.iter().all(Differing::is_stricter),
+        "{differing:#?}"
+    );
+    let stricter: BTreeSet<&str> = differing
+        .iter()
+        .map(|found| found.change.as_str())
+        .filter(|change| !is_a_name(change))
+        .collect();
+    assert_eq!(
+        stricter,
+        BTreeSet::from(STRICTER_OF_MANUFACTURE),
+        "{differing:#?}"
+    );
+}
+
+#[test]
+fn the_committed_schemas_and_pages_are_current() {
+    for Reference { path, text } in files() {
+        let committed = fs::read_to_string(repository().join(&path)).unwrap_or_default();
+        assert!(
+            committed == text,
+            "{path}: run `cargo xtask dev references`"
+        );
+    }
+}
+
+/// What `new` writes for studies and scenes names its schema, which is committed where the URL
+/// points.
+#[test]
+fn new_files_name_a_committed_schema() {
+    const URL: &str = "https://raw.githubusercontent.com/thermobeam/thermobeam/main/";
+    let repository = URL.replace("raw.githubusercontent.com", "github.com");
+    let repository = repository.trim_end_matches("/main/");
+    assert!(
+        include_str!("../../../Cargo.toml").contains(&format!("repository = \"{repository}\""))
+    );
+    let committed: Vec<String> = files().into_iter().map(|file| file.path).collect();
+    let templates = PROJECT.templates.iter().chain(program::PROJECT.templates);
+    let mut named = BTreeSet::new();
+    for template in templates {
+        let (_, text) = template.files[0];
+        let line = text.lines().next().unwrap();
+        let path = line.strip_prefix(&format!("#:schema {URL}"));
+        let path = path.unwrap_or_else(|| panic!("{}: {line}", template.name));
+        assert!(committed.iter().any(|known| known == path), "{path}");
+        named.insert(path);
+    }
+    assert_eq!(named.len(), 4, "{named:?}");
+}
+
+#[test]
+fn every_study_of_the_repository_is_explained() {
+    let files =
+        workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join("..")).unwrap();
+    assert!(files.len() > 10);
+    for file in files {
+        let header = file.study.header();
+        let text = explain::study(&PROJECT, file.study.as_ref());
+        let text =
+            text.unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
+        for title in [
+            "what is claimed",
+            "why it should hold",
+            "how it is judged",
+            "what a failure would mean",
+        ] {
+            assert!(text.contains(&format!("\n{title}\n")), "{text}");
+        }
+        assert!(
+            text.starts_with(&header.id) && text.lines().all(|line| line.chars().count() <= 100),
+            "{text}"
+        );
+    }
+}

@@ -42,7 +42,7 @@ use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
-use crate::kinds::detects::untested::untested;
+use crate::kinds::orders::planted::untested::untested;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{
     CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, mean_width,

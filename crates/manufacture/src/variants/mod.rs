@@ -8,6 +8,7 @@
 //! | a parameter zero | its term |
 //! | a field constant | what acts on it |
 
+mod described;
 mod design;
 mod switch;
 mod variation;
@@ -25,6 +26,7 @@ use crate::problem::{InputError, Problem};
 use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
+pub use described::{DescribedVariant, Description};
 use design::{Design, MIDDLE, Side, designs, sides};
 pub use switch::Switch;
 pub(crate) use variation::{Bubble, Step, Variation};
@@ -77,7 +79,11 @@ impl Variants<'_> {
     /// variable `MANUFACTURE_VARIANT` names; it is read once, and without it they are those of the
     /// file. In Fortran a program calls `choose_variant` first.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
-        emit::emit(self.base, &self.alternatives(), language)
+        let mut files = emit::emit(self.base, &self.alternatives(), language);
+        if language == Language::Python {
+            files[0].text += &self.description().literal();
+        }
+        files
     }
 
     /// Builds and runs the files of a language in a folder, which is for temporary files, and

@@ -142,7 +142,7 @@ pub(super) const PYTHON: Texts = Texts {
     },
     choice: Choice {
         before: "",
-        case: "    @EL@if _VARIANT in [@ALL@]:\n",
+        case: "    @EL@if _NUMBER in [@ALL@]:\n",
         otherwise: "    else:\n",
         close: "",
         after: "",
@@ -154,7 +154,7 @@ pub(super) const PYTHON: Texts = Texts {
         between_names: ",\n    ",
         variable: "",
         ready: "",
-        changes: "if _VARIANT == @K@:\n@CHANGES@",
+        changes: "if _NUMBER == @K@:\n@CHANGES@",
         change: "    @NAME@ = @VALUE@\n",
         advice: "",
         current: "",

@@ -125,6 +125,29 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
 }
 
 #[test]
+fn a_variant_that_is_left_out_has_its_reason_in_json() {
+    let root = project(PROGRAM, &["-"]);
+    let fixed = ROD.replace(
+        "[boundary.x_min]\nu = \"u\"",
+        "[boundary.x_min]\nu = { of = \"u\", is = \"1\" }",
+    );
+    assert_ne!(fixed, ROD);
+    fs::write(root.path().join("rod.toml"), fixed).unwrap();
+    let words = ["study", "study.toml", "--where", "--format", "json"];
+    let record: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let variants = record["studies"][0]["where"]["variants"]
+        .as_array()
+        .unwrap();
+    let row = |name: &str| variants.iter().find(|row| row["name"] == name).unwrap();
+    let reason = row("constant_x")["left_out"].as_str().unwrap();
+    assert!(
+        reason.starts_with("boundary.x_min.u: condition-violated: "),
+        "{reason}"
+    );
+    assert_eq!(row("constant_t").get("left_out"), None);
+}
+
+#[test]
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
     for (hidden_in, words) in [
         (

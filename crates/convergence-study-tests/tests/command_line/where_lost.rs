@@ -1,5 +1,6 @@
 //! `study --where`: in which part of a program the order is lost.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
@@ -183,6 +184,12 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     let ignoring = PROGRAM.replace("scale=1.${#MANUFACTURE_VARIANT}", "scale=1");
     assert_ne!(ignoring, PROGRAM);
     let root = project(&ignoring, &[]);
+    let log = root.path().join("log");
+    let logged = format!(
+        "echo \"$MANUFACTURE_VARIANT\" >> '{}'\n{ignoring}",
+        log.display()
+    );
+    fs::write(root.path().join("run.sh"), logged).unwrap();
     let words = ["study", "study.toml", "--where", "--out", "report"];
     let (status, out, err) = run(&root, &words);
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
@@ -193,6 +200,10 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     ] {
         assert!(err.contains(part), "{err}");
     }
+    // One variant was run, not all.
+    let log = fs::read_to_string(log).unwrap();
+    let variants: BTreeSet<&str> = log.lines().collect();
+    assert_eq!(variants, BTreeSet::from(["", "flat_x"]));
     let written = fs::read_dir(root.path().join("report")).map_or(0, Iterator::count);
     assert_eq!(written, 0);
 }

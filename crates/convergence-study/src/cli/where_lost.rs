@@ -105,8 +105,10 @@ fn run_variants(
         let probe = search.probe();
         let variants = search.variants.usable.iter().zip(ran).enumerate();
         for (place, (variant, slot)) in variants {
-            if (probe == Some(place)) == is_probe {
-                runs.extend(search.study.with_variant(&variant.name));
+            if (probe == Some(place)) == is_probe
+                && let Some(run) = search.study.with_variant(&variant.name)
+            {
+                runs.push(run);
                 slots.push(slot);
             }
         }

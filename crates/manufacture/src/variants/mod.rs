@@ -77,7 +77,8 @@ impl Variants<'_> {
 
     /// The files of a language, whose functions are those of the variant that the environment
     /// variable `MANUFACTURE_VARIANT` names; it is read once, and without it they are those of the
-    /// file. In Fortran a program calls `choose_variant` first.
+    /// file. In Fortran a program calls `choose_variant` first. In Python the module says what each
+    /// variant switches off, too.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
         let mut files = emit::emit(self.base, &self.alternatives(), language);
         if language == Language::Python {

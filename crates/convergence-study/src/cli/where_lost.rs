@@ -6,7 +6,7 @@ use super::exit::Unusable;
 use super::running::watched_with;
 use crate::input::read_text;
 use crate::run::{self, Effort, Finished};
-use crate::study::variants::Variants;
+use crate::study::variants::{Part, Variant, Variants};
 use crate::study::{Outcome, Study};
 use crate::where_lost::{figure, is_unnoticed, located, lost};
 
@@ -51,31 +51,76 @@ pub(super) fn locate(
     quiet: bool,
 ) -> Result<(), Unusable> {
     let searches = searches(studies, finished)?;
-    let mut runs = vec![];
-    for Search {
-        study, variants, ..
-    } in &searches
-    {
-        for variant in &variants.usable {
-            runs.extend(study.with_variant(&variant.name));
+    let empty = |search: &Search<'_>| vec![None; search.variants.usable.len()];
+    let mut ran: Vec<Vec<Option<Finished>>> = searches.iter().map(empty).collect();
+    // A program that ignores the variable is refused after one variant, not after all.
+    for is_probe in [true, false] {
+        run_variants(&searches, is_probe, &mut ran, effort, quiet)?;
+        for (search, ran) in searches.iter().zip(&ran) {
+            refuse(&finished[search.place], &search.variants, ran)?;
         }
     }
-    let ran = watched_with(&runs, quiet, false, |progress| {
-        run::run(&runs, effort, progress)
-    })?;
-    let mut ran = ran.into_iter();
-    for Search {
-        place, variants, ..
-    } in &searches
-    {
-        let of_search: Vec<Finished> = ran.by_ref().take(variants.usable.len()).collect();
+    for (search, ran) in searches.iter().zip(ran) {
+        let Search {
+            place, variants, ..
+        } = search;
+        let of_search: Vec<Finished> = ran.into_iter().flatten().collect();
         let base = &mut finished[*place];
-        refuse(base, variants, &of_search)?;
         let outcomes: Vec<&Outcome> = of_search.iter().map(|ran| &ran.outcome).collect();
         let located = located(&base.outcome, variants, &outcomes);
         let figure = figure(&base.header, &base.outcome, &located);
         base.outcome.figures.extend(figure);
         base.located = Some(located);
+    }
+    Ok(())
+}
+
+impl Search<'_> {
+    /// A variant whose errors are not those of the study unless the program ignores it: with a
+    /// bubble the solution is no polynomial of low degree, for which schemes are exact.
+    fn probe(&self) -> Option<usize> {
+        let has_bubble = |variant: &Variant| {
+            matches!(
+                variant.switches_off,
+                Part::BothFaces(_) | Part::AllFaces | Part::AllFacesAndInitial
+            )
+        };
+        self.variants.usable.iter().position(has_bubble)
+    }
+}
+
+/// Runs the probe of each search, or all other variants, in one pool.
+///
+/// * `ran`: for each search and each of its variants what it found, if it was run.
+fn run_variants(
+    searches: &[Search<'_>],
+    is_probe: bool,
+    ran: &mut [Vec<Option<Finished>>],
+    effort: Effort,
+    quiet: bool,
+) -> Result<(), Unusable> {
+    let mut runs = vec![];
+    let mut slots = vec![];
+    for (search, ran) in searches.iter().zip(ran) {
+        let probe = search.probe();
+        let variants = search.variants.usable.iter().zip(ran).enumerate();
+        for (place, (variant, slot)) in variants {
+            if (probe == Some(place)) == is_probe
+                && let Some(run) = search.study.with_variant(&variant.name)
+            {
+                runs.push(run);
+                slots.push(slot);
+            }
+        }
+    }
+    if runs.is_empty() {
+        return Ok(());
+    }
+    let finished = watched_with(&runs, quiet, false, |progress| {
+        run::run(&runs, effort, progress)
+    })?;
+    for (slot, finished) in slots.into_iter().zip(finished) {
+        *slot = Some(finished);
     }
     Ok(())
 }
@@ -107,20 +152,21 @@ fn searches<'s>(
 }
 
 /// Refuses variants that do not run, or that the program does not notice.
-fn refuse(base: &Finished, variants: &Variants, ran: &[Finished]) -> Result<(), Unusable> {
+fn refuse(base: &Finished, variants: &Variants, ran: &[Option<Finished>]) -> Result<(), Unusable> {
     let id = &base.header.id;
     for (variant, finished) in variants.usable.iter().zip(ran) {
-        if let Some(failed) = finished.failed_cases.first() {
+        let failed = finished.as_ref().map(|ran| ran.failed_cases.as_slice());
+        if let Some([failed, ..]) = failed {
             return Err(Unusable::because(&format!(
                 "{id}: --where: the variant {} does not run: {}: {}",
                 variant.name, failed.label, failed.reason
             )));
         }
     }
-    let outcomes: Vec<&Outcome> = ran.iter().map(|ran| &ran.outcome).collect();
+    let outcomes: Vec<&Outcome> = ran.iter().flatten().map(|ran| &ran.outcome).collect();
     if is_unnoticed(&base.outcome, &outcomes) {
         return Err(Unusable::because(&format!(
-            "{id}: --where: the errors are the same in all variants: the program does not notice \
+            "{id}: --where: the errors do not change with the variant: the program does not notice \
              the variable MANUFACTURE_VARIANT of its environment. Likely reasons: its module was \
              written without --variants; it uses or was compiled with an older module; it is \
              started by something that does not pass the environment on, as MPI on other hosts \
@@ -142,7 +188,7 @@ fn variants(manufacture: &Manufacture) -> Result<Variants, Unusable> {
 mod tests {
     use manufacture::Switch;
 
-    use crate::study::variants::Part;
+    use super::Part;
 
     #[test]
     fn each_part_of_a_file_is_one_of_the_search() {

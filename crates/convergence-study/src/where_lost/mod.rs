@@ -73,9 +73,15 @@ pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located
             switches_off: variant.switches_off.clone(),
             order: fate,
             rates: rates.collect(),
+            left_out: None,
         });
     }
-    for LeftOut { name, switches_off } in &variants.left_out {
+    for LeftOut {
+        name,
+        switches_off,
+        why,
+    } in &variants.left_out
+    {
         let part = switches_off.clone();
         let fate = Fate::Unknown;
         examined.push(Examined { part, fate });
@@ -84,6 +90,7 @@ pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located
             switches_off: switches_off.clone(),
             order: fate,
             rates: vec![],
+            left_out: Some(why.clone()),
         });
     }
     let conclusion = decide(&examined);

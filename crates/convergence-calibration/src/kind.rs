@@ -21,7 +21,9 @@ use convergence_study::internal::plots;
 use convergence_study::internal::plots::xy::Xy;
 use convergence_study::{
     Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Subject, Table, internal::study::header, reader,
+    Subject, Table,
+    internal::study::header::{Setting, study},
+    reader,
 };
 use convergence_study::{Form, InputError, Key, Keys, Section};
 use plots::Axis;
@@ -43,7 +45,6 @@ pub const ROW: KindRow = KindRow {
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
              has its limit.",
     failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
-    settings: header::of_file,
 };
 
 /// A quantity that can be counted.
@@ -223,6 +224,11 @@ impl FromFile for Calibration {
 impl Kind for Calibration {
     type Data = Measure;
     type Found = Vec<Sheet>;
+
+    /// It puts no code but the rule to the test.
+    fn settings(&self, header: &Header, _subject: &Subject) -> Vec<Setting> {
+        vec![study(header), ("kind".to_owned(), "the harness".to_owned())]
+    }
 
     fn cases(&self) -> Vec<Case<Measure>> {
         let mut cases = vec![];

@@ -4,9 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use convergence_study::internal::cli::explain::{contents, nearest_name, study, term, terms};
-use convergence_study::{
-    Axis, Claim, Header, KindRow, Study, erased, internal::study::header, levels,
-};
+use convergence_study::{Axis, Claim, Header, KindRow, Study, erased, levels};
 use convergence_study::{InputError, Section};
 use convergence_study::{Project, Term};
 
@@ -18,7 +16,6 @@ const KIND: KindRow = KindRow {
           shows for each cell, and adding the errors of all cells loses one power that the smallness of a cell gains.",
     judged: "By the rate at h -> 0.",
     failure: "A wrong weight or node.",
-    settings: header::of_file,
 };
 
 const PROJECT: Project = Project {

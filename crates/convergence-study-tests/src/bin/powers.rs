@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use convergence_study::Project;
 use convergence_study::internal::cli;
 use convergence_study::internal::program;
-use convergence_study::{Claim, Header, KindRow, Study, erased, internal::study::header, levels};
+use convergence_study::{Claim, Header, KindRow, Study, erased, levels};
 use convergence_study::{Form, InputError, Key, Section};
 
 /// The order claimed instead of 1.
@@ -25,7 +25,6 @@ const PROJECT: Project = Project {
             why: "",
             judged: "",
             failure: "",
-            settings: header::of_file,
         },
         program::ROW,
     ],

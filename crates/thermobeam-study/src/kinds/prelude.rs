@@ -18,7 +18,7 @@ pub(crate) use convergence_study::{
     Axis, Case, CaseFailure, Check, Claim, Coverage, Figure, FromFile, Header, Kind, KindRow,
     NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
     Untested,
-    internal::study::{Described, allow_only, readings},
+    internal::study::{Described, allow_only, header::Setting, readings},
     read_claim, reader,
 };
 pub(crate) use convergence_study::{
@@ -38,7 +38,10 @@ pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam_exact::vibration::Mode;
 
-pub(crate) use super::settings::{ItemMethod, Topic};
+pub(crate) use super::settings::{
+    CONTACT, ENERGY, Exercise, FREE_VIBRATIONS, Integration, ItemMethod, MANUFACTURED, Nodes,
+    Terms, axis_in_words,
+};
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};

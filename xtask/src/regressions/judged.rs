@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use convergence_study::Study;
-use convergence_study::internal::cli::exit::Unusable;
-use convergence_study::internal::cli::workspace;
-use convergence_study::internal::store::diagnosis::{Diagnosis, diagnose};
+use convergence_study::internal::{
+    cli::{exit::Unusable, workspace},
+    store::diagnosis::{Diagnosis, diagnose},
+};
 
 use super::list::Regression;
 use super::planted::Found;

@@ -2,14 +2,16 @@
 
 use std::num::NonZeroUsize;
 
-use convergence_study::Finished;
-use convergence_study::internal::program;
-use convergence_study::internal::report::text_of_diagnosis;
-use convergence_study::internal::run::run;
-use convergence_study::internal::store::diagnosis::diagnose;
-use convergence_study::internal::store::{Change, Movement};
-use convergence_study::internal::study::header::Setting;
-use convergence_study::{Case, CaseFailure, Check, Header, Kind, Outcome, Ran, Subject, erased};
+use convergence_study::{
+    Case, CaseFailure, Check, Finished, Header, Kind, Outcome, Ran, Subject, boxed_study,
+    internal::{
+        program,
+        report::text_of_diagnosis,
+        run::run,
+        store::{Change, Movement, diagnosis::diagnose},
+        study::header::Setting,
+    },
+};
 
 use super::fake::{Does, fake, finished};
 
@@ -47,7 +49,7 @@ fn settings_named(ratio: Subject) -> Vec<Setting> {
     for method in ["midpoint", "dg", "one-step", "fixed-point"] {
         checks.push(Check::that(true, "c", "").about(Subject::of("error").by(method)));
     }
-    let studies = [erased(Header::new("s", "c"), Methods)];
+    let studies = [boxed_study(Header::new("s", "c"), Methods)];
     let mut ran: Vec<Finished> = run(&studies, NonZeroUsize::MIN, &|_| ()).unwrap();
     ran[0].outcome = Outcome::new("", vec![], checks);
     let found = diagnose(&program::PROJECT, &studies, &ran, &[]);

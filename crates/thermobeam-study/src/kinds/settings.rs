@@ -4,9 +4,10 @@
 //! Each kind of study says what its items exercise, as an [`Exercise`], from what it has read of
 //! its file. What an item is about is data of its [`Subject`].
 
-use convergence_study::Axis;
-use convergence_study::internal::study::header::{Setting, study};
-use convergence_study::{Header, Subject};
+use convergence_study::{
+    Axis, Header, Subject,
+    internal::study::header::{Setting, study},
+};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{MIDPOINT, Scheme};

@@ -143,7 +143,7 @@ pub use crate::{
         Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
         error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, Parameter, RateTable},
     },
-    study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, read_study},
+    study::{FromFile, KindRow, read_claim, read_study},
 };
 
 #[cfg(feature = "reports")]

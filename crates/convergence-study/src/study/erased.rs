@@ -3,9 +3,10 @@
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::header::Header;
+use super::header::{Header, Setting};
 use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
 use super::outcome::Outcome;
+use super::subject::Subject;
 
 /// A study of any kind, as the runner sees it.
 pub trait Study: Send + Sync {
@@ -20,6 +21,9 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
+
+    /// The settings that an item exercises, as [`Kind::settings`] states them.
+    fn settings(&self, subject: &Subject) -> Vec<Setting>;
 
     /// As [`Kind::manufactured`].
     fn manufactured(&self) -> Option<&Path> {
@@ -99,6 +103,10 @@ impl<K: Kind> Study for Described<K> {
 
     fn untested(&self) -> Vec<Untested> {
         self.kind.untested()
+    }
+
+    fn settings(&self, subject: &Subject) -> Vec<Setting> {
+        self.kind.settings(&self.header, subject)
     }
 
     fn manufactured(&self) -> Option<&Path> {

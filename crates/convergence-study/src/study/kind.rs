@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use super::coverage::{Coverage, NO_RESULT};
+use super::header::{self, Header, Setting};
 use super::outcome::{Check, Origin, Outcome};
 use super::subject::Subject;
 use crate::text::lists::{and_more, grouped};
@@ -192,6 +193,14 @@ pub trait Kind: Send + Sync {
     /// What this study does, for `explain`: paragraphs, each with its title.
     fn details(&self) -> Vec<(String, String)> {
         vec![]
+    }
+
+    /// The settings that an item exercises, each with its key: by these a diagnosis separates
+    /// failing from passing items. By default the values of the study's file.
+    ///
+    /// * `subject`: what the item is about; its quantity is known.
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        header::of_file(header, subject)
     }
 
     /// The file of `manufacture` whose module gives the study's program its solution.

@@ -65,6 +65,10 @@ impl<S: Plantable> Kind for Detects<S> {
     type Data = RunOf<S::Data>;
     type Found = UnderFaults<S::Found>;
 
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        super::exercise(&self.studies, subject).settings(header, subject)
+    }
+
     fn cases(&self) -> Vec<Case<RunOf<S::Data>>> {
         let faults = self.faults.len() as f64;
         let mut cases = vec![];

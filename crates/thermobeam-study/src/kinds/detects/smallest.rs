@@ -71,6 +71,10 @@ impl Kind for Sensitivity {
     /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
 
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        super::exercise(&self.studies, subject).settings(header, subject)
+    }
+
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let runs = BISECTIONS as f64 + 2.0;
         let mut pairs = vec![];

@@ -43,6 +43,9 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// [`InputError`] with file, line, field, the value found and the values allowed.
     fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
 
+    /// What its items exercise.
+    fn exercise(&self) -> Exercise;
+
     /// The runs, coarse to fine.
     fn cases(&self) -> Vec<Case<Self::Data>>;
 
@@ -235,6 +238,10 @@ impl<S: Source> Kind for Orders<S> {
             }
             None => outcome,
         }
+    }
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        self.0.exercise().settings(header, subject)
     }
 
     fn details(&self) -> Vec<(String, String)> {

@@ -94,9 +94,6 @@ impl Source for Convergence {
                  within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
         failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
-        settings: |header, item| {
-            Topic::of_solution(header, ItemMethod::OneStep).settings(header, item)
-        },
     };
 
     /// Elements and steps.
@@ -127,6 +124,12 @@ impl Source for Convergence {
             expect,
             formulas: None,
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let theory = &self.theory;
+        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        self.refine.exercise(MANUFACTURED, terms)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

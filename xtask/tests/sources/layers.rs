@@ -34,9 +34,21 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of the harness from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 13] = [
-    "input", "plots", "exchange", "rates", "study", "run", "project", "store", "program",
-    "compare", "report", "verify", "cli",
+const ORDER: [&str; 14] = [
+    "input",
+    "plots",
+    "exchange",
+    "rates",
+    "study",
+    "run",
+    "where_lost",
+    "project",
+    "store",
+    "program",
+    "compare",
+    "report",
+    "verify",
+    "cli",
 ];
 
 /// The modules of the judge, which every module may use under the harness's name.

@@ -114,7 +114,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     arguments.limits.consent(project, &studies)?;
     let flags = &arguments.flags;
     let request = request(arguments, scope, root);
-    if arguments.located && studies.iter().all(|study| study.manufactured().is_none()) {
+    let has_variants = |study: &Box<dyn Study>| where_lost::has_variants(study.as_ref());
+    if arguments.located && !studies.iter().any(has_variants) {
         return Err(where_lost::no_file("no study"));
     }
     let mut verification = watched(&studies, flags.quiet, |progress| {

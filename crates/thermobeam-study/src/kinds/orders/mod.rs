@@ -18,6 +18,7 @@ use convergence_study::Grid;
 use convergence_study::LevelErrors;
 use convergence_study::internal::study::over_levels::rate_table;
 use convergence_study::internal::study::until_decided::{self, Looks, Next};
+use convergence_study::variants::Variants;
 
 use super::prelude::*;
 
@@ -67,6 +68,16 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// As [`Kind::untested`].
     fn untested(&self) -> Vec<Untested> {
         vec![]
+    }
+
+    /// As [`Kind::variants`].
+    fn variants(&self) -> Option<Variants> {
+        None
+    }
+
+    /// As [`Kind::with_variant`].
+    fn with_variant(&self, _variant: &str) -> Option<Self> {
+        None
     }
 }
 
@@ -239,6 +250,14 @@ impl<S: Source> Kind for Orders<S> {
 
     fn untested(&self) -> Vec<Untested> {
         self.0.untested()
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        self.0.variants()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.0.with_variant(variant).map(Self)
     }
 }
 

@@ -35,8 +35,10 @@
 
 mod constant;
 pub(in crate::kinds) mod design;
+mod variants;
 
 use convergence_study::SpaceTime;
+use convergence_study::variants::Variants;
 use convergence_study::{Grid, GridColumn};
 
 use super::one_step::{levels, not_finite_norms};
@@ -128,6 +130,14 @@ impl Source for Convergence {
             expect,
             formulas: None,
         })
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        Some(self.own_variants())
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.varied(variant)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

@@ -174,7 +174,7 @@ impl Convergence {
         });
         let data = [
             ("x_min", "u, phi, theta"),
-            ("x_max", "moment, shear force, theta"),
+            ("x_max", "moment, shear force with contact, theta"),
         ];
         let data = data.map(|(face, names)| {
             let names = names.split(", ").map(str::to_owned).collect();

@@ -22,6 +22,7 @@ mod solutions;
 mod solvers;
 mod typed;
 mod untested;
+mod variants;
 mod vibration;
 mod work_precision;
 

@@ -21,6 +21,7 @@ use convergence_study::{
         over_levels::rate_table,
         until_decided::{self, Looks, Next},
     },
+    variants::Variants,
 };
 
 use super::prelude::*;
@@ -74,6 +75,16 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// As [`Kind::untested`].
     fn untested(&self) -> Vec<Untested> {
         vec![]
+    }
+
+    /// As [`Kind::variants`].
+    fn variants(&self) -> Option<Variants> {
+        None
+    }
+
+    /// As [`Kind::with_variant`].
+    fn with_variant(&self, _variant: &str) -> Option<Self> {
+        None
     }
 }
 
@@ -250,6 +261,14 @@ impl<S: Source> Kind for Orders<S> {
 
     fn untested(&self) -> Vec<Untested> {
         self.0.untested()
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        self.0.variants()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.0.with_variant(variant).map(Self)
     }
 }
 

@@ -35,8 +35,9 @@
 
 mod constant;
 pub(in crate::kinds) mod design;
+mod variants;
 
-use convergence_study::{Grid, GridColumn, SpaceTime};
+use convergence_study::{Grid, GridColumn, SpaceTime, variants::Variants};
 
 use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};
@@ -130,6 +131,14 @@ impl Source for Convergence {
         let theory = &self.theory;
         let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
         self.refine.exercise(MANUFACTURED, terms)
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        Some(self.own_variants())
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.varied(variant)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

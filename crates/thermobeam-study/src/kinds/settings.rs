@@ -15,7 +15,7 @@ use crate::exact::norm::Norm;
 const SMALL_ZETA: f64 = 0.02;
 
 /// Where to look for the cause, by the name of a setting or by the field that changed first.
-pub const PLACES: [(&str, &str); 18] = [
+pub const PLACES: [(&str, &str); 19] = [
     ("one-step schemes", "crates/thermobeam/src/solve"),
     (
         "any order",
@@ -57,6 +57,10 @@ pub const PLACES: [(&str, &str); 18] = [
     (
         "listed nodes",
         "the lengths of elements: crates/thermobeam/src/mesh.rs",
+    ),
+    (
+        "initial data",
+        "crates/thermobeam-study/src/run/simulate.rs",
     ),
     (
         "whole scenes",

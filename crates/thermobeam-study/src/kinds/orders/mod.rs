@@ -9,6 +9,7 @@ pub mod any_order;
 pub mod frequencies;
 pub mod manufactured;
 mod one_step;
+pub mod projection;
 pub mod self_convergence;
 pub mod vibration;
 

@@ -9,9 +9,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use convergence_calibration::kind;
-use convergence_harness::cli::{command_line, ended};
-use convergence_harness::project::Project;
-use convergence_harness::study::KindRow;
+use convergence_study::KindRow;
+use convergence_study::Project;
+use convergence_study::internal::cli::{command_line, ended};
 use thermobeam_cli::{GROUPS, PAGES, project};
 use thermobeam_study::kinds::{KINDS, settings};
 
@@ -75,7 +75,7 @@ fn main() -> ExitCode {
 mod tests {
     use std::path::Path;
 
-    use convergence_harness::cli::{explain, workspace};
+    use convergence_study::internal::cli::{explain, workspace};
 
     use super::PROJECT;
 

@@ -1,13 +1,13 @@
 //! `dev references`: the schemas and reference pages of study files and scenes, made from the keys
 //! that the readers allow.
 
-use convergence_harness::cli::exit::Outcome;
-use convergence_harness::cli::schema::{
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::Outcome;
+use convergence_study::internal::cli::schema::{
     MANUFACTURE, of_studies, of_tables_file, other_files, page, text,
 };
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::program;
-use convergence_harness::store::atomic;
+use convergence_study::internal::program;
+use convergence_study::internal::store::atomic;
 use thermobeam_cli::project;
 
 /// Write the schemas and the reference pages of files anew

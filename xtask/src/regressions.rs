@@ -14,13 +14,13 @@ mod planted;
 use std::io;
 use std::path::Path;
 
-use convergence_harness::cli::exit::{self, Outcome, Unusable};
-use convergence_harness::cli::running::LongRun;
-use convergence_harness::cli::{screen, workspace};
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::report;
-use convergence_harness::store::atomic;
-use convergence_harness::study::outcome::Table;
+use convergence_study::Table;
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::{self, Outcome, Unusable};
+use convergence_study::internal::cli::running::LongRun;
+use convergence_study::internal::cli::{screen, workspace};
+use convergence_study::internal::report;
+use convergence_study::internal::store::atomic;
 
 use judged::Judged;
 use list::Regression;

@@ -8,13 +8,16 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::project::Project;
-use convergence_harness::run::{Finished, Item, not_passed, run};
-use convergence_harness::store::diagnosis::{Diagnosis, diagnose};
-use convergence_harness::store::{Baseline, Change};
-use convergence_harness::study::outcome::settle;
-use convergence_harness::study::{Study, StudyFile};
+use convergence_study::Project;
+use convergence_study::Verdict;
+use convergence_study::internal::store::diagnosis::{Diagnosis, diagnose};
+use convergence_study::internal::store::{Baseline, Change};
+use convergence_study::internal::study::outcome::settle;
+use convergence_study::{
+    Finished,
+    internal::run::{Item, not_passed, run},
+};
+use convergence_study::{Study, internal::study::StudyFile};
 use serde_json::Value;
 
 /// The keys of texts for people, in a study as JSON.

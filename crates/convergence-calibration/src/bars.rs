@@ -1,9 +1,9 @@
 //! Error bars of values whose limit is known: how often they hold the error, alongside the grid
 //! convergence index.
 
-use convergence_harness::interval::Interval;
-use convergence_harness::judge::richardson::{Estimator, Value};
-use convergence_harness::judge::verdict::FEWEST_LEVELS;
+use convergence_judge::judge::verdict::FEWEST_LEVELS;
+use convergence_study::Interval;
+use convergence_study::{Estimator, Value};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::intervals::{ALL, LEVEL_COUNTS, is_declared, steps};

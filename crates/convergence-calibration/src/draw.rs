@@ -1,8 +1,8 @@
 //! Random numbers for tables, and why a calibration ends early.
 
-use convergence_harness::judge::random::SplitMix;
-use convergence_harness::judge::verdict::JudgeError;
-use convergence_harness::run::time_limit::{Patience, TimeUp};
+use convergence_judge::judge::random::SplitMix;
+use convergence_judge::time_limit::{Patience, TimeUp};
+use convergence_study::JudgeError;
 use thiserror::Error;
 
 /// Cost of judging a table, in elements advanced by a step: 65 µs against 25 ns.

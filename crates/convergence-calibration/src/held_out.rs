@@ -6,7 +6,7 @@
 
 use crate::laws::{Group, Law, held_out};
 use crate::shapes::{Exponents, log_uniform};
-use convergence_harness::judge::random::SplitMix;
+use convergence_judge::judge::random::SplitMix;
 
 /// The laws.
 pub const HELD_OUT: [Law; 10] = [
@@ -110,7 +110,7 @@ fn noisy_limit(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f6
 mod tests {
     use super::*;
     use crate::laws::LAWS;
-    use convergence_harness::judge::fit::pairwise_rates;
+    use convergence_judge::judge::fit::pairwise_rates;
 
     /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
     #[test]

@@ -1,7 +1,7 @@
 //! Errors with a term of lower order that is just about to show.
 
-use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::random::SplitMix;
+use convergence_judge::judge::fit::Level;
+use convergence_judge::judge::random::SplitMix;
 
 use crate::laws::Table;
 use crate::shapes::log_uniform;
@@ -83,7 +83,7 @@ fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use convergence_harness::judge::fit::pairwise_rates;
+    use convergence_judge::judge::fit::pairwise_rates;
 
     #[test]
     fn a_hidden_term_has_its_share_of_the_finest_error() {

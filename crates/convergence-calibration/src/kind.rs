@@ -16,14 +16,14 @@
 
 use std::path::Path;
 
-use convergence_harness::input::{Form, InputError, Key, Keys, Section};
-use convergence_harness::plots;
-use convergence_harness::plots::xy::Xy;
-use convergence_harness::study::kind::completion;
-use convergence_harness::study::{
+use convergence_study::completion;
+use convergence_study::internal::plots;
+use convergence_study::internal::plots::xy::Xy;
+use convergence_study::{
     Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Subject, Table, header, reader,
+    Subject, Table, internal::study::header, reader,
 };
+use convergence_study::{Form, InputError, Key, Keys, Section};
 use plots::Axis;
 
 use crate::bars::of_the_bars;

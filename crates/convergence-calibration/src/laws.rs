@@ -13,8 +13,8 @@
 //! * *stagnating*: plateaus, a wrong limit, growing round-off. There is no order, and every claim
 //!   is wrong.
 
-use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::random::SplitMix;
+use convergence_judge::judge::fit::Level;
+use convergence_judge::judge::random::SplitMix;
 
 use crate::shapes::{Formula, Shape};
 

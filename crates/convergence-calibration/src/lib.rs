@@ -82,7 +82,8 @@ mod shapes;
 pub mod sheet;
 mod unaligned;
 
-use convergence_harness::judge::verdict::{Judge, JudgeError};
+use convergence_judge::judge::verdict::Judge;
+use convergence_study::JudgeError;
 
 use benign::{BENIGN, differences};
 use claims::{limits, other_claims, three};

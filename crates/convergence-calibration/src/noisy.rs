@@ -3,9 +3,10 @@
 //!
 //! The laws were written, and their numbers fixed, before the rule looked at them.
 
-use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::random::SplitMix;
-use convergence_harness::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
+use convergence_judge::judge::fit::Level;
+use convergence_judge::judge::random::SplitMix;
+use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
+use convergence_study::Verdict;
 
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;

@@ -1,6 +1,6 @@
 //! The answers to the page, as JSON.
 
-use convergence_harness::rates::{Sheet, TableSheet};
+use convergence_study::internal::rates::{Sheet, TableSheet};
 use serde::Serialize;
 use serde_json::{Value, json};
 

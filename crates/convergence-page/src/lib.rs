@@ -9,8 +9,8 @@ mod answer;
 mod memory;
 mod question;
 
-use convergence_harness::input::advice::CommandLine;
-use convergence_harness::rates::{Refusal, sheet};
+use convergence_study::internal::input::advice::CommandLine;
+use convergence_study::internal::rates::{Refusal, sheet};
 use serde_json::{Value, json};
 
 use answer::{Judged, Read, Refused};
@@ -50,7 +50,7 @@ pub fn judge(question: &str) -> String {
     })
 }
 
-fn sheet_of(question: &Question) -> Result<convergence_harness::rates::Sheet, Refused> {
+fn sheet_of(question: &Question) -> Result<convergence_study::internal::rates::Sheet, Refused> {
     let request = question.request()?;
     sheet(PROGRAM, &question.text, &request).map_err(|refusal| refused(question, &refusal))
 }

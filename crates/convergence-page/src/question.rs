@@ -1,16 +1,16 @@
 //! What the page asks.
 
-use convergence_harness::input::advice::{CommandLine, Surface};
-use convergence_harness::input::error_table::Choice;
-use convergence_harness::rates::{Claimed, Request, claimed};
-use convergence_harness::text::names::quoted;
+use convergence_judge::text::names::quoted;
+use convergence_study::Choice;
+use convergence_study::internal::input::advice::{CommandLine, Surface};
+use convergence_study::internal::rates::{Claimed, Request, claimed};
 use serde::Deserialize;
 
 use crate::answer::Refused;
 use crate::{FILE, LONGEST_TEXT, PROGRAM};
 
 /// The tolerance of the command line.
-const TOLERANCE: f64 = convergence_harness::judge::verdict::DEFAULT_TOLERANCE;
+const TOLERANCE: f64 = convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
 
 /// A text, and the options of the command `rates` under their names.
 #[derive(Debug, Clone, Deserialize)]

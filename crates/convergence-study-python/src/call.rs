@@ -1,6 +1,6 @@
 //! Refusals in the words of Python: `dim=2`, and the call with other arguments.
 
-use convergence_harness::input::advice::{Argument, Setting, Surface, Value};
+use convergence_study::internal::input::advice::{Argument, Setting, Surface, Value};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 

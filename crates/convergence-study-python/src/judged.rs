@@ -1,14 +1,13 @@
 //! Judges tables of errors.
 
-use convergence_harness::interval::Interval;
-use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::shown::{self, MOST_PLACES, Shown};
-use convergence_harness::judge::verdict::{
-    DEFAULT_TOLERANCE, Floor, RateVerdict, Reason, Verdict, observe,
-};
-use convergence_harness::study::over_levels::{ErrorColumn, Levels};
-use convergence_harness::study::{Axis, Claim, NamedRate, Refinement};
-use convergence_harness::text::number::decimals;
+use convergence_study::Interval;
+use convergence_judge::judge::fit::Level;
+use convergence_judge::judge::shown::{self, MOST_PLACES, Shown};
+use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
+use convergence_study::{Floor, RateVerdict, Reason, Verdict, observe};
+use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
+use convergence_study::{Axis, Claim, NamedRate, Refinement};
+use convergence_judge::text::number::decimals;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

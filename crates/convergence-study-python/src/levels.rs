@@ -1,6 +1,6 @@
 //! The levels that a study computes.
 
-use convergence_harness::study::until_decided::FIRST;
+use convergence_study::internal::study::until_decided::FIRST;
 use pyo3::prelude::*;
 
 use crate::values::{numbers, refuse};

@@ -16,8 +16,8 @@ mod values;
 
 use std::ffi::OsString;
 
-use convergence_harness::cli;
-use convergence_harness::program::{self, guard};
+use convergence_study::internal::cli;
+use convergence_study::internal::program::{self, guard};
 use pyo3::prelude::*;
 
 /// The program `convergence-study`; returns its exit status.

@@ -1,9 +1,9 @@
 //! Tables of files and texts, judged by the command `rates`.
 
-use convergence_harness::input::advice::Argument;
-use convergence_harness::program::PROJECT;
-use convergence_harness::rates::{Claimed, ClaimedOrder, Request, Tables, object};
-use convergence_harness::study::Claim;
+use convergence_study::internal::input::advice::Argument;
+use convergence_study::PROGRAMS as PROJECT;
+use convergence_study::internal::rates::{Claimed, ClaimedOrder, Request, Tables, object};
+use convergence_study::Claim;
 use pyo3::prelude::*;
 
 use crate::call::{Call, literal};

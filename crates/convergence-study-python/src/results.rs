@@ -2,13 +2,10 @@
 
 use std::borrow::Cow;
 
-use convergence_harness::judge::verdict::Floor;
-use convergence_harness::study::over_levels::Levels;
-use convergence_harness::study::until_decided::{self, Looks, Next};
-use convergence_harness::study::{
-    Axis, Claim, ErrorsOverLevels, Header, NamedErrors, STEPS, header::is_name, levels,
-    run_cases_here,
-};
+use convergence_study::Floor;
+use convergence_study::internal::study::over_levels::Levels;
+use convergence_study::internal::study::until_decided::{self, Looks, Next};
+use convergence_study::{Axis, Claim, ErrorsOverLevels, Header, internal::study::{NamedErrors, STEPS, header::is_name, run_cases_here}, levels};
 use pyo3::prelude::*;
 
 use crate::studied::Study;

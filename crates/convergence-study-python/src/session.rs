@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::project::Project;
-use convergence_harness::run::{self, Finished};
-use convergence_harness::store::{Baseline, Change, Movement, Record, atomic};
-use convergence_harness::study::Header;
-use convergence_harness::verify;
+use convergence_study::Verdict;
+use convergence_study::Project;
+use convergence_study::{Finished, internal::run};
+use convergence_study::internal::store::{Baseline, Change, Movement, Record, atomic};
+use convergence_study::Header;
+use convergence_study::internal::verify;
 use pyo3::prelude::*;
 
 use crate::results::TEST;

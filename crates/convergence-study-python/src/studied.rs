@@ -4,12 +4,12 @@ use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::program;
-use convergence_harness::run::Finished;
-use convergence_harness::study::until_decided::Next;
-use convergence_harness::study::{NamedErrors, NamedRate, STEPS, first_repeated};
-use convergence_harness::verify;
+use convergence_study::Verdict;
+use convergence_study::internal::program;
+use convergence_study::Finished;
+use convergence_study::internal::study::until_decided::Next;
+use convergence_study::{NamedRate, internal::study::{NamedErrors, STEPS, first_repeated}};
+use convergence_study::internal::verify;
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

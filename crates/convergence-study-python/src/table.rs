@@ -1,8 +1,8 @@
 //! Tables of several errors, read as `convergence-study rates` reads them.
 
-use convergence_harness::input::error_table::{Choice, Column, RateTable};
-use convergence_harness::judge::verdict::observe;
-use convergence_harness::study::Claim;
+use convergence_study::{Choice, Column, RateTable};
+use convergence_study::observe;
+use convergence_study::Claim;
 use pyo3::prelude::*;
 
 use crate::call::{Call, OF_JUDGE};

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use convergence_harness::input::error_table::FrameColumn;
-use convergence_harness::judge::claims::{Claim, order_from_text};
-use convergence_harness::judge::fit::Level;
-use convergence_harness::judge::verdict::{Floor, Judge};
+use convergence_study::FrameColumn;
+use convergence_judge::judge::claims::order_from_text;
+use convergence_study::Claim;
+use convergence_judge::judge::fit::Level;
+use convergence_judge::judge::verdict::Judge;
+use convergence_study::Floor;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};

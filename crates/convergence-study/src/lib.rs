@@ -51,30 +51,83 @@
 //! # Features
 //!
 //! `default-features = false` leaves the rule and [`levels`]: verdicts in the tests of a solver, on
-//! all threads. `files` adds study files and tables of errors, `reports` plots, reports and the
-//! baseline, `command-line` the program (the default).
+//! all threads. `files` adds study files and tables of errors, `tables` their verdicts without
+//! files, threads or clocks, `reports` plots, reports and the baseline, `command-line` the commands,
+//! and `manual`, the default, man pages and completions.
 //!
 //! # Stability
 //!
-//! What is listed here follows semantic versioning. It is a selection of the crate
-//! `convergence-harness`, which promises no stability of its own.
+//! What is listed here follows semantic versioning.
+
+// From a file to a report:
+//
+//     TOML -- StudyFile::read --> Study -- run::run --> Finished -- baseline, record, junit, report --> verify
+//             input               cases     threads      Outcome
+//
+// A study is data. A project writes its `Kind`, which says what its cases compute and how their
+// results are judged; all findings are an `Outcome`. A `Project` names its kinds, `verify` runs,
+// judges, compares with the baseline and writes the report, and `cli` is the command line for all
+// of it. The rule knows neither norm nor scheme, only steps and errors: crate `convergence-judge`.
+//
+// Each module uses only those before it: `input`, `plots`, `exchange`, `rates`, `study`, `run`,
+// `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. Nothing is public but what is
+// named here and in `internal`, so that the compiler finds what nobody uses. With fewer features
+// some items serve no one: they are searched for with all.
+#![cfg_attr(not(feature = "command-line"), allow(dead_code, unused_imports))]
+
+#[cfg(feature = "command-line")]
+mod cli;
+#[cfg(feature = "reports")]
+mod compare;
+#[cfg(feature = "tables")]
+mod exchange;
+#[cfg(feature = "files")]
+mod input;
+#[doc(hidden)]
+pub mod internal;
+#[cfg(feature = "tables")]
+mod plots;
+#[cfg(feature = "reports")]
+mod program;
+#[cfg(feature = "reports")]
+mod project;
+#[cfg(feature = "tables")]
+mod rates;
+#[cfg(feature = "reports")]
+mod report;
+mod run;
+#[cfg(feature = "reports")]
+mod store;
+mod study;
+#[cfg(feature = "reports")]
+mod verify;
+
+use convergence_judge::{interval, text};
+
+/// The modules of the rule. (At the root of its crate a function has the same name.)
+mod judge {
+    pub(crate) use convergence_judge::judge::*;
+}
 
 #[doc(inline)]
-pub use convergence_harness::{
-    interval::Interval,
-    judge::{
-        claims::Claim,
-        grid::SpaceTime,
-        richardson::{Estimator, Value},
-        verdict::{
-            Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs,
-            observe,
-        },
+pub use convergence_judge::Interval;
+#[doc(inline)]
+pub use convergence_judge::judge::{
+    claims::Claim,
+    grid::SpaceTime,
+    richardson::{Estimator, Value},
+    verdict::{
+        Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs, observe,
     },
-    run::{Finished, RunError, assert_order, run_one},
+};
+
+#[doc(inline)]
+pub use crate::{
+    run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
-        Axis, Case, CaseFailure, Check, ErrorsOverLevels, Figure, Header, Kind, NamedRate, Outcome,
-        Quantity, Ran, Reading, Refinement, Study, Subject, Table, Tier, erased,
+        Axis, Case, CaseFailure, Check, Coverage, ErrorsOverLevels, Figure, Header, IntoErrors,
+        Kind, LevelErrors, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort,
+        Study, Subject, Table, Tier, Untested, erased,
         grid::{Grid, GridColumn},
         kind::completion,
         levels,
@@ -83,9 +136,9 @@ pub use convergence_harness::{
 
 #[cfg(feature = "files")]
 #[doc(inline)]
-pub use convergence_harness::{
+pub use crate::{
     input::{
-        Field, InputError, Section,
+        Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
         error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, Parameter, RateTable},
     },
     study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, reader},
@@ -93,15 +146,15 @@ pub use convergence_harness::{
 
 #[cfg(feature = "reports")]
 #[doc(inline)]
-pub use convergence_harness::{
+pub use crate::{
     program::{PROJECT as PROGRAMS, ROW as PROGRAM},
     project::{Front, Project, Template, Term},
-    verify::{Request, Verification, VerificationError, report, verify},
+    verify::{Blessing, Request, Scope, Verification, VerificationError, report, verify},
 };
 
 #[cfg(feature = "command-line")]
 #[doc(inline)]
-pub use convergence_harness::cli::main;
+pub use crate::cli::main;
 
 /// The programs of the README and of the book are tests.
 #[cfg(all(doctest, feature = "command-line"))]

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use convergence_harness::cli::{COMMANDS, help::pages};
+use convergence_study::internal::cli::{COMMANDS, help::pages};
 use tempfile::TempDir;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_convergence-study");

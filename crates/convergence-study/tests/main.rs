@@ -1,10 +1,29 @@
-//! The tests of the program and of the pages that document it, in one program.
+//! The tests of the harness, of its program and of the pages that document both, in one program.
 
+mod asserted;
 #[cfg(feature = "command-line")]
 mod ci;
+#[cfg(feature = "reports")]
+mod compare;
+#[cfg(feature = "files")]
+mod error_table;
 #[cfg(feature = "command-line")]
 mod examples;
 #[cfg(feature = "command-line")]
+mod explain;
+mod fit;
+mod grid;
+#[cfg(feature = "reports")]
+mod plots;
+#[cfg(feature = "command-line")]
 mod readme;
+mod richardson;
+#[cfg(feature = "tables")]
+mod table_attacks;
 #[cfg(feature = "files")]
 mod tables;
+mod verdict_laws;
+mod verdict_rule;
+mod verdict_tables;
+#[cfg(feature = "reports")]
+mod verification;

@@ -5,11 +5,11 @@
 
 use std::{env, fs, path::Path};
 
-use convergence_harness::input::advice::CommandLine;
-use convergence_harness::input::error_table::{Choice, Column, RateTable};
-use convergence_harness::judge::claims::Claim;
-use convergence_harness::judge::richardson::Estimator;
-use convergence_harness::judge::verdict::{Floor, Verdict};
+use convergence_study::Claim;
+use convergence_study::Estimator;
+use convergence_study::internal::input::advice::CommandLine;
+use convergence_study::{Choice, Column, RateTable};
+use convergence_study::{Floor, Verdict};
 
 /// The tolerance of all claims of the page.
 const TOLERANCE: f64 = 0.25;

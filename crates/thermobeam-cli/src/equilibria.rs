@@ -12,10 +12,10 @@ use thermobeam_exact::interval::Interval;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
-use convergence_harness::cli::exit::{Outcome, Unusable};
-use convergence_harness::cli::flags::Flags;
-use convergence_harness::cli::screen;
-use convergence_harness::judge::verdict::Verdict;
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::{Outcome, Unusable};
+use convergence_study::internal::cli::flags::Flags;
+use convergence_study::internal::cli::screen;
 
 /// List all steady states of a scene
 #[derive(Debug, Args)]

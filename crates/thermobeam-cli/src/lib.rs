@@ -1,6 +1,6 @@
 //! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
 //!
-//! The harness's commands come from `convergence_harness::cli`, with the beam's kinds of study
+//! The harness's commands come from `convergence_study::internal::cli`, with the beam's kinds of study
 //! registered in [`project()`]. This file adds the beam's own commands and dispatches.
 
 mod equilibria;
@@ -10,9 +10,9 @@ mod run;
 mod sweep;
 
 use clap::{Parser, Subcommand};
-use convergence_harness::cli::help::HelpPage;
-use convergence_harness::cli::{self, exit};
-use convergence_harness::project::Project;
+use convergence_study::Project;
+use convergence_study::internal::cli::help::HelpPage;
+use convergence_study::internal::cli::{self, exit};
 
 pub use project::project;
 

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use convergence_harness::cli::{command_line, ended};
+use convergence_study::internal::cli::{command_line, ended};
 use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
 fn main() -> ExitCode {

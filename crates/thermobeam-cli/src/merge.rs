@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use thermobeam_study::sweep;
 
-use convergence_harness::cli::exit::{Outcome, Unusable};
-use convergence_harness::cli::flags::Flags;
-use convergence_harness::judge::verdict::Verdict;
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::{Outcome, Unusable};
+use convergence_study::internal::cli::flags::Flags;
 
 /// Writes `results.jsonl` to the folder of `--out`, with a line for each case in order.
 ///

@@ -1,7 +1,7 @@
 //! The beam as a project of the harness.
 
-use convergence_harness::program;
-use convergence_harness::project::{Front, Project, Template};
+use convergence_study::internal::program;
+use convergence_study::{Front, Project, Template};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
 use thermobeam_study::scene;
 
@@ -133,8 +133,8 @@ const TEMPLATES: [Template; 5] = [
 mod tests {
     use std::collections::BTreeSet;
 
-    use convergence_harness::cli::explain;
-    use convergence_harness::project::Project;
+    use convergence_study::Project;
+    use convergence_study::internal::cli::explain;
 
     use super::project;
 

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use clap::Args;
-use convergence_harness::run::time_limit;
-use convergence_harness::store::atomic;
+use convergence_judge::time_limit;
+use convergence_study::internal::store::atomic;
 use serde::Serialize;
 use thermobeam_study::kinds::tables::cost_of_run;
 use thermobeam_study::predict::Unreachable;
@@ -20,11 +20,11 @@ use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::Scene;
 
-use convergence_harness::cli::exit::{self, Outcome, Unusable};
-use convergence_harness::cli::flags::Flags;
-use convergence_harness::cli::running::{self, seconds};
-use convergence_harness::cli::screen;
-use convergence_harness::judge::verdict::Verdict;
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::{self, Outcome, Unusable};
+use convergence_study::internal::cli::flags::Flags;
+use convergence_study::internal::cli::running::{self, seconds};
+use convergence_study::internal::cli::screen;
 
 use crate::project::NODE_STEP;
 use accuracy::Planned;

@@ -9,11 +9,11 @@ use clap::Args;
 use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
-use convergence_harness::cli::exit::{self, Outcome};
-use convergence_harness::cli::flags::Flags;
-use convergence_harness::cli::running::{self, seconds};
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run;
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::{self, Outcome};
+use convergence_study::internal::cli::flags::Flags;
+use convergence_study::internal::cli::running::{self, seconds};
+use convergence_study::internal::run;
 
 use super::merge;
 

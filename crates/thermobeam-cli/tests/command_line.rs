@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use convergence_harness::cli::command_line;
+use convergence_study::internal::cli::command_line;
 use convergence_study_tests::files::files_below;
 use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
@@ -103,7 +103,7 @@ fn no_text_of_an_installed_program_names_one_that_is_not_there() {
     let mut read = 0;
     for name in [
         "convergence-judge",
-        "convergence-harness",
+        "convergence-study",
         "thermobeam",
         "thermobeam-exact",
         "thermobeam-study",

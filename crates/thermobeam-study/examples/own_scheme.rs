@@ -8,10 +8,10 @@
 
 use std::error::Error;
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run::run_one;
-use convergence_harness::study::FromFile as _;
-use convergence_harness::text::number::max_or_nan;
+use convergence_judge::text::number::max_or_nan;
+use convergence_study::FromFile as _;
+use convergence_study::Verdict;
+use convergence_study::run_one;
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};

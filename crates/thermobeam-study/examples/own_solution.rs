@@ -4,8 +4,8 @@
 
 use std::error::Error;
 
-use convergence_harness::run::run_one;
-use convergence_harness::study::{Axis, Claim, FromFile as _};
+use convergence_study::run_one;
+use convergence_study::{Axis, Claim, FromFile as _};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::{Settings, Stopping};

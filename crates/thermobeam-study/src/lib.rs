@@ -4,20 +4,20 @@
 //! # From a file to a verdict
 //!
 //! ```text
-//! TOML ── kinds::read ──> Study ── convergence_harness::run ──> Finished ── report, record, baseline, JUnit
+//! TOML ── kinds::read ──> Study ── convergence_study::internal::run ──> Finished ── report, record, baseline, JUnit
 //!                          cases            threads            Outcome
 //! ```
 //!
 //! Studies are data, and so are [`scene`]s, whose functions are [`expression`]s. Each of the
 //! [`kinds`] of study defines what its cases compute and how their results are judged; [`run`]
 //! steps problems, [`mod@error`] measures errors against exact solutions and finer runs,
-//! [`predict`] predicts cost and error. The harness, [`convergence_harness`], provides threads,
+//! [`predict`] predicts cost and error. The harness, [`convergence_study`], provides threads,
 //! rates, verdicts, baseline, records and reports.
 //!
 //! ```
-//! use convergence_harness::judge::verdict::Verdict;
-//! use convergence_harness::run::run_one;
-//! use convergence_harness::study::FromFile;
+//! use convergence_study::Verdict;
+//! use convergence_study::run_one;
+//! use convergence_study::FromFile;
 //! use thermobeam_study::kinds::orders::Orders;
 //! use thermobeam_study::kinds::orders::manufactured::Convergence;
 //!
@@ -32,7 +32,7 @@
 //!     "my-own.toml".as_ref(),
 //! )?;
 //! assert_eq!(run_one(&study).verdict, Verdict::Pass);
-//! # Ok::<(), convergence_harness::input::InputError>(())
+//! # Ok::<(), convergence_study::InputError>(())
 //! ```
 //!
 //! The properties of the solver are derived in [`thermobeam::theory`].

@@ -39,7 +39,7 @@ mod run;
 use std::path::Path;
 
 use crate::scene::{Scene, limits};
-use convergence_harness::input::{self, InputError};
+use convergence_study::{InputError, internal::input};
 
 pub use case::{Key, Share, SweepCase};
 pub use journal::{Journal, Manifest, Merged, RESULTS, merge};

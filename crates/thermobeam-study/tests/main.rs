@@ -11,8 +11,8 @@ mod sweep;
 
 use std::path::Path;
 
-use convergence_harness::input::InputError;
-use convergence_harness::study::StudyFile;
+use convergence_study::InputError;
+use convergence_study::internal::study::StudyFile;
 use thermobeam_study::kinds::KINDS;
 
 /// Reads a study of the repository: of a kind of the beam, or the calibration of the rule.

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use convergence_harness::run::time_limit::within_by;
+use convergence_judge::time_limit::within_by;
 use thermobeam::dg::Phase;
 use thermobeam::error::StepFailure;
 use thermobeam::solve::Solver;

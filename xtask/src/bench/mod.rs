@@ -10,15 +10,15 @@ mod step_time;
 
 use std::path::{Path, PathBuf};
 
-use convergence_harness::cli::exit::{Outcome, Unusable};
-use convergence_harness::cli::running::LongRun;
-use convergence_harness::cli::workspace;
-use convergence_harness::input;
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::project::Project;
-use convergence_harness::report;
-use convergence_harness::store::atomic;
-use convergence_harness::study::{CaseFailure, Described, Table};
+use convergence_study::Project;
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::{Outcome, Unusable};
+use convergence_study::internal::cli::running::LongRun;
+use convergence_study::internal::cli::workspace;
+use convergence_study::internal::input;
+use convergence_study::internal::report;
+use convergence_study::internal::store::atomic;
+use convergence_study::{CaseFailure, Table, internal::study::Described};
 use serde::Deserialize;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{METHODS, NamedMethod};

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use convergence_harness::study::CaseFailure;
+use convergence_study::CaseFailure;
 use thermobeam_study::error::ErrorMeasure;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{

@@ -6,7 +6,7 @@
 
 use std::hint::black_box;
 
-use convergence_harness::study::Table;
+use convergence_study::Table;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;

@@ -6,10 +6,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::cli::schema::{MANUFACTURE, of_studies, of_tables_file, other_files};
-use convergence_harness::input::{Form, Key, Keys};
-use convergence_harness::program;
-use convergence_harness::study::StudyFile;
+use convergence_study::internal::cli::schema::{
+    MANUFACTURE, of_studies, of_tables_file, other_files,
+};
+use convergence_study::internal::program;
+use convergence_study::internal::study::StudyFile;
+use convergence_study::{Form, Key, Keys};
 use manufacture::Manufacture;
 use serde_json::Value;
 use thermobeam_study::scene::{self, Scene};

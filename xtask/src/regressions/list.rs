@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use convergence_harness::cli::exit::Unusable;
+use convergence_study::internal::cli::exit::Unusable;
 use serde::Deserialize;
 
 /// The list.
@@ -121,8 +121,8 @@ impl Regression {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use convergence_harness::cli::workspace;
-    use convergence_harness::study::Tier;
+    use convergence_study::Tier;
+    use convergence_study::internal::cli::workspace;
 
     /// Whether some source of the package has the test that the last argument names.
     fn has_test(root: &Path, arguments: &str) -> bool {

@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use convergence_harness::cli::exit::Unusable;
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run::not_passed;
-use convergence_harness::store::{Record, atomic, content_hash, json};
+use convergence_study::Verdict;
+use convergence_study::internal::cli::exit::Unusable;
+use convergence_study::internal::run::not_passed;
+use convergence_study::internal::store::{Record, atomic, content_hash, json};
 use serde::{Deserialize, Serialize};
 
 use super::list::Regression;

@@ -7,7 +7,7 @@ use super::{code, crate_folder, files};
 
 /// Files and folders of sources whose messages reach the command line, Python and JSON.
 fn sources() -> Vec<PathBuf> {
-    let harness = crate_folder("convergence-harness").join("src");
+    let harness = crate_folder("convergence-study").join("src");
     let rates = harness.join("rates");
     let mut sources = files(&harness.join("input"), &["rs"]);
     sources.extend(files(

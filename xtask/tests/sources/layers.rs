@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::{crate_folder, files, without_comments};
 
-const HARNESS: &str = "convergence-harness";
+const HARNESS: &str = "convergence-study";
 
 /// Words of the application that the harness was first written for; it must serve any other as well.
 const FOREIGN: [&str; 21] = [
@@ -60,23 +60,31 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 10] = [
-    ("convergence-calibration", &["convergence-harness"]),
+const CRATES: [(&str, &[&str]); 9] = [
+    (
+        "convergence-calibration",
+        &["convergence-judge", "convergence-study"],
+    ),
     ("convergence-judge", &[]),
     ("manufacture", &[]),
-    ("convergence-harness", &["convergence-judge", "manufacture"]),
-    ("convergence-study", &["convergence-harness"]),
-    ("convergence-study-tests", &["convergence-harness"]),
+    ("convergence-study", &["convergence-judge", "manufacture"]),
+    ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["manufacture", "thermobeam"]),
     (
         "thermobeam-study",
-        &["convergence-harness", "thermobeam", "thermobeam-exact"],
+        &[
+            "convergence-judge",
+            "convergence-study",
+            "thermobeam",
+            "thermobeam-exact",
+        ],
     ),
     (
         "thermobeam-cli",
         &[
-            "convergence-harness",
+            "convergence-judge",
+            "convergence-study",
             "thermobeam",
             "thermobeam-exact",
             "thermobeam-study",
@@ -108,21 +116,15 @@ fn foreign(text: &str) -> Vec<(usize, String)> {
 
 #[test]
 fn nothing_in_the_harness_names_the_application() {
-    let folders = ["src", "tests"].map(|name| crate_folder(HARNESS).join(name));
-    let public =
-        ["src", "tests", "examples"].map(|name| crate_folder("convergence-study").join(name));
+    let folders = ["src", "tests", "examples"].map(|name| crate_folder(HARNESS).join(name));
     let found: Vec<String> = folders
         .iter()
-        .chain(&public)
         .flat_map(|folder| files(folder, &["rs", "js", "css", "toml", "csv"]))
         .chain(files(
             &crate_folder("convergence-judge").join("src"),
             &["rs", "md"],
         ))
-        .chain(
-            ["README.md", "Cargo.toml", "../convergence-study/README.md"]
-                .map(|name| crate_folder(HARNESS).join(name)),
-        )
+        .chain(["README.md", "Cargo.toml"].map(|name| crate_folder(HARNESS).join(name)))
         .flat_map(|path| {
             let text = fs::read_to_string(&path).unwrap();
             foreign(&text)
@@ -207,7 +209,7 @@ fn modules_use_only_those_below_them() {
     let mut found = vec![];
     for path in files(&crate_folder(HARNESS).join("src"), &["rs"]) {
         let module = module(&path);
-        if module != "lib" && module != "main" {
+        if !["internal", "lib", "main"].contains(&module.as_str()) {
             found.extend(breaches(
                 &module,
                 &without_comments(&fs::read_to_string(&path).unwrap()),
@@ -261,7 +263,7 @@ fn a_use_against_the_order_is_found() {
 fn always_there(lib: &str) -> BTreeSet<String> {
     let lines: Vec<&str> = lib.lines().collect();
     let ungated = |(number, line): (usize, &&str)| {
-        let name = line.strip_prefix("pub mod ")?.strip_suffix(';')?;
+        let name = line.strip_prefix("mod ")?.strip_suffix(';')?;
         let before = number.checked_sub(1).map_or("", |above| lines[above]);
         (!before.starts_with("#[cfg(feature")).then(|| name.to_owned())
     };
@@ -289,7 +291,7 @@ fn a_library_that_the_rule_does_without_is_optional() {
         assert_eq!(line.contains("optional = true"), !is_needed, "{line}");
     }
     assert_eq!(
-        always_there("#[cfg(feature = \"a\")]\npub mod a;\npub mod b;\n"),
+        always_there("#[cfg(feature = \"a\")]\nmod a;\nmod b;\n"),
         ["b".to_owned()].into()
     );
 }
@@ -323,12 +325,8 @@ fn crates_depend_only_on_those_below_them() {
         let path = crate_folder(name).join("Cargo.toml");
         let manifest = fs::read_to_string(&path).unwrap();
         // Tests may use a crate above the one tested, but not here: the harness is tested without
-        // the application. Only the examples of its documentation use the public crate.
-        let is_harness = name == "convergence-harness";
-        let mut found = dependencies(&manifest, is_harness);
-        if is_harness {
-            assert!(found.remove("convergence-study"), "{name}");
-        }
+        // the application.
+        let found = dependencies(&manifest, name == HARNESS);
         let found: Vec<&str> = names
             .into_iter()
             .filter(|name| found.contains(*name))

@@ -47,7 +47,7 @@ fn known() -> BTreeSet<String> {
         "thermobeam",
         "thermobeam-exact",
         "thermobeam-study",
-        "convergence-harness",
+        "convergence-study",
     ] {
         for folder in ["src", "tests"] {
             sources.extend(files(&crate_folder(part).join(folder), &["rs"]));

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use convergence_harness::cli;
-use convergence_harness::input::{Form, InputError, Key, Section};
-use convergence_harness::program;
-use convergence_harness::project::Project;
-use convergence_harness::study::{Claim, Header, KindRow, Study, erased, header, levels};
+use convergence_study::Project;
+use convergence_study::internal::cli;
+use convergence_study::internal::program;
+use convergence_study::{Claim, Header, KindRow, Study, erased, internal::study::header, levels};
+use convergence_study::{Form, InputError, Key, Section};
 
 /// The order claimed instead of 1.
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";

@@ -13,7 +13,7 @@ mod visible;
 #[cfg(unix)]
 mod where_lost;
 
-use convergence_harness::cli;
+use convergence_study::internal::cli;
 use convergence_study_tests::{Ended, finished, output};
 use std::fs;
 use std::path::Path;

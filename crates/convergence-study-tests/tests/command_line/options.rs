@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use convergence_harness::cli;
+use convergence_study::internal::cli;
 
 use super::{command, run, study, texts, workspace};
 

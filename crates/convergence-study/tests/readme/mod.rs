@@ -8,10 +8,10 @@ use std::path::Path;
 use std::process::Command;
 
 use blocks::{Printed, fenced, missing, printed};
-use convergence_harness::judge::verdict::{Verdict, judge_pairs};
-use convergence_harness::run::{Finished, Spent};
-use convergence_harness::store::{Record, json};
-use convergence_harness::study::{Header, LevelErrors, NamedRate, Outcome};
+use convergence_study::internal::store::{Record, json};
+use convergence_study::{Finished, internal::run::Spent};
+use convergence_study::{Header, LevelErrors, NamedRate, Outcome};
+use convergence_study::{Verdict, judge_pairs};
 
 const README: &str = include_str!("../../README.md");
 

@@ -2,8 +2,8 @@
 //! a run.
 
 use clap::ValueEnum;
-use convergence_harness::cli::{exit, running};
-use convergence_harness::run::time_limit;
+use convergence_judge::time_limit;
+use convergence_study::internal::cli::{exit, running};
 use serde::Serialize;
 use thermobeam_study::predict::choice::{self, Choice, choose, keep_scheme};
 use thermobeam_study::predict::estimate::{Budget, estimate};

@@ -1,6 +1,6 @@
 //! The summary of a run for human readers.
 
-use convergence_harness::text::number::counted;
+use convergence_judge::text::number::counted;
 use std::fmt::Write;
 use std::path::PathBuf;
 

@@ -1,6 +1,6 @@
 //! The examples of the help texts of the beam's commands work as they stand.
 
-use convergence_harness::cli;
+use convergence_study::internal::cli;
 use thermobeam_cli::{GROUPS, PAGES};
 
 use super::flags::place;

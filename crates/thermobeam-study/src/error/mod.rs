@@ -13,7 +13,7 @@ use crate::exact::errors::ErrorMeter;
 use crate::exact::norm::Norm;
 use crate::exact::solution::{Factors, Manufactured};
 use crate::run::family::{Family, OnMesh};
-use convergence_harness::study::CaseFailure;
+use convergence_study::CaseFailure;
 use thermobeam::dg::{self, DgLevel};
 use thermobeam::solve::Level;
 

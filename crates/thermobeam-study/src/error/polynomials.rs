@@ -6,8 +6,8 @@
 //! quadratic, its slope nearly linear, so that few points suffice; between polynomials of degrees p
 //! and P the rule is exact.
 
-use convergence_harness::study::CaseFailure;
-use convergence_harness::text::number::max_or_nan;
+use convergence_judge::text::number::max_or_nan;
+use convergence_study::CaseFailure;
 use thermobeam::dg::{self, DgLevel, Field};
 use thermobeam::mesh::Mesh;
 use thermobeam::solve::Level;

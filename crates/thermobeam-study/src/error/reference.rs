@@ -5,8 +5,8 @@
 //! * On linear elements of a mesh: the solution of that mesh's semi-discrete system, since elements
 //!   of degree 1 are those of (3.7)-(3.8), with the same initial data.
 
-use convergence_harness::study::CaseFailure;
-use convergence_harness::text::number::max_or_nan;
+use convergence_judge::text::number::max_or_nan;
+use convergence_study::CaseFailure;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::solve::Level;
 

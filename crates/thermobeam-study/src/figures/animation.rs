@@ -1,11 +1,11 @@
 //! Self-animating SVG of the beam moving between its obstacles.
 
-use convergence_harness::plots::Scale;
-use convergence_harness::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
-use convergence_harness::plots::look::look;
-use convergence_harness::plots::ruler::{Ruler, fixed, on_scale};
-use convergence_harness::plots::style::elide;
-use convergence_harness::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
+use convergence_study::internal::plots::Scale;
+use convergence_study::internal::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
+use convergence_study::internal::plots::look::look;
+use convergence_study::internal::plots::ruler::{Ruler, fixed, on_scale};
+use convergence_study::internal::plots::style::elide;
+use convergence_study::internal::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
 
 pub use crate::run::history::Frames;
 use crate::run::snapshot::thinned;
@@ -169,7 +169,10 @@ impl Stage {
         }
         let power = match ticks.exponent {
             0 => String::new(),
-            e => format!(" / {}", convergence_harness::plots::ruler::power_of_ten(e)),
+            e => format!(
+                " / {}",
+                convergence_study::internal::plots::ruler::power_of_ten(e)
+            ),
         };
         pen.text_upwards(
             &format!("displacement u (dimensionless){power}"),

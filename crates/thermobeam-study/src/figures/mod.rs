@@ -6,11 +6,11 @@ mod pictures;
 
 pub use animation::{Animation, Frames, animation};
 
-use convergence_harness::plots::look::{Look, Marker, Marks, look};
-use convergence_harness::plots::style;
-use convergence_harness::plots::xy::{Curve, Xy};
-use convergence_harness::plots::{Axis, Guide, Series};
-use convergence_harness::text::lists::distinct;
+use convergence_judge::text::lists::distinct;
+use convergence_study::internal::plots::look::{Look, Marker, Marks, look};
+use convergence_study::internal::plots::style;
+use convergence_study::internal::plots::xy::{Curve, Xy};
+use convergence_study::internal::plots::{Axis, Guide, Series};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The experiments of the paper, in the order of its Section 5.
@@ -41,7 +41,7 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     ]
 }
 
-/// The [`look`](convergence_harness::plots::look::look) of each scene of a figure: an experiment of
+/// The [`look`](convergence_study::internal::plots::look::look) of each scene of a figure: an experiment of
 /// the paper has its own; any other scene gets, by its place in the figure, one that no experiment
 /// has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
@@ -56,7 +56,7 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
 /// The values of β in the paper's experiments.
 const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
 
-/// The [`look`](convergence_harness::plots::look::look) of a value of β, the same in all figures
+/// The [`look`](convergence_study::internal::plots::look::look) of a value of β, the same in all figures
 /// whose curves are its values; of other values the next one.
 pub(crate) fn look_of_beta(beta: f64) -> usize {
     BETAS

@@ -2,26 +2,30 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_harness::input::{
-    Field, Form, InputError, Key, Keys, POSITIVE, Section, keys,
-};
-pub(crate) use convergence_harness::judge::random::SplitMix;
-pub(crate) use convergence_harness::judge::richardson;
-pub(crate) use convergence_harness::judge::verdict::{Floor, Judge, Verdict};
-pub(crate) use convergence_harness::plots;
-pub(crate) use convergence_harness::plots::xy::Xy;
-pub(crate) use convergence_harness::run::time_limit::Patience;
-pub(crate) use convergence_harness::study::coverage::NO_RESULT;
-pub(crate) use convergence_harness::study::kind::completion;
-pub(crate) use convergence_harness::study::over_levels::{ErrorColumn, Levels, summary};
-pub(crate) use convergence_harness::study::{
-    Axis, Case, CaseFailure, Check, Claim, Coverage, Described, Figure, FromFile, Header, Kind,
-    KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject,
-    Table, Untested, allow_only, read_claim, reader, readings,
-};
-pub(crate) use convergence_harness::text::number::{
+pub(crate) use convergence_judge::judge::random::SplitMix;
+pub(crate) use convergence_judge::judge::richardson;
+pub(crate) use convergence_judge::judge::verdict::Judge;
+pub(crate) use convergence_judge::text::number::{
     counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
 };
+pub(crate) use convergence_judge::time_limit::Patience;
+pub(crate) use convergence_study::completion;
+pub(crate) use convergence_study::internal::plots;
+pub(crate) use convergence_study::internal::plots::xy::Xy;
+pub(crate) use convergence_study::internal::study::coverage::NO_RESULT;
+pub(crate) use convergence_study::internal::study::over_levels::{ErrorColumn, Levels, summary};
+pub(crate) use convergence_study::{
+    Axis, Case, CaseFailure, Check, Claim, Coverage, Figure, FromFile, Header, Kind, KindRow,
+    NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
+    Untested,
+    internal::study::{Described, allow_only, readings},
+    read_claim, reader,
+};
+pub(crate) use convergence_study::{
+    Field, Form, InputError, Key, Keys, Section,
+    internal::input::{POSITIVE, keys},
+};
+pub(crate) use convergence_study::{Floor, Verdict};
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;

@@ -4,8 +4,8 @@
 //! Each kind of study says in its row what its items exercise, as a `Topic`. What an item is
 //! about is data of its [`Subject`].
 
-use convergence_harness::study::header::{Setting, study};
-use convergence_harness::study::{Header, Subject};
+use convergence_study::internal::study::header::{Setting, study};
+use convergence_study::{Header, Subject};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::{MIDPOINT, Scheme};
 
@@ -372,8 +372,8 @@ impl Item<'_> {
 #[cfg(test)]
 mod tests {
     use super::{ItemMethod, Topic};
-    use convergence_harness::study::header::Setting;
-    use convergence_harness::study::{Header, Subject};
+    use convergence_study::internal::study::header::Setting;
+    use convergence_study::{Header, Subject};
 
     fn header(kind: &str, values: &[(&str, &str)]) -> Header {
         let settings = values

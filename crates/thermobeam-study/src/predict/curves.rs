@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use convergence_harness::text::number::{max_or_nan, min_or_nan};
+use convergence_judge::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::{self, Dg, DgLevel, DgStepping, Field};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use convergence_harness::run::time_limit::Patience;
+use convergence_judge::time_limit::Patience;
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;

@@ -15,7 +15,7 @@ use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::run::{ObservableMotion, Work};
 use crate::scene::{Coefficients, Scene, resampled};
-use convergence_harness::study::CaseFailure;
+use convergence_study::CaseFailure;
 use thermobeam::dg::DgStepping;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;

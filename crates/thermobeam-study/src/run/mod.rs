@@ -15,7 +15,7 @@ pub mod together;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use convergence_harness::run::time_limit::TimeUp;
+use convergence_judge::time_limit::TimeUp;
 use serde::Serialize;
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};

@@ -5,7 +5,7 @@
 //! alone; reading the clock twice a step adds some 50 ns.
 //!
 //! A run ends early at a step that fails, at a step that violates the law of the energy, and at a
-//! [limit on its time](convergence_harness::run::time_limit). The results so far are kept:
+//! [limit on its time](convergence_judge::time_limit). The results so far are kept:
 //! [`Run::failure`] says why it ended.
 //!
 //! ```

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use convergence_harness::text::number::{max_or_nan, min_or_nan};
+use convergence_judge::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use convergence_harness::run::time_limit::{Patience, TimeUp};
+use convergence_judge::time_limit::{Patience, TimeUp};
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;

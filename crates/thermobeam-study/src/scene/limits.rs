@@ -5,7 +5,7 @@
 //! when a file is read: a typing error gives a message with its line, not a process that the
 //! operating system kills after an hour.
 
-use convergence_harness::input::{Field, InputError};
+use convergence_study::{Field, InputError};
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a
 /// typing error.

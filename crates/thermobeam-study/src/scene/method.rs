@@ -1,6 +1,9 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
-use convergence_harness::input::{Form, InputError, Key, POSITIVE, Section, keys};
+use convergence_study::{
+    Form, InputError, Key, Section,
+    internal::input::{POSITIVE, keys},
+};
 use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::Stepping;

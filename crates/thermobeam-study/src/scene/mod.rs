@@ -56,8 +56,8 @@ pub use tables::Coefficients;
 
 use crate::expression::Expression;
 
-use convergence_harness::input::{self, Field, InputError, Section};
-use convergence_harness::text::number::counted;
+use convergence_judge::text::number::counted;
+use convergence_study::{Field, InputError, Section, internal::input};
 
 /// Initial data (1.2), functions of x; `None` is 0.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! The tables of a scene file: their keys, the mesh, and the initial data with their conditions.
 
-use convergence_harness::input::{Field, Form, InputError, Key, Section};
+use convergence_study::{Field, Form, InputError, Key, Section};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::Beam;
 

@@ -8,7 +8,7 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 
 use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
-use convergence_harness::input::{Field, Form, InputError, Key, Misread, Section};
+use convergence_study::{Field, Form, InputError, Key, Misread, Section};
 
 /// The keys of `[beam]`.
 pub(crate) const BEAM_KEYS: [Key; 5] = [

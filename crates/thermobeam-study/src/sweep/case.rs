@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use convergence_harness::store::content_hash;
+use convergence_study::internal::store::content_hash;
 
 /// A numeric key of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,7 +138,7 @@ impl Share {
         count: 1,
     };
 
-    /// Whether it holds a case with this [`content_hash`](convergence_harness::store::content_hash):
+    /// Whether it holds a case with this [`content_hash`](convergence_study::internal::store::content_hash):
     /// exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.count == self.number - 1
@@ -170,7 +170,7 @@ impl fmt::Display for Share {
 mod tests {
     use super::*;
     use crate::scene::tables;
-    use convergence_harness::input::keys;
+    use convergence_study::internal::input::keys;
 
     #[test]
     fn every_coefficient_can_be_varied() {

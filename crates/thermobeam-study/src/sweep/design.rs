@@ -2,9 +2,9 @@
 
 use super::{Key, MOST_CASES};
 use crate::scene::limits::SWEEP_VALUES;
-use convergence_harness::input::{Field, InputError};
-use convergence_harness::judge::random::SplitMix;
-use convergence_harness::store::content_hash;
+use convergence_judge::judge::random::SplitMix;
+use convergence_study::internal::store::content_hash;
+use convergence_study::{Field, InputError};
 
 /// The values of each key: those of a grid, or a number for each sample of a Latin hypercube.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::lines::{self, Place};
 use super::{Line, Share, Sweep, SweepError};
-use convergence_harness::store::atomic;
+use convergence_study::internal::store::atomic;
 
 /// Identifies the sweep of the folder.
 const MANIFEST: &str = "sweep.json";

@@ -12,7 +12,7 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use super::SweepCase;
-use convergence_harness::store::{atomic, content_hash};
+use convergence_study::internal::store::{atomic, content_hash};
 
 /// The reason why a folder or a file of results cannot be used.
 #[derive(Debug, Error)]

@@ -15,7 +15,8 @@ use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
-use convergence_harness::run::{catch, time_limit};
+use convergence_judge::time_limit;
+use convergence_study::internal::run::catch;
 
 /// Cases that run together: one group of lanes.
 const LANES: usize = 4;

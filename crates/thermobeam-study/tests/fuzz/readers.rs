@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::input::error_table::{Choice, RateTable};
-use convergence_harness::judge::{claims::Claim, verdict::Floor};
-use convergence_harness::store::Baseline;
+use convergence_study::internal::store::Baseline;
+use convergence_study::{Choice, RateTable};
+use convergence_study::{Claim, Floor};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;

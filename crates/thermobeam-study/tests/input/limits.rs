@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use convergence_harness::study::StudyFile;
+use convergence_study::internal::study::StudyFile;
 use thermobeam_study::kinds::KINDS;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::sweep::Sweep;

@@ -1,7 +1,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_harness::study::FromFile as _;
+use convergence_study::FromFile as _;
 use thermobeam_study::kinds;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::Convergence;

@@ -1,5 +1,5 @@
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::{FromFile, Kind};
+use convergence_study::Verdict;
+use convergence_study::{FromFile, Kind};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::bifurcation::{AtRest, Bifurcation, Diagram, Found, ROW};
 

@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use convergence_harness::judge::verdict::{Reason, Verdict};
-use convergence_harness::run::run_one;
-use convergence_harness::study::{CaseFailure, Check, FromFile, Kind, Outcome, run_cases_here};
+use convergence_study::run_one;
+use convergence_study::{
+    CaseFailure, Check, FromFile, Kind, Outcome, internal::study::run_cases_here,
+};
+use convergence_study::{Reason, Verdict};
 use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};

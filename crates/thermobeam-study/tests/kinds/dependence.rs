@@ -1,5 +1,5 @@
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::{FromFile, Kind, run_cases_here};
+use convergence_study::Verdict;
+use convergence_study::{FromFile, Kind, internal::study::run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::dependence::{self, ROW};
 

@@ -1,8 +1,8 @@
 //! Laws of the matrix of faults in the solver of any order: wrong coefficients, and mistakes in the
 //! loads.
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::{CaseFailure, FromFile, Kind};
+use convergence_study::Verdict;
+use convergence_study::{CaseFailure, FromFile, Kind};
 use thermobeam_study::kinds::detects::{Detects, Fault, ROW};
 use thermobeam_study::kinds::orders::any_order::AnyOrder;
 
@@ -64,7 +64,7 @@ fn every_fault_is_detected_and_one_that_is_not_fails() {
 fn a_run_that_a_fault_breaks_down_is_a_detection_and_a_run_that_is_missing_is_none() {
     let study =
         Controls::read(file("any-order-controls.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let sound = convergence_harness::study::run_cases_here(&study);
+    let sound = convergence_study::internal::study::run_cases_here(&study);
     let broken = changed::<Controls>(&sound, |_, results| {
         results[1].1 = Err(CaseFailure::new("it diverges"));
     });

@@ -1,5 +1,5 @@
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::{CaseFailure, FromFile, Kind, Outcome, run_cases_here};
+use convergence_study::Verdict;
+use convergence_study::{CaseFailure, FromFile, Kind, Outcome, internal::study::run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::energy::ROW;

@@ -1,8 +1,8 @@
 //! Laws of the paper's experiments to ten digits: two discretisations must agree, and planted
 //! differences fail.
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::{CaseFailure, FromFile, Kind};
+use convergence_study::Verdict;
+use convergence_study::{CaseFailure, FromFile, Kind};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::exact_experiments::{self, ROW, ShownStates};
 
@@ -73,7 +73,7 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
 #[test]
 fn the_published_digits_are_those_of_the_prototype() {
     let study = study(|text| text);
-    let outcome = convergence_harness::run::run_one(&study);
+    let outcome = convergence_study::run_one(&study);
     let value = |name: &str| {
         let found = outcome
             .quantities
@@ -95,7 +95,7 @@ fn the_scenes_own_scheme_is_compared_where_asked_for() {
         study(|text| text.replace("agreement = 1e-10", "agreement = 1e-10\ncompare = true"));
     let cases = study.cases();
     assert!(cases.len() == 3 && cases[2].data.by.is_none());
-    let mut sound: Vec<_> = convergence_harness::study::run_cases_here(&study);
+    let mut sound: Vec<_> = convergence_study::internal::study::run_cases_here(&study);
     let outcome = study.judge(&sound);
     assert_eq!(outcome.verdict, Verdict::Pass, "{}", report(&outcome));
     assert!(

@@ -1,7 +1,7 @@
 //! One planted defect at a time.
 
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::Kind;
+use convergence_study::Kind;
+use convergence_study::Verdict;
 
 use super::typed::Runs;
 

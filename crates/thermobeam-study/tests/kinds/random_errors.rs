@@ -1,6 +1,6 @@
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::kind::run_cases_here;
-use convergence_harness::study::{FromFile, Kind};
+use convergence_study::Verdict;
+use convergence_study::internal::study::kind::run_cases_here;
+use convergence_study::{FromFile, Kind};
 use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors, Refusal};
 
 use super::refused::refusal;

@@ -1,7 +1,7 @@
 //! Study files with errors.
 
-use convergence_harness::input;
-use convergence_harness::study::{Header, KindRow};
+use convergence_study::internal::input;
+use convergence_study::{Header, KindRow};
 
 use super::{file, text};
 

@@ -1,10 +1,10 @@
 //! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in
 //! some case.
 
-use convergence_harness::input::Complaint;
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run::run_one;
-use convergence_harness::study::{FromFile, Outcome, Quantity};
+use convergence_study::Complaint;
+use convergence_study::Verdict;
+use convergence_study::run_one;
+use convergence_study::{FromFile, Outcome, Quantity};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::scenes::{self, NUMBERS, ROW, Shown};
@@ -78,7 +78,7 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
             found.alike_in_lanes = None;
         },
     );
-    let outcome = convergence_harness::study::Kind::judge(&study, &sound);
+    let outcome = convergence_study::Kind::judge(&study, &sound);
     assert_eq!(counted(&outcome, "scenes against an answer").judged, 8);
 }
 

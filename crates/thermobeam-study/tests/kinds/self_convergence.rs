@@ -1,8 +1,11 @@
 use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, text};
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::run::run_one;
-use convergence_harness::study::{Described, FromFile, Kind, NamedRate, run_cases_here};
+use convergence_study::Verdict;
+use convergence_study::run_one;
+use convergence_study::{
+    FromFile, Kind, NamedRate,
+    internal::study::{Described, run_cases_here},
+};
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::self_convergence::{self, Traced};

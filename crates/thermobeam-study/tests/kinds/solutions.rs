@@ -1,5 +1,5 @@
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::{FromFile, run_cases_here};
+use convergence_study::Verdict;
+use convergence_study::{FromFile, internal::study::run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::solutions::{self, Found, ROW};
 
@@ -48,7 +48,7 @@ fn a_wrong_coefficient_changes_the_solutions() {
     ] {
         let changed = text(FILE).replace(from, to);
         let study = Solutions::parse(&changed, &file(FILE)).unwrap();
-        let outcome = convergence_harness::study::Kind::judge(&study, &run_cases_here(&study));
+        let outcome = convergence_study::Kind::judge(&study, &run_cases_here(&study));
         assert_eq!(outcome.verdict, Verdict::Fail, "{to}");
     }
 }

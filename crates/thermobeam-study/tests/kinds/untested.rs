@@ -1,6 +1,6 @@
 //! Laws about what a manufactured solution does not test.
 
-use convergence_harness::study::{FromFile, Kind, Untested};
+use convergence_study::{FromFile, Kind, Untested};
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::Convergence;
 

@@ -1,12 +1,12 @@
 //! Figures of beams: the laws of all figures, and special ones.
 
 mod figures;
-#[path = "../../../convergence-harness/tests/plots/laws.rs"]
+#[path = "../../../convergence-study/tests/plots/laws.rs"]
 mod laws;
 
 use std::path::Path;
 
-use convergence_harness::plots::Series;
+use convergence_study::internal::plots::Series;
 use laws::{elements, parse};
 use thermobeam_study::figures::*;
 

@@ -1,6 +1,6 @@
 //! `--target-error`: runs that are chosen by their error.
 
-use convergence_harness::run::time_limit;
+use convergence_judge::time_limit;
 use thermobeam::scheme::SCHEMES;
 use thermobeam_study::error::{Evaluator, free_vibration};
 use thermobeam_study::predict::choice::{Choice, Quantity};

@@ -14,7 +14,7 @@
 //! tolerance = 0.1
 //! ```
 
-use convergence_harness::interval::Interval;
+use convergence_study::Interval;
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Measured, Orders, Runs, Series, Source};

@@ -15,10 +15,10 @@ pub mod vibration;
 
 use std::ops::{Deref, DerefMut};
 
-use convergence_harness::study::LevelErrors;
-use convergence_harness::study::grid::Grid;
-use convergence_harness::study::over_levels::rate_table;
-use convergence_harness::study::until_decided::{self, Looks, Next};
+use convergence_study::Grid;
+use convergence_study::LevelErrors;
+use convergence_study::internal::study::over_levels::rate_table;
+use convergence_study::internal::study::until_decided::{self, Looks, Next};
 
 use super::prelude::*;
 

@@ -20,7 +20,7 @@ pub(crate) mod steady;
 pub(crate) mod watch;
 
 use super::prelude::*;
-use convergence_harness::study::LevelErrors;
+use convergence_study::LevelErrors;
 
 /// A list of runs, and what is claimed of them.
 pub trait Runs: Sized + Send + Sync {

@@ -1,7 +1,7 @@
 //! The difference between the fixed point and Newton's method on a scene, against the fixed point's
 //! tolerance.
 
-use convergence_harness::plots::{Phases, Series};
+use convergence_study::internal::plots::{Phases, Series};
 
 use super::{Found, SolverTask, positive_numbers, results};
 use crate::kinds::prelude::*;

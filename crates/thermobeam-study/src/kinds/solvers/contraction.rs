@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use convergence_harness::plots::Series;
+use convergence_study::internal::plots::Series;
 
 use super::spectrum::spectral_radius;
 use super::step::{by_fixed_point, factors};

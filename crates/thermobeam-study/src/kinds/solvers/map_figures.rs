@@ -1,6 +1,6 @@
 //! The maps as figures: what each solver does at every point, and the boundaries.
 
-use convergence_harness::plots::{Axis, Series, Surface};
+use convergence_study::internal::plots::{Axis, Series, Surface};
 
 use super::map::{NewtonSteps, Parameter, Point};
 use super::map_judge::MapResults;

@@ -3,8 +3,8 @@
 
 mod refine;
 
-use convergence_harness::judge::verdict::DEFAULT_TOLERANCE;
-use convergence_harness::project::Term;
+use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
+use convergence_study::Term;
 use thermobeam::dg::DgStepping;
 
 use super::prelude::*;

@@ -1,6 +1,6 @@
 //! The table `[refine]`: the meshes and time steps of a study.
 
-use convergence_harness::study::until_decided;
+use convergence_study::internal::study::until_decided;
 
 use crate::kinds::prelude::*;
 

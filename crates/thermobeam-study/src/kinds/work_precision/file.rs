@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use convergence_harness::study::Tier;
+use convergence_study::Tier;
 
 use super::method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial};
 use super::{ROW, Target, WorkPrecision};

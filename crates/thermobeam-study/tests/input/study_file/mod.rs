@@ -1,8 +1,8 @@
 mod refused;
 
 use super::says;
-use convergence_harness::input;
-use convergence_harness::study::{Axis, Described, FromFile as _, Header, Kind as _, Tier};
+use convergence_study::internal::input;
+use convergence_study::{Axis, FromFile as _, Header, Kind as _, Tier, internal::study::Described};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver, Stopping};

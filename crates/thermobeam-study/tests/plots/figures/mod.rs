@@ -1,6 +1,6 @@
 //! Made-up but realistic data, one set per figure.
 
-use convergence_harness::plots::{Guide, Series};
+use convergence_study::internal::plots::{Guide, Series};
 use thermobeam_study::figures::*;
 
 /// Every figure of a beam, drawn.

@@ -27,7 +27,7 @@
 
 mod runs;
 
-use convergence_harness::judge::fit::FLOOR_MARGIN;
+use convergence_judge::judge::fit::FLOOR_MARGIN;
 use thermobeam::dg::DgStepping;
 
 use super::{Measured, Orders, Runs, Series, Source};

@@ -36,8 +36,8 @@
 mod constant;
 pub(in crate::kinds) mod design;
 
-use convergence_harness::judge::grid::SpaceTime;
-use convergence_harness::study::grid::{Grid, GridColumn};
+use convergence_study::SpaceTime;
+use convergence_study::{Grid, GridColumn};
 
 use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};

@@ -7,7 +7,7 @@ use super::trace::SPAN;
 use super::{Experiments, straight_energy};
 use crate::kinds::prelude::*;
 use crate::kinds::runs::{Findings, Listing};
-use convergence_harness::plots::inset::Place;
+use convergence_study::internal::plots::inset::Place;
 
 /// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can
 /// be followed.

@@ -2,7 +2,7 @@
 
 mod figures;
 
-use convergence_harness::text::number::rate_text;
+use convergence_judge::text::number::rate_text;
 
 use super::{RigidObstacles, RunOf, ShownImpact, peak_penetration};
 use crate::kinds::prelude::*;

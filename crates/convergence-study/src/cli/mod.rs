@@ -1,0 +1,244 @@
+//! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`,
+//! `explain`, `schema`, `completions`, `man`, for any project.
+//!
+//! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
+//! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
+//! standard output, everything else to standard error. Exit status: [`exit::HELP`].
+
+mod compare;
+pub(crate) mod exit;
+pub(crate) mod explain;
+pub(crate) mod flags;
+mod github;
+pub(crate) mod help;
+mod list;
+#[cfg(feature = "manual")]
+mod manual;
+mod manufacture;
+mod new;
+pub(crate) mod rates;
+mod report;
+pub(crate) mod running;
+pub(crate) mod schema;
+pub(crate) mod screen;
+mod study;
+mod verify;
+mod where_lost;
+pub(crate) mod workspace;
+
+use std::env;
+use std::ffi::OsString;
+use std::fmt::Write;
+use std::process::ExitCode;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Parser, Subcommand};
+
+use crate::judge::verdict::Verdict;
+use crate::program::guard;
+use crate::project::Project;
+
+/// The commands of the harness. `--help` takes their descriptions from their arguments.
+#[allow(missing_docs)]
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Verify(verify::Arguments),
+    Study(study::Arguments),
+    List(list::Arguments),
+    Explain(explain::Arguments),
+    Rates(rates::Arguments),
+    Compare(compare::Arguments),
+    Report(report::Arguments),
+    Schema(schema::Arguments),
+    New(new::Arguments),
+    Manufacture(manufacture::Arguments),
+    #[cfg(feature = "manual")]
+    #[command(flatten)]
+    Manual(manual::Command),
+    /// Start a program, and end all that it has started (the harness starts this itself)
+    #[command(hide = true)]
+    Guard,
+}
+
+/// The names of [`Command`] in the order of `--help`, which does not list `guard`.
+pub const COMMANDS: &[&str] = &[
+    "new",
+    "manufacture",
+    "verify",
+    "study",
+    "list",
+    "explain",
+    "rates",
+    "compare",
+    "report",
+    "schema",
+    #[cfg(feature = "manual")]
+    "completions",
+    #[cfg(feature = "manual")]
+    "man",
+];
+
+impl Command {
+    /// Runs the command for a project; `whole` is the whole command line, for the manual.
+    ///
+    /// # Errors
+    /// [`exit::Unusable`]: exit status 2.
+    #[cfg_attr(not(feature = "manual"), expect(unused_variables))]
+    pub fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
+        guard::enable();
+        match self {
+            Self::Verify(arguments) => verify::run(project, arguments),
+            Self::Study(arguments) => study::run(project, arguments),
+            Self::List(arguments) => list::run(project, arguments),
+            Self::Explain(arguments) => explain::run(project, arguments),
+            Self::Rates(arguments) => rates::run(project, arguments),
+            Self::Compare(arguments) => compare::run(arguments),
+            Self::Report(arguments) => report::run(project, arguments),
+            Self::Schema(arguments) => schema::run(project, arguments),
+            Self::New(arguments) => new::run(project, arguments),
+            Self::Manufacture(arguments) => manufacture::run(arguments),
+            #[cfg(feature = "manual")]
+            Self::Manual(command) => command.run(project, whole),
+            Self::Guard => serve(),
+        }
+    }
+}
+
+/// The names of the commands for users.
+fn visible_commands(line: &clap::Command) -> Vec<&str> {
+    let commands = line
+        .get_subcommands()
+        .filter(|command| !command.is_hide_set());
+    let names = commands.map(clap::Command::get_name);
+    let mut names: Vec<&str> = names.filter(|name| *name != "help").collect();
+    names.sort_unstable();
+    names
+}
+
+/// Starts the program of a case and ends what it has started; the harness starts this next to every
+/// program that it runs.
+///
+/// # Errors
+/// Started by anyone except the harness, or the program cannot be waited for.
+fn serve() -> exit::Outcome {
+    if !guard::is_guard() {
+        return Err(exit::Unusable::because(
+            "found the command guard; expected another: the harness starts its guards itself",
+        ));
+    }
+    guard::serve()?;
+    Ok(Verdict::Pass)
+}
+
+/// The command line of the program `P`, under the name that its users type, its commands in groups.
+///
+/// * `groups`: heading, and names of commands. `--help` does not list a command outside all groups.
+/// * `pages`: what the help of the commands that are not the harness's says.
+pub fn command_line<P: Parser>(
+    project: &Project,
+    groups: &[(&str, &[&str])],
+    pages: &[help::HelpPage],
+) -> clap::Command {
+    let command = P::command()
+        .name(project.command)
+        .bin_name(project.command)
+        .about(project.about);
+    grouped(
+        help::completed(new::with_templates(command, project), project, pages)
+            .version(env!("CARGO_PKG_VERSION")),
+        groups,
+    )
+}
+
+/// The command line with its subcommands listed under headings, and the exit status explained.
+///
+/// * `groups`: heading, and names of subcommands. A subcommand outside all groups is not listed.
+fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command {
+    let mut text = String::new();
+    let width = groups
+        .iter()
+        .flat_map(|(_, names)| names.iter())
+        .map(|name| name.len())
+        .max()
+        .unwrap_or(0);
+    for (heading, names) in groups {
+        let _ = writeln!(text, "{heading}:");
+        for name in *names {
+            let found = command
+                .get_subcommands()
+                .find(|known| known.get_name() == *name);
+            let about = found
+                .and_then(clap::Command::get_about)
+                .map(ToString::to_string)
+                .unwrap_or_default();
+            let _ = writeln!(text, "  {name:width$}  {about}");
+        }
+        text.push('\n');
+    }
+    let template = format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{text}Options:\n{{options}}\n\n{}",
+        exit::HELP
+    );
+    command.help_template(template)
+}
+
+/// Parses the arguments of the process, runs the command, and turns the outcome into the exit
+/// status.
+pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
+    ExitCode::from(status(line, env::args_os(), run))
+}
+
+fn status<P: Parser>(
+    line: clap::Command,
+    arguments: impl Iterator<Item = OsString>,
+    run: impl FnOnce(P) -> exit::Outcome,
+) -> u8 {
+    let arguments: Vec<OsString> = arguments.collect();
+    if let Some(colour) = screen::colour_in(&arguments) {
+        screen::set_colour(colour);
+    }
+    let line = line.color(screen::choice());
+    let parsed = line.clone().try_get_matches_from(arguments);
+    let matches = parsed.unwrap_or_else(|error| with_commands(error, &line).exit());
+    let program = P::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    exit::listen();
+    exit::status(run(program))
+}
+
+/// An error of the command line; if the command is unknown, it lists those that exist.
+fn with_commands(mut error: clap::Error, line: &clap::Command) -> clap::Error {
+    // That of a command of a command, such as `dev` of a project, has another usage.
+    let usage = format!("{} [OPTIONS] <COMMAND>", line.get_name());
+    let shown = error.get(ContextKind::Usage).map(ToString::to_string);
+    let is_topmost = shown.is_some_and(|shown| shown.contains(&usage));
+    if error.kind() == ErrorKind::InvalidSubcommand && is_topmost {
+        let known = format!("the commands are {}", visible_commands(line).join(", "));
+        let advice = ContextValue::StyledStrs(vec![known.into()]);
+        error.insert(ContextKind::Suggested, advice);
+    }
+    error
+}
+
+#[derive(Debug, Parser)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The command line of a project that adds no commands of its own.
+pub fn program(project: &Project) -> clap::Command {
+    command_line::<CommandLine>(project, &[("Commands", COMMANDS)], &[])
+}
+
+/// The whole `main` of a project that adds no commands of its own.
+pub fn main(project: &Project) -> ExitCode {
+    ExitCode::from(main_with(project, env::args_os()))
+}
+
+/// The same with these arguments, starting with the program; returns the exit status.
+pub fn main_with(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
+    let line = program(project);
+    status(line.clone(), arguments, |asked: CommandLine| {
+        asked.command.run(project, line)
+    })
+}

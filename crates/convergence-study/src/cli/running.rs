@@ -1,0 +1,273 @@
+//! Shared by the commands that take long: progress, report on an interruption, time limit, and how
+//! long a run took.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+use super::exit::Unusable;
+use super::{exit, screen};
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::run::{self, Progress};
+use crate::store::Provenance;
+use crate::study::Study;
+
+/// Time limits of the commands that run studies.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(crate) struct Limits {
+    /// Time limit of each case; the study of a case that exceeds it fails, and the others go on
+    /// [default: none]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub(super) time_limit: Option<Duration>,
+    /// Run also studies that are expected to take minutes
+    #[arg(long)]
+    yes: bool,
+}
+
+/// Seconds on one thread from which a run needs the user's consent. All studies of a project
+/// together take less; a thousand millions of steps, which is a typing error more often than not,
+/// take more on any mesh.
+const LONG: f64 = 60.0;
+
+/// Refuses work that is expected to take long.
+///
+/// * `what`: the file, or the study.
+/// * `seconds`: the expected time on one thread.
+/// * `limit`: the flag that limits the time.
+///
+/// # Errors
+/// More than a minute.
+pub fn consent(what: &str, seconds: f64, limit: &str) -> Result<(), Unusable> {
+    if seconds <= LONG {
+        return Ok(());
+    }
+    let found = format!("found work for about {seconds:.1e} seconds on one thread");
+    Err(Unusable::because(&format!(
+        "{what}: {found}; expected at most {LONG}, or --yes, or {limit} SECONDS"
+    )))
+}
+
+impl Limits {
+    /// Refuses studies that are expected to take long, unless the user has agreed or limited the
+    /// time of a case.
+    ///
+    /// # Errors
+    /// The first such study.
+    pub(super) fn consent(
+        &self,
+        project: &Project,
+        studies: &[Box<dyn Study>],
+    ) -> Result<(), Unusable> {
+        let Some(unit) = project
+            .seconds_per_cost
+            .filter(|_| !self.yes && self.time_limit.is_none())
+        else {
+            return Ok(());
+        };
+        studies.iter().try_for_each(|study| {
+            let cost: f64 = study.plan().cases().iter().map(|case| case.cost).sum();
+            consent(&study.header().id, unit * cost, "--time-limit")
+        })
+    }
+}
+
+/// A time limit on the command line.
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or("expected a number > 0".to_owned())
+}
+
+/// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which
+/// of them had run.
+///
+/// The time left is estimated from the cost of the remaining cases.
+pub(super) fn watched<T>(
+    studies: &[Box<dyn Study + '_>],
+    quiet: bool,
+    run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
+) -> T {
+    watched_with(studies, quiet, true, run)
+}
+
+/// The same.
+///
+/// * `names_failures`: whether a study that does not pass is named as soon as it ends.
+pub(super) fn watched_with<T>(
+    studies: &[Box<dyn Study + '_>],
+    quiet: bool,
+    names_failures: bool,
+    run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
+) -> T {
+    const STEPS: f64 = 1000.0;
+    let ids: Vec<&str> = studies
+        .iter()
+        .map(|study| study.header().id.as_str())
+        .collect();
+    let done: Arc<Mutex<Vec<String>>> = Arc::default();
+    let completed = Arc::clone(&done);
+    let count = ids.len();
+    exit::say(move || {
+        sentence(
+            &completed.lock().unwrap_or_else(PoisonError::into_inner),
+            count,
+        )
+    });
+    let target = if quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    };
+    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), target)
+        .with_style(style("{bar:40} {msg}, {eta} left"));
+    let ran = run(&|progress| {
+        if let Some((study, verdict)) = progress.ended {
+            done.lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .push(ids[study].to_owned());
+            if names_failures && verdict != Verdict::Pass {
+                bar.println(format!("{}: {}", screen::verdict(verdict), ids[study]));
+            }
+        }
+        // The study that has been running longest.
+        let running = progress.running.map_or("", |study| ids[study]);
+        bar.set_message(format!(
+            "{} of {} cases, {running}",
+            progress.done_cases, progress.cases
+        ));
+        bar.set_position((STEPS * progress.done_cost / progress.cost) as u64);
+    });
+    bar.finish_and_clear();
+    ran
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+fn sentence(done: &[String], count: usize) -> String {
+    let names = if done.is_empty() {
+        String::new()
+    } else {
+        format!(": {}", done.join(", "))
+    };
+    format!("{} of {count} studies had run{names}", done.len())
+}
+
+/// A bar on standard error for `count` things, which `unit` names; hidden with `quiet`, or if
+/// standard error is not a terminal.
+pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let rate = move |state: &ProgressState, text: &mut dyn Write| {
+        // Writing to the bar's line cannot fail.
+        let _ = write!(text, "{:.0} {unit}/s", state.per_sec());
+    };
+    let style =
+        style("{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left").with_key("rate", rate);
+    ProgressBar::new(count as u64)
+        .with_style(style)
+        .with_prefix(name.to_owned())
+}
+
+/// A command that takes minutes, and writes the page that records how many.
+#[derive(Debug)]
+pub struct LongRun {
+    started: Instant,
+    /// Seconds of the run that wrote the existing page.
+    before: Option<f64>,
+    quiet: bool,
+}
+
+impl LongRun {
+    /// Starts the clock, and says how long the run took that wrote the existing page.
+    ///
+    /// * `what`: what is done, in words.
+    /// * `page`: written by an earlier run, with [`ended`](Self::ended) in it.
+    pub fn begin(what: &str, page: &Path, quiet: bool) -> Self {
+        let before = fs::read_to_string(page)
+            .ok()
+            .and_then(|text| seconds_in(&text));
+        let run = Self {
+            started: Instant::now(),
+            before,
+            quiet,
+        };
+        let known = match before {
+            Some(before) => format!("took {before:.0} s when {} was written", page.display()),
+            None => format!(
+                "minutes; how many is not known: {} does not say",
+                page.display()
+            ),
+        };
+        run.tell(&format!("{what}: {known}"));
+        run
+    }
+
+    /// Says what has been done, and the time since the start.
+    pub fn done(&self, what: &str) {
+        let of = self
+            .before
+            .map_or(String::new(), |before| format!(" of about {before:.0}"));
+        self.tell(&format!(
+            "{what}, at {:.0}{of} s",
+            self.started.elapsed().as_secs_f64()
+        ));
+    }
+
+    /// Where and when the run was made and how long it took, for the page.
+    ///
+    /// * `root`: the project's folder.
+    pub fn ended(&self, root: &Path) -> String {
+        let here = Provenance::collect(root, String::new(), run::available().get(), &[]);
+        let took = took(self.started.elapsed().as_secs_f64());
+        here.sentences()
+            .into_iter()
+            .chain([took])
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    fn tell(&self, message: &str) {
+        if !self.quiet {
+            screen::tell(message);
+        }
+    }
+}
+
+const BEFORE: &str = "It took ";
+const AFTER: &str = " s.";
+
+fn took(seconds: f64) -> String {
+    format!("{BEFORE}{seconds:.0}{AFTER}")
+}
+
+/// The seconds that [`took`] has written to a page.
+fn seconds_in(page: &str) -> Option<f64> {
+    let (number, _) = page.split_once(BEFORE)?.1.split_once(AFTER)?;
+    number.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{seconds_in, took};
+
+    #[test]
+    fn the_next_run_reads_what_the_page_says() {
+        let page = format!(
+            "# Drift\n\nWritten by a program. {}\n\n| a | b |\n",
+            took(143.4)
+        );
+        assert_eq!(seconds_in(&page), Some(143.0));
+        for without in ["", "It took long.", "It took x s."] {
+            assert_eq!(seconds_in(without), None, "{without}");
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! The workspace: its studies, their selection by tier, id or pattern, and what earlier runs have
+//! left in it: their records, and the times of the last one.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+use std::{env, fs, io};
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use glob::Pattern;
+
+use super::exit::Unusable;
+use super::screen;
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::store;
+use crate::store::{Provenance, Record};
+use crate::study::{Header, StudyFile, Tier};
+use crate::text::names::by_distance;
+use crate::text::visible;
+
+/// The folder of the project: the nearest one with `studies/`, here or above.
+///
+/// # Errors
+/// If there is no such folder.
+pub fn root() -> Result<PathBuf, Unusable> {
+    let here = env::current_dir()?;
+    let root = here
+        .ancestors()
+        .find(|folder| folder.join("studies").is_dir());
+    root.map(Path::to_owned).ok_or_else(|| {
+        Unusable::because(
+            "expected a folder studies/, here or above; found none (`study FILE` runs a file from anywhere)",
+        )
+    })
+}
+
+/// All studies of the workspace, by id.
+///
+/// # Errors
+/// A folder that cannot be listed, and the first file that is not a study.
+pub fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusable> {
+    let folder = root.join("studies");
+    let paths = toml_files(&folder).map_err(|error| Unusable::file(&folder, &error))?;
+    let mut files = StudyFile::read_all(project.kinds, &paths)?;
+    files.sort_by(|a, b| a.study.header().id.cmp(&b.study.header().id));
+    Ok(files)
+}
+
+/// Warns on standard error about files that hold a study but are not run, because their extension
+/// is not `toml`.
+pub(crate) fn warn_of_near_names(root: &Path) {
+    let entries = fs::read_dir(root.join("studies"))
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path());
+    let is_study = |path: &PathBuf| {
+        let text = store::read_to_string(path).unwrap_or_default();
+        text.lines().any(|line| {
+            line.split('#')
+                .next()
+                .is_some_and(|line| line.trim() == "[study]")
+        })
+    };
+    let mut paths: Vec<PathBuf> = entries
+        .filter(|path| has_near_extension(path) && is_study(path))
+        .collect();
+    paths.sort();
+    for path in paths {
+        let name = visible::path(path.strip_prefix(root).unwrap_or(&path));
+        screen::tell(&format!(
+            "warning: {name}: a study that is not run; expected a name that ends in .toml"
+        ));
+    }
+}
+
+/// Whether the extension is almost `toml`: capitals, one wrong letter, or something after it.
+fn has_near_extension(path: &Path) -> bool {
+    let name = path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
+    let is_toml = path
+        .extension()
+        .is_some_and(|extension| extension == "toml");
+    !is_toml
+        && [".toml", ".tml", ".tom", ".toml.txt", ".toml~"]
+            .iter()
+            .any(|end| name.ends_with(end))
+}
+
+/// The readable study files of a folder, for looking one up by its id.
+pub(crate) fn readable_studies(project: &Project, folder: &Path) -> Vec<StudyFile> {
+    let paths = toml_files(folder).unwrap_or_default();
+    paths
+        .iter()
+        .filter_map(|path| StudyFile::read(project.kinds, path).ok())
+        .collect()
+}
+
+fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
+    let mut paths = entries.collect::<io::Result<Vec<_>>>()?;
+    paths.retain(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    });
+    paths.sort();
+    // Messages name files relative to the current folder.
+    let here = env::current_dir().unwrap_or_default();
+    Ok(paths
+        .iter()
+        .map(|path| path.strip_prefix(&here).unwrap_or(path).to_owned())
+        .collect())
+}
+
+/// Where `verify` leaves its records, below the workspace; of two equally old ones the later in
+/// this list counts.
+const RECORDS: [&str; 3] = [
+    "reports/full/results.json",
+    "reports/results.json",
+    "reports/local/partial/results.json",
+];
+
+/// Where `verify` leaves the times of its last run.
+const TIMES: &str = "reports/local/provenance.json";
+
+/// All existing records, the newest last.
+pub(super) fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
+    let mut records: Vec<(SystemTime, Record)> = vec![];
+    for path in RECORDS
+        .map(|path| root.join(path))
+        .iter()
+        .filter(|path| path.symlink_metadata().is_ok())
+    {
+        let written = fs::metadata(path).and_then(|data| data.modified());
+        records.push((
+            written.map_err(|error| Unusable::file(path, &error))?,
+            Record::read(path)?,
+        ));
+    }
+    // The sort is stable, so the order of RECORDS decides between equals.
+    records.sort_by_key(|(written, _)| *written);
+    Ok(records.into_iter().map(|(_, record)| record).collect())
+}
+
+/// The last verdict on each study: that of the newest record that has it.
+///
+/// # Errors
+/// A file that exists but cannot be read, or is not a record.
+pub(super) fn last_verdicts(root: &Path) -> Result<HashMap<String, Verdict>, Unusable> {
+    // A later one overwrites.
+    let studies = records(root)?.into_iter().flat_map(|record| record.studies);
+    Ok(studies
+        .map(|study| (study.header.id, study.outcome.verdict))
+        .collect())
+}
+
+/// The seconds over all threads of each study in the last run on this machine.
+///
+/// # Errors
+/// As [`last_verdicts`].
+pub(super) fn last_seconds(root: &Path) -> Result<HashMap<String, f64>, Unusable> {
+    let times = Provenance::read(&root.join(TIMES))?
+        .into_iter()
+        .flat_map(|provenance| provenance.studies);
+    Ok(times.map(|study| (study.id, study.busy_seconds)).collect())
+}
+
+/// Reads a tier from the command line.
+pub(crate) fn tier_parser() -> impl TypedValueParser<Value = Tier> {
+    let tier = |name: String| {
+        if name == Tier::Full.name() {
+            Tier::Full
+        } else {
+            Tier::Quick
+        }
+    };
+    PossibleValuesParser::new(Tier::ALL.map(Tier::name)).map(tier)
+}
+
+/// Whether each study is selected.
+///
+/// * `words`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id
+///   selects its study whatever the tier; a pattern stays within the tier. The full tier includes
+///   the quick one.
+///
+/// * `list`: the command that lists all studies, for messages.
+///
+/// # Errors
+/// A pattern that cannot be read, or one that matches nothing: a misspelt name must not pass.
+pub(crate) fn select(
+    all: &[&Header],
+    tier: Tier,
+    words: &[String],
+    list: &str,
+) -> Result<Vec<bool>, Unusable> {
+    let in_tier = |header: &Header| header.tier <= tier;
+    if words.is_empty() {
+        let mask: Vec<bool> = all.iter().map(|header| in_tier(header)).collect();
+        return if mask.contains(&true) {
+            Ok(mask)
+        } else {
+            Err(Unusable::because(&format!(
+                "no study in the tier {}",
+                tier.name()
+            )))
+        };
+    }
+    let mut mask = vec![false; all.len()];
+    for word in words {
+        let pattern = Pattern::new(word)
+            .map_err(|error| Unusable::because(&format!("`{word}` is not a pattern: {error}")))?;
+        let matches = |header: &Header| {
+            header.id == *word || (in_tier(header) && pattern.matches(&header.id))
+        };
+        let found: Vec<usize> = (0..all.len()).filter(|&i| matches(all[i])).collect();
+        if found.is_empty() {
+            return Err(Unusable::because(&no_match(
+                word, &pattern, all, tier, list,
+            )));
+        }
+        found.into_iter().for_each(|i| mask[i] = true);
+    }
+    Ok(mask)
+}
+
+fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &str) -> String {
+    let outside = all
+        .iter()
+        .filter(|header| pattern.matches(&header.id))
+        .count();
+    if outside > 0 {
+        return format!(
+            "`{word}` matches no study in the tier {}, and {outside} with --tier full",
+            tier.name()
+        );
+    }
+    // A longer list would fill the screen.
+    const FEW: usize = 12;
+    const NEAREST: usize = 3;
+    let ids: Vec<&str> = all.iter().map(|header| header.id.as_str()).collect();
+    let allowed = if ids.len() <= FEW {
+        ids.join(", ")
+    } else {
+        let nearest = by_distance(word, ids)[..NEAREST].join(", ");
+        format!("what `{list}` shows, of which {nearest} are nearest")
+    };
+    format!("`{word}` matches no study; expected {allowed}, or a pattern such as '*-space'")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn headers() -> Vec<Header> {
+        let header = |(id, tier): (&str, Tier)| Header {
+            tier,
+            ..Header::new(id, "c")
+        };
+        [
+            ("a-space", Tier::Quick),
+            ("a-time", Tier::Quick),
+            ("b-space", Tier::Full),
+        ]
+        .map(header)
+        .to_vec()
+    }
+
+    fn selected_ids(tier: Tier, words: &[&str]) -> Result<Vec<String>, String> {
+        let headers = headers();
+        let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
+        let mask = select(&headers.iter().collect::<Vec<_>>(), tier, &words, "list")
+            .map_err(|error| error.message().to_owned())?;
+        Ok(headers
+            .iter()
+            .zip(mask)
+            .filter(|(_, is_selected)| *is_selected)
+            .map(|(header, _)| header.id.clone())
+            .collect())
+    }
+
+    #[test]
+    fn tiers_ids_and_patterns_select() {
+        for (tier, words, expected) in [
+            (Tier::Quick, &[][..], &["a-space", "a-time"][..]),
+            (Tier::Full, &[], &["a-space", "a-time", "b-space"]),
+            (Tier::Quick, &["b-space"], &["b-space"]),
+            (Tier::Quick, &["*-space"], &["a-space"]),
+            (Tier::Full, &["*-space"], &["a-space", "b-space"]),
+            (
+                Tier::Quick,
+                &["a-t?me", "a-space", "a-*"],
+                &["a-space", "a-time"],
+            ),
+        ] {
+            assert_eq!(selected_ids(tier, words).unwrap(), expected, "{words:?}");
+        }
+    }
+
+    #[test]
+    fn a_word_without_a_match_is_an_error_even_beside_others() {
+        for (selection, words) in [
+            (
+                &["a-space", "a-spice"][..],
+                "`a-spice` matches no study; expected a-space, a-time, b-space",
+            ),
+            (
+                &["b*"],
+                "`b*` matches no study in the tier quick, and 1 with --tier full",
+            ),
+            (&["["], "`[` is not a pattern"),
+            (&[""], "`` matches no study"),
+        ] {
+            let error = selected_ids(Tier::Quick, selection).unwrap_err();
+            assert!(error.starts_with(words), "{error}");
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What the other crates of this workspace use besides the published names, and what tests look
+//! at. **No promise of stability**: any version may change any item.
+
+#[cfg(feature = "command-line")]
+pub mod cli {
+    pub use crate::cli::{COMMANDS, Command, command_line, ended, main, main_with, program};
+    pub mod exit {
+        pub use crate::cli::exit::{Outcome, Unusable, say};
+    }
+    pub mod explain {
+        pub use crate::cli::explain::{contents, nearest_name, study, term, terms};
+    }
+    pub mod flags {
+        pub use crate::cli::flags::Flags;
+    }
+    pub mod help {
+        pub use crate::cli::help::{HelpPage, pages};
+    }
+    pub mod running {
+        pub use crate::cli::running::{LongRun, consent, counting, seconds};
+    }
+    pub mod schema {
+        pub use crate::cli::schema::{
+            MANUFACTURE, of_studies, of_tables_file, other_files, page, text,
+        };
+    }
+    pub mod screen {
+        pub use crate::cli::screen::{complain, print, table};
+    }
+    pub mod workspace {
+        pub use crate::cli::workspace::{root, studies};
+    }
+}
+#[cfg(feature = "reports")]
+pub mod compare {
+    pub use crate::compare::{Comparison, Shift, WITHIN, compare};
+}
+#[cfg(feature = "files")]
+pub mod input {
+    pub use crate::input::{POSITIVE, parse, parse_beside, parse_overlaid, read_text};
+    pub mod advice {
+        pub use crate::input::advice::{Argument, CommandLine, Setting, Surface, Value};
+    }
+    pub mod keys {
+        pub use crate::input::keys::{all_or, names};
+    }
+}
+#[cfg(feature = "tables")]
+pub mod plots {
+    pub use crate::plots::{
+        Axis, ErrorSeries, ForestRow, Guide, Phases, Scale, Series, SpaceTime, Surface,
+        convergence, forest, history, iterations, panels, space_time, surface, work_precision,
+    };
+    pub mod canvas {
+        pub use crate::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
+    }
+    pub mod inset {
+        pub use crate::plots::inset::{Inset, Place};
+    }
+    pub mod look {
+        pub use crate::plots::look::{Look, Marker, Marks, look};
+    }
+    pub mod ruler {
+        pub use crate::plots::ruler::{Ruler, fixed, on_scale, power_of_ten};
+    }
+    pub mod style {
+        pub use crate::plots::style::{
+            DOTTED, GRID, INK, LABEL_SIZE, LONG, MINOR_GRID, MUTED, SHADE, SHORT, SOLID, THIN,
+            TICK_SIZE, TITLE_SIZE, WIDTH, elide, text_width,
+        };
+    }
+    pub mod xy {
+        pub use crate::plots::xy::{Curve, Xy};
+    }
+}
+#[cfg(feature = "reports")]
+pub mod program {
+    pub use crate::program::{MANUFACTURE, PROJECT, ROW, TEMPLATE};
+    pub mod guard {
+        pub use crate::program::guard::{COMMAND, enable_by};
+    }
+}
+#[cfg(feature = "tables")]
+pub mod rates {
+    pub use crate::rates::{
+        Claimed, ClaimedOrder, Refusal, Request, Sheet, TableSheet, Tables, claimed, object, sheet,
+    };
+}
+#[cfg(feature = "reports")]
+pub mod report {
+    pub use crate::report::{
+        Findings, LONGEST, NEWEST, blessing, markdown, sentence, tables, text_of_diagnosis,
+        text_of_failures,
+    };
+}
+pub mod run {
+    pub use crate::run::{
+        Effort, Item, NotPassed, Spent, available, catch, not_passed, run, run_within,
+    };
+}
+#[cfg(feature = "reports")]
+pub mod store {
+    pub use crate::store::{
+        Baseline, BlessedClaim, Change, Movement, Record, ReportFolder, ReportSet, Works,
+        content_hash, json, junit, lock,
+    };
+    pub mod atomic {
+        pub use crate::store::atomic::{
+            begin_write, naming, prepare_folder, remove_leftovers, write, write_with,
+        };
+    }
+    pub mod diagnosis {
+        pub use crate::store::diagnosis::{Diagnosis, diagnose};
+    }
+}
+pub mod study {
+    pub mod readings {
+        pub use crate::study::readings::{guarded, not_finite, table};
+    }
+    pub use crate::study::{Described, NamedErrors, STEPS, first_repeated, run_cases_here};
+    #[cfg(feature = "files")]
+    pub use crate::study::{StudyFile, allow_only};
+    pub mod coverage {
+        pub use crate::study::coverage::NO_RESULT;
+    }
+    pub mod header {
+        pub use crate::study::header::{Setting, is_name, of_file, study};
+    }
+    pub mod kind {
+        pub use crate::study::kind::{judge, run_cases_here};
+    }
+    pub mod outcome {
+        pub use crate::study::outcome::settle;
+    }
+    pub mod over_levels {
+        pub use crate::study::over_levels::{ErrorColumn, Levels, rate_table, summary};
+    }
+    pub mod until_decided {
+        pub use crate::study::until_decided::{
+            FIRST, Looks, Next, conclude, is_settled, next, next_by_time,
+        };
+        #[cfg(feature = "files")]
+        pub use crate::study::until_decided::{budget, is_auto};
+    }
+}
+#[cfg(feature = "reports")]
+pub mod verify {
+    pub use crate::verify::{publish, report};
+}

@@ -1,0 +1,471 @@
+//! The answer of a program: the last line of its standard output that is a JSON object; without such
+//! a line, numbers behind the names that the study expects: `max = 1.5e-3`.
+
+use std::fmt;
+
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::{Map, Value};
+
+use crate::input::shorten;
+use crate::study::{CaseFailure, Claim};
+use crate::text::visible::visible;
+
+/// The numbers of one case; NaN if that was the answer. Names are sorted, and safe for a terminal.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct Answer {
+    /// Errors by name.
+    pub errors: Vec<(String, f64)>,
+    /// Values without an exact solution, by name.
+    pub values: Vec<(String, f64)>,
+    /// The mesh width, if it is not the nominal one; > 0.
+    pub h: Option<f64>,
+    /// The time step, likewise.
+    pub dt: Option<f64>,
+    /// Unknowns, operations, seconds: whatever the program counts; > 0.
+    pub work: Option<f64>,
+    /// The time that the program took.
+    #[serde(default)]
+    pub seconds: f64,
+    /// Why the case has failed nevertheless: a number is NaN or missing. The others count.
+    #[serde(skip)]
+    pub failure: Option<CaseFailure>,
+}
+
+/// A table `[[expect]]`: a number that every answer must contain, and the claim about it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Expectation {
+    pub(super) name: String,
+    /// Whether it is a value whose error is not known.
+    pub(super) is_value: bool,
+    /// For a grid: the order in h.
+    pub(super) claim: Claim,
+    /// For a grid: the order in dt.
+    pub(super) time: f64,
+    /// The order is that of a factor per degree, n being the degree.
+    pub(super) by_degree: bool,
+    /// The bound on the error; nothing else is claimed.
+    pub(super) exact: Option<f64>,
+}
+
+impl Expectation {
+    /// The key that names it.
+    pub(super) fn what(&self) -> &'static str {
+        if self.is_value { "value" } else { "error" }
+    }
+}
+
+/// The object that a line is, or why it is not one; `None` for lines that do not begin with `{`.
+///
+/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as
+/// `null`, which is not a number.
+///
+/// The reason is in words, with advice. The flag says whether the line looks like an answer; then
+/// no object before it is the last one. `{iteration 3}` does not.
+pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, bool)>> {
+    let line = line.trim();
+    let inside = line.strip_prefix('{')?.trim_start();
+    let parsed = |line: &str| serde_json::from_str(line).map(|Once(value)| value);
+    let read = parsed(line)
+        .or_else(|_| parsed(&with_null_for_nan(line)))
+        .and_then(serde_json::from_value);
+    let near_miss = |error: serde_json::Error| {
+        let is_dict = inside.starts_with('\'')
+            && ["'errors'", "'values'"]
+                .iter()
+                .any(|key| inside.contains(key));
+        let reason = if inside.starts_with('\'') {
+            "single quotes are not those of JSON: print it with json.dumps(...) on one line"
+                .to_owned()
+        } else if error.is_eof() {
+            "it does not end on its line: print it with json.dumps(...) on one line".to_owned()
+        } else {
+            error.to_string()
+        };
+        (
+            reason,
+            inside.is_empty() || inside.starts_with('"') || is_dict,
+        )
+    };
+    Some(read.map_err(near_miss))
+}
+
+/// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
+/// expects, with the step and the work; `None` if no name is expected.
+pub(super) fn object_of_lines(
+    numbers: &[(String, f64)],
+    expected: &[Expectation],
+) -> Option<Map<String, Value>> {
+    let mut object = Map::new();
+    for (name, number) in numbers {
+        for expected in expected.iter().filter(|expected| expected.name == *name) {
+            let among = format!("{}s", expected.what());
+            let names = object.entry(among).or_insert_with(|| Map::new().into());
+            names[name] = (*number).into();
+        }
+    }
+    let is_answer = !object.is_empty();
+    for (name, number) in numbers {
+        if STEPS_AND_WORK.contains(&name.as_str()) {
+            object.insert(name.clone(), (*number).into());
+        }
+    }
+    is_answer.then_some(object)
+}
+
+/// Most errors, and most values, of an answer: every level is searched for each name.
+const MOST_NAMES: usize = 1000;
+
+/// What an answer has beside errors and values.
+pub(super) const STEPS_AND_WORK: [&str; 3] = ["h", "dt", "work"];
+
+/// A value of JSON in which no object repeats a name: the last would silently win.
+struct Once(Value);
+
+impl<'de> Deserialize<'de> for Once {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OnceVisitor;
+        impl<'de> Visitor<'de> for OnceVisitor {
+            type Value = Once;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a value of JSON")
+            }
+
+            fn visit_bool<E>(self, value: bool) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_i64<E>(self, value: i64) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_u64<E>(self, value: u64) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_f64<E>(self, value: f64) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_str<E>(self, value: &str) -> Result<Once, E> {
+                Ok(Once(value.into()))
+            }
+
+            fn visit_unit<E>(self) -> Result<Once, E> {
+                Ok(Once(Value::Null))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Once, A::Error> {
+                let mut list = vec![];
+                while let Some(Once(item)) = items.next_element()? {
+                    list.push(item);
+                }
+                Ok(Once(list.into()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Once, A::Error> {
+                let mut object = Map::new();
+                while let Some((name, Once(value))) = entries.next_entry::<String, Once>()? {
+                    if object.contains_key(&name) {
+                        return Err(A::Error::custom(format!(
+                            "`{}` occurs twice",
+                            visible(&name)
+                        )));
+                    }
+                    object.insert(name, value);
+                }
+                Ok(Once(object.into()))
+            }
+        }
+        deserializer.deserialize_any(OnceVisitor)
+    }
+}
+
+/// The text with `null` for every NaN and infinity outside strings.
+fn with_null_for_nan(line: &str) -> String {
+    const TOKENS: [&str; 8] = [
+        "-Infinity",
+        "Infinity",
+        "-NaN",
+        "NaN",
+        "-inf",
+        "inf",
+        "-nan",
+        "nan",
+    ];
+    let mut is_string = false;
+    let mut is_escaped = false;
+    // Pieces end with a quote that opens or closes a string: every second one is a string.
+    let pieces = line.split_inclusive(|c| {
+        let is_quote = c == '"' && !is_escaped;
+        is_escaped = is_string && c == '\\' && !is_escaped;
+        is_string ^= is_quote;
+        is_quote
+    });
+    let null = |piece: &str| {
+        TOKENS.iter().fold(piece.to_owned(), |piece, token| {
+            piece.replace(token, "null")
+        })
+    };
+    pieces
+        .enumerate()
+        .map(|(k, piece)| {
+            if k % 2 == 1 {
+                piece.to_owned()
+            } else {
+                null(piece)
+            }
+        })
+        .collect()
+}
+
+impl Answer {
+    /// Reads an answer; unknown names are ignored. An error or a value that is not a finite number
+    /// is NaN.
+    ///
+    /// * Returns it with the first complaint about such a number, or the reason why it is not an
+    ///   answer.
+    pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<String>), String> {
+        let step = |name: &str| {
+            let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
+            object.get(name).map(read).transpose()
+        };
+        let mut complaint = None;
+        let answer = Self {
+            errors: table(object, "errors", &mut complaint)?,
+            values: table(object, "values", &mut complaint)?,
+            h: step("h")?,
+            dt: step("dt")?,
+            work: step("work")?,
+            ..Self::default()
+        };
+        Ok((answer, complaint))
+    }
+
+    /// The number of that name; `None` if it is absent.
+    pub(super) fn number(&self, expected: &Expectation) -> Option<f64> {
+        let among = if expected.is_value {
+            &self.values
+        } else {
+            &self.errors
+        };
+        among
+            .iter()
+            .find(|(known, _)| *known == expected.name)
+            .map(|(_, number)| *number)
+    }
+
+    /// Refuses an answer that lacks a number that the study expects.
+    pub(super) fn require(&self, expected: &Expectation) -> Result<(), String> {
+        if self.number(expected).is_some() {
+            return Ok(());
+        }
+        let (own, other) = if expected.is_value {
+            (&self.values, "errors")
+        } else {
+            (&self.errors, "values")
+        };
+        let is_other = self
+            .number(&Expectation {
+                is_value: !expected.is_value,
+                ..expected.clone()
+            })
+            .is_some();
+        let there = match own[..] {
+            _ if is_other => format!("it among its {other}"),
+            [] => "none".to_owned(),
+            _ => own
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect::<Vec<_>>()
+                .join(", "),
+        };
+        Err(format!(
+            "its answer has no {} `{}`; it has {there}",
+            expected.what(),
+            expected.name
+        ))
+    }
+}
+
+fn table(
+    object: &Map<String, Value>,
+    name: &str,
+    complaint: &mut Option<String>,
+) -> Result<Vec<(String, f64)>, String> {
+    let Some(value) = object.get(name) else {
+        return Ok(vec![]);
+    };
+    let expected = r#"an object of names and numbers, such as {"L2": 1.5e-3}"#;
+    let entries = value
+        .as_object()
+        .ok_or_else(|| format!("`{name}` is {}; expected {expected}", written(value)))?;
+    if entries.len() > MOST_NAMES {
+        return Err(format!(
+            "`{name}` has {} names; expected at most {MOST_NAMES}",
+            entries.len()
+        ));
+    }
+    let entry = |(key, value): (&String, &Value)| {
+        let key = visible(key);
+        let read = number(
+            &format!("`{key}` of its {name}"),
+            value,
+            "a finite number",
+            |_| true,
+        );
+        let value = read.unwrap_or_else(|error| {
+            complaint.get_or_insert(error);
+            f64::NAN
+        });
+        (key, value)
+    };
+    Ok(entries.iter().map(entry).collect())
+}
+
+fn number(
+    name: &str,
+    value: &Value,
+    expected: &str,
+    ok: impl Fn(f64) -> bool,
+) -> Result<f64, String> {
+    let found = value
+        .as_f64()
+        .filter(|value| value.is_finite() && ok(*value));
+    found.ok_or_else(|| format!("{name} is {}; expected {expected}", written(value)))
+}
+
+fn written(value: &Value) -> String {
+    if value.is_null() {
+        "NaN, infinite or null".to_owned()
+    } else {
+        shorten(&value.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(line: &str) -> Result<Answer, String> {
+        let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap())?;
+        complaint.map_or(Ok(answer), Err)
+    }
+
+    #[test]
+    fn an_answer_has_at_most_so_many_names() {
+        let answer = |count: usize| {
+            let errors = (0..count).map(|k| format!("\"e{k}\": 1"));
+            let errors = errors.collect::<Vec<_>>().join(", ");
+            read(&format!("{{\"errors\": {{{errors}}}}}"))
+        };
+        assert_eq!(answer(MOST_NAMES).unwrap().errors.len(), MOST_NAMES);
+        assert_eq!(
+            answer(10_000).unwrap_err(),
+            "`errors` has 10000 names; expected at most 1000"
+        );
+    }
+
+    #[test]
+    fn an_answer_has_errors_values_steps_and_work() {
+        let answer =
+            read(r#" {"errors": {"L2": 1e-3, "H1": 2}, "values": {"flux": -3.5}, "h": 0.1, "work": 40, "x": [1]} "#)
+                .unwrap();
+        assert_eq!(
+            answer.errors,
+            [("H1".to_owned(), 2.0), ("L2".to_owned(), 1e-3)]
+        );
+        assert_eq!(answer.values, [("flux".to_owned(), -3.5)]);
+        assert_eq!(
+            (answer.h, answer.dt, answer.work),
+            (Some(0.1), None, Some(40.0))
+        );
+        assert_eq!(read("{}").unwrap(), Answer::default());
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_refused_by_name() {
+        let not_finite = "is NaN, infinite or null; expected a finite number";
+        for (line, message) in [
+            (
+                r#"{"errors": {"L2": NaN}}"#,
+                format!("`L2` of its errors {not_finite}"),
+            ),
+            (
+                r#"{"errors": {"NaN": -Infinity}}"#,
+                format!("`NaN` of its errors {not_finite}"),
+            ),
+            (
+                r#"{"values": {"a\"nan": nan}}"#,
+                format!("`a\"nan` of its values {not_finite}"),
+            ),
+            (
+                r#"{"errors": {"L2": null}}"#,
+                format!("`L2` of its errors {not_finite}"),
+            ),
+            (
+                r#"{"errors": {"L2": "small"}}"#,
+                "`L2` of its errors is \"small\"; expected a finite number".to_owned(),
+            ),
+            (
+                r#"{"errors": [1]}"#,
+                "`errors` is [1]; expected an object".to_owned(),
+            ),
+            (
+                r#"{"h": 0}"#,
+                "h is 0; expected a finite number > 0".to_owned(),
+            ),
+            (
+                r#"{"h": NaN}"#,
+                "h is NaN, infinite or null; expected a finite number > 0".to_owned(),
+            ),
+        ] {
+            let found = read(line).unwrap_err();
+            assert!(found.contains(&message), "{found}");
+        }
+    }
+
+    #[test]
+    fn a_missing_name_is_told_with_those_that_are_there() {
+        let answer = read(r#"{"errors": {"H1": 1}, "values": {"L2": 1}}"#).unwrap();
+        let claim = Claim::new(2.0, 0.1);
+        let require = |is_value: bool, name: &str| {
+            let name = name.to_owned();
+            answer.require(&Expectation {
+                name,
+                is_value,
+                claim,
+                time: 2.0,
+                by_degree: false,
+                exact: None,
+            })
+        };
+        let missing = |is_value: bool, name: &str| require(is_value, name).unwrap_err();
+        assert_eq!(
+            missing(false, "L2"),
+            "its answer has no error `L2`; it has it among its values"
+        );
+        assert_eq!(
+            missing(false, "max"),
+            "its answer has no error `max`; it has H1"
+        );
+        assert_eq!(
+            missing(true, "flux"),
+            "its answer has no value `flux`; it has L2"
+        );
+        assert_eq!(require(false, "H1"), Ok(()));
+    }
+
+    #[test]
+    fn other_lines_are_no_objects() {
+        assert_eq!(object("iteration 3: {ok"), None);
+        assert_eq!(object("[1]"), None);
+        assert!(
+            object("{not json}")
+                .unwrap()
+                .is_err_and(|(_, is_answer)| !is_answer)
+        );
+        assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
+    }
+}

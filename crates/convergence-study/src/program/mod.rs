@@ -1,0 +1,283 @@
+//! Studies whose cases are runs of another program, in any language.
+//!
+//! A case is one resolution. The program is started with it, without a shell. Its answer is the
+//! last line of its standard output that is a JSON object, or lines of `name = value`: errors by
+//! name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
+//! none of its processes outlives it.
+//!
+//! | file | holds |
+//! | --- | --- |
+//! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
+//! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
+//! | `answer.rs` | its answer |
+//! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
+//! | `values.rs` | the same for values without an exact solution |
+//! | `begin.rs` | what `new program` writes |
+
+mod answer;
+pub(crate) mod begin;
+mod command;
+mod file;
+pub(crate) mod guard;
+mod judge;
+mod output;
+mod refine;
+mod values;
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use crate::input::{InputError, Keys, Section};
+use crate::project::{Project, Template};
+use crate::run::time_limit;
+use crate::study::header;
+use crate::study::until_decided::Next;
+use crate::study::{
+    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader,
+};
+use answer::Expectation;
+use command::{Invocation, filled};
+use refine::Refine;
+
+pub(crate) use answer::Answer;
+pub(crate) use refine::Resolution;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "program",
+    keys: Program::KEYS,
+    read: reader::<Program>,
+    why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
+    judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
+             an interval of measured reliability, which is held against the order: it must lie within the tolerance, whole. Above is as wrong as \
+             below. What cannot be told is inconclusive, which is not a pass. A value without an exact solution is judged by the differences \
+             of its levels in the same way; Richardson's extrapolation gives its limit and an interval for that, where the differences are \
+             asymptotic, and beside it stands the grid convergence index. A run that ends with another exit status than 0, takes too long \
+             or answers no finite numbers is a failed case, and fails the study.",
+    failure: "The program does not have the order at these resolutions: a term, a boundary value or a quadrature is wrong, or another error, \
+              such as that of the time steps, hides the one that was refined. Look which error fails, and from which level on.",
+    settings: header::of_file,
+};
+
+/// The files that `new program NAME` writes: a study of a program, and the program.
+pub const TEMPLATE: Template = Template {
+    name: "program",
+    about: "A convergence study of a program in any language",
+    files: &[
+        (".toml", include_str!("begin/study.toml")),
+        (".py", include_str!("begin/program.py")),
+    ],
+    ignored: "# Reports that are made anew.\n/report/\n/reports/local/\n",
+    next: &["study", "explain"],
+};
+
+/// The file that `new manufacture NAME` writes: equations and a chosen solution.
+pub const MANUFACTURE: Template = Template {
+    name: "manufacture",
+    about: "Equations and a chosen exact solution, for sources and data",
+    files: &[(".toml", include_str!("begin/manufacture.toml"))],
+    ignored: "",
+    next: &["manufacture"],
+};
+
+/// The project of the program `convergence-study`: studies of any program, in the folder that it
+/// runs in.
+pub const PROJECT: Project = Project {
+    kinds: &[ROW],
+    templates: &[TEMPLATE, MANUFACTURE],
+    ..Project::new("convergence-study", "convergence-study")
+};
+
+/// A study of a program, validated.
+#[derive(Debug, Clone)]
+pub(crate) struct Program {
+    /// The program and its arguments.
+    words: Vec<String>,
+    /// The folder in which it runs.
+    directory: PathBuf,
+    /// Variables of its environment beside those of the harness.
+    variables: Vec<(String, String)>,
+    /// The time limit of a case.
+    time_limit: Duration,
+    refine: Refine,
+    expect: Vec<Expectation>,
+    /// The file of `manufacture` whose module the program uses, as an absolute path.
+    manufactured: Option<PathBuf>,
+    /// Whether levels are added to those listed while nothing is decided.
+    is_variant: bool,
+}
+
+/// The environment variable by which the module of `manufacture` chooses its solution.
+const VARIANT: &str = "MANUFACTURE_VARIANT";
+
+impl FromFile for Program {
+    const KEYS: &'static [Keys] = &[&[&file::KEYS]];
+
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError> {
+        file::read(header, root, folder)
+    }
+}
+
+/// A case that was run.
+type Run = Ran<Resolution, Answer>;
+
+impl Program {
+    /// The claims about rates, of errors or of values.
+    fn claims(&self, of_values: bool) -> Vec<(String, Claim)> {
+        let expectations = self
+            .expect
+            .iter()
+            .filter(|expected| expected.is_value == of_values && expected.exact.is_none());
+        expectations
+            .map(|expected| (expected.name.clone(), expected.claim))
+            .collect()
+    }
+
+    /// The command of a case. Without placeholders the program reads the case from standard input.
+    fn invocation(&self, case: &Resolution) -> Invocation {
+        // The reader of the file has refused words whose placeholders have no value.
+        let fill = |word: &String| {
+            filled(word, &case.parameters).unwrap_or_else(|_| (word.clone(), false))
+        };
+        let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
+        let has_placeholder = placeholders.contains(&true);
+        Invocation {
+            words,
+            directory: self.directory.clone(),
+            variables: self.variables.clone(),
+            input: if has_placeholder {
+                String::new()
+            } else {
+                case.json()
+            },
+            time_limit: time_limit::granted()
+                .map_or(self.time_limit, |limit| limit.min(self.time_limit)),
+        }
+    }
+}
+
+/// What a program prints about a text on its standard input, until it ends; none of its processes
+/// outlives the call.
+///
+/// * `words`: the program, then its arguments.
+///
+/// # Errors
+/// The program cannot be started, ended with a status other than 0, or took too long: in one line
+/// that names it.
+pub(crate) fn printed(
+    words: Vec<String>,
+    input: String,
+    time_limit: Duration,
+) -> Result<String, CaseFailure> {
+    let invocation = Invocation {
+        words,
+        directory: PathBuf::from("."),
+        variables: vec![],
+        input,
+        time_limit,
+    };
+    invocation.text()
+}
+
+impl Kind for Program {
+    type Data = Resolution;
+    type Found = Answer;
+
+    fn cases(&self) -> Vec<Case<Resolution>> {
+        let case = |data: Resolution| Case::new(data.label.clone(), data.cost(), data);
+        self.refine.resolutions().into_iter().map(case).collect()
+    }
+
+    fn more(&self, ran: &[Run]) -> Option<Case<Resolution>> {
+        let is_next = judge::next(self, ran)? == Next::Another;
+        let data = is_next.then(|| self.refine.finer(&ran[ran.len() - 1].case.data, ran.len()))?;
+        Some(Case::new(data.label.clone(), data.cost(), data))
+    }
+
+    fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
+        let invocation = self.invocation(case);
+        let started = Instant::now();
+        let answer = invocation.run(&self.expect)?;
+        Ok(Answer {
+            seconds: started.elapsed().as_secs_f64(),
+            ..answer
+        })
+    }
+
+    fn failure(&self, answer: &Answer) -> Option<CaseFailure> {
+        answer.failure.clone()
+    }
+
+    fn judge(&self, ran: &[Run]) -> Outcome {
+        judge::judge(self, ran)
+    }
+
+    fn manufactured(&self) -> Option<&Path> {
+        self.manufactured.as_deref()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.manufactured()?;
+        let mut study = self.clone();
+        // The last one of a name counts.
+        study
+            .variables
+            .push((VARIANT.to_owned(), variant.to_owned()));
+        study.is_variant = true;
+        Some(study)
+    }
+
+    fn details(&self) -> Vec<(String, String)> {
+        let labels: Vec<String> = self
+            .refine
+            .resolutions()
+            .into_iter()
+            .map(|case| case.label)
+            .collect();
+        let order = |expected: &Expectation| {
+            let Expectation {
+                claim,
+                time,
+                by_degree,
+                exact,
+                ..
+            } = expected;
+            let name = format!("{} {}", expected.what(), expected.name);
+            let least = if claim.at_least { "at least " } else { "" };
+            match exact {
+                Some(bound) => format!("{name} at most {bound}"),
+                None if *by_degree => format!(
+                    "{name} by {least}a factor of {:.4} a degree",
+                    claim.order.exp()
+                ),
+                None if self.refine.grid => format!(
+                    "{name} {} in h, {time} in dt ± {}",
+                    claim.order, claim.tolerance
+                ),
+                None => format!("{name} {claim}"),
+            }
+        };
+        let orders: Vec<String> = self.expect.iter().map(order).collect();
+        let run = format!(
+            "{}, with a time limit of {} s a case.",
+            self.words.join(" "),
+            self.time_limit.as_secs_f64()
+        );
+        vec![
+            ("what is run".to_owned(), run),
+            (
+                "levels".to_owned(),
+                labels.join("; ")
+                    + self
+                        .refine
+                        .budget
+                        .map_or("", |_| "; finer ones until it is decided"),
+            ),
+            ("orders claimed".to_owned(), orders.join("; ")),
+        ]
+    }
+}

@@ -1,0 +1,337 @@
+//! Verdicts in words, the same ones for report and terminal.
+
+use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
+use crate::project::Project;
+use crate::run::Finished;
+use crate::store::{Change, Movement, without_baseline};
+use crate::study::coverage::incomplete;
+use crate::study::outcome::{NamedRate, Outcome, joined};
+use crate::text::lists::{self, and_more};
+use crate::text::number::{
+    RATE_PLACES, committed_rate, counted, counted_as, decimals, interval_places,
+};
+
+/// Most studies that a sentence names.
+const NAMED: usize = 3;
+
+/// The verdict on a run in one line, without the verdict itself.
+///
+/// * `changes`: what moved away from the baseline; `None` without a baseline.
+pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
+    let verdicts = [
+        (Verdict::Fail, "fail"),
+        (Verdict::Inconclusive, "inconclusive"),
+    ];
+    let counts: Vec<String> = verdicts
+        .into_iter()
+        .filter_map(|(verdict, words)| count_of_studies(finished, verdict, words))
+        .collect();
+    let studies = match finished.len() {
+        0 => "no study was run".to_owned(),
+        _ if !counts.is_empty() => counts.join(", "),
+        1 => "the study passes".to_owned(),
+        n => format!("all {n} studies pass"),
+    };
+    match changes {
+        Some(changes) => format!("{studies}; {}", baseline_in_words(finished, changes)),
+        None => studies,
+    }
+}
+
+/// `2 of 30 fail (one, another)`; `None` if no study has the verdict.
+fn count_of_studies(finished: &[Finished], verdict: Verdict, words: &str) -> Option<String> {
+    let ids: Vec<&str> = finished
+        .iter()
+        .filter(|study| study.outcome.verdict == verdict)
+        .map(|study| study.header.id.as_str())
+        .collect();
+    if ids.is_empty() {
+        return None;
+    }
+    let count = ids.len();
+    let names = ids[..count.min(NAMED)].join(", ");
+    let more = and_more(count, NAMED);
+    Some(format!(
+        "{count} of {} {words} ({names}{more})",
+        finished.len()
+    ))
+}
+
+/// How many numbers and claims differ from the baseline.
+fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
+    match without_baseline(finished, changes) {
+        Some(numbers) if can_be_blessed(finished) => {
+            return format!("no baseline yet: {} to accept", counted(numbers, "number"));
+        }
+        Some(_) => return "no baseline yet".to_owned(),
+        None => {}
+    }
+    if changes.is_empty() {
+        let studies = finished.iter();
+        return match studies.map(|study| study.outcome.quantities.len()).sum() {
+            0_usize => "no baseline values".to_owned(),
+            n => format!("all {n} baseline values unchanged"),
+        };
+    }
+    let mut new_numbers = 0;
+    let mut new_studies = 0;
+    let mut deleted = 0;
+    let mut claims = 0;
+    let mut values = 0;
+    for Change { movement, .. } in changes {
+        match movement {
+            _ if movement.is_of_one_claim() => claims += 1,
+            Movement::New { .. } => new_numbers += 1,
+            Movement::NewFile { guarded: 0, .. } => new_studies += 1,
+            Movement::VanishedFile { .. } => deleted += 1,
+            _ => values += 1,
+        }
+    }
+    let mut parts = vec![];
+    if deleted > 0 {
+        parts.push(counted_as(deleted, "study deleted", "studies deleted"));
+    }
+    if claims > 0 {
+        parts.push(counted_as(claims, "claim changed", "claims changed"));
+    }
+    if values > 0 {
+        parts.push(counted_as(
+            values,
+            "baseline value changed",
+            "baseline values changed",
+        ));
+    }
+    // Whoever accepts the numbers of a new study accepts its claims, too.
+    let new = if new_numbers > 0 {
+        counted(new_numbers, "number")
+    } else {
+        counted_as(new_studies, "study", "studies")
+    };
+    if new_numbers + new_studies > 0 {
+        parts.push(format!("{new} not yet in the baseline"));
+    }
+    parts.join(", ")
+}
+
+/// The command that blesses these changes: for the full tier if a study changed that was not run,
+/// with a reason if a claim did.
+///
+/// * `command`: the command that was run.
+pub fn blessing(
+    project: &Project,
+    command: &str,
+    finished: &[Finished],
+    changes: &[Change],
+) -> String {
+    let all_run = changes.iter().all(|change| {
+        let is_gone = matches!(
+            change.movement,
+            Movement::VanishedFile { .. } | Movement::Vanished { .. }
+        );
+        is_gone || finished.iter().any(|study| study.header.id == change.study)
+    });
+    let full = format!("{} verify --tier full", project.command);
+    let reason = if changes
+        .iter()
+        .any(|change| change.movement.needs_a_reason())
+    {
+        " --reason TEXT"
+    } else {
+        ""
+    };
+    format!("{} --bless{reason}", if all_run { command } else { &full })
+}
+
+/// Whether `--bless` would be accepted: it is refused if a study does not pass.
+pub(crate) fn can_be_blessed(finished: &[Finished]) -> bool {
+    finished
+        .iter()
+        .all(|finished| finished.outcome.verdict == Verdict::Pass)
+}
+
+/// The numbers to read first: the study's own, or the rate that decides against its order; then the
+/// failures, and how much was not judged.
+pub(crate) fn key_numbers(outcome: &Outcome) -> String {
+    let Outcome {
+        headline,
+        rates,
+        checks,
+        coverage,
+        ..
+    } = outcome;
+    let mut parts = if headline.is_empty() {
+        rates_in_words(rates)
+    } else {
+        vec![headline.clone()]
+    };
+    parts.extend(count_not_passed(
+        rates.iter().map(|named| named.rate.verdict),
+        "rates",
+    ));
+    parts.extend(count_not_passed(
+        checks.iter().map(|check| check.verdict),
+        "checks",
+    ));
+    if parts.is_empty() {
+        parts.push(match checks.len() {
+            0 => "nothing judged".to_owned(),
+            n => format!("all {n} checks pass"),
+        });
+    }
+    parts.extend(incomplete(coverage));
+    parts.join("; ")
+}
+
+/// A study's findings in a sentence. Rates that do not pass are grouped by reason and claim; a
+/// table has each of them.
+pub(crate) fn summary(outcome: &Outcome) -> String {
+    let mut rates = outcome.rates.iter();
+    let all_pass = rates.all(|rate| rate.rate.verdict.is_pass());
+    match &outcome.after_rates {
+        Some(more) if !all_pass => joined(&grouped(&outcome.rates), more),
+        _ => outcome.summary.clone(),
+    }
+}
+
+/// The rates that do not pass, grouped by reason and claim:
+/// `8 of 8 rates too low: 1.000 to 1.004, claimed 2 ± 0.01`.
+fn grouped(rates: &[NamedRate]) -> String {
+    let not_passed = rates.iter().filter(|rate| !rate.rate.verdict.is_pass());
+    let groups =
+        lists::grouped(not_passed.map(|named| ((named.rate.kind, named.rate.claim()), named)));
+    let mut parts = vec![];
+    for ((kind, claim), group) in &groups {
+        if let [NamedRate { name, rate, .. }] = group[..] {
+            parts.push(format!("{name}: {}", rate.line()));
+            continue;
+        }
+        let range = range(group.iter().map(|named| &named.rate));
+        let reason = kind.brief();
+        let count = format!("{} of {} rates", group.len(), rates.len());
+        parts.push(match kind {
+            Reason::TooLow | Reason::TooHigh => {
+                format!("{count} {reason}: {}", against_claim(&range, claim))
+            }
+            _ => format!("{count}: {}", judged_in_words(&range, claim, reason)),
+        });
+    }
+    parts.join("; ")
+}
+
+/// From the lowest to the highest of several rates, with digits that all of them have in their
+/// table.
+pub(super) fn range<'r>(rates: impl Iterator<Item = &'r RateVerdict>) -> String {
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+    let mut fewest_places = None;
+    for rate in rates {
+        let Some(fitted) = rate.fitted else { continue };
+        low = low.min(fitted);
+        high = high.max(fitted);
+        let places = rate
+            .interval
+            .map_or(3, |ends| interval_places(ends, RATE_PLACES));
+        fewest_places = Some(fewest_places.map_or(places, |fewest: usize| fewest.min(places)));
+    }
+    let Some(places) = fewest_places else {
+        return "no rate".to_owned();
+    };
+    let low = decimals(low, places);
+    let high = decimals(high, places);
+    if low == high {
+        low
+    } else {
+        format!("{low} to {high}")
+    }
+}
+
+/// The worst rate, and the largest distance of the others from their orders.
+fn rates_in_words(rates: &[NamedRate]) -> Vec<String> {
+    // Of several worst rates, the first that the study names.
+    let worst = rates.iter().rev().max_by_key(|named| named.rate.verdict);
+    let Some(NamedRate {
+        name, rate: worst, ..
+    }) = worst
+    else {
+        return vec![];
+    };
+    let mut parts = vec![format!("{name} {}", worst.beside_order(RATE_PLACES - 1))];
+    let distances: Option<Vec<f64>> = rates
+        .iter()
+        .map(|NamedRate { rate, .. }| Some((committed_rate(rate.fitted?) - rate.order()?).abs()))
+        .collect();
+    if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1)
+    {
+        // Rates are kept with four decimals: smaller distances cannot be stated.
+        let farthest = distances.into_iter().fold(1e-4, f64::max);
+        parts.push(format!(
+            "{} rates within {farthest:.4} of their orders",
+            rates.len()
+        ));
+    }
+    parts
+}
+
+/// `1 of 3 rates do not pass`; `None` if all pass.
+fn count_not_passed(verdicts: impl Iterator<Item = Verdict>, items: &str) -> Option<String> {
+    let mut all = 0;
+    let mut not_passed = 0;
+    for verdict in verdicts {
+        all += 1;
+        not_passed += usize::from(verdict != Verdict::Pass);
+    }
+    (not_passed > 0).then(|| format!("{not_passed} of {all} {items} do not pass"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::verdict::judge_pairs;
+    use crate::study::outcome::Check;
+
+    fn rate(exponent: f64, order: f64) -> NamedRate {
+        let pairs = (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(k).powf(exponent)));
+        NamedRate::new(format!("of {exponent}"), judge_pairs(pairs, order, 0.05))
+    }
+
+    #[test]
+    fn passing_rates_are_summed_up_by_the_farthest_from_its_order() {
+        let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(2.02, 2.0)], vec![]);
+        assert_eq!(
+            key_numbers(&outcome),
+            "of 1 1.000 (order 1); 2 rates within 0.0200 of their orders"
+        );
+    }
+
+    #[test]
+    fn rates_and_checks_that_do_not_pass_are_counted() {
+        let checks = vec![Check::that(false, "c", "e"), Check::that(true, "d", "e")];
+        let outcome = Outcome::new("", vec![rate(1.0, 1.0), rate(1.5, 2.0)], checks);
+        let expected =
+            "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";
+        assert_eq!(key_numbers(&outcome), expected);
+        let headline = "largest residual 1e-16".to_owned();
+        let own = Outcome {
+            headline,
+            ..outcome
+        };
+        assert!(
+            key_numbers(&own).starts_with("largest residual 1e-16; 1 of 2 rates"),
+            "{}",
+            key_numbers(&own)
+        );
+    }
+
+    #[test]
+    fn without_rates_and_words_of_its_own_a_study_has_its_checks() {
+        let check = || Check::that(true, "c", "e");
+        assert_eq!(
+            key_numbers(&Outcome::new("", vec![], vec![check(), check()])),
+            "all 2 checks pass"
+        );
+        assert_eq!(
+            key_numbers(&Outcome::new("", vec![], vec![])),
+            "nothing judged"
+        );
+    }
+}

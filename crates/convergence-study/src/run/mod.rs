@@ -1,0 +1,410 @@
+//! Runs the cases of all studies on all threads; only this module uses threads.
+//!
+//! Parallel across cases only: one thread computes a case from start to end, and the results are
+//! put back into the order of the cases, so an [`Outcome`] has the same bits for any number of
+//! threads. The time varies from run to run and is kept separately in [`Spent`].
+
+mod caught;
+mod failures;
+mod json;
+mod levels;
+mod located;
+mod queue;
+
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+use crate::judge::verdict::Verdict;
+use crate::study::erased::plan;
+use crate::study::kind::reasons;
+use crate::study::outcome::{self, NotFinite};
+use crate::study::{
+    Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,
+};
+use queue::{Counter, Done, Job};
+
+pub use caught::catch;
+pub(crate) use convergence_judge::time_limit;
+pub(crate) use failures::items;
+pub use failures::{Item, NotPassed, not_passed};
+pub use levels::assert_order;
+pub(crate) use located::{Fate, Located, Part, VariantRate, VariantRates};
+pub use queue::Progress;
+
+/// A study that has been run: one object of a record.
+#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+pub struct Finished {
+    /// Its id, claim, tier and kind.
+    #[serde(flatten)]
+    pub header: Header,
+    /// What it found.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// Cases without a result, in the order of the cases.
+    pub failed_cases: Vec<FailedCase>,
+    /// The meaning of every `null` that stands for a number.
+    pub not_finite: Vec<NotFinite>,
+    /// What the study fails to test although it passes; only `study` searches for it.
+    #[serde(default)]
+    pub untested: Vec<Untested>,
+    /// Where its order is lost; only `--where` searches for it.
+    #[serde(rename = "where", default)]
+    pub located: Option<Located>,
+    /// The time taken, which differs from run to run.
+    #[serde(skip)]
+    pub spent: Spent,
+    /// The work that each case has counted, by its label: the same at every run, and not guarded.
+    #[serde(skip)]
+    pub work: Vec<(String, u64)>,
+}
+
+/// A case without a result.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct FailedCase {
+    /// Its label.
+    #[serde(rename = "case")]
+    pub label: String,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// Time spent on a study.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spent {
+    /// Sum over its cases, on all threads, and over judging their results.
+    pub busy: Duration,
+    /// From the start of its first case to the end of its last one.
+    pub wall: Duration,
+    /// The number of its cases.
+    pub cases: usize,
+}
+
+/// Why nothing was run.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// Two studies have the same id, which baseline and report need to be unique.
+    #[error("found two studies with the id `{0}`; expected an id of its own for each study")]
+    DuplicateId(String),
+    /// The operating system refuses the threads.
+    #[error("cannot start the threads: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
+}
+
+/// Limits of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Number of threads; at most one for each case is started.
+    pub jobs: NonZeroUsize,
+    /// The time limit of each case; `None` for none.
+    pub time_limit: Option<Duration>,
+    /// Whether no case begins after a study has failed: studies that had not ended are then left
+    /// out.
+    pub fail_fast: bool,
+}
+
+/// The work limit of a case, by its study and its label; `None` for none.
+pub(crate) type Allowed<'a> = &'a (dyn Fn(&Header, &str) -> Option<u64> + Sync);
+
+impl From<NonZeroUsize> for Effort {
+    fn from(jobs: NonZeroUsize) -> Self {
+        Self {
+            jobs,
+            time_limit: None,
+            fail_fast: false,
+        }
+    }
+}
+
+/// Runs all studies, costliest cases first, and judges them.
+///
+/// * `effort`: threads and time, or the number of threads alone.
+/// * `progress`: called after every case, by one thread at a time.
+/// * Returns the studies in the order given.
+///
+/// A case that fails or panics becomes an `Err` for its study to judge and stops nothing else. A
+/// study fails if it panics while listing its cases or judging them, or if one of its cases was
+/// stopped at its limit.
+///
+/// # Errors
+/// [`RunError`], before anything is run.
+pub fn run(
+    studies: &[Box<dyn Study + '_>],
+    effort: impl Into<Effort>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, RunError> {
+    run_within(studies, effort.into(), &|_, _| None, progress)
+}
+
+/// The same with a work limit of each case: a case that exceeds it fails.
+pub fn run_within(
+    studies: &[Box<dyn Study + '_>],
+    effort: Effort,
+    allowed: Allowed<'_>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, RunError> {
+    refuse_duplicates(studies)?;
+    let planned = studies
+        .iter()
+        .map(|study| Planned::new(study.header(), || study.plan()));
+    run_planned(planned.collect(), effort, allowed, progress)
+}
+
+/// The outcome of one study, run on all threads of the machine, as [`run`] does; its figures are
+/// called `study-<what>.svg`.
+///
+/// # Panics
+/// The operating system refuses the threads.
+pub fn run_one<K: Kind>(kind: &K) -> Outcome {
+    run_kind(&Header::new("study", ""), kind).outcome
+}
+
+fn run_kind<K: Kind>(header: &Header, kind: &K) -> Finished {
+    let planned = vec![Planned::new(header, || plan(kind))];
+    let finished = run_planned(planned, available().into(), &|_, _| None, &|_| {})
+        .map(|mut finished| finished.pop());
+    finished
+        .expect("the threads are refused")
+        .expect("a study that was run")
+}
+
+/// As many threads as the machine has processors.
+pub fn available() -> NonZeroUsize {
+    thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+fn run_planned(
+    planned: Vec<Planned<'_>>,
+    effort: Effort,
+    allowed: Allowed<'_>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, RunError> {
+    let cases: usize = planned.iter().map(|planned| planned.cases.len()).sum();
+    // Threads without a case would only be started and ended.
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(effort.jobs.get().min(cases.max(1)))
+        .build()?;
+    run_cases(&pool, &planned, effort, allowed, progress);
+    let mut finished = vec![];
+    for planned in planned {
+        // A study without cases ends here. With `fail_fast` other studies may not have ended: they
+        // are left out.
+        if planned.cases.is_empty() {
+            finished.push(conclude(&planned, &[]));
+        } else {
+            finished.extend(planned.finished.into_inner());
+        }
+    }
+    Ok(finished)
+}
+
+/// A study and its plan, or the message of the panic while listing its cases.
+struct Planned<'s> {
+    header: &'s Header,
+    plan: Result<Box<dyn Plan + 's>, String>,
+    cases: Vec<Case<()>>,
+    /// Its cases that have ended.
+    done: Mutex<Vec<Done>>,
+    /// What it found, once its last case has ended.
+    finished: OnceLock<Finished>,
+}
+
+impl<'s> Planned<'s> {
+    fn new(header: &'s Header, plan: impl FnOnce() -> Box<dyn Plan + 's>) -> Self {
+        let plan_and_cases = catch(|| {
+            let plan = plan();
+            let cases = plan.cases();
+            (plan, cases)
+        });
+        let (plan, cases) = match plan_and_cases {
+            Ok((plan, cases)) => (Ok(plan), cases),
+            Err(reason) => (Err(reason), vec![]),
+        };
+        Self {
+            header,
+            plan,
+            cases,
+            done: Mutex::default(),
+            finished: OnceLock::new(),
+        }
+    }
+
+    /// Records that a case has ended; returns all of them if it was the last.
+    fn record(&self, case: Done) -> Option<Vec<Done>> {
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.push(case);
+        (done.len() == self.cases.len()).then(|| std::mem::take(&mut *done))
+    }
+
+    /// The number of another case that the study requests, if it does. If it panics, the case
+    /// before fails.
+    fn next_case(&self, before: usize) -> Option<usize> {
+        let plan = self.plan.as_ref().ok()?;
+        catch(|| plan.more()).unwrap_or_else(|reason| {
+            plan.fail(before, CaseFailure::new(reason));
+            None
+        })
+    }
+}
+
+fn refuse_duplicates(studies: &[Box<dyn Study + '_>]) -> Result<(), RunError> {
+    let mut ids: Vec<&str> = studies
+        .iter()
+        .map(|study| study.header().id.as_str())
+        .collect();
+    ids.sort_unstable();
+    match ids.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(RunError::DuplicateId(pair[0].to_owned())),
+        None => Ok(()),
+    }
+}
+
+/// Runs all cases. A study is judged, and its figures are drawn, once its last case has ended.
+fn run_cases(
+    pool: &ThreadPool,
+    planned: &[Planned<'_>],
+    effort: Effort,
+    allowed: Allowed<'_>,
+    progress: &(dyn Fn(Progress) + Sync),
+) {
+    let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
+    let counter = Counter::new(&jobs, progress);
+    let is_stopped = AtomicBool::new(false);
+    let run = |job: Job| {
+        let planned = &planned[job.study];
+        if is_stopped.load(Ordering::Relaxed) {
+            return;
+        }
+        counter.enter(&job);
+        let case = run_case(planned, effort.time_limit, allowed, job);
+        let verdict = planned
+            .record(case)
+            .map(|done| finish(planned, done, effort, allowed, job));
+        if effort.fail_fast && verdict == Some(Verdict::Fail) {
+            is_stopped.store(true, Ordering::Relaxed);
+        }
+        counter.count(&job, verdict);
+    };
+    // A parallel iterator over the vector would split it in halves; the bridge hands out one job
+    // after the other.
+    pool.install(|| jobs.into_iter().par_bridge().for_each(run));
+}
+
+/// Judges a study after its last case. If it requests more cases, they run before, one after the
+/// other, on this thread.
+fn finish(
+    planned: &Planned<'_>,
+    mut done: Vec<Done>,
+    effort: Effort,
+    allowed: Allowed<'_>,
+    last: Job,
+) -> Verdict {
+    while let Some(case) = planned.next_case(last.case) {
+        let job = Job { case, ..last };
+        done.push(run_case(planned, effort.time_limit, allowed, job));
+    }
+    let finished = conclude(planned, &done);
+    let verdict = finished.outcome.verdict;
+    // It is set once, by the last case of the study.
+    let _ = planned.finished.set(finished);
+    verdict
+}
+
+/// Runs one case, within the limits of its time and of its work.
+fn run_case(
+    planned: &Planned<'_>,
+    limit: Option<Duration>,
+    allowed: Allowed<'_>,
+    job: Job,
+) -> Done {
+    job.time(|| {
+        let Ok(plan) = &planned.plan else { return 0 };
+        // The plan alone knows cases that were requested later.
+        let label = planned.cases.get(job.case).map(|case| case.label.clone());
+        let label = label.or_else(|| plan.cases().get(job.case).map(|case| case.label.clone()));
+        let most = allowed(planned.header, &label.unwrap_or_default());
+        let ((result, limit), work) = time_limit::counted(most, || {
+            time_limit::within(limit, || catch(|| plan.run(job.case)))
+        });
+        if let Err(reason) = result {
+            plan.fail(job.case, CaseFailure::new(reason));
+        }
+        // A case that was stopped has no result, even if it returned one.
+        if let Some(limit) = limit {
+            plan.fail(job.case, limit.into());
+        }
+        work
+    })
+}
+
+/// The outcome of one study from the results of its cases.
+fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finished {
+    let mut spent = queue::spent(done);
+    let mut work = vec![];
+    let started = Instant::now();
+    let mut failed_cases = vec![];
+    let mut outcome = match plan {
+        Ok(plan) => {
+            let cases = plan.cases();
+            let failures = cases
+                .iter()
+                .enumerate()
+                .filter_map(|(i, case)| Some((case, plan.failure(i)?)));
+            let (failed, failures): (Vec<_>, Vec<_>) = failures.unzip();
+            let reasons = failed.into_iter().zip(reasons(failures));
+            failed_cases.extend(reasons.map(|(case, reason)| FailedCase {
+                label: case.label.clone(),
+                reason,
+            }));
+            // Cases end in any order, and their work is listed in the order of the cases.
+            let mut done: Vec<&Done> = done.iter().collect();
+            done.sort_by_key(|done| done.case);
+            work.extend(
+                done.into_iter()
+                    .map(|done| (cases[done.case].label.clone(), done.work)),
+            );
+            catch(|| plan.judge()).unwrap_or_else(|reason| failure_to("judge its results", &reason))
+        }
+        Err(reason) => failure_to("list its cases", reason),
+    };
+    spent.busy += started.elapsed();
+    // Whatever the study concludes: a failed case cannot pass.
+    if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
+        outcome.checks.push(
+            Check::that(
+                false,
+                "every case has a result",
+                format!("{} have none", failed_cases.len()),
+            )
+            .about(Subject::of("completion")),
+        );
+    }
+    let outcome = outcome::settle(&header.id, outcome);
+    let not_finite = outcome.not_finite();
+    Finished {
+        header: (*header).clone(),
+        outcome,
+        failed_cases,
+        not_finite,
+        untested: vec![],
+        located: None,
+        spent,
+        work,
+    }
+}
+
+/// The outcome of a study that panics while it does something.
+fn failure_to(act: &str, reason: &str) -> Outcome {
+    let claim = format!("the study can {act}");
+    Outcome::new(
+        format!("the study cannot {act}: {reason}"),
+        vec![],
+        vec![Check::that(false, claim, reason).about(Subject::of("study"))],
+    )
+}

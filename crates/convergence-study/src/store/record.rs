@@ -1,0 +1,144 @@
+//! The record of a run: its findings, as data with a versioned schema. Reports are made from it,
+//! and programs read it.
+//!
+//! A study of a record is a [`Finished`] without its times: machine, revision and times belong to
+//! the [`Provenance`](crate::store::Provenance). [`Record::committed`] has the digits of the file
+//! under version control, which must not change by a byte when nothing has changed; reports are
+//! made from it, so that this file suffices to make them anew.
+//!
+//! A number that is not finite is `null`; `not_finite` says where it is and what it was,
+//! `failed_cases` says why. Read back, `null` is NaN. The pictures are separate files next to the
+//! record, in [`FIGURES`].
+
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::run::Finished;
+use crate::store::{self, Change, atomic, diagnosis::Diagnosis, parsed};
+use crate::text::number::{committed, committed_rate};
+
+/// Version of the schema; it increases when a field changes its name or meaning, not when one is
+/// added.
+pub(crate) const SCHEMA: u32 = 1;
+
+/// What counts as a record.
+const EXPECTED: &str =
+    "expected a record as `verify` writes it to results.json, or `study --format json` prints it";
+
+/// The folder of the pictures, next to the record.
+pub(crate) const FIGURES: &str = "figures";
+
+/// A whole run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// `SCHEMA`.
+    pub schema: u32,
+    /// Version of this crate.
+    pub crate_version: String,
+    /// What was run, such as `quick`.
+    pub scope: String,
+    /// The command that runs it again; empty in older records.
+    #[serde(default)]
+    pub command: String,
+    /// The verdict on the run, including changes from the baseline.
+    pub verdict: Verdict,
+    /// Differences from the baseline, in words.
+    pub baseline_changes: Vec<String>,
+    /// The same as data; `None` without a baseline.
+    #[serde(default)]
+    pub changes: Option<Vec<Change>>,
+    /// The known facts about the cause, if the run does not pass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diagnosis: Option<Diagnosis>,
+    /// The studies.
+    pub studies: Vec<Finished>,
+}
+
+impl Record {
+    /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
+    pub fn read(path: &Path) -> io::Result<Self> {
+        Self::parse(
+            &store::read_to_string(path).map_err(atomic::naming(path))?,
+            path,
+        )
+    }
+
+    /// The same from its text.
+    pub fn parse(text: &str, path: &Path) -> io::Result<Self> {
+        parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])
+    }
+
+    /// The record of a run.
+    ///
+    /// * `changes`: differences from the baseline; `None` without a baseline.
+    pub fn new(
+        scope: &str,
+        command: &str,
+        verdict: Verdict,
+        changes: Option<&[Change]>,
+        studies: Vec<Finished>,
+    ) -> Self {
+        Self {
+            schema: SCHEMA,
+            crate_version: env!("CARGO_PKG_VERSION").to_owned(),
+            scope: scope.to_owned(),
+            command: command.to_owned(),
+            verdict,
+            baseline_changes: changes
+                .unwrap_or_default()
+                .iter()
+                .map(Change::to_string)
+                .collect(),
+            changes: changes.map(<[Change]>::to_vec),
+            diagnosis: None,
+            studies,
+        }
+    }
+
+    /// Differences from the baseline, if there is one.
+    pub fn moves(&self) -> &[Change] {
+        self.changes.as_deref().unwrap_or_default()
+    }
+
+    /// The same with digits that do not vary between runs and hardly between machines: see
+    /// [`committed`].
+    #[must_use]
+    pub fn committed(mut self) -> Self {
+        for Finished {
+            outcome, untested, ..
+        } in &mut self.studies
+        {
+            // Whether it was searched for depends on the command.
+            untested.clear();
+            for level in &mut outcome.levels {
+                level
+                    .errors
+                    .iter_mut()
+                    .for_each(|(_, error)| *error = committed(*error));
+                level.step = level.step.map(committed);
+                level.work = level.work.map(committed);
+            }
+            for named in &mut outcome.rates {
+                round(&mut named.rate);
+            }
+            outcome
+                .quantities
+                .iter_mut()
+                .for_each(|quantity| quantity.value = committed(quantity.value));
+        }
+        self
+    }
+}
+
+fn round(rate: &mut RateVerdict) {
+    rate.pairwise
+        .iter_mut()
+        .for_each(|rate| *rate = committed_rate(*rate));
+    rate.fitted = rate.fitted.map(committed_rate);
+    rate.constant = rate.constant.map(committed);
+    rate.interval = rate.interval.map(|ends| ends.map(committed_rate));
+    rate.extrapolated = rate.extrapolated.map(committed_rate);
+}

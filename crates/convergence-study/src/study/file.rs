@@ -1,0 +1,410 @@
+//! Studies described by files: the kinds that a project knows, what a kind reads, the table
+//! `[study]` of every file, and the claims of files about an error: `order = 2` or
+//! `order = ">= 2"`, optionally with `constant = [0.9, 1.1]`.
+
+use std::path::{Path, PathBuf};
+
+use super::erased::{Described, Study, erased};
+use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
+use super::kind::Kind;
+use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
+use crate::interval::Interval;
+use crate::judge::claims::{Claim, order_from_text};
+use crate::judge::verdict::DEFAULT_TOLERANCE;
+use crate::text::visible;
+
+/// Reads a study of one kind from the document of its file.
+pub(crate) type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
+
+/// The reader of a kind.
+pub fn reader<K: FromFile + 'static>(
+    header: Header,
+    root: &Section<'_>,
+    folder: &Path,
+) -> Result<Box<dyn Study>, InputError> {
+    allow_only(root, K::KEYS)?;
+    let kind = K::from_document(&header, root, folder)?;
+    Ok(erased(header, kind))
+}
+
+/// A kind of study: its name, its reader, and what it means in words.
+#[derive(Debug, Clone, Copy)]
+pub struct KindRow {
+    /// The value of `[study] kind`. Kinds that differ in the source of their numbers alone have the
+    /// same word before a `/`: `orders/vibration`.
+    pub name: &'static str,
+    /// The keys of its files beside `[study]`: one of these sets. Without any, its reader refuses
+    /// unknown keys itself, and the schema allows all.
+    pub keys: &'static [Keys],
+    /// Its reader.
+    pub read: Reader,
+    /// Why the claim should hold.
+    pub why: &'static str,
+    /// How it is judged.
+    pub judged: &'static str,
+    /// What a failure would mean.
+    pub failure: &'static str,
+    /// The settings that an item of such a study exercises: by these a diagnosis separates failing
+    /// from passing items.
+    pub settings: Exercised,
+}
+
+impl KindRow {
+    /// The first kind whose numbers come from this source, which is named without the kind:
+    /// `vibration` for `orders/vibration`.
+    pub fn with_source<'k>(kinds: &'k [Self], source: &str) -> Option<&'k Self> {
+        kinds.iter().find(|row| {
+            let parts = row.name.split_once('/');
+            parts.is_some_and(|(_, own)| own == source)
+        })
+    }
+}
+
+/// A study file, read once.
+pub struct StudyFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The study.
+    pub study: Box<dyn Study>,
+}
+
+impl StudyFile {
+    /// Reads a study file of any of these kinds.
+    pub fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
+        Self::read_after(&[], kinds, path)
+    }
+
+    /// Reads study files; ids must be unique.
+    ///
+    /// # Errors
+    /// As [`StudyFile::read`], and if two studies have the same id.
+    pub fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
+        let mut files: Vec<Self> = Vec::with_capacity(paths.len());
+        for path in paths {
+            files.push(Self::read_after(&files, kinds, path)?);
+        }
+        Ok(files)
+    }
+
+    /// Reads a study from `text`; messages name `path`, and other files are searched for next to it.
+    pub fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
+        Self::parse_after(&[], kinds, text, path)
+    }
+
+    /// Reads a study file whose id none of the `earlier` ones has.
+    fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
+        Self::parse_after(earlier, kinds, &input::read_text(path)?, path)
+    }
+
+    fn parse_after(
+        earlier: &[Self],
+        kinds: &[KindRow],
+        text: &str,
+        path: &Path,
+    ) -> Result<Self, InputError> {
+        let study = input::parse_beside(text, path, |root, folder| {
+            let header = Header::from_document(root)?;
+            if let Some(earlier) = earlier
+                .iter()
+                .find(|earlier| earlier.study.header().id == header.id)
+            {
+                let found = format!(
+                    "\"{}\", which {} has too",
+                    header.id,
+                    visible::path(&earlier.path)
+                );
+                return Err(root.require("study", "a table")?.section()?.refuse(
+                    "id",
+                    found,
+                    "an id that no other study has",
+                ));
+            }
+            let row = row(kinds, root, &header)?;
+            // For a reader that is not made by `reader`.
+            allow_only(root, row.keys)?;
+            (row.read)(header, root, folder)
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+            study,
+        })
+    }
+}
+
+fn row<'k>(
+    kinds: &'k [KindRow],
+    root: &Section<'_>,
+    header: &Header,
+) -> Result<&'k KindRow, InputError> {
+    if let Some(row) = kinds.iter().find(|row| row.name == header.kind) {
+        return Ok(row);
+    }
+    let names: Vec<String> = kinds
+        .iter()
+        .map(|row| format!("\"{}\"", row.name))
+        .collect();
+    let study = root.require("study", "a table")?.section()?;
+    // A file without kind has the default kind, which not every project knows.
+    study.require("kind", &names.join(", "))?;
+    let expected = KindRow::with_source(kinds, &header.kind)
+        .map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
+    Err(study.refuse("kind", format!("\"{}\"", header.kind), expected))
+}
+
+/// A kind of study that a file describes.
+///
+/// ```
+/// use std::path::Path;
+///
+/// use convergence_study::{Case, CaseFailure, Claim, Form, FromFile, Header, InputError, Key, Keys};
+/// use convergence_study::{Kind, KindRow, Outcome, Ran, Section, completion, read_claim, reader};
+/// use convergence_study::settings_of_file;
+///
+/// /// Sums of `terms` terms.
+/// #[derive(Debug)]
+/// struct Sums {
+///     terms: usize,
+///     claim: Claim,
+/// }
+///
+/// // The keys of the table `[sum]`, and of the file.
+/// const SUM: [Key; 2] = [
+///     Key::new("terms", Form::Count(1), "how many terms"),
+///     Key::new("order", Form::Number, "the expected order"),
+/// ];
+/// const KEYS: [Key; 1] = [Key::new("sum", Form::Table(&[&[&SUM]]), "the sum")];
+///
+/// impl FromFile for Sums {
+///     const KEYS: &'static [Keys] = &[&[&KEYS]];
+///
+///     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
+///         let sum = root.table("sum", &[&SUM])?;
+///         let terms = sum.require("terms", "a whole number from 1")?.count(1..=100)?;
+///         Ok(Self { terms, claim: read_claim(&sum, "order")? })
+///     }
+/// }
+///
+/// // How a project lists the kind, for its files and for `explain`.
+/// const ROW: KindRow = KindRow {
+///     name: "sums",
+///     keys: Sums::KEYS,
+///     read: reader::<Sums>,
+///     why: "The series converges.",
+///     judged: "Every sum must be finite.",
+///     failure: "The sum is wrong.",
+///     settings: settings_of_file,
+/// };
+///
+/// let text = r#"
+/// study = { id = "s", claim = "c", tier = "quick", kind = "sums" }
+/// sum = { terms = 8, order = 2 }
+/// "#;
+/// let sums = Sums::parse(text, Path::new("s.toml"))?;
+/// assert_eq!((sums.terms, sums.claim.order), (8, 2.0));
+///
+/// let error = Sums::parse(&text.replace('8', "0"), Path::new("s.toml")).unwrap_err();
+/// assert!(error.to_string().starts_with("s.toml:3:"), "{error}");
+///
+/// impl Kind for Sums {
+///     type Data = usize;
+///     type Found = f64;
+///
+///     fn cases(&self) -> Vec<Case<usize>> {
+///         vec![Case::new("sum", 1.0, self.terms)]
+///     }
+///
+///     fn run(&self, terms: &usize) -> Result<f64, CaseFailure> {
+///         Ok((0..*terms).map(|k| 0.5_f64.powi(k as i32)).sum())
+///     }
+///
+///     fn judge(&self, ran: &[Ran<usize, f64>]) -> Outcome {
+///         Outcome::new("", vec![], vec![completion(ran, |_| vec![])])
+///     }
+/// }
+/// # let _ = ROW;
+/// # Ok::<(), InputError>(())
+/// ```
+pub trait FromFile: Kind + Sized {
+    /// The keys of the file beside `[study]`, as in [`KindRow`].
+    const KEYS: &'static [Keys];
+
+    /// Reads the study from the document of its file.
+    ///
+    /// * `header`: the table `[study]`, already read.
+    /// * `root`: the document.
+    /// * `folder`: the folder of the file; names of other files are relative to it.
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError>;
+
+    /// Reads a study from `text`; messages name `file`, and other files are searched for next to
+    /// it.
+    fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        Ok(Described::parse(text, file)?.kind)
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// As [`FromFile::parse`], and if the file cannot be read.
+    fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Ok(Described::read(file)?.kind)
+    }
+}
+
+impl<K: FromFile> Described<K> {
+    /// As [`FromFile::parse`], with the header.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
+        input::parse_beside(text, file, |root, folder| {
+            let header = Header::from_document(root)?;
+            allow_only(root, K::KEYS)?;
+            Ok(Self {
+                kind: K::from_document(&header, root, folder)?,
+                header,
+            })
+        })
+    }
+
+    /// As [`FromFile::read`], with the header.
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
+        Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
+    }
+}
+
+/// Refuses the keys that a file of a kind may not have; none if no set is declared.
+pub fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
+    if sets.is_empty() {
+        Ok(())
+    } else {
+        root.allow_only(&[STUDY_TABLE], sets)
+    }
+}
+
+/// The table that every study file has.
+pub(crate) const STUDY_TABLE: Key = Key::new(
+    "study",
+    Form::Table(&[&[&HEADER]]),
+    "what the study is about",
+);
+
+const HEADER: [Key; 5] = [
+    Key::new(
+        "id",
+        Form::Text,
+        "its name, which no other study has: lowercase letters, digits, `.` and `-`",
+    ),
+    Key::new("claim", Form::Text, "the claim in one line of text"),
+    Key::new(
+        "tier",
+        Form::Choice(|| Tier::ALL.map(Tier::name).to_vec()),
+        "`full`: only when everything is verified",
+    ),
+    Key::new(
+        "kind",
+        Form::Text,
+        "which kind of study it is: the other tables depend on it",
+    )
+    .or("\"orders/manufactured\", if the project has that kind"),
+    Key::new("group", Form::Text, "under which reports list it").or("the kind"),
+];
+
+impl Header {
+    /// Reads `[study]` of a document, and records every value of the document.
+    pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+        let study = root
+            .require("study", "a table with id, claim and tier")?
+            .section()?;
+        study.allow_only(&HEADER, &[])?;
+        let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
+        let kind = if study.get("kind").is_some() {
+            name(&study, "kind", is_kind, KIND)?
+        } else {
+            DEFAULT_KIND.to_owned()
+        };
+        Ok(Self {
+            id: name(&study, "id", is_name, NAME)?,
+            claim: line(&study, "claim")?,
+            tier: study
+                .require("tier", "\"quick\" or \"full\"")?
+                .choice(&tiers)?,
+            group: if study.get("group").is_some() {
+                line(&study, "group")?
+            } else {
+                kind.clone()
+            },
+            kind,
+            settings: root.settings(),
+        })
+    }
+}
+
+fn name(
+    study: &Section<'_>,
+    key: &str,
+    is_allowed: fn(&str) -> bool,
+    allowed: &str,
+) -> Result<String, InputError> {
+    let field = study.require(key, allowed)?;
+    let text = field.text()?;
+    if is_allowed(text) {
+        Ok(text.to_owned())
+    } else {
+        Err(field.refuse_as_written(allowed))
+    }
+}
+
+/// One line of text, without control characters: it is printed to terminals and logs.
+fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
+    let allowed = "one line of text without control characters";
+    let field = study.require(key, allowed)?;
+    let text = field.text()?;
+    let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
+    if is_line {
+        Ok(text.to_owned())
+    } else {
+        Err(field.refuse_as_written(allowed))
+    }
+}
+
+/// The claim of a table, with the default tolerance: each kind decides which claims its studies
+/// allow.
+///
+/// * `key`: the key of the order, or of a number written in the same way.
+///
+/// # Errors
+/// An invalid order or constant.
+pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError> {
+    let allowed = "a number > 0, or a text such as \">= 2\"";
+    let field = section.require(key, allowed)?;
+    let (order, at_least) = match field.text() {
+        Ok(text) => order_from_text(text)
+            .filter(|(_, least)| *least)
+            .ok_or_else(|| field.refuse_as_written(allowed))?,
+        Err(_) => (field.positive()?, false),
+    };
+    Ok(Claim {
+        at_least,
+        constant: constant(section)?,
+        ..Claim::new(order, DEFAULT_TOLERANCE)
+    })
+}
+
+fn constant(section: &Section<'_>) -> Result<Option<Interval>, InputError> {
+    let Some(field) = section.get("constant") else {
+        return Ok(None);
+    };
+    let allowed = "two numbers > 0, the smaller first, beside order";
+    let ends: Vec<f64> = field
+        .items(allowed)?
+        .iter()
+        .map(Field::positive)
+        .collect::<Result<_, _>>()?;
+    match ends[..] {
+        [low, high] if low < high && section.get("order").is_some() => {
+            Ok(Some(Interval { low, high }))
+        }
+        _ => Err(field.refuse_as_written(allowed)),
+    }
+}

@@ -1,0 +1,154 @@
+//! The table `[study]`, which every kind of study file has; and the settings that a judged item
+//! exercises, pairs of text by which a diagnosis separates failing from passing items.
+
+use super::subject::Subject;
+
+/// The kind of a study without a file: orders over levels that the caller computes.
+const ORDERS: &str = "orders";
+
+/// The kind of a study whose file has no `kind`.
+#[cfg(feature = "files")]
+pub(crate) const DEFAULT_KIND: &str = "orders/manufactured";
+
+/// Longest id: it becomes part of file names, which some systems limit to 255 bytes.
+const LONGEST_NAME: usize = 100;
+
+/// When a study is run.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Tier {
+    /// Always.
+    Quick,
+    /// Only when everything is verified.
+    Full,
+}
+
+impl Tier {
+    /// All tiers.
+    pub const ALL: [Tier; 2] = [Tier::Quick, Tier::Full];
+
+    /// The name in study files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tier::Quick => "quick",
+            Tier::Full => "full",
+        }
+    }
+}
+
+/// What a study file says about itself, whatever its kind.
+///
+/// ```
+/// use convergence_study::{Header, Tier};
+///
+/// let header = Header::new("heat-space", "the error in L2 is of second order in h");
+/// assert_eq!((header.id.as_str(), header.tier), ("heat-space", Tier::Quick));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Header {
+    /// The study's name: small letters, digits, `.` and `-`.
+    pub id: String,
+    /// The claim, in words.
+    pub claim: String,
+    /// When it is run.
+    pub tier: Tier,
+    /// The kind, which selects the reader of the rest of the file. A kind that can take its numbers
+    /// from several sources is followed by one: `orders/vibration`.
+    pub kind: String,
+    /// The group under which reports list the study, by the property claimed; by default the kind.
+    #[serde(default)]
+    pub group: String,
+    /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of
+    /// `input::Section::settings`: the baseline keeps them, so that no claim changes unnoticed.
+    /// Empty for a study without a file.
+    #[serde(skip)]
+    pub settings: Vec<(String, String)>,
+}
+
+impl Header {
+    /// The header of a study without a file: of the quick tier, of the kind `orders`.
+    ///
+    /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part
+    ///   of file names.
+    /// * `claim`: one line of text.
+    pub fn new(id: impl Into<String>, claim: impl Into<String>) -> Self {
+        Self {
+            id: id.into(),
+            claim: claim.into(),
+            tier: Tier::Quick,
+            kind: ORDERS.to_owned(),
+            group: ORDERS.to_owned(),
+            settings: Vec::new(),
+        }
+    }
+}
+
+/// What [`is_name`] requires.
+pub(crate) const NAME: &str =
+    "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit";
+
+/// What [`is_kind`] requires.
+#[cfg(feature = "files")]
+pub(super) const KIND: &str = "1 to 100 lowercase letters, digits, `.` or `-`, the first a letter or digit; a source like this may follow a `/`";
+
+/// Whether a text can be the name of a kind: parts as in an id, with a `/` between them.
+#[cfg(feature = "files")]
+pub(super) fn is_kind(text: &str) -> bool {
+    text.split('/').all(is_name)
+}
+
+/// Whether a text can be a study's id, for file names and command lines.
+pub fn is_name(text: &str) -> bool {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
+    text.len() <= LONGEST_NAME
+        && text.starts_with(plain)
+        && text.chars().all(|c| plain(c) || c == '.' || c == '-')
+}
+
+/// A setting: its key, and its value in words that can stand alone, such as `axis` and
+/// `refined in space`.
+pub type Setting = (String, String);
+
+/// The settings that an item exercises, by the header of its study and what it is about.
+pub(crate) type Exercised = fn(&Header, &Subject) -> Vec<Setting>;
+
+/// The setting that only the items of one study share.
+pub(crate) const STUDY: &str = "study";
+
+/// That setting: if nothing else separates, a study fails alone.
+pub fn study(header: &Header) -> Setting {
+    (STUDY.to_owned(), format!("{} alone", header.id))
+}
+
+/// The settings of an item that exist in any project: study, kind, field, and every value of the
+/// study's file.
+///
+/// * `subject`: what the item is about; its quantity is known.
+pub fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
+    let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
+    let is_own = |path: &str| !path.starts_with("study.") && !path.contains('[');
+    let own = [
+        study(header),
+        pair("field", &subject.quantity),
+        pair("kind", &header.kind),
+    ];
+    // Each entry of a list, such as the words of a command, is a separate setting.
+    let entries = |(path, value): &Setting| {
+        let entries = value.trim_matches(['[', ']']).split(", ").enumerate();
+        let entry = |(k, entry): (usize, &str)| {
+            (
+                format!("{path}[{k}]"),
+                format!("{path} {}", entry.trim_matches('"')),
+            )
+        };
+        entries.map(entry).collect::<Vec<_>>()
+    };
+    let of_file = header
+        .settings
+        .iter()
+        .filter(|(path, _)| is_own(path))
+        .flat_map(entries);
+    own.into_iter().chain(of_file).collect()
+}

@@ -1,0 +1,40 @@
+//! A study: what it claims, its cases, and what it found.
+//!
+//! A study is a TOML file: data. Its [`Kind`] says what its cases are (pure computations, run on
+//! any thread in any order) and how their results become an [`Outcome`]: checks with verdicts,
+//! rates, tables, figures, and the numbers that the baseline guards. Only the runner uses threads,
+//! and only the report writes Markdown.
+
+pub(crate) mod coverage;
+pub(crate) mod erased;
+mod errors_over_levels;
+#[cfg(feature = "files")]
+mod file;
+pub(crate) mod grid;
+pub(crate) mod header;
+pub(crate) mod kind;
+pub(crate) mod outcome;
+pub(crate) mod over_levels;
+pub(crate) mod readings;
+pub(crate) mod subject;
+pub(crate) mod until_decided;
+
+pub use coverage::Coverage;
+pub(crate) use erased::Plan;
+pub use erased::{Described, Study, erased};
+
+pub use errors_over_levels::{
+    ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, first_repeated, levels,
+};
+#[cfg(feature = "command-line")]
+pub(crate) use file::STUDY_TABLE;
+#[cfg(feature = "files")]
+pub use file::{FromFile, KindRow, StudyFile, allow_only, read_claim, reader};
+pub(crate) use header::Exercised;
+pub use header::{Header, Tier};
+pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
+pub use outcome::{Check, Figure, LevelErrors, NamedRate, Origin, Outcome, Quantity, Table};
+pub(crate) use over_levels::Claim;
+pub use over_levels::{Axis, Refinement};
+pub use readings::Reading;
+pub use subject::{Sort, Subject};

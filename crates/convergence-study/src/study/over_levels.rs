@@ -1,0 +1,454 @@
+//! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
+//! kinds of study.
+
+#[cfg(feature = "reports")]
+mod figure;
+mod rates;
+
+use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
+use super::subject::{Sort, Subject};
+pub(crate) use crate::judge::claims::Claim;
+use crate::judge::fit::Level;
+use crate::judge::verdict::{Floor, RateVerdict, Reason};
+use crate::text::lists::distinct;
+pub(crate) use rates::rate_quantities;
+pub use rates::{rate_table, summary};
+
+/// Relative change of an error that the baseline tolerates: another processor or mathematical
+/// library changes it by at most 1e-8, a change of the computation by more.
+pub(crate) const ERROR_TOLERANCE: f64 = 1e-6;
+
+/// What is refined from level to level.
+///
+/// ```
+/// use convergence_study::{Axis, levels};
+///
+/// // The explicit Euler method for x' = -x: its error at t = 1.
+/// let error = |n: usize| (-1f64).exp() - (1.0 - 1.0 / n as f64).powi(n as i32);
+/// levels([8, 16, 32, 64, 128], error).counting("steps", Axis::Time).claim("error", 1.0).assert_passes();
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// The mesh.
+    Space,
+    /// The time step.
+    Time,
+    /// Both together.
+    Both,
+}
+
+impl Axis {
+    /// All axes.
+    pub const ALL: [Axis; 3] = [Axis::Space, Axis::Time, Axis::Both];
+
+    /// The name in study files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Axis::Space => "space",
+            Axis::Time => "time",
+            Axis::Both => "both",
+        }
+    }
+
+    /// The step that is refined, as the label of an axis of a figure.
+    pub fn label(self) -> &'static str {
+        match self {
+            Axis::Space => "mesh width h",
+            Axis::Time => "time step dt",
+            Axis::Both => "mesh width h and time step dt, refined together",
+        }
+    }
+}
+
+/// One error on every level, coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorColumn {
+    /// Its name: a norm, a quantity.
+    pub name: String,
+    /// What it is about.
+    pub subject: Subject,
+    /// Its notation in the legends of figures; `None`: its name.
+    pub symbol: Option<String>,
+    /// As measured; `None` without a result: the case failed, or found no such error.
+    pub errors: Vec<Option<f64>>,
+    /// The claim about it, if there is one.
+    pub claim: Option<Claim>,
+    /// Its look in figures, of `plots::look`: the same wherever this error is drawn.
+    pub look: usize,
+}
+
+impl ErrorColumn {
+    /// Whether any level has a result.
+    pub(super) fn has_some_result(&self) -> bool {
+        self.errors.iter().any(Option::is_some)
+    }
+
+    /// An error with a claim, called by its name in figures.
+    ///
+    /// * `errors`: coarse to fine; `None` without a result.
+    pub fn new(
+        name: impl Into<String>,
+        claim: Claim,
+        errors: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        Self {
+            claim: Some(claim),
+            ..Self::without_claim(name, errors)
+        }
+    }
+
+    /// An error without a claim, about what its name says, and called by it in figures.
+    ///
+    /// * `errors`: coarse to fine; `None` without a result.
+    pub fn without_claim(
+        name: impl Into<String>,
+        errors: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        let name = name.into();
+        Self {
+            subject: Subject::of(&name),
+            name,
+            symbol: None,
+            errors: errors.into_iter().collect(),
+            claim: None,
+            look: 0,
+        }
+    }
+
+    /// A column for every error claimed or computed: claimed ones first, then the others in order
+    /// of occurrence.
+    ///
+    /// * `levels`: the errors of each level by name, coarse to fine; `None` if the case failed.
+    pub fn of<N: AsRef<str>, M: AsRef<str>>(
+        claims: &[(N, Claim)],
+        levels: &[Option<&[(M, f64)]>],
+    ) -> Vec<Self> {
+        let claimed_names = claims.iter().map(|(name, _)| name.as_ref());
+        let computed = levels.iter().copied().flatten().flatten();
+        let computed_names = computed.map(|(name, _)| name.as_ref());
+        distinct(claimed_names.chain(computed_names))
+            .into_iter()
+            .enumerate()
+            .map(|(look, name)| {
+                let errors = levels.iter();
+                let errors = errors.map(|errors| value_of(errors.as_deref()?, name));
+                Self {
+                    claim: value_of(claims, name),
+                    look,
+                    ..Self::without_claim(name, errors)
+                }
+            })
+            .collect()
+    }
+}
+
+/// The value of that name in a list; `None` if it is not there.
+fn value_of<N: AsRef<str>, T: Copy>(list: &[(N, T)], name: &str) -> Option<T> {
+    let entry = list.iter().find(|(other, _)| other.as_ref() == name);
+    entry.map(|(_, value)| *value)
+}
+
+/// One level of refinement.
+///
+/// ```
+/// use convergence_study::Refinement;
+///
+/// let level = Refinement::new("n = 64".to_owned(), &[("n", 64)], 1.0 / 64.0);
+/// assert_eq!(level.parameters, [("n".to_owned(), 64.0)]);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refinement {
+    /// What identifies it, in words, such as `n = 64, 20 steps`.
+    pub label: String,
+    /// Its parameters by name, such as elements and steps.
+    pub parameters: Vec<(String, f64)>,
+    /// The step over which the errors are judged: h, dt, or h = c dt.
+    pub step: f64,
+}
+
+impl Refinement {
+    /// * `parameters`: counts by name, such as elements and steps.
+    pub fn new(label: String, parameters: &[(&str, usize)], step: f64) -> Self {
+        let parameters = parameters
+            .iter()
+            .map(|(name, count)| ((*name).to_owned(), *count as f64))
+            .collect();
+        Self {
+            label,
+            parameters,
+            step,
+        }
+    }
+}
+
+/// Errors over levels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Levels {
+    /// What is refined.
+    pub axis: Axis,
+    /// The levels, steps decreasing.
+    pub refinements: Vec<Refinement>,
+    /// The errors.
+    pub columns: Vec<ErrorColumn>,
+    /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
+    /// that is known.
+    pub floor: Floor,
+}
+
+impl Levels {
+    /// * `refinements`: steps decreasing.
+    pub fn new(
+        axis: Axis,
+        refinements: impl IntoIterator<Item = Refinement>,
+        columns: impl IntoIterator<Item = ErrorColumn>,
+    ) -> Self {
+        let refinements = refinements.into_iter().collect();
+        let columns = columns.into_iter().collect();
+        Self {
+            axis,
+            refinements,
+            columns,
+            floor: Floor::NONE,
+        }
+    }
+
+    /// The same where errors up to this one are round-off.
+    pub fn with_floor(self, floor: Floor) -> Self {
+        Self { floor, ..self }
+    }
+
+    /// The errors of a column over their steps, without levels that lack a result.
+    fn points(&self, column: &ErrorColumn) -> Vec<Level> {
+        let levels = self.refinements.iter().enumerate();
+        levels
+            .filter_map(|(i, level)| {
+                Some(Level {
+                    step: level.step,
+                    error: result_at(&column.errors, i)?,
+                })
+            })
+            .collect()
+    }
+
+    /// For each level whether it has a result.
+    fn has_result(&self, column: &ErrorColumn) -> Vec<bool> {
+        (0..self.refinements.len())
+            .map(|i| result_at(&column.errors, i).is_some())
+            .collect()
+    }
+
+    /// One verdict for each error with a claimed order. A level without a result makes it fail; the
+    /// rate is that of the others.
+    pub fn judge(&self) -> Vec<NamedRate> {
+        let mut verdicts = vec![];
+        for column in &self.columns {
+            if let Some(claim) = &column.claim {
+                verdicts.push(NamedRate {
+                    name: column.name.clone(),
+                    subject: column.subject.clone(),
+                    rate: self.verdict(column, claim),
+                });
+            }
+        }
+        verdicts
+    }
+
+    /// The verdict on the claim about an error.
+    fn verdict(&self, column: &ErrorColumn, claim: &Claim) -> RateVerdict {
+        let points = self.points(column);
+        let judged = claim.judge(&points, self.floor);
+        let labels: Vec<&str> = self
+            .refinements
+            .iter()
+            .map(|level| level.label.as_str())
+            .collect();
+        let judged = judged.over_all_levels(&labels, &self.has_result(column));
+        let names: Vec<&str> = self
+            .columns
+            .iter()
+            .filter(|other| other.has_some_result())
+            .map(|other| other.name.as_str())
+            .collect();
+        if column.has_some_result() || names.is_empty() {
+            return judged;
+        }
+        let unknown = format!(
+            "no level has an error `{}`; there are {}",
+            column.name,
+            names.join(", ")
+        );
+        judged.with_reason(Reason::NoResult, &unknown)
+    }
+
+    /// The same with only the coarsest levels.
+    pub fn coarsest(&self, levels: usize) -> Self {
+        let refinements = self.refinements.iter().take(levels).cloned();
+        let columns = self.columns.iter().map(|column| ErrorColumn {
+            errors: column.errors.iter().copied().take(levels).collect(),
+            ..column.clone()
+        });
+        Self::new(self.axis, refinements, columns).with_floor(self.floor)
+    }
+
+    /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and
+    /// the figure `what`.
+    ///
+    /// * `subject`, `caption`: as in [`figure`](Self::figure).
+    pub fn outcome(
+        &self,
+        what: &str,
+        subject: Option<&str>,
+        caption: &str,
+        checks: Vec<Check>,
+    ) -> Outcome {
+        let rates = self.judge();
+        #[cfg(feature = "reports")]
+        let figure =
+            Some(self.figure(what, subject.map(str::to_owned), caption.to_owned(), &rates));
+        #[cfg(not(feature = "reports"))]
+        let (figure, _) = (None, (what, subject, caption));
+        Outcome {
+            levels: self.errors(),
+            figures: figure.into_iter().collect(),
+            quantities: self.quantities(&rates),
+            ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
+        }
+    }
+
+    /// Every error of every level, for record and report.
+    pub fn errors(&self) -> Vec<LevelErrors> {
+        let levels = self.refinements.iter().enumerate();
+        levels.map(|(i, level)| self.errors_at(i, level)).collect()
+    }
+
+    /// The errors of the i-th level.
+    fn errors_at(&self, i: usize, level: &Refinement) -> LevelErrors {
+        let mut errors = vec![];
+        let mut without = vec![];
+        for column in &self.columns {
+            errors.push((column.name.clone(), number_at(&column.errors, i)));
+            if result_at(&column.errors, i).is_none() {
+                without.push(column.name.clone());
+            }
+        }
+        LevelErrors {
+            parameters: level.parameters.clone(),
+            step: Some(level.step),
+            work: None,
+            errors,
+            without,
+        }
+    }
+
+    /// The numbers that the baseline guards: every observed rate, then every error of every level.
+    pub fn quantities(&self, rates: &[NamedRate]) -> Vec<Quantity> {
+        let mut quantities: Vec<Quantity> = rate_quantities(rates).collect();
+        for (i, Refinement { label, .. }) in self.refinements.iter().enumerate() {
+            for column in &self.columns {
+                let error = number_at(&column.errors, i);
+                let name = format!("error {}, {label}", column.name);
+                quantities.push(
+                    Quantity::new(name, error, ERROR_TOLERANCE)
+                        .about(column.subject.clone().at(label))
+                        .of_sort(Sort::Error),
+                );
+            }
+        }
+        quantities
+    }
+}
+
+/// The error of a level; `None` without a result.
+fn result_at(errors: &[Option<f64>], level: usize) -> Option<f64> {
+    errors.get(level).copied().flatten()
+}
+
+/// The same as a number of the record: NaN without a result.
+fn number_at(errors: &[Option<f64>], level: usize) -> f64 {
+    result_at(errors, level).unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::verdict::Verdict;
+
+    #[test]
+    fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
+        let refinements = halved();
+        let judged = |count: usize, tolerance: f64| {
+            let errors = refinements
+                .iter()
+                .take(count)
+                .map(|level| Some(level.step * level.step));
+            let claim = Claim::new(2.0, tolerance);
+            let column = ErrorColumn::new("L2", claim, errors);
+            Levels::new(Axis::Space, refinements.clone(), [column])
+                .judge()
+                .remove(0)
+                .rate
+        };
+        assert_eq!(judged(5, 0.1).verdict, Verdict::Pass);
+        assert_eq!(
+            judged(4, 0.1).verdict,
+            Verdict::Fail,
+            "the finest level has no error"
+        );
+        for tolerance in [-0.1, 0.7, f64::NAN] {
+            let judged = judged(5, tolerance);
+            assert_eq!(judged.verdict, Verdict::Inconclusive, "{tolerance}");
+            assert!(
+                judged.fitted.is_some_and(|rate| (rate - 2.0).abs() < 1e-6),
+                "{tolerance}"
+            );
+        }
+    }
+
+    fn halved() -> Vec<Refinement> {
+        [4, 8, 16, 32, 64]
+            .map(|n| Refinement::new(format!("cells = {n}"), &[("cells", n)], 1.0 / n as f64))
+            .into()
+    }
+
+    /// Errors of second order on five levels, times these factors.
+    fn scattered(factors: [f64; 5]) -> Levels {
+        let refinements = halved();
+        let errors = refinements
+            .iter()
+            .zip(factors)
+            .map(|(level, factor)| Some(factor * level.step * level.step));
+        let column = ErrorColumn::new("L2", Claim::new(2.0, 0.1), errors);
+        Levels::new(Axis::Space, refinements.clone(), [column])
+    }
+
+    /// The errors zigzag: their rate may be anything.
+    const ZIGZAG: [f64; 5] = [1.0, 3.0, 1.0, 3.0, 1.0];
+
+    #[test]
+    fn a_table_of_rates_has_the_digits_of_the_interval_and_no_rate_where_that_says_nothing() {
+        let cells = |factors| {
+            let table = rate_table("", &scattered(factors).judge());
+            [table.rows[0][3].clone(), table.rows[0][4].clone()]
+        };
+        assert_eq!(cells([1.0; 5]), ["2.0000", "2.0000 ± 0.00005"]);
+        let [rate, interval] = cells([1.0, 1.02, 1.0, 1.02, 1.0]);
+        assert!(
+            (4..=5).contains(&rate.len()) && interval.contains(" to "),
+            "{rate}, {interval}"
+        );
+        assert_eq!(cells(ZIGZAG)[0], "no rate");
+    }
+
+    #[cfg(feature = "reports")]
+    #[test]
+    fn a_caption_speaks_of_lines_only_where_there_are_some() {
+        let caption = |factors, rates: bool| {
+            let levels = scattered(factors);
+            let rates = if rates { levels.judge() } else { vec![] };
+            levels.figure("f", None, "Errors.".into(), &rates).caption
+        };
+        assert_eq!(caption([1.0; 5], true), format!("Errors.{}", figure::LINES));
+        assert_eq!(caption([1.0; 5], false), "Errors.");
+        assert_eq!(caption(ZIGZAG, true), "Errors.");
+    }
+}

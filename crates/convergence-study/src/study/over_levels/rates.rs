@@ -1,0 +1,88 @@
+//! Judged rates: as guarded numbers, as a table, and in a sentence.
+
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::study::outcome::{NamedRate, Quantity, Table};
+use crate::study::subject::Sort;
+use crate::text::number::{
+    RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text,
+};
+
+/// Relative change of an observed rate that the baseline tolerates.
+pub(crate) const RATE_TOLERANCE: f64 = 1e-4;
+
+/// The observed rates, as numbers that the baseline guards.
+pub(crate) fn rate_quantities(rates: &[NamedRate]) -> impl Iterator<Item = Quantity> {
+    rates.iter().filter_map(
+        |NamedRate {
+             name,
+             subject,
+             rate,
+         }| {
+            let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
+            Some(guarded.about(subject.clone()).of_sort(Sort::Rate))
+        },
+    )
+}
+
+/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
+/// nothing.
+pub fn rate_table(title: &str, rates: &[NamedRate]) -> Table {
+    let head = [
+        "error of",
+        "order",
+        "pairwise rates",
+        "rate",
+        "rate interval",
+        "verdict",
+        "because",
+    ];
+    Table::new(title, head, rates.iter().map(row))
+}
+
+/// The row of a rate.
+fn row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
+    let pairwise: Vec<String> = rate
+        .pairwise
+        .iter()
+        .map(|rate| decimals(*rate, 3))
+        .collect();
+    let interval = rate.interval.map_or_else(
+        || "-".to_owned(),
+        |interval| interval_text(interval, RATE_PLACES),
+    );
+    vec![
+        name.clone(),
+        rate.order()
+            .map_or_else(|| "-".to_owned(), |order| order.to_string()),
+        pairwise.join(" "),
+        rate_cell(rate),
+        interval,
+        rate.verdict.to_string(),
+        rate.kind.text().to_owned(),
+    ]
+}
+
+/// The rate with the digits that its interval justifies, in a table that also shows the interval.
+fn rate_cell(rate: &RateVerdict) -> String {
+    match (rate.fitted, rate.interval) {
+        (Some(_), Some(interval)) if interval.width() > WIDEST_INTERVAL => "no rate".to_owned(),
+        (Some(fitted), Some(interval)) => decimals(fitted, interval_places(interval, RATE_PLACES)),
+        (fitted, _) => rate_text(fitted),
+    }
+}
+
+/// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with
+/// its reason.
+pub fn summary(rates: &[NamedRate]) -> String {
+    let passes = rates.iter().all(|rate| rate.rate.verdict.is_pass());
+    let mut parts = vec![];
+    for NamedRate { name, rate, .. } in rates {
+        let rate_and_order = rate.beside_order(RATE_PLACES);
+        if passes {
+            parts.push(format!("{name} {rate_and_order}"));
+        } else if rate.verdict != Verdict::Pass {
+            parts.push(format!("{name} {rate_and_order}: {}", rate.reason));
+        }
+    }
+    parts.join("; ")
+}

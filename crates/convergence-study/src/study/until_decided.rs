@@ -1,0 +1,350 @@
+//! Levels until there is a decision: a study begins with four and adds the next finer one while its
+//! rates decide nothing, another level can help, and its cost fits the budget.
+//!
+//! A pass decides at the first look that shows it. A failure decides when two looks in a row show
+//! it: at each look a true claim fails by chance, and a study that ended at the first failure would
+//! collect these chances. Where no level can follow, the last look decides. The verdict is always
+//! that of the rule on the levels with which the study ends.
+//!
+//! Looking again causes few wrong passes: the rule stands by its interval at every look, and a
+//! wrong claim fails at two of them. `rule-calibration` has rows that measure this. A limit on the
+//! number of levels keeps it so.
+
+#[cfg(feature = "files")]
+use crate::input::{Field, InputError, Section};
+use crate::judge::verdict::{Reason, Verdict};
+use crate::study::outcome::{NamedRate, Outcome};
+use crate::study::over_levels::Levels;
+
+/// Levels at the first look, each twice as fine as the previous one.
+pub const FIRST: [usize; 4] = [8, 16, 32, 64];
+
+/// Most levels.
+pub(crate) const MOST_LEVELS: usize = 8;
+
+/// What a study that adds levels does next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Next {
+    /// It computes another level.
+    Another,
+    /// It ends: every rate has passed, or has failed at two looks.
+    Decided,
+    /// It ends: no finer level can resolve this reason.
+    Beyond(Reason),
+    /// It ends with `MOST_LEVELS`.
+    Most,
+    /// It ends: the next level would cost this much.
+    TooDear(f64),
+}
+
+/// The rates of the levels so far, and what they were with one level fewer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Looks<'r> {
+    /// The rates of all levels so far.
+    pub now: &'r [NamedRate],
+    /// The same names without the finest level; empty at the first look.
+    pub before: Vec<NamedRate>,
+}
+
+impl<'r> Looks<'r> {
+    /// * `now`: the rates of all levels so far, `levels` in number.
+    /// * `judge`: the rates of that many of them, the coarsest first.
+    pub fn new(
+        now: &'r [NamedRate],
+        levels: usize,
+        judge: impl FnOnce(usize) -> Vec<NamedRate>,
+    ) -> Self {
+        let before = if levels > FIRST.len() {
+            judge(levels - 1)
+        } else {
+            vec![]
+        };
+        Self { now, before }
+    }
+
+    /// The two looks at errors over levels.
+    ///
+    /// * `now`: the rates of these levels.
+    pub fn of(levels: &Levels, now: &'r [NamedRate]) -> Self {
+        Self::new(now, levels.refinements.len(), |count| {
+            levels.coarsest(count).judge()
+        })
+    }
+
+    /// The reasons of the rates that are not decided yet.
+    fn open(&self) -> Vec<Reason> {
+        let earlier = |name: &str| {
+            let named = self.before.iter().find(|named| named.name == name);
+            named.map(|named| named.rate.verdict)
+        };
+        self.now
+            .iter()
+            .filter(|now| {
+                let kind = now.rate.kind;
+                !kind.is_final() && !is_settled(kind.verdict(), earlier(&now.name))
+            })
+            .map(|now| now.rate.kind)
+            .collect()
+    }
+}
+
+/// Whether a verdict stands without a finer level: a pass does, a failure if the look before has
+/// failed as well.
+///
+/// * `before`: the verdict with one level fewer; `None` at the first look.
+pub fn is_settled(now: Verdict, before: Option<Verdict>) -> bool {
+    match now {
+        Verdict::Pass => true,
+        Verdict::Fail => before == Some(Verdict::Fail),
+        Verdict::Inconclusive => false,
+    }
+}
+
+/// Whether a finer level may settle a rate that is open for this reason.
+fn can_change(reason: Reason) -> bool {
+    reason.verdict() == Verdict::Fail || reason.wants_a_level()
+}
+
+/// * `levels`: how many there are so far.
+/// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
+pub fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
+    let open = looks.open();
+    let Some(&first) = open.first() else {
+        return Next::Decided;
+    };
+    if !open.iter().copied().any(can_change) {
+        return Next::Beyond(first);
+    }
+    if levels >= MOST_LEVELS {
+        return Next::Most;
+    }
+    // Not `>`, which would let NaN pass.
+    if !(spent + cost <= budget) {
+        return Next::TooDear(cost);
+    }
+    Next::Another
+}
+
+/// The same with time as cost: the next level takes longer by the same factor as the last one did,
+/// and by at least two.
+///
+/// * `seconds`: time of each level; at least two.
+pub fn next_by_time(looks: &Looks<'_>, seconds: &[f64], budget: f64) -> Next {
+    let [.., before, last] = seconds else {
+        return Next::Another;
+    };
+    next(
+        looks,
+        seconds.len(),
+        last * (last / before).max(2.0),
+        seconds.iter().sum(),
+        budget,
+    )
+}
+
+/// The outcome of a study that adds levels. It says how the study ended. It guards only the first
+/// levels, because another machine may afford others.
+pub fn conclude(
+    mut outcome: Outcome,
+    next: Next,
+    levels: &Levels,
+    budget: f64,
+    unit: &str,
+) -> Outcome {
+    let words = in_words(next, levels, &outcome.rates, budget, unit);
+    outcome.add_to_summary(&words);
+    let first: Vec<&String> = levels
+        .refinements
+        .iter()
+        .take(FIRST.len())
+        .map(|level| &level.label)
+        .collect();
+    outcome.quantities.retain(|quantity| {
+        let level = quantity.subject.level.as_ref();
+        level.is_some_and(|level| first.contains(&level))
+    });
+    outcome
+}
+
+/// How the study ended, in words: `decided after 5 levels; 4 were enough for L2`.
+///
+/// * `unit`: of costs and budget, such as `s`.
+fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit: &str) -> String {
+    let count = levels.refinements.len();
+    let is_open = |named: &NamedRate| named.rate.verdict == Verdict::Inconclusive;
+    let undecided = if rates.iter().any(is_open) {
+        format!("undecided after {count} levels")
+    } else {
+        format!("a failure at the last look only, after {count} levels")
+    };
+    match next {
+        Next::Another | Next::Decided => {
+            let mut words = format!("decided after {count} levels");
+            for (name, enough) in levels_that_were_enough(levels, rates) {
+                words += &format!("; {enough} were enough for {name}");
+            }
+            words
+        }
+        Next::Beyond(reason) => {
+            format!("{undecided}: {}, which no finer level mends", reason.text())
+        }
+        Next::Most => format!("{undecided}, the most that are tried"),
+        Next::TooDear(cost) => {
+            format!(
+                "{undecided}: the next would take about {cost:.2e} {unit}, more than what is left of the budget of {budget} {unit}"
+            )
+        }
+    }
+}
+
+/// Errors that were decided with fewer levels, each with that number of levels.
+fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(&'r str, usize)> {
+    let all = levels.refinements.len();
+    let mut enough = vec![all; rates.len()];
+    for count in (FIRST.len()..all).rev() {
+        let earlier = levels.coarsest(count).judge();
+        for ((enough, last), earlier) in enough.iter_mut().zip(rates).zip(&earlier) {
+            if *enough == count + 1 && earlier.rate.verdict == last.rate.verdict {
+                *enough = count;
+            }
+        }
+    }
+    for (enough, last) in enough.iter_mut().zip(rates) {
+        let kind = last.rate.kind;
+        if kind.verdict() == Verdict::Fail && !kind.is_final() {
+            *enough += 1;
+        }
+    }
+    let names = rates.iter().map(|rate| rate.name.as_str());
+    names
+        .zip(enough)
+        .filter(|(_, enough)| *enough < all)
+        .collect()
+}
+
+/// Whether a list of counts is left to the study.
+#[cfg(feature = "files")]
+pub fn is_auto(field: &Field<'_>) -> bool {
+    field.text().is_ok_and(|text| text == "auto")
+}
+
+/// The key `budget` of `[refine]`; `None` if no list is left to the study.
+///
+/// * `counts`: the keys of lists; all lists present must be `"auto"`, or none.
+/// * `usual`: the default budget.
+/// * `allowed`: what a budget may be, in words.
+///
+/// # Errors
+/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`,
+/// or a budget without it.
+#[cfg(feature = "files")]
+pub fn budget(
+    section: &Section<'_>,
+    counts: &[&str],
+    grid: bool,
+    usual: f64,
+    allowed: &str,
+) -> Result<Option<f64>, InputError> {
+    let lists: Vec<Field<'_>> = counts.iter().filter_map(|key| section.get(key)).collect();
+    let listed = lists.iter().find(|field| field.is_list());
+    let Some(auto) = lists.iter().find(|field| is_auto(field)) else {
+        return match section.get("budget") {
+            None => Ok(None),
+            Some(field) => Err(field.refuse(
+                "a budget beside lists",
+                "lists alone, or \"auto\" in their place",
+            )),
+        };
+    };
+    if let Some(listed) = listed {
+        return Err(listed.refuse(
+            format!("{} beside \"auto\"", listed.as_written()),
+            "\"auto\" for both",
+        ));
+    }
+    if grid {
+        return Err(auto.refuse_as_written("lists where grid = true"));
+    }
+    section
+        .get("budget")
+        .map_or(Ok(usual), |field| {
+            field.number_where(allowed, |budget| budget > 0.0)
+        })
+        .map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::verdict::judge_pairs;
+
+    /// The rates of errors on so many levels, each claimed to be of second order.
+    fn rates(levels: usize, errors: &[fn(f64) -> f64]) -> Vec<NamedRate> {
+        let steps: Vec<f64> = (3..levels as i32 + 3).map(|k| 0.5_f64.powi(k)).collect();
+        let judged = |error: &fn(f64) -> f64| {
+            let pairs: Vec<(f64, f64)> = steps.iter().map(|&h| (h, error(h))).collect();
+            judge_pairs(pairs, 2.0, 0.25)
+        };
+        errors
+            .iter()
+            .enumerate()
+            .map(|(index, error)| NamedRate::new(format!("e{index}"), judged(error)))
+            .collect()
+    }
+
+    fn verdict(levels: usize, error: fn(f64) -> f64) -> Verdict {
+        rates(levels, &[error])[0].rate.verdict
+    }
+
+    /// What comes after so many levels, the next of which costs so much.
+    fn after(levels: usize, errors: &[fn(f64) -> f64], cost: f64) -> Next {
+        let now = rates(levels, errors);
+        let looks = Looks::new(&now, levels, |count| rates(count, errors));
+        next(&looks, levels, cost, 1.0, 5.0)
+    }
+
+    fn second(h: f64) -> f64 {
+        h * h
+    }
+
+    fn first(h: f64) -> f64 {
+        h
+    }
+
+    fn not_a_number(_: f64) -> f64 {
+        f64::NAN
+    }
+
+    /// Of first order on the four coarsest levels, of second order below them.
+    fn late(h: f64) -> f64 {
+        if h > 0.01 { 1e-4 * h } else { 0.01 * h * h }
+    }
+
+    #[test]
+    fn a_pass_decides_at_once_and_a_failure_at_the_second_look() {
+        assert_eq!(after(4, &[second], 1.0), Next::Decided);
+        assert_eq!(verdict(4, first), Verdict::Fail);
+        assert_eq!(after(4, &[first], 1.0), Next::Another);
+        assert_eq!(after(5, &[first], 1.0), Next::Decided);
+        assert_eq!(after(4, &[second, first], 1.0), Next::Another);
+    }
+
+    #[test]
+    fn what_no_level_mends_fails_at_once() {
+        assert_eq!(after(4, &[not_a_number], 1.0), Next::Decided);
+    }
+
+    #[test]
+    fn a_failure_that_a_finer_level_takes_back_does_not_decide() {
+        assert_eq!(verdict(4, late), Verdict::Fail);
+        assert_ne!(verdict(5, late), Verdict::Fail);
+        assert_eq!(after(5, &[late], 1.0), Next::Another);
+    }
+
+    #[test]
+    fn the_last_look_decides_where_no_level_can_follow() {
+        assert_eq!(after(4, &[first], 9.0), Next::TooDear(9.0));
+        assert!(!is_settled(Verdict::Fail, Some(Verdict::Inconclusive)));
+        assert!(is_settled(Verdict::Fail, Some(Verdict::Fail)));
+    }
+}

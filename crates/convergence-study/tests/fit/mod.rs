@@ -1,0 +1,247 @@
+//! Readings of a rate, compared with answers known by other means.
+
+mod regression;
+
+use convergence_judge::judge::fit::{
+    Level, asymptotic_range, extrapolated_rate, fit_line, pairwise_rates, rate_interval, student_t,
+};
+
+fn levels(steps: &[f64], error: impl Fn(f64) -> f64) -> Vec<Level> {
+    steps
+        .iter()
+        .map(|&step| Level {
+            step,
+            error: error(step),
+        })
+        .collect()
+}
+
+const HALVED: [f64; 6] = [0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625];
+const UNEVEN: [f64; 6] = [0.5, 0.3, 0.14, 0.1, 0.04, 0.03];
+
+/// Two-sided 95 % quantiles of Student's t for 1, 2, ... degrees of freedom: as printed tables have
+/// them, with more digits.
+const STUDENT: [f64; 30] = [
+    12.70620473617469,
+    4.302652729749467,
+    3.1824463052837046,
+    2.776445105197795,
+    2.570581835636315,
+    2.4469118511449652,
+    2.364624251592785,
+    2.3060041352041707,
+    2.2621571627982036,
+    2.2281388519862744,
+    2.200985160091634,
+    2.1788128296672054,
+    2.1603686564628095,
+    2.1447866879177897,
+    2.131449545559734,
+    2.1199052992212404,
+    2.109815577833272,
+    2.1009220402409565,
+    2.0930240544082417,
+    2.0859634472657946,
+    2.0796138447275436,
+    2.0738730679038766,
+    2.068657610418929,
+    2.0638985616278602,
+    2.059538552753143,
+    2.0555294386426555,
+    2.0518305164800905,
+    2.048407141795102,
+    2.0452296421323903,
+    2.042272456301077,
+];
+
+#[test]
+fn student_quantiles_are_those_of_the_tables() {
+    for (k, expected) in STUDENT.into_iter().enumerate() {
+        assert_eq!(student_t(k + 1), expected, "dof {}", k + 1);
+    }
+    assert_eq!(student_t(0), f64::INFINITY);
+    assert_eq!(student_t(1000), student_t(30));
+}
+
+#[test]
+fn every_reading_of_a_pure_power_is_its_order() {
+    for steps in [HALVED, UNEVEN] {
+        let data = levels(&steps, |h| 3.0 * h.powf(1.7));
+        assert!(
+            pairwise_rates(&data)
+                .iter()
+                .all(|rate| (rate - 1.7).abs() < 1e-12)
+        );
+        let line = fit_line(&data).expect("regular");
+        assert!((line.slope - 1.7).abs() < 1e-12 && (line.intercept - 3.0_f64.ln()).abs() < 1e-12);
+        let fit = rate_interval(&data).expect("regular");
+        assert!((fit.rate - 1.7).abs() < 1e-10 && fit.interval.holds(1.7));
+        assert!((extrapolated_rate(&data).expect("regular") - 1.7).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_interval_of_a_line_is_that_of_the_textbook() {
+    // log2 h = -1, -2, -3, -4 and log2 e = -1, -2.1, -2.9, -4: slope 0.98, rss 0.018, s² = 0.009,
+    // Σ(x - mean)² = 5.
+    let data: Vec<Level> = [-1.0, -2.1, -2.9, -4.0_f64]
+        .iter()
+        .zip(1..)
+        .map(|(exponent, k)| Level {
+            step: 0.5_f64.powi(k),
+            error: exponent.exp2(),
+        })
+        .collect();
+    let line = fit_line(&data).expect("regular");
+    let half = 4.302_652_73 * (0.009_f64 / 5.0).sqrt();
+    assert!((line.slope - 0.98).abs() < 1e-12);
+    assert!(
+        (line.interval.high - line.slope - half).abs() < 1e-8,
+        "{line:?} {half}"
+    );
+}
+
+#[test]
+fn extrapolation_of_a_constant_ratio_is_aitkens() {
+    let (q1, q2, q3): (f64, f64, f64) = (0.93, 0.96, 0.98);
+    let errors = [0.0, q1, q1 + q2, q1 + q2 + q3].map(|sum: f64| (-sum).exp2());
+    let data: Vec<Level> = errors
+        .iter()
+        .zip(&HALVED)
+        .map(|(&error, &step)| Level { step, error })
+        .collect();
+    let aitken = q3 - (q3 - q2).powi(2) / ((q3 - q2) - (q2 - q1));
+    assert!((extrapolated_rate(&data).expect("closing in") - aitken).abs() < 1e-9);
+}
+
+#[test]
+fn extrapolation_gains_digits_on_smooth_data_with_uneven_steps() {
+    let data = levels(&UNEVEN.map(|h| h / 8.0), |h| h * (1.0 + h));
+    let finest = pairwise_rates(&data)[4];
+    let limit = extrapolated_rate(&data).expect("closing in");
+    assert!(
+        (limit - 1.0).abs() < 0.1 * (finest - 1.0).abs(),
+        "{limit} against {finest}"
+    );
+}
+
+#[test]
+fn extrapolation_declines_scatter_and_too_few_levels() {
+    let noisy = levels(&HALVED, |h| {
+        h * if h.log2() as i64 % 2 == 0 { 1.02 } else { 0.98 }
+    });
+    assert_eq!(extrapolated_rate(&noisy), None);
+    assert_eq!(extrapolated_rate(&levels(&HALVED[..3], |h| h)), None);
+    assert_eq!(extrapolated_rate(&[]), None);
+    assert_eq!(extrapolated_rate(&levels(&HALVED, |_| f64::NAN)), None);
+    assert_eq!(
+        extrapolated_rate(&levels(&HALVED[..4], |h| if h < 0.1 { -h } else { h })),
+        None,
+        "the last rate is NaN"
+    );
+    assert_eq!(
+        extrapolated_rate(&levels(&HALVED[..4], |h| if h > 0.4 { -h } else { h })),
+        None,
+        "the first rate is NaN"
+    );
+}
+
+#[test]
+fn pairwise_rates_keep_what_is_not_finite() {
+    let data = [1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1];
+    let data: Vec<Level> = data
+        .iter()
+        .zip(&HALVED)
+        .map(|(&error, &step)| Level { step, error })
+        .collect();
+    let rates = pairwise_rates(&data);
+    assert!(rates[0].is_nan() && rates[1].is_nan() && rates[4].is_nan());
+    assert_eq!((rates[2], rates[3]), (f64::INFINITY, f64::NEG_INFINITY));
+}
+
+#[test]
+fn the_range_is_what_its_three_rules_leave() {
+    // Rates 1.75, 1.5, 1.0, 1.0, all exact: the first differs by 0.75 from the finest, the second
+    // by 0.5.
+    let data = with_log2(&[0.0, -1.75, -3.25, -4.25, -5.25]);
+    assert_eq!(asymptotic_range(&data, 0.0), 1..5);
+    // A level counts while its error is above, not at, the floor.
+    assert_eq!(asymptotic_range(&data, data[4].error * (1.0 - 1e-12)), 1..5);
+    assert_eq!(asymptotic_range(&data, data[4].error), 1..4);
+    // Only the finest levels are dropped for the floor: one that dips down to it and recovers
+    // counts.
+    let dip = with_log2(&[0.0, -1.0, -30.0, -3.0]);
+    assert_eq!(asymptotic_range(&dip, 1e-10).end, 4);
+    // The five finest of those above the floor.
+    let eight = levels(&[1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3], |h| h);
+    assert_eq!(asymptotic_range(&eight, 0.0), 3..8);
+    assert_eq!(asymptotic_range(&eight, 0.35), 2..7);
+    // A rate that is far from the finest drops every level before it, near or not.
+    for (rates, dropped) in [
+        (&[1.5, 1.0, 1.25, 1.0][..], 0),
+        (&[1.5625, 1.0, 1.25, 1.0], 1),
+        (&[1.0, 1.5625, 1.0, 1.0], 2),
+        (&[0.4375, 1.0], 1),
+        (&[1.5625, 1.0], 1),
+        (&[2.0, 1.0], 1),
+    ] {
+        let errors: Vec<f64> = std::iter::once(0.0)
+            .chain(rates.iter().scan(0.0, |sum, rate| {
+                *sum -= rate;
+                Some(*sum)
+            }))
+            .collect();
+        assert_eq!(
+            asymptotic_range(&with_log2(&errors), 0.0).start,
+            dropped,
+            "{rates:?}"
+        );
+    }
+    assert_eq!(
+        asymptotic_range(&with_log2(&[f64::NAN, -1.0, -2.0, -3.0]), 0.0).start,
+        1
+    );
+}
+
+/// Steps 1, 1/2, 1/4, ... and errors with these logarithms to base 2.
+fn with_log2(errors: &[f64]) -> Vec<Level> {
+    errors
+        .iter()
+        .zip(0..)
+        .map(|(error, k)| Level {
+            step: 0.5_f64.powi(k),
+            error: error.exp2(),
+        })
+        .collect()
+}
+
+#[test]
+fn a_limit_is_found_wherever_the_pollution_is_one_that_is_looked_for() {
+    // Rates 1 + c w_k(r) to first order in c, w for halved steps proportional to 2^-rk.
+    for (contraction, found) in [
+        (0.9, false),
+        (0.8, true),
+        (0.5, true),
+        (0.01, true),
+        (0.003, false),
+        (-0.5, false),
+    ] {
+        let rates =
+            [0.1, 0.1 * contraction, 0.1 * contraction * contraction].map(|shift| 1.0 + shift);
+        let sums = [0.0, rates[0], rates[0] + rates[1], rates.iter().sum()];
+        let limit = extrapolated_rate(&with_log2(&sums.map(|sum| -sum)));
+        assert_eq!(limit.is_some(), found, "{contraction}: {limit:?}");
+        assert!(
+            limit.is_none_or(|limit| (limit - 1.0).abs() < 1e-9),
+            "{contraction}: {limit:?}"
+        );
+    }
+}
+
+#[test]
+fn the_range_never_drops_a_plateau_above_the_floor() {
+    let data = levels(&HALVED, |h| h * h + 1e-3);
+    assert_eq!(asymptotic_range(&data, 1e-13).end, 6);
+    assert_eq!(asymptotic_range(&data, 1.0).end, 0);
+    assert_eq!(asymptotic_range(&[], 0.0), 0..0);
+}

@@ -1,0 +1,257 @@
+//! Error bars of values without an exact solution.
+
+use convergence_judge::judge::richardson::{
+    Estimate, Refusal, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED,
+};
+use convergence_study::Interval;
+use convergence_study::{Estimator, Value};
+use convergence_study::{Reason, Verdict};
+
+const RATIO_2: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
+const UNEQUAL: [f64; 6] = [1.0, 0.7, 0.3, 0.2, 0.11, 0.05];
+
+fn values(steps: &[f64], value: impl Fn(f64) -> f64) -> Vec<Value> {
+    steps
+        .iter()
+        .map(|&step| Value {
+            step,
+            value: value(step),
+        })
+        .collect()
+}
+
+fn estimate(order: f64, values: &[Value]) -> Estimate {
+    Estimator::new(0.1).unwrap().estimate(values, order)
+}
+
+#[test]
+fn a_power_law_gives_its_rate_and_its_limit_on_any_steps() {
+    for steps in [&RATIO_2[..], &UNEQUAL, &RATIO_2[..4], &UNEQUAL[..4]] {
+        for p in [0.7, 1.0, 2.0, 3.3] {
+            for sign in [1.0, -1.0] {
+                let found = estimate(p, &values(steps, |h| 3.0 + sign * 0.4 * h.powf(p)));
+                let (bar, error) = (
+                    found.bar.unwrap(),
+                    sign * 0.4 * steps[steps.len() - 1].powf(p),
+                );
+                assert!((bar.rate - p).abs() < 1e-6, "{p}: {bar:?}");
+                assert!(
+                    (bar.extrapolated - 3.0).abs() < 1e-8 && (bar.error - error).abs() < 1e-8,
+                    "{p}: {bar:?}"
+                );
+                assert!(
+                    bar.error_interval.low < error && error < bar.error_interval.high,
+                    "{p}: {bar:?}"
+                );
+                assert!(
+                    bar.limit.low < 3.0 && 3.0 < bar.limit.high && bar.limit.width() < 1e-5,
+                    "{p}: {bar:?}"
+                );
+                assert_eq!(found.judged.verdict, Verdict::Pass);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_bar_holds_the_error_that_pollution_leaves() {
+    for steps in [&RATIO_2[..], &UNEQUAL] {
+        for (p, c, r) in [
+            (1.0, 0.5, 1.0),
+            (2.0, -0.4, 1.0),
+            (2.0, 0.8, 2.0),
+            (1.0, 0.3, 0.5),
+            (2.0, -0.2, 1.5),
+        ] {
+            let error = |h: f64| h.powf(p) * (1.0 + c * h.powf(r));
+            let bar = estimate(p, &values(steps, |h| 1.0 - error(h))).bar.unwrap();
+            let Interval { low, high } = bar.error_interval;
+            let error = -error(steps[5]);
+            assert!(
+                low < error && error < high,
+                "{p} {c} {r}: {bar:?}, error {error}"
+            );
+            // 2 - 0.4 h is the widest, 2.03.
+            assert!(
+                high - low < 2.1 * error.abs(),
+                "{p} {c} {r}: {bar:?}, error {error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn three_values_lean_on_the_claim() {
+    let three = values(&RATIO_2[..3], |h| 1.0 + h * h + 0.5 * h.powi(4));
+    let found = estimate(2.0, &three);
+    let bar = found.bar.unwrap();
+    assert_eq!(
+        (found.judged.verdict, found.judged.kind),
+        (Verdict::Inconclusive, Reason::TooFewLevels)
+    );
+    assert!(
+        bar.rate_interval.low == 1.5 && (bar.rate_interval.high - bar.rate - 0.5).abs() < 1e-12,
+        "{bar:?}"
+    );
+    let error = 0.0625 + 0.5 * 0.25_f64.powi(4);
+    assert!(bar.error_interval.low < error && error < bar.error_interval.high);
+    let slow = estimate(0.4, &values(&RATIO_2[..3], |h| h.powf(0.4))).bar;
+    assert!(
+        matches!(slow, Err(Refusal::RateMayBeZero(low)) if (low + 0.1).abs() < 1e-12),
+        "{slow:?}"
+    );
+}
+
+/// The example of I. B. Celik et al., *Procedure for Estimation and Reporting of Uncertainty Due to
+/// Discretization in CFD Applications*, J. Fluids Eng. 130 (2008), table 1, first column: grids of
+/// 4500, 8000, 18000 cells in two dimensions.
+#[test]
+fn the_index_is_that_of_the_published_example() {
+    let steps = [4500.0_f64, 8000.0, 18000.0].map(|cells| cells.powf(-0.5));
+    let cells: Vec<Value> = steps
+        .into_iter()
+        .zip([5.863, 5.972, 6.063])
+        .map(|(step, value)| Value { step, value })
+        .collect();
+    let index = estimate(1.6, &cells).gci.unwrap();
+    assert_eq!(
+        (index.factor, index.order),
+        (SAFETY_CONFIRMED, index.observed)
+    );
+    assert!((index.observed - 1.53).abs() < 5e-3, "{index:?}");
+    assert!((index.half_width / 6.063 - 0.022).abs() < 5e-4, "{index:?}");
+    let unconfirmed = estimate(2.0, &cells).gci.unwrap();
+    assert_eq!(
+        (unconfirmed.factor, unconfirmed.order),
+        (SAFETY_UNCONFIRMED, index.observed)
+    );
+    assert!((unconfirmed.half_width / index.half_width - 2.4).abs() < 1e-12);
+}
+
+/// Ratios 4 and 1.2, for which the iteration of the standard diverges.
+#[test]
+fn the_index_finds_its_order_on_any_ratios() {
+    for (steps, p) in [
+        ([4.8, 1.2, 1.0], 1.0),
+        ([4.8, 4.0, 1.0], 1.0),
+        ([2.0, 1.4, 1.0], 3.0),
+    ] {
+        let index = estimate(p, &values(&steps, |h: f64| 1.0 + h.powf(p)))
+            .gci
+            .unwrap();
+        assert!((index.observed - p).abs() < 1e-10, "{steps:?}: {index:?}");
+    }
+}
+
+#[test]
+fn an_order_above_the_claim_shortens_no_index() {
+    let fast = estimate(1.0, &values(&RATIO_2[..3], |h: f64| h.powi(4)))
+        .gci
+        .unwrap();
+    assert!(
+        (fast.observed - 4.0).abs() < 1e-9
+            && fast.order == 1.0
+            && fast.factor == SAFETY_UNCONFIRMED,
+        "{fast:?}"
+    );
+}
+
+#[test]
+fn outside_the_asymptotic_range_there_is_no_bar() {
+    let refused = |steps: &[f64], value: &dyn Fn(f64) -> f64| {
+        estimate(2.0, &values(steps, value)).bar.unwrap_err()
+    };
+    assert_eq!(refused(&RATIO_2[..2], &|h| h), Refusal::TooFewValues(2));
+    assert_eq!(refused(&[], &|h| h), Refusal::TooFewValues(0));
+    assert_eq!(
+        refused(&RATIO_2, &|h| if h == 0.5 { f64::NAN } else { h }),
+        Refusal::NotFinite
+    );
+    assert_eq!(refused(&[1.0, 0.5, 0.5], &|h| h), Refusal::Steps);
+    assert_eq!(refused(&RATIO_2, &|_| 1.0), Refusal::NoChange);
+    assert_eq!(
+        refused(&RATIO_2, &|h| if h > 0.2 { 1.0 } else { h }),
+        Refusal::NoChange
+    );
+    assert!(matches!(
+        refused(&RATIO_2, &|h| 1.0 + 1e-12 * h),
+        Refusal::RoundOff { .. }
+    ));
+    // (-1)^k h^2
+    let turns = |h: f64| h * h * (h.log2() * std::f64::consts::PI).cos();
+    assert_eq!(refused(&RATIO_2, &turns), Refusal::Oscillating);
+    assert_eq!(refused(&RATIO_2, &|h| 1.0 / h), Refusal::Diverging);
+    assert_eq!(refused(&RATIO_2[..3], &|h| 1.0 / h), Refusal::Diverging);
+    assert_eq!(refused(&RATIO_2, &|h| h.ln()), Refusal::Diverging);
+    assert_eq!(
+        refused(&RATIO_2, &|h| h * h / (1.0 + 30.0 * h * h)),
+        Refusal::NotAsymptotic(Reason::NotAsymptotic)
+    );
+    let claim = Estimator::new(0.1)
+        .unwrap()
+        .estimate(&values(&RATIO_2, |h| h), 0.0);
+    assert_eq!(
+        claim.bar,
+        Err(Refusal::NotAsymptotic(Reason::ClaimUnusable))
+    );
+    assert_eq!(claim.gci.unwrap_err(), claim.bar.unwrap_err());
+}
+
+/// Six digits: without the floor the last differences are noise, but would be used.
+#[test]
+fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
+    let printed = values(&RATIO_2, |h| ((1.0 + 1e-4 * h * h) * 1e6).round() / 1e6);
+    let found = Estimator::new(0.1)
+        .unwrap()
+        .with_floor(1e-4)
+        .unwrap()
+        .estimate(&printed, 2.0);
+    assert!(
+        matches!(found.bar, Err(Refusal::RoundOff { .. } | Refusal::NoChange)),
+        "{:?}",
+        found.bar
+    );
+    assert!(Estimator::new(0.1).unwrap().with_floor(-1.0).is_err() && Estimator::new(0.6).is_err());
+}
+
+#[test]
+fn a_wrong_order_is_judged_and_has_a_bar_all_the_same() {
+    let found = estimate(2.0, &values(&RATIO_2, |h| 1.0 + h));
+    assert_eq!(
+        (found.judged.verdict, found.judged.kind),
+        (Verdict::Fail, Reason::TooLow)
+    );
+    assert!((found.bar.unwrap().extrapolated - 1.0).abs() < 1e-9);
+    assert_eq!(found.gci.unwrap().factor, SAFETY_UNCONFIRMED);
+}
+
+#[test]
+fn values_without_a_claim_have_a_limit_and_no_verdict() {
+    let values: Vec<Value> = [0.2, 0.1, 0.05, 0.025]
+        .map(|step| Value {
+            step,
+            value: 3.0 + step * step,
+        })
+        .to_vec();
+    let found = Estimator::new(0.25)
+        .expect("a tolerance")
+        .estimate_unclaimed(&values);
+    let bar = found.bar.expect("a limit");
+    assert!(
+        bar.limit.holds(3.0) && (bar.rate - 2.0).abs() < 1e-6,
+        "{bar:?}"
+    );
+    assert_eq!(
+        (found.judged.verdict, found.gci.is_ok()),
+        (Verdict::Inconclusive, true)
+    );
+    let zigzag: Vec<Value> = values
+        .iter()
+        .zip([1.0, 2.0, 1.0, 2.0])
+        .map(|(level, value)| Value { value, ..*level })
+        .collect();
+    let found = Estimator::new(0.25)
+        .expect("a tolerance")
+        .estimate_unclaimed(&zigzag);
+    assert_eq!(found.bar, Err(Refusal::Oscillating));
+}

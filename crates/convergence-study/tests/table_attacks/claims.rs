@@ -1,0 +1,118 @@
+//! Orders that are claimed of each table: by its degree, its heading or its number.
+
+use convergence_study::Verdict;
+
+use super::answer;
+use super::forms::{Form, Law, Table};
+
+/// A study of degrees 1, 2 and 3, each with errors of order p + 1 and p.
+fn degrees(form: Form, heading: fn(usize) -> String) -> String {
+    let table = |p: usize| {
+        let order = p as f64;
+        let law = Law {
+            h: 0.2,
+            levels: 4,
+            order,
+            constant: 0.5,
+        };
+        heading(p) + &form.write(&Table::new("h", law, &[("L2", order + 1.0), ("H1", order)]))
+    };
+    (1..4).map(table).collect()
+}
+
+fn verdict(text: &str, orders: &[&str]) -> Option<Verdict> {
+    answer(text, orders).map(|answer| answer.verdict)
+}
+
+#[test]
+fn an_order_may_be_claimed_by_the_degree_in_the_heading() {
+    let headings: [fn(usize) -> String; 4] = [
+        |p| format!("Degree = {p}\n"),
+        |p| format!("P{p} elements:\n"),
+        |p| format!("# p: {p}\n"),
+        |p| format!("\npolynomial degree {p}\n\n"),
+    ];
+    for form in Form::ALL {
+        for heading in headings {
+            let text = degrees(form, heading);
+            assert_eq!(
+                verdict(&text, &["L2=p+1", "H1=p"]),
+                Some(Verdict::Pass),
+                "{form:?}:\n{text}"
+            );
+            assert_eq!(
+                verdict(&text, &["L2=p", "H1=p"]),
+                Some(Verdict::Fail),
+                "{form:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_order_may_be_claimed_by_a_column_of_degrees() {
+    for form in Form::ALL {
+        let mut all: Option<Table> = None;
+        for p in 1..4 {
+            let order = f64::from(p) + 1.0;
+            let law = Law {
+                h: 0.2,
+                levels: 4,
+                order,
+                constant: 0.5,
+            };
+            let mut table = Table::new("h", law, &[("L2", order)]);
+            table.add("p", vec![p.to_string(); law.levels]);
+            match &mut all {
+                Some(all) => all.rows.extend(table.rows),
+                None => all = Some(table),
+            }
+        }
+        let text = form.write(&all.expect("three degrees"));
+        assert_eq!(
+            verdict(&text, &["L2=p+1"]),
+            Some(Verdict::Pass),
+            "{form:?}:\n{text}"
+        );
+        assert_eq!(verdict(&text, &["L2=p"]), Some(Verdict::Fail), "{form:?}");
+    }
+}
+
+#[test]
+fn an_order_may_be_claimed_of_one_table() {
+    let text = degrees(Form::Blanks, |p| format!("P{p}\n"));
+    let of_all = [
+        "1:L2=2",
+        "1:H1=1",
+        "Table 2:L2=3",
+        "table 2:H1=2",
+        "P3:L2=4",
+        "P3:H1=3",
+    ];
+    assert_eq!(verdict(&text, &of_all), Some(Verdict::Pass), "{text}");
+    // A claim about a table goes before one about all.
+    assert_eq!(
+        verdict(
+            &text,
+            &["2", "1:H1=1", "P2:=2", "P2:L2=3", "P3:=3", "P3:L2=4"]
+        ),
+        Some(Verdict::Pass)
+    );
+    assert_eq!(verdict(&text, &["P3:L2=3", "H1=p"]), Some(Verdict::Fail));
+    // A table without a claim proves nothing.
+    assert_eq!(verdict(&text, &["P3:L2=4"]), Some(Verdict::Inconclusive));
+    for unknown in ["P4:L2=3", "4:L2=3", "P3:Linf=3", "L2=p-3"] {
+        assert_eq!(verdict(&text, &[unknown]), None, "{unknown}");
+    }
+    let without_degree = Form::Csv.write(&Table::new(
+        "h",
+        Law {
+            h: 0.2,
+            levels: 4,
+            order: 2.0,
+            constant: 1.0,
+        },
+        &[("L2", 2.0)],
+    ));
+    assert_eq!(verdict(&without_degree, &["L2=p+1"]), None);
+}

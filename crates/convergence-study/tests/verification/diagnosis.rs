@@ -1,0 +1,92 @@
+//! Which settings a diagnosis names, and its words.
+
+use convergence_study::Finished;
+use convergence_study::Project;
+use convergence_study::internal::program;
+use convergence_study::internal::report::text_of_diagnosis;
+use convergence_study::internal::store::diagnosis::diagnose;
+use convergence_study::internal::store::{Change, Movement};
+use convergence_study::internal::study::header::Setting;
+use convergence_study::{Check, Header, KindRow, Outcome, Subject};
+
+use super::fake::{Does, fake, finished};
+
+/// A kind whose items exercise nothing but their method.
+const KIND: KindRow = KindRow {
+    settings: |_, subject| vec![method(subject.method.as_deref().unwrap_or_default())],
+    ..program::ROW
+};
+
+fn method(name: &str) -> Setting {
+    ("method".to_owned(), name.to_owned())
+}
+
+/// What is named where a ratio of two methods fails, and a check of each method passes.
+fn settings_named(ratio: Subject) -> Vec<Setting> {
+    let project = Project {
+        kinds: &[KIND],
+        ..Project::new("a", "a")
+    };
+    let mut checks = vec![Check::that(false, "c", "").about(ratio)];
+    for method in ["midpoint", "dg", "one-step", "fixed-point"] {
+        checks.push(Check::that(true, "c", "").about(Subject::of("error").by(method)));
+    }
+    let mut studies: Vec<Finished> = finished(vec![fake("s", Does::Converge).erased()]);
+    studies[0].header = Header {
+        kind: KIND.name.to_owned(),
+        ..Header::new("s", "c")
+    };
+    studies[0].outcome = Outcome::new("", vec![], checks);
+    let found = diagnose(&project, &studies, &[]);
+    found.expect("a check fails").contrast.settings
+}
+
+#[test]
+fn a_ratio_blames_both_its_parts() {
+    let alone = Subject::of("work").by("midpoint");
+    assert_eq!(settings_named(alone.clone()), [method("midpoint")]);
+    assert_eq!(settings_named(alone.against("dg")), []);
+}
+
+fn moved(name: &str, from: f64, to: f64) -> Change {
+    let movement = Movement::Moved {
+        from,
+        to,
+        tolerance: 1e-3,
+    };
+    Change {
+        study: "s".to_owned(),
+        name: name.to_owned(),
+        movement,
+    }
+}
+
+#[test]
+fn checks_also_fail_and_a_zero_is_multiplied_by_nothing() {
+    let mut studies = finished(vec![fake("s", Does::Converge).erased()]);
+    let check = Check::that(false, "the energy falls", "it rises");
+    studies[0].outcome = Outcome::new("", vec![], vec![check]);
+    for (from, to, words) in [
+        (0.0, 1e-3, "loss (no longer zero)"),
+        (2e-3, 1e-3, "loss (by a factor up to 0.5)"),
+    ] {
+        let changes = [moved("loss", from, to)];
+        let found = diagnose(&program::PROJECT, &studies, &changes).expect("a check fails");
+        let text = text_of_diagnosis(&found);
+        assert!(text.contains("also fails the energy falls"), "{text}");
+        assert!(text.contains(words) && !text.contains("infinity"), "{text}");
+    }
+}
+
+#[test]
+fn a_change_is_said_in_per_cent_or_in_numbers_that_differ() {
+    for (from, to, words) in [
+        (1.0, 8.0, "by +700 %"),
+        (1.0, 0.99, "by -1 %"),
+        (-1.0, -0.999, "by +0.1 %"),
+    ] {
+        let words_of = moved("loss", from, to).to_string();
+        assert!(words_of.contains(words), "{words_of}");
+        assert!(!words_of.contains("-0.000"), "{words_of}");
+    }
+}

@@ -1,0 +1,320 @@
+use std::collections::BTreeSet;
+
+use convergence_study::Figure;
+use convergence_study::Finished;
+use convergence_study::Verdict;
+use convergence_study::internal::plots::{ErrorSeries, convergence, xy::Xy};
+use convergence_study::internal::report::Findings;
+use convergence_study::internal::store::Record;
+use convergence_study::{Front, Project};
+use roxmltree::{Document, Node};
+
+use super::fake::{Does, PROJECT, finished, study};
+
+pub(crate) fn page_of(finished: &[Finished]) -> String {
+    let see_also = Some("full/index.html");
+    let record = Record::new(
+        "quick",
+        "cargo xtask verify",
+        Verdict::Fail,
+        Some(&[]),
+        finished.to_vec(),
+    );
+    Findings {
+        project: &PROJECT,
+        record: &record,
+        see_also,
+        provenance: None,
+    }
+    .page()
+}
+
+/// One study that passes and one that fails, each with a picture of two curves.
+pub(crate) fn two() -> Vec<Finished> {
+    let mut both = finished(vec![
+        study("good-1.0", Does::Converge),
+        study("bad", Does::Stay),
+    ]);
+    for finished in &mut both {
+        let series = |label: &str, order: i32| ErrorSeries {
+            label: label.to_owned(),
+            points: (3..8)
+                .map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k)))
+                .collect(),
+            ..ErrorSeries::default()
+        };
+        let svg = convergence(
+            Xy::of_errors("mesh width h"),
+            &[series("a<b", 1), series("c", 2)],
+            &[],
+        );
+        let file = format!("{}-errors.svg", finished.header.id);
+        finished.outcome.figures = vec![Figure {
+            file,
+            caption: "Two curves".to_owned(),
+            svg,
+        }];
+    }
+    both
+}
+
+/// The page without its scripts, which are not XML.
+fn parsed<T>(page: &str, read: impl FnOnce(&Document<'_>) -> T) -> T {
+    let mut rest = page.strip_prefix("<!DOCTYPE html>\n").expect("a doctype");
+    let mut text = String::new();
+    while let Some((before, after)) = rest.split_once("<script>") {
+        text += before;
+        rest = after.split_once("</script>").expect("an end").1;
+    }
+    text += rest;
+    read(&Document::parse(&text).unwrap_or_else(|error| panic!("{error} in\n{text}")))
+}
+
+fn named<'d>(document: &'d Document<'d>, name: &'d str) -> impl Iterator<Item = Node<'d, 'd>> {
+    document
+        .descendants()
+        .filter(move |node| node.tag_name().name() == name)
+}
+
+fn with_class<'d>(
+    document: &'d Document<'d>,
+    class: &'d str,
+) -> impl Iterator<Item = Node<'d, 'd>> {
+    document
+        .descendants()
+        .filter(move |node| node.attribute("class") == Some(class))
+}
+
+#[test]
+fn every_study_and_every_picture_is_there_and_can_be_linked_to() {
+    parsed(&page_of(&two()), |document| {
+        let studies: Vec<_> = with_class(document, "study").collect();
+        assert_eq!(
+            studies
+                .iter()
+                .map(|study| study.attribute("id").unwrap())
+                .collect::<Vec<_>>(),
+            ["bad", "good-1.0"]
+        );
+        for study in &studies {
+            let pictures = study
+                .descendants()
+                .filter(|node| node.attribute("data-plot").is_some())
+                .count();
+            assert_eq!(pictures, 1);
+            assert!(
+                study
+                    .descendants()
+                    .any(|node| node.tag_name().name() == "table")
+            );
+        }
+        let ids: Vec<&str> = document
+            .descendants()
+            .filter_map(|node| node.attribute("id"))
+            .collect();
+        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
+        let links: Vec<&str> = named(document, "a")
+            .filter_map(|link| link.attribute("href"))
+            .collect();
+        // Failures come first.
+        assert_eq!(links, ["#bad", "full/index.html", "#bad", "#good-1.0"]);
+    });
+}
+
+#[test]
+fn studies_that_do_not_pass_head_the_list_and_the_details_follow_its_order() {
+    let mut studies = finished(
+        [
+            ("a", Does::Converge),
+            ("b", Does::TooShort),
+            ("c", Does::Converge),
+            ("d", Does::Stay),
+        ]
+        .map(|(id, does)| study(id, does))
+        .into(),
+    );
+    for (finished, group) in studies.iter_mut().zip(["time", "time", "space", "space"]) {
+        finished.header.group = group.to_owned();
+    }
+    parsed(&page_of(&studies), |document| {
+        let body = named(document, "tbody")
+            .find(|body| body.children().any(|row| row.has_attribute("data-study")));
+        let rows = body.unwrap().children().filter(Node::is_element);
+        let label = |row: Node<'_, '_>| {
+            row.attribute("data-study")
+                .unwrap_or_else(|| row.first_child().unwrap().text().unwrap())
+                .to_owned()
+        };
+        assert_eq!(
+            rows.map(label).collect::<Vec<_>>(),
+            ["did not pass", "d", "b", "time", "a", "space", "c"]
+        );
+        let details: Vec<_> = with_class(document, "study")
+            .map(|study| study.attribute("id").unwrap())
+            .collect();
+        assert_eq!(details, ["d", "b", "a", "c"]);
+    });
+}
+
+#[test]
+fn what_wrote_the_page_is_said_below_what_failed_and_one_picture_is_wide() {
+    let page = page_of(&two());
+    let place = |text: &str| {
+        page.find(text)
+            .unwrap_or_else(|| panic!("{text} in {page}"))
+    };
+    assert!(
+        place("What did not pass") < place("Written by")
+            && place("Written by") < place("class=\"scroll wide\"")
+    );
+    assert_eq!(page.matches("class=\"scroll wide\"").count(), 1);
+}
+
+#[test]
+fn verdicts_come_first_and_studies_that_do_not_pass_are_unfolded() {
+    let page = page_of(&two());
+    assert!(page.find("class=\"overview\"") < page.find("class=\"study\""));
+    parsed(&page, |document| {
+        let open: Vec<bool> = with_class(document, "study")
+            .map(|study| study.has_attribute("open"))
+            .collect();
+        assert_eq!(open, [true, false]);
+        let badges: Vec<_> = document
+            .descendants()
+            .filter_map(|node| node.attribute("class"))
+            .collect();
+        assert_eq!(
+            badges
+                .iter()
+                .filter(|class| **class == "badge fail")
+                .count(),
+            4
+        );
+    });
+}
+
+#[test]
+fn of_many_studies_that_fail_three_are_unfolded() {
+    let studies = finished(
+        (0..5)
+            .map(|k| study(&format!("s{k}"), Does::Stay))
+            .collect(),
+    );
+    parsed(&page_of(&studies), |document| {
+        let open: Vec<bool> = with_class(document, "study")
+            .map(|study| study.has_attribute("open"))
+            .collect();
+        assert_eq!(open, [true, true, true, false, false]);
+    });
+}
+
+#[test]
+fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record() {
+    let front = Front {
+        subject: "A rod.",
+        picture: "a-errors.svg",
+        finding: "It is not as printed.",
+        statements: &[
+            ("First order", "a", "velocity"),
+            ("All checks", "a", ""),
+            ("Elsewhere", "gone", ""),
+        ],
+        plot: "a-errors.svg",
+        verified: "Errors fall.",
+    };
+    let project = Project { front, ..PROJECT };
+    let page = |does: Does, verdict: Verdict| {
+        let studies = finished(vec![study("a", does)]);
+        let record = Record::new("quick", "verify", verdict, None, studies);
+        Findings {
+            project: &project,
+            record: &record,
+            see_also: None,
+            provenance: None,
+        }
+        .readme()
+    };
+    let passing = page(Does::Converge, Verdict::Pass);
+    let place = |text: &str| {
+        passing
+            .find(text)
+            .unwrap_or_else(|| panic!("{text} in {passing}"))
+    };
+    let parts = [
+        "![A rod.](figures/a-errors.svg)",
+        "It is not as printed.",
+        "**First order",
+        "**[a](#a)**",
+        "![errors | h](figures/a-errors.svg)",
+        "Errors fall.",
+        "## All studies",
+    ];
+    let places = parts.map(place);
+    assert!(places.is_sorted(), "{places:?}");
+    assert!(
+        passing.contains(": rate 1.0000 ± 0.00005, claimed 1 ± 0.1 ([a](#a))")
+            && !passing.contains("Elsewhere"),
+        "{passing}"
+    );
+    assert!(!page(Does::Stay, Verdict::Fail).contains("What is verified"));
+}
+
+#[test]
+fn the_page_loads_nothing_and_escapes_hostile_texts() {
+    let hostile = "``` <script>alert(1)</script> ` ``\"><img src=http://x/y onerror=z> [a](javascript:b) ![c](//d) ]]> &amp;";
+    let mut studies = two();
+    for finished in &mut studies {
+        finished.header.claim = hostile.to_owned();
+        finished.outcome.summary = hostile.to_owned();
+        finished.outcome.checks[0].evidence = hostile.to_owned();
+        finished.outcome.tables[0].title = hostile.to_owned();
+        finished.outcome.tables[0].rows = vec![vec![hostile.to_owned()]; 40];
+        finished.outcome.figures[0].caption = hostile.to_owned();
+    }
+    let page = page_of(&studies);
+    assert_eq!(page.matches("<script").count(), 3, "the page's own");
+    assert!(page.contains("default-src 'none'"));
+    parsed(&page, |document| {
+        assert_eq!(
+            named(document, "img")
+                .chain(named(document, "iframe"))
+                .chain(named(document, "object"))
+                .count(),
+            0
+        );
+        for node in document.descendants() {
+            for attribute in node.attributes() {
+                let (name, value) = (attribute.name(), attribute.value());
+                assert!(!name.starts_with("on") && name != "src", "{name}");
+                let stays =
+                    value == "data:," || value.starts_with('#') || value == "full/index.html";
+                assert!(name != "href" || stays, "{value}");
+            }
+        }
+        // Claim twice, summary, evidence, title, caption under the picture, and forty rows.
+        let shown = document
+            .descendants()
+            .filter(|node| node.is_element() && node.text().is_some());
+        let text: String = shown
+            .flat_map(|node| node.children())
+            .filter_map(|node| node.text())
+            .collect();
+        assert!(
+            text.matches("<script>alert(1)</script>").count() >= 2 * (6 + 40),
+            "{text}"
+        );
+    });
+}
+
+#[test]
+fn a_long_table_is_folded_and_unfolded_where_the_study_does_not_pass() {
+    let mut studies = two();
+    for finished in &mut studies {
+        finished.outcome.tables[0].rows = vec![vec!["cell".to_owned()]; 40];
+    }
+    parsed(&page_of(&studies), |document| {
+        let folded = named(document, "details").filter(|node| node.attribute("class").is_none());
+        let open: Vec<bool> = folded.map(|node| node.has_attribute("open")).collect();
+        assert_eq!(open, [true, false]);
+    });
+}

@@ -1,9 +1,8 @@
 use super::refused::refusal;
 use super::typed::{changed, passes_but_not_without_each_case};
 use super::{file, text};
-use convergence_harness::judge::verdict::Verdict;
-use convergence_harness::study::kind::run_cases_here;
-use convergence_harness::study::{FromFile, Kind, Outcome};
+use convergence_study::internal::study::kind::run_cases_here;
+use convergence_study::{FromFile, Kind, Outcome, Verdict};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::projection::{Projected, Target};
 use thermobeam_study::kinds::orders::{Orders, Source as _, projection};

@@ -85,50 +85,100 @@ fn of_differences(levels: &[Level]) -> f64 {
 
 /// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
 fn exponent_with_limit(levels: &[Level]) -> f64 {
-    let mut best = (f64::INFINITY, f64::NAN);
-    for is_weighted in [false, true] {
+    let weightings = [false, true].map(|is_weighted| Weighting::new(levels, is_weighted));
+    let mut best = [Deviation::NONE; 2];
+    let mut powers = vec![0.0; levels.len()];
+    let (largest, count) = EXPONENTS;
+    for k in 1..=count {
+        let exponent = largest * k as f64 / count as f64;
+        for (power, level) in powers.iter_mut().zip(levels) {
+            *power = level.step.powf(exponent);
+        }
+        for (best, weighting) in best.iter_mut().zip(&weightings) {
+            let square = weighting.deviation(&powers);
+            if square < best.square {
+                *best = Deviation { square, exponent };
+            }
+        }
+    }
+    let [unweighted, weighted] = best;
+    if weighted.square < unweighted.square {
+        weighted.exponent
+    } else {
+        unweighted.exponent
+    }
+}
+
+/// What an exponent leaves.
+#[derive(Clone, Copy)]
+struct Deviation {
+    square: f64,
+    exponent: f64,
+}
+
+impl Deviation {
+    const NONE: Self = Self {
+        square: f64::INFINITY,
+        exponent: f64::NAN,
+    };
+}
+
+/// Levels with weights whose mean is 1, and what is the same for every exponent.
+struct Weighting {
+    weights: Vec<f64>,
+    /// The errors without their mean.
+    errors: Vec<f64>,
+    /// The weighted sum of their squares.
+    square: f64,
+}
+
+impl Weighting {
+    fn new(levels: &[Level], is_weighted: bool) -> Self {
         let mut weights = vec![];
+        let mut errors = vec![];
         for level in levels {
             weights.push(if is_weighted { 1.0 / level.step } else { 1.0 });
+            errors.push(level.error);
         }
         let total: f64 = weights.iter().sum();
         for weight in &mut weights {
             *weight *= levels.len() as f64 / total;
         }
-        let (largest, count) = EXPONENTS;
-        for k in 1..=count {
-            let exponent = largest * k as f64 / count as f64;
-            let deviation = deviation(levels, &weights, exponent);
-            if deviation < best.0 {
-                best = (deviation, exponent);
-            }
+        let mean = mean(&errors, &weights);
+        let mut square = 0.0;
+        for (error, weight) in errors.iter_mut().zip(&weights) {
+            *error -= mean;
+            square += *error * *error * weight;
+        }
+        Self {
+            weights,
+            errors,
+            square,
         }
     }
-    best.1
-}
 
-/// Weighted sum of squares that `limit + c h^exponent` leaves; the weights have the mean 1.
-fn deviation(levels: &[Level], weights: &[f64], exponent: f64) -> f64 {
-    let mut powers = vec![];
-    let mut errors = vec![];
-    for level in levels {
-        powers.push(level.step.powf(exponent));
-        errors.push(level.error);
+    /// The weighted sum of squares that `limit + c h^exponent` leaves.
+    ///
+    /// It is computed some million times, by plain loops and without allocations.
+    fn deviation(&self, powers: &[f64]) -> f64 {
+        let mean = mean(powers, &self.weights);
+        let [mut along, mut square] = [0.0; 2];
+        for i in 0..powers.len() {
+            let power = powers[i] - mean;
+            along += power * self.errors[i] * self.weights[i];
+            square += power * power * self.weights[i];
+        }
+        self.square - along * along / square
     }
-    let x = without_mean(&powers, weights);
-    let y = without_mean(&errors, weights);
-    let along = product(&x, &y, weights);
-    product(&y, &y, weights) - along * along / product(&x, &x, weights)
 }
 
-fn without_mean(values: &[f64], weights: &[f64]) -> Vec<f64> {
-    let mean = product(values, &vec![1.0; values.len()], weights) / values.len() as f64;
-    values.iter().map(|value| value - mean).collect()
-}
-
-fn product(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
-    let factors = a.iter().zip(b).zip(weights);
-    factors.map(|((a, b), weight)| a * b * weight).sum()
+/// The weighted mean; the weights have the mean 1.
+fn mean(values: &[f64], weights: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..values.len() {
+        sum += values[i] * weights[i];
+    }
+    sum / values.len() as f64
 }
 
 /// Distances of one practice from the claims of all tables.

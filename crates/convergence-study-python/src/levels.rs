@@ -92,6 +92,20 @@ impl LevelChoice {
         words.join(", ")
     }
 
+    /// What tells the next finer level apart: twice the count, or half the step.
+    ///
+    /// * `counts`: those of the levels so far.
+    pub(crate) fn finer(&mut self, counts: &[usize]) -> usize {
+        let last = counts.iter().copied().max().unwrap_or(1);
+        match self {
+            Self::Steps(steps) => {
+                steps.extend(steps.last().map(|finest| 0.5 * finest));
+                last + 1
+            }
+            _ => 2 * last,
+        }
+    }
+
     /// The step of a level that was requested by its step.
     pub(crate) fn step(&self, count: usize) -> Option<f64> {
         match self {

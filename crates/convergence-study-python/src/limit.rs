@@ -1,8 +1,7 @@
 //! Limits of values without an exact solution.
 
-use convergence_judge::judge::richardson::Estimate;
+use convergence_judge::{judge::richardson::Estimate, text::number::RATE_PLACES};
 use convergence_study::{Estimator, Value};
-use convergence_judge::text::number::RATE_PLACES;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 

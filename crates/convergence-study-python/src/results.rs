@@ -2,10 +2,17 @@
 
 use std::borrow::Cow;
 
-use convergence_study::Floor;
-use convergence_study::internal::study::over_levels::Levels;
-use convergence_study::internal::study::until_decided::{self, Looks, Next};
-use convergence_study::{Axis, Claim, ErrorsOverLevels, Header, internal::study::{NamedErrors, STEPS, header::is_name, run_cases_here}, levels};
+use convergence_study::{
+    Axis, Claim, ErrorsOverLevels, Floor, Header,
+    internal::study::{
+        NamedErrors, STEPS,
+        header::is_name,
+        over_levels::Levels,
+        run_cases_here,
+        until_decided::{self, Looks, Next},
+    },
+    levels,
+};
 use pyo3::prelude::*;
 
 use crate::studied::Study;
@@ -25,6 +32,8 @@ pub(crate) struct Options {
     #[pyo3(from_py_with = floor_from, into_py_with = floor_into)]
     pub(crate) floor: Floor,
     pub(crate) allow_inconclusive: bool,
+    /// Whether it is run with a variant of its solution: levels are added to those requested.
+    pub(crate) is_variant: bool,
 }
 
 fn floor_from(value: &Bound<'_, PyAny>) -> PyResult<Floor> {

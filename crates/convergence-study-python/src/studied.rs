@@ -4,12 +4,15 @@ use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use convergence_study::Verdict;
-use convergence_study::internal::program;
-use convergence_study::Finished;
-use convergence_study::internal::study::until_decided::Next;
-use convergence_study::{NamedRate, internal::study::{NamedErrors, STEPS, first_repeated}};
-use convergence_study::internal::verify;
+use convergence_study::{
+    Finished, NamedRate, Outcome, Verdict,
+    internal::{
+        program,
+        study::{NamedErrors, STEPS, first_repeated, until_decided::Next},
+        where_lost::{self, Located},
+    },
+    write_report,
+};
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -25,8 +28,9 @@ use crate::values::{Claims, number, refuse};
 /// each claim, by name; table(): steps, errors and rates as a DataFrame if pandas is available,
 /// otherwise as a dict of lists; to_dict(): all of it in types that JSON knows; report(folder):
 /// writes index.html, README.md, JUnit and records; assert_passes(): AssertionError unless it
-/// passes, or is inconclusive and that is allowed. It has no truth value. In a notebook it is shown
-/// as a table and a picture.
+/// passes, or is inconclusive and that is allowed; where: if variants of a solution were run, the
+/// parts in which the order is lost, as `--where` has them in JSON, otherwise None. It has no truth
+/// value. In a notebook it is shown as a table and a picture.
 #[pyclass(frozen, module = "convergence_study")]
 pub(crate) struct Study {
     pub(crate) results: Results,
@@ -57,6 +61,22 @@ impl Study {
         outcome.rates.iter().filter_map(judgement).collect()
     }
 
+    fn with_place(mut self, located: Located) -> Self {
+        let Finished {
+            header, outcome, ..
+        } = &mut self.finished;
+        let figure = where_lost::figure(header, outcome, &located);
+        outcome.figures.extend(figure);
+        self.finished.located = Some(located);
+        self
+    }
+
+    fn located_as_json(&self) -> PyResult<Option<String>> {
+        let located = self.finished.located.as_ref();
+        let json = located.map(serde_json::to_string).transpose();
+        json.map_err(refuse)
+    }
+
     /// The verdict in a line, then what the text of the study has.
     fn failure(&self) -> String {
         let judgements = self.judgements();
@@ -71,14 +91,54 @@ impl Study {
 
 #[pymethods]
 impl Study {
-    /// Judges the results again.
+    /// Judges the results again; what variants have shown is kept, as JSON.
     #[new]
-    fn new(results: Results) -> Self {
-        results.judged()
+    #[pyo3(signature = (results, located=None))]
+    fn new(results: Results, located: Option<&str>) -> PyResult<Self> {
+        let study = results.judged();
+        match located {
+            Some(located) => Ok(study.with_place(serde_json::from_str(located).map_err(refuse)?)),
+            None => Ok(study),
+        }
     }
 
-    fn __getnewargs__(&self) -> (Results,) {
-        (self.results.clone(),)
+    fn __getnewargs__(&self) -> PyResult<(Results, Option<String>)> {
+        Ok((self.results.clone(), self.located_as_json()?))
+    }
+
+    /// Whether the assertion fails because errors have not the order that is claimed for them.
+    fn _has_lost_order(&self) -> bool {
+        self.assert_passes().is_err() && !where_lost::lost(&self.finished.outcome).is_empty()
+    }
+
+    /// The same study with the place where its order is lost.
+    ///
+    /// * `variants`: the literal of the module, as JSON; `ran`: the study with each usable variant.
+    fn _located(&self, variants: &str, ran: Vec<PyRef<'_, Study>>) -> PyResult<Study> {
+        let variants = serde_json::from_str(variants)
+            .map_err(|error| refuse(format!("variants: VARIANTS of the module: {error}")))?;
+        let outcomes: Vec<&Outcome> = ran.iter().map(|study| &study.finished.outcome).collect();
+        let base = &self.finished.outcome;
+        if where_lost::is_unnoticed(base, &outcomes) {
+            return Err(refuse(
+                "variants: the errors are the same with all variants: solve does not use them. \
+                 Likely reasons: it takes its data from another module; it keeps values that were \
+                 computed when it was imported, or in a cache; it runs in processes or compiled \
+                 code that were started before",
+            ));
+        }
+        let located = where_lost::located(base, &variants, &outcomes);
+        Ok(self.results.clone().judged().with_place(located))
+    }
+
+    #[getter]
+    fn r#where<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let Some(located) = self.located_as_json()? else {
+            return Ok(None);
+        };
+        py.import("json")?
+            .call_method1("loads", (located,))
+            .map(Some)
     }
 
     #[getter]
@@ -128,7 +188,7 @@ impl Study {
     }
 
     fn report(&self, folder: PathBuf) -> PyResult<()> {
-        verify::report(
+        write_report(
             &program::PROJECT,
             std::slice::from_ref(&self.finished),
             &folder,
@@ -155,6 +215,7 @@ impl Study {
             Ok(dict)
         });
         dict.set_item("levels", levels.collect::<PyResult<Vec<_>>>()?)?;
+        dict.set_item("where", slf.get().r#where(slf.py())?)?;
         Ok(dict)
     }
 
@@ -183,6 +244,9 @@ impl Study {
                 let statement = check.statement();
                 text += &format!("{statement}: {}: {}\n", check.verdict, check.evidence);
             }
+        }
+        if let Some(located) = &self.finished.located {
+            text += &where_lost::text_of_located(located);
         }
         text
     }
@@ -296,7 +360,7 @@ pub(crate) fn study(
     options: Options,
 ) -> PyResult<Study> {
     let claims = Claims::read(order, tolerance)?;
-    let choice = LevelChoice::read(n, h)?;
+    let mut choice = LevelChoice::read(n, h)?;
     if !(options.budget > 0.0) {
         return Err(refuse(format!(
             "budget: expected a number of seconds > 0, found {}",
@@ -332,8 +396,9 @@ pub(crate) fn study(
         results.counts.push(count);
         results.errors.push(errors);
         let is_last = results.counts.len() == counts.len();
-        if choice.is_auto() && is_last && results.next(&seconds) == Next::Another {
-            counts.push(2 * count);
+        let may_go_on = choice.is_auto() || results.options.is_variant;
+        if may_go_on && is_last && results.next(&seconds) == Next::Another {
+            counts.push(choice.finer(&counts));
         }
     }
     if choice.is_auto() {

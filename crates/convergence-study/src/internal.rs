@@ -3,7 +3,9 @@
 
 #[cfg(feature = "command-line")]
 pub mod cli {
-    pub use crate::cli::{COMMANDS, Command, command_line, ended, main, main_with, program};
+    pub use crate::cli::{
+        COMMANDS, Command, command_line, ended, program, run_command_line, status_of,
+    };
     pub mod exit {
         pub use crate::cli::exit::{Outcome, Unusable, say};
     }
@@ -48,7 +50,7 @@ pub mod input {
 #[cfg(feature = "tables")]
 pub mod plots {
     pub use crate::plots::{
-        Axis, ErrorSeries, ForestRow, Guide, Phases, Scale, Series, SpaceTime, Surface,
+        Axis, ErrorSeries, ForestAxis, ForestRow, Guide, Phases, Scale, Series, SpaceTime, Surface,
         convergence, forest, history, iterations, panels, space_time, surface, work_precision,
     };
     pub mod canvas {
@@ -145,5 +147,10 @@ pub mod study {
 }
 #[cfg(feature = "reports")]
 pub mod verify {
-    pub use crate::verify::{publish, report};
+    pub use crate::verify::publish;
+}
+#[cfg(feature = "tables")]
+pub mod where_lost {
+    pub use crate::run::Located;
+    pub use crate::where_lost::{figure, is_unnoticed, located, lost, text_of_located};
 }

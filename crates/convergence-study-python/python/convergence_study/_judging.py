@@ -6,11 +6,13 @@ import json
 import os
 import pathlib
 from collections.abc import Callable, Iterable, Mapping
+from types import ModuleType
 from typing import Any, Union
 
 from . import _native
 from ._native import Judgement, Limit, Study
 from ._tables import with_index
+from ._variants import chosen, described
 
 Order = Union[float, str, Mapping[str, Union[float, str]], None]
 Numbers = Union[Iterable[Any], None]
@@ -111,6 +113,7 @@ def study(
     h: Numbers = None,
     floor: float = 0.0,
     allow_inconclusive: bool = False,
+    variants: ModuleType | None = None,
 ) -> Study:
     """Computes levels and judges the rates of their errors.
 
@@ -120,10 +123,14 @@ def study(
     themselves, each an argument of solve. order: as for judge; a dict has orders by name, and other errors are not judged; one number applies
     to every error. floor: as for judge. name: its name in reports. allow_inconclusive: whether assert_passes() accepts that verdict.
 
+    variants: the module that `convergence-study manufacture FILE --variants --language python` has written, from which solve takes source, data
+    and exact values. If the order is lost, solve is run with each variant of the solution, for at most the budget each, and the Study says in
+    which part of the program it is lost, as far as that follows.
+
     Returns a Study. Raises ValueError or TypeError, which names the argument, and exceptions of solve.
     """
-    tolerance = number("tolerance", tolerance)
-    return _native.study(solve, n, h, order, tolerance, options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive))
+    found = options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive)
+    return studied(solve, n, h, order, tolerance, found, variants)
 
 
 def rates(
@@ -150,6 +157,20 @@ def rates(
     return json.loads(_native.rates(source, is_text, order, number("tolerance", tolerance), number("floor", floor), chosen))
 
 
+def studied(solve, n, h, order, tolerance, options, variants):
+    """A study, and where its order is lost, if it is lost and there are variants of its solution."""
+    tolerance = number("tolerance", tolerance)
+    description = None if variants is None else described(variants)
+    study = _native.study(solve, n, h, order, tolerance, options)
+    if description is None or not study._has_lost_order():
+        return study
+    options, found = {**options, "is_variant": True}, []
+    for variant in description["usable"]:
+        with chosen(variants, variant["name"]):
+            found.append(_native.study(solve, n, h, order, tolerance, options))
+    return study._located(json.dumps(description), found)
+
+
 def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
     """What a study is called, and what it may do."""
     if not isinstance(name, str):
@@ -160,6 +181,7 @@ def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
         "budget": number("budget", budget),
         "floor": number("floor", floor),
         "allow_inconclusive": bool(allow_inconclusive),
+        "is_variant": False,
     }
 
 

@@ -60,10 +60,12 @@ class Convergence:
         found, _ = _judging.judged("convergence.assert_order", h, errors, order, tolerance, floor=floor, **table)
         return self._kept(_native.study_of(found, self._options(None, floor=floor, allow_inconclusive=allow_inconclusive)))
 
-    def _study(self, solve, n=None, order=None, budget=60.0, tolerance=0.25, name=None, *, h=None, floor=0.0, allow_inconclusive=False):
+    def _study(
+        self, solve, n=None, order=None, budget=60.0, tolerance=0.25, name=None, *, h=None, floor=0.0, allow_inconclusive=False, variants=None
+    ):
         __tracebackhide__ = True
         options = self._options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive)
-        return self._kept(_native.study(solve, n, h, order, _judging.number("tolerance", tolerance), options))
+        return self._kept(_judging.studied(solve, n, h, order, tolerance, options, variants))
 
     def _options(self, name, **more):
         test = self._test if self._calls == 0 else f"{self._test}{CALL}{self._calls + 1}"

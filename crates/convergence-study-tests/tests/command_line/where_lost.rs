@@ -95,6 +95,35 @@ fn the_face_whose_flat_variant_has_its_order_back_is_named() {
 }
 
 #[test]
+fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
+    let root = project(PROGRAM, &["flat_x_max", "flat_x", "flat_everywhere"]);
+    let words = ["study", "study.toml", "--where", "--out", "report"];
+    let (status, _, err) = run(&root, &words);
+    assert_eq!((status, err.as_str()), (Some(1), ""));
+    let report = root.path().join("report");
+    let figure = fs::read_to_string(report.join("figures/rod-where.svg")).unwrap();
+    for text in [
+        "rod: rate of the error L2 by variant",
+        "rate; the line is the order claimed, 2, the band its tolerance",
+        "the solution itself",
+        "flat_x_max: back",
+        "flat_x_min: lost",
+    ] {
+        assert!(figure.contains(text), "{text}: {figure}");
+    }
+    let page = fs::read_to_string(report.join("README.md")).unwrap();
+    assert!(page.contains("(figures/rod-where.svg)"), "{page}");
+    assert!(
+        page.contains("the order is lost at the face x_max"),
+        "{page}"
+    );
+    // Without --where there is neither.
+    run(&root, &["study", "study.toml", "--out", "other"]);
+    let page = fs::read_to_string(root.path().join("other/README.md")).unwrap();
+    assert!(!page.contains("where.svg"), "{page}");
+}
+
+#[test]
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
     for (hidden_in, words) in [
         (

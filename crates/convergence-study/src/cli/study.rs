@@ -12,6 +12,7 @@ use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::visible;
 use crate::verify::{publish, record};
+use crate::where_lost::text_of_located;
 
 use super::exit::Outcome;
 use super::flags::Flags;
@@ -189,7 +190,7 @@ fn text(finished: &Finished) -> String {
     let located = finished
         .located
         .as_ref()
-        .map(|located| format!("\n{}", where_lost::text(located)));
+        .map(|located| format!("\n{}", text_of_located(located)));
     text + &located.unwrap_or_default() + &no_test_of(&finished.untested)
 }
 
@@ -199,11 +200,11 @@ mod tests {
 
     use super::*;
     use crate::run::Spent;
-    use crate::study::{Header, erased, levels};
+    use crate::study::{Header, boxed_study, levels};
 
     #[test]
     fn the_seconds_of_a_study_are_those_that_passed() {
-        let study = erased(
+        let study = boxed_study(
             Header::new("s", "c"),
             levels([4, 8, 16], |n| 1.0 / n as f64),
         );

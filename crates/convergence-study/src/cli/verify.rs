@@ -23,6 +23,7 @@ use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
 use crate::verify::{Blessing, Request, Scope, Verification};
+use crate::where_lost::text_of_located;
 use selection::{dry_run, failed, files, scope};
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
@@ -252,7 +253,7 @@ fn text(
 /// Where the orders of studies are lost, if this was searched for.
 fn located(studies: &[Finished]) -> String {
     let located = studies.iter().filter_map(|study| {
-        let located = where_lost::text(study.located.as_ref()?);
+        let located = text_of_located(study.located.as_ref()?);
         Some(format!("{}\n{located}", study.header.id))
     });
     located.collect::<Vec<_>>().join("\n")

@@ -1,15 +1,12 @@
-//! Judged rates, each with its name and its interval, relative to its claim (a forest plot).
+//! Judged rates, each with its name and its interval, below each other (a forest plot).
 
 use super::canvas::{Anchor, Canvas, Layer, Pen, Rect};
 use super::style::{
     self, GRID, INK, MUTED, NOTE_SIZE, SHADE, TICK_SIZE, TITLE_SIZE, elide, text_width,
 };
 use crate::interval::Interval;
-use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::judge::verdict::{Band, Verdict};
 use plotters::style::RGBColor;
-
-/// Half the width of the plot in tolerances: the band of a claim is [-1, 1].
-const REACH: f64 = 2.0;
 
 /// Height of a row: a name, and the numbers below it, in px.
 const ROW: f64 = 46.0;
@@ -21,6 +18,9 @@ const BOTTOM: f64 = 66.0;
 /// Widest label, in px; a longer one is cut.
 const LABELS: f64 = 470.0;
 
+/// Room beyond the outermost rates.
+const MARGIN: f64 = 0.1;
+
 /// A rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForestRow {
@@ -28,12 +28,97 @@ pub struct ForestRow {
     pub label: String,
     /// Its numbers, below the name.
     pub numbers: String,
-    /// What was judged.
-    pub rate: RateVerdict,
+    /// Where it is on the axis; `None` or NaN if there is none.
+    pub value: Option<f64>,
+    /// Its interval on the axis.
+    pub interval: Option<Interval>,
+    /// Its colour.
+    pub verdict: Verdict,
 }
 
-/// Draws rates as points with their intervals, in units of their tolerances, from top to bottom.
-pub fn forest(title: &str, rows: &[ForestRow]) -> String {
+/// The horizontal axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForestAxis {
+    /// What it measures.
+    pub label: String,
+    /// The part that is drawn.
+    pub range: Interval,
+    /// The values with a line and a number.
+    pub ticks: Vec<f64>,
+    /// The claimed value, a darker line.
+    pub claimed: f64,
+    /// The tolerance, shaded.
+    pub tolerance: Interval,
+    /// What the colours of pass, inconclusive and fail mean.
+    pub colours: [&'static str; 3],
+}
+
+impl ForestAxis {
+    /// Deviations from the claims of several rates, in units of their tolerances.
+    pub fn in_tolerances() -> Self {
+        Self {
+            label: "observed rate \u{2212} order claimed, in tolerances".to_owned(),
+            range: Interval::around(0.0, 2.0),
+            ticks: vec![-2.0, -1.0, 0.0, 1.0, 2.0],
+            claimed: 0.0,
+            tolerance: Interval::around(0.0, 1.0),
+            colours: ["pass", "inconclusive", "fail"],
+        }
+    }
+
+    /// Rates against one claim.
+    ///
+    /// * `rates`: those to be seen; what is more than 3 below the claim, or more than 2 above, is
+    ///   beyond the plot.
+    pub fn of_rates(
+        claim: Band,
+        rates: impl IntoIterator<Item = f64>,
+        colours: [&'static str; 3],
+    ) -> Self {
+        let Band {
+            order, tolerance, ..
+        } = claim;
+        let mut low = order - 1.0;
+        let mut high = order + 0.5;
+        for rate in rates.into_iter().filter(|rate| rate.is_finite()) {
+            low = low.min(rate.max(order - 3.0) - MARGIN);
+            high = high.max(rate.min(order + 2.0) + MARGIN);
+        }
+        // Whole halves.
+        let first = (2.0 * low).floor() as i64;
+        let last = (2.0 * high).ceil() as i64;
+        Self {
+            label: format!("rate; the line is the order claimed, {order}, the band its tolerance"),
+            range: Interval {
+                low: 0.5 * first as f64,
+                high: 0.5 * last as f64,
+            },
+            ticks: (first..=last).map(|half| 0.5 * half as f64).collect(),
+            claimed: order,
+            tolerance: Interval::around(order, tolerance),
+            colours,
+        }
+    }
+
+    /// The px of a value; values beyond the plot go to its edge.
+    fn px(&self, plot: &Rect, value: f64) -> f64 {
+        let Interval { low, high } = self.range;
+        plot.left + (value.clamp(low, high) - low) / (high - low) * plot.width()
+    }
+
+    /// Ticks relative to the claim have a sign.
+    fn tick(&self, value: f64) -> String {
+        let sign = match value {
+            value if value < 0.0 => "\u{2212}",
+            value if value > 0.0 && self.claimed == 0.0 => "+",
+            _ => "",
+        };
+        format!("{sign}{}", value.abs())
+    }
+}
+
+/// Draws rates as points with their intervals from top to bottom.
+pub fn forest(title: &str, axis: &ForestAxis, rows: &[ForestRow]) -> String {
     let texts = rows.iter().flat_map(|row| [&row.label, &row.numbers]);
     let widths = texts.map(|text| text_width(text, NOTE_SIZE));
     let plot = Rect {
@@ -46,86 +131,73 @@ pub fn forest(title: &str, rows: &[ForestRow]) -> String {
     canvas.draw(Layer::default(), |pen| {
         let middle = 0.5 * style::WIDTH;
         pen.text(title, (middle, 24.0), TITLE_SIZE, Anchor::Center, INK);
-        legend(pen);
-        scale(pen, &plot);
+        legend(pen, axis);
+        scale(pen, axis, &plot);
         for (k, row) in rows.iter().enumerate() {
-            draw_row(pen, row, &plot, plot.top + ROW * k as f64);
+            draw_row(pen, axis, row, &plot, plot.top + ROW * k as f64);
         }
     });
     canvas.finish(title, "")
 }
 
-/// The px of a value in tolerances; values beyond the plot go to its edge.
-fn px(plot: &Rect, value: f64) -> f64 {
-    let fraction = (value.clamp(-REACH, REACH) + REACH) / (2.0 * REACH);
-    plot.left + fraction * plot.width()
-}
-
-fn legend(pen: &Pen<'_>) {
+fn legend(pen: &Pen<'_>, axis: &ForestAxis) {
     let mut x = 12.0;
-    for (verdict, label) in [
-        (Verdict::Pass, "pass"),
-        (Verdict::Inconclusive, "inconclusive"),
-        (Verdict::Fail, "fail"),
-        (Verdict::Fail, "beyond the plot"),
-    ] {
-        if label.starts_with("beyond") {
-            arrow(pen, (x + 12.0, 54.0), 1.0, colour(verdict));
-        } else {
-            pen.line(&[(x, 54.0), (x + 24.0, 54.0)], colour(verdict), 2.4);
-            pen.disc((x + 12.0, 54.0), 5.0, colour(verdict));
-        }
-        pen.text(label, (x + 32.0, 54.0), NOTE_SIZE, Anchor::Left, INK);
-        x += 32.0 + text_width(label, NOTE_SIZE) + 18.0;
+    let verdicts = [Verdict::Pass, Verdict::Inconclusive, Verdict::Fail];
+    for (verdict, label) in verdicts.into_iter().zip(axis.colours) {
+        pen.line(&[(x, 54.0), (x + 24.0, 54.0)], colour(verdict), 2.4);
+        pen.disc((x + 12.0, 54.0), 5.0, colour(verdict));
+        x = legend_label(pen, label, x);
     }
+    arrow(pen, (x + 12.0, 54.0), 1.0, colour(Verdict::Fail));
+    legend_label(pen, "beyond the plot", x);
 }
 
-fn scale(pen: &Pen<'_>, plot: &Rect) {
+/// Writes the label of an entry that begins at x; returns where the next one begins.
+fn legend_label(pen: &Pen<'_>, label: &str, x: f64) -> f64 {
+    pen.text(label, (x + 32.0, 54.0), NOTE_SIZE, Anchor::Left, INK);
+    x + 32.0 + text_width(label, NOTE_SIZE) + 18.0
+}
+
+fn scale(pen: &Pen<'_>, axis: &ForestAxis, plot: &Rect) {
+    let Interval { low, high } = axis.tolerance;
     pen.rect(
         Rect {
-            left: px(plot, -1.0),
-            right: px(plot, 1.0),
+            left: axis.px(plot, low),
+            right: axis.px(plot, high),
             ..*plot
         },
         SHADE,
     );
-    for (value, label) in [
-        (-2.0, "\u{2212}2"),
-        (-1.0, "\u{2212}1"),
-        (0.0, "0"),
-        (1.0, "+1"),
-        (2.0, "+2"),
-    ] {
-        let x = px(plot, value);
-        pen.line(
-            &[(x, plot.top), (x, plot.bottom)],
-            if value == 0.0 { MUTED } else { GRID },
-            style::THIN,
+    for value in &axis.ticks {
+        let is_claimed = *value == axis.claimed;
+        vertical(
+            pen,
+            axis,
+            plot,
+            *value,
+            if is_claimed { MUTED } else { GRID },
         );
-        pen.text(
-            label,
-            (x, plot.bottom + 16.0),
-            NOTE_SIZE,
-            Anchor::Center,
-            INK,
-        );
+        let place = (axis.px(plot, *value), plot.bottom + 16.0);
+        pen.text(&axis.tick(*value), place, NOTE_SIZE, Anchor::Center, INK);
     }
-    let axis = "observed rate \u{2212} order claimed, in tolerances";
-    pen.text(
-        axis,
-        (plot.centre().0, plot.bottom + 44.0),
-        TICK_SIZE,
-        Anchor::Center,
-        INK,
-    );
+    if !axis.ticks.contains(&axis.claimed) {
+        vertical(pen, axis, plot, axis.claimed, MUTED);
+    }
+    let place = (plot.centre().0, plot.bottom + 44.0);
+    pen.text(&axis.label, place, TICK_SIZE, Anchor::Center, INK);
 }
 
-fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
+fn vertical(pen: &Pen<'_>, axis: &ForestAxis, plot: &Rect, value: f64, colour: RGBColor) {
+    let x = axis.px(plot, value);
+    pen.line(&[(x, plot.top), (x, plot.bottom)], colour, style::THIN);
+}
+
+fn draw_row(pen: &Pen<'_>, axis: &ForestAxis, row: &ForestRow, plot: &Rect, top: f64) {
     let y = top + 0.5 * ROW;
-    let ink = if row.rate.verdict == Verdict::Pass {
+    let ink = if row.verdict == Verdict::Pass {
         INK
     } else {
-        colour(row.rate.verdict)
+        colour(row.verdict)
     };
     let right = plot.left - 12.0;
     let label = elide(&row.label, NOTE_SIZE, LABELS);
@@ -133,44 +205,42 @@ fn draw_row(pen: &Pen<'_>, row: &ForestRow, plot: &Rect, top: f64) {
     let numbers = elide(&row.numbers, NOTE_SIZE, LABELS);
     pen.text(&numbers, (right, y + LINE), NOTE_SIZE, Anchor::Right, MUTED);
     pen.line(&[(12.0, top), (plot.right, top)], GRID, 0.5 * style::THIN);
-    draw_rate(pen, &row.rate, plot, y);
+    draw_rate(pen, axis, row, plot, y);
 }
 
-/// A value in units of its claim's tolerance; NaN without a claim, which no picture shows.
-fn relative(rate: &RateVerdict, value: f64) -> f64 {
-    rate.claimed.map_or(f64::NAN, |band| band.distance(value))
-}
-
-fn draw_rate(pen: &Pen<'_>, rate: &RateVerdict, plot: &Rect, y: f64) {
-    let colour = colour(rate.verdict);
-    let value = rate.fitted.map(|value| relative(rate, value));
-    let interval = rate
-        .interval
-        .map(|ends| ends.map(|end| relative(rate, end)));
-    if let Some(ends) = interval
+fn draw_rate(pen: &Pen<'_>, axis: &ForestAxis, row: &ForestRow, plot: &Rect, y: f64) {
+    let colour = colour(row.verdict);
+    let range = axis.range;
+    if let Some(ends) = row.interval
         && ends.is_finite()
     {
         let Interval { low, high } = ends;
-        pen.line(&[(px(plot, low), y), (px(plot, high), y)], colour, 2.4);
+        let line = [(axis.px(plot, low), y), (axis.px(plot, high), y)];
+        pen.line(&line, colour, 2.4);
         // An interval that extends beyond the frame; if the rate does too, it has its own arrow.
-        let is_within = value.is_some_and(|value| value.abs() <= REACH);
+        let is_within = row.value.is_some_and(|value| range.holds(value));
         for end in [low, high]
             .into_iter()
-            .filter(|end| is_within && end.abs() > REACH)
+            .filter(|end| is_within && !range.holds(*end))
         {
-            tick(pen, (px(plot, end), y), end.signum(), colour);
+            tick(pen, (axis.px(plot, end), y), side(range, end), colour);
         }
     }
-    let Some(value) = value.filter(|value| value.is_finite()) else {
+    let Some(value) = row.value.filter(|value| value.is_finite()) else {
         return;
     };
-    if value.abs() <= REACH {
-        pen.disc((px(plot, value), y), 5.0, colour);
+    if range.holds(value) {
+        pen.disc((axis.px(plot, value), y), 5.0, colour);
     } else {
-        let direction = value.signum();
-        let place = (px(plot, value) - 8.0 * direction, y);
+        let direction = side(range, value);
+        let place = (axis.px(plot, value) - 8.0 * direction, y);
         arrow(pen, place, direction, colour);
     }
+}
+
+/// On which side of a range a value beyond it is: -1 or 1.
+fn side(range: Interval, value: f64) -> f64 {
+    if value < range.low { -1.0 } else { 1.0 }
 }
 
 /// A small triangle whose point is on the frame.
@@ -203,24 +273,18 @@ fn colour(verdict: Verdict) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::judge_pairs;
-
-    /// Claimed are an order of 0 and a tolerance of 1.
-    fn missing(verdict: Verdict) -> RateVerdict {
-        let mut rate = judge_pairs([], 0.0, 1.0);
-        rate.verdict = verdict;
-        rate
-    }
-
     fn row(label: &str, rate: f64, half: f64, verdict: Verdict) -> ForestRow {
-        let mut judged = missing(verdict);
-        judged.fitted = Some(rate);
-        judged.interval = Some(Interval::around(rate, half));
         ForestRow {
             label: label.into(),
             numbers: format!("numbers of {label}"),
-            rate: judged,
+            value: Some(rate),
+            interval: Some(Interval::around(rate, half)),
+            verdict,
         }
+    }
+
+    fn drawn(title: &str, rows: &[ForestRow]) -> String {
+        forest(title, &ForestAxis::in_tolerances(), rows)
     }
 
     #[test]
@@ -231,10 +295,12 @@ mod tests {
             ForestRow {
                 label: "none".into(),
                 numbers: "no rate".into(),
-                rate: missing(Verdict::Inconclusive),
+                value: None,
+                interval: None,
+                verdict: Verdict::Inconclusive,
             },
         ];
-        let svg = forest("All rates", &rows);
+        let svg = drawn("All rates", &rows);
         for text in [
             "sound",
             "numbers of sound",
@@ -254,7 +320,7 @@ mod tests {
     fn an_interval_that_the_frame_cuts_has_a_small_arrow() {
         let count = |half: f64| {
             let rows = [row("a", 0.5, half, Verdict::Inconclusive)];
-            forest("", &rows).matches("<polygon").count()
+            drawn("", &rows).matches("<polygon").count()
         };
         // One belongs to the legend.
         assert_eq!([count(1.0), count(2.0), count(5.0)], [1, 2, 3]);
@@ -263,7 +329,39 @@ mod tests {
     #[test]
     fn a_long_label_is_cut_and_nan_draws_nothing() {
         let rows = [row(&"x".repeat(200), f64::NAN, f64::NAN, Verdict::Fail)];
-        let svg = forest("", &rows);
+        let svg = drawn("", &rows);
         assert!(svg.contains('…') && !svg.contains("NaN"));
+    }
+
+    #[test]
+    fn rates_against_one_claim_have_their_own_values_at_the_ticks() {
+        let band = Band {
+            order: 2.0,
+            tolerance: 0.25,
+        };
+        let words = ["back", "undecided", "lost"];
+        let axis = ForestAxis::of_rates(band, [2.01, 1.02, f64::NAN], words);
+        assert_eq!(
+            axis.range,
+            Interval {
+                low: 0.5,
+                high: 2.5
+            }
+        );
+        assert_eq!(axis.ticks, [0.5, 1.0, 1.5, 2.0, 2.5]);
+        let svg = forest("", &axis, &[row("a", 1.02, 0.1, Verdict::Fail)]);
+        for text in ["undecided", "the order claimed, 2", "\n1.5\n", "\n2.5\n"] {
+            assert!(svg.contains(text), "{text}: {svg}");
+        }
+        assert!(!svg.contains("+2"));
+        // Far rates are arrows, not the range.
+        let axis = ForestAxis::of_rates(band, [-30.0, 40.0], words);
+        assert_eq!(
+            axis.range,
+            Interval {
+                low: -1.5,
+                high: 4.5
+            }
+        );
     }
 }

@@ -14,7 +14,7 @@
 //! | [`iterations`] | iterations per step |
 //! | [`panels`] | figures one below the other |
 //! | [`inset`] | a small figure inside a larger one |
-//! | [`forest`] | judged rates with their intervals, relative to their claims |
+//! | [`forest`] | judged rates with their intervals, relative to their claims or to one |
 //! | [`work_precision`] | error against run time |
 //!
 //! The drawing can be read back: `attributes` writes names and values into the picture, for a page that
@@ -53,7 +53,7 @@ pub(crate) mod style;
 pub(crate) mod xy;
 
 pub use convergence::{ErrorSeries, convergence};
-pub use forest::{ForestRow, forest};
+pub use forest::{ForestAxis, ForestRow, forest};
 pub use heat::{Surface, surface};
 pub use history::{history, iterations, work_precision};
 pub use panels::panels;

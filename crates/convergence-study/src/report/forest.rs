@@ -1,7 +1,7 @@
 //! The picture of the rates nearest to a failure at the head of a report.
 
 use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
-use crate::plots::{ForestRow, forest};
+use crate::plots::{ForestAxis, ForestRow, forest};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::study::{Figure, NamedRate};
@@ -60,7 +60,7 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
     Some(Figure {
         file: FILE.to_owned(),
         caption,
-        svg: forest(&title, &rows),
+        svg: forest(&title, &ForestAxis::in_tolerances(), &rows),
     })
 }
 
@@ -88,8 +88,17 @@ fn row(StudyRate { study, name, rate }: StudyRate<'_>) -> ForestRow {
     ForestRow {
         label: format!("{study}: {name}"),
         numbers: against_claim(&numbers, &rate.claim()).replace('-', "\u{2212}"),
-        rate: rate.clone(),
+        value: rate.fitted.map(|value| relative(rate, value)),
+        interval: rate
+            .interval
+            .map(|ends| ends.map(|end| relative(rate, end))),
+        verdict: rate.verdict,
     }
+}
+
+/// A value in units of its claim's tolerance; NaN without a claim, which no picture shows.
+fn relative(rate: &RateVerdict, value: f64) -> f64 {
+    rate.claimed.map_or(f64::NAN, |band| band.distance(value))
 }
 
 /// Studies by the property they claim, in the project's order of groups; those of unknown groups

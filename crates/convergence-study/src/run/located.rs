@@ -3,16 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::judge::verdict::RateVerdict;
-
-/// A part of a program, as variants of a solution switch it off.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Part {
-    /// `face`, `coordinate`, `time`, `initial`, `parameter`, `field`, or several of them.
-    pub part: String,
-    /// Its name, such as `x_max`; absent where there is only one such part.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-}
+use crate::study::variants::Part;
 
 /// What the variants of a study's solution show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,7 +33,7 @@ pub enum Fate {
 /// A variant of a solution, and the rates with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VariantRates {
-    /// Its name, the value of `MANUFACTURE_VARIANT`.
+    /// Its name.
     pub name: String,
     /// What it switches off.
     pub switches_off: Part,

@@ -34,7 +34,8 @@ pub(crate) use convergence_judge::time_limit;
 pub(crate) use failures::items;
 pub use failures::{Item, NotPassed, not_passed};
 pub use levels::assert_order;
-pub(crate) use located::{Fate, Located, Part, VariantRate, VariantRates};
+pub use located::Located;
+pub(crate) use located::{Fate, VariantRate, VariantRates};
 pub use queue::Progress;
 
 /// A study that has been run: one object of a record.

@@ -1,10 +1,9 @@
 //! Made-up data that look like the real thing, one set per figure.
 
 use convergence_judge::judge::verdict::PowerLaw;
-use convergence_study::Interval;
 use convergence_study::internal::plots::xy::Xy;
 use convergence_study::internal::plots::*;
-use convergence_study::{RateVerdict, Verdict, judge_pairs};
+use convergence_study::{Band, Interval, Verdict};
 
 /// Every figure, drawn.
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {
@@ -27,7 +26,8 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
                 .titled("The midpoint rule reaches every error first")
                 .draw(),
         ),
-        ("forest", forest("All rates", &all_rates())),
+        ("forest", over_tolerances()),
+        ("variants", over_variants()),
         ("hostile", hostile().draw()),
     ]
 }
@@ -383,29 +383,39 @@ pub(crate) fn hostile() -> Xy {
 
 /// Rates that pass, that do not, that lie beyond the plot, and one that is missing.
 pub(crate) fn all_rates() -> Vec<ForestRow> {
-    // Claimed are an order of 0 and a tolerance of 1.
-    let none = |verdict| {
-        let mut judged = judge_pairs([], 0.0, 1.0);
-        judged.verdict = verdict;
-        judged
-    };
-    let rate = |rate: f64, half: f64, verdict| {
-        let mut judged = none(verdict);
-        judged.fitted = Some(rate);
-        judged.interval = Some(Interval::around(rate, half));
-        judged
-    };
-    let row = |label: &str, rate: RateVerdict| ForestRow {
+    let row = |label: &str, rate: Option<(f64, f64)>, verdict| ForestRow {
         label: label.into(),
         numbers: "1.000 to 1.004, claimed 1 ± 0.05".into(),
-        rate,
+        value: rate.map(|(value, _)| value),
+        interval: rate.map(|(value, half)| Interval::around(value, half)),
+        verdict,
     };
     vec![
-        row("lost-order: L2", rate(-20.0, 0.1, Verdict::Fail)),
-        row("lost-order: H1", none(Verdict::Inconclusive)),
-        row("scattered: L2", rate(0.4, 1.1, Verdict::Inconclusive)),
-        row("scattered: H1", rate(0.2, 3.0, Verdict::Inconclusive)),
-        row("first-order: L2", rate(0.1, 0.2, Verdict::Pass)),
-        row("first-order: H1", rate(-0.3, 0.1, Verdict::Pass)),
+        row("lost-order: L2", Some((-20.0, 0.1)), Verdict::Fail),
+        row("lost-order: H1", None, Verdict::Inconclusive),
+        row("scattered: L2", Some((0.4, 1.1)), Verdict::Inconclusive),
+        row("scattered: H1", Some((0.2, 3.0)), Verdict::Inconclusive),
+        row("first-order: L2", Some((0.1, 0.2)), Verdict::Pass),
+        row("first-order: H1", Some((-0.3, 0.1)), Verdict::Pass),
     ]
+}
+
+fn over_tolerances() -> String {
+    forest("All rates", &ForestAxis::in_tolerances(), &all_rates())
+}
+
+/// Rates by variant of a solution.
+fn over_variants() -> String {
+    let claim = Band {
+        order: 2.0,
+        tolerance: 0.25,
+    };
+    let mut rows = all_rates();
+    for (row, value) in rows.iter_mut().zip([-20.0, 1.0, 1.1, 0.2, 2.0, 1.98]) {
+        row.value = Some(value);
+        row.interval = Some(Interval::around(value, 0.1));
+    }
+    let rates: Vec<f64> = rows.iter().filter_map(|row| row.value).collect();
+    let axis = ForestAxis::of_rates(claim, rates, ["back", "undecided", "lost"]);
+    forest("The order comes back without x", &axis, &rows)
 }

@@ -8,6 +8,7 @@
 //! | a parameter zero | its term |
 //! | a field constant | what acts on it |
 
+mod described;
 mod design;
 mod emitted;
 mod switch;
@@ -25,6 +26,7 @@ use crate::problem::{InputError, Problem};
 use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
+pub use described::{DescribedVariant, Description};
 use design::{Design, MIDDLE, Side, designs, sides};
 pub use switch::Switch;
 pub(crate) use variation::{Bubble, Step, Variation};
@@ -79,7 +81,11 @@ impl Variants<'_> {
     /// # Errors
     /// In words: a language that has no variants yet.
     pub fn emit(&self, language: Language) -> Result<Vec<EmittedFile>, String> {
-        emitted::files(self.base, &self.usable, language)
+        let mut files = emitted::files(self.base, &self.usable, language)?;
+        if language == Language::Python {
+            files[0].text += &self.description().literal();
+        }
+        Ok(files)
     }
 }
 

@@ -104,7 +104,7 @@ impl Source for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
         keys: &[&[&LOADED, &RUNS], &[&FREE, &RUNS]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
               polynomials of its degree: q + 2, but at most 2q + 1, for displacements, q + 1 for velocities (THEORY.md).",

@@ -15,14 +15,13 @@
 //! off more must agree. What is not known is no evidence: a part is not named if a variant that its
 //! name rests on is missing or undecided.
 
-use manufacture::Switch;
-
 use crate::run::Fate;
+use crate::study::variants::Part;
 
 /// A variant, and what became of the order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Examined {
-    pub(super) switch: Switch,
+    pub(super) part: Part,
     pub(super) fate: Fate,
 }
 
@@ -39,25 +38,25 @@ pub(super) enum Conclusion {
     Initial,
     /// Inside the domain: in what acts along a coordinate or time, or has a parameter or a field; if
     /// there are several, in what has all of them.
-    Inside(Vec<Switch>),
+    Inside(Vec<Part>),
     /// Lost in each variant.
     Everywhere,
     /// A variant would decide, and is missing or undecided: these are.
-    Open(Vec<Switch>),
+    Open(Vec<Part>),
     /// No single part explains what the variants show.
     Several,
 }
 
 impl Conclusion {
     /// The parts that are named.
-    pub(super) fn named(&self) -> Vec<Switch> {
+    pub(super) fn named(&self) -> Vec<Part> {
         match self {
-            Self::Faces(names) => names.iter().cloned().map(Switch::Face).collect(),
+            Self::Faces(names) => names.iter().cloned().map(Part::Face).collect(),
             Self::FaceInTime { face, time } => {
-                vec![Switch::Face(face.clone()), Switch::Time(time.clone())]
+                vec![Part::Face(face.clone()), Part::Time(time.clone())]
             }
-            Self::Corner(names) => names.iter().cloned().map(Switch::Face).collect(),
-            Self::Initial => vec![Switch::Initial],
+            Self::Corner(names) => names.iter().cloned().map(Part::Face).collect(),
+            Self::Initial => vec![Part::Initial],
             Self::Inside(parts) => parts.clone(),
             Self::Everywhere | Self::Open(_) | Self::Several => vec![],
         }
@@ -81,7 +80,7 @@ pub(super) fn decide(examined: &[Examined]) -> Conclusion {
         Found::Conclusion(conclusion) => conclusion,
         Found::Nothing if examined.iter().any(|one| one.fate == Fate::Unknown) => {
             let unknown = examined.iter().filter(|one| one.fate == Fate::Unknown);
-            Conclusion::Open(unknown.map(|one| one.switch.clone()).collect())
+            Conclusion::Open(unknown.map(|one| one.part.clone()).collect())
         }
         Found::Nothing if examined.iter().all(|one| one.fate == Fate::Lost) => {
             Conclusion::Everywhere
@@ -109,33 +108,33 @@ impl Found {
 struct Table<'e>(&'e [Examined]);
 
 impl Table<'_> {
-    fn fates(&self, is_wanted: impl Fn(&Switch) -> bool) -> Vec<Fate> {
-        let wanted = self.0.iter().filter(|one| is_wanted(&one.switch));
+    fn fates(&self, is_wanted: impl Fn(&Part) -> bool) -> Vec<Fate> {
+        let wanted = self.0.iter().filter(|one| is_wanted(&one.part));
         wanted.map(|one| one.fate).collect()
     }
 
     /// Whether the order is back in all such variants; true if the file has none.
-    fn are_back(&self, is_wanted: impl Fn(&Switch) -> bool) -> bool {
+    fn are_back(&self, is_wanted: impl Fn(&Part) -> bool) -> bool {
         self.fates(is_wanted).iter().all(|fate| *fate == Fate::Back)
     }
 
-    fn are_lost(&self, is_wanted: impl Fn(&Switch) -> bool) -> bool {
+    fn are_lost(&self, is_wanted: impl Fn(&Part) -> bool) -> bool {
         self.fates(is_wanted).iter().all(|fate| *fate == Fate::Lost)
     }
 
-    fn are_not_lost(&self, is_wanted: impl Fn(&Switch) -> bool) -> bool {
+    fn are_not_lost(&self, is_wanted: impl Fn(&Part) -> bool) -> bool {
         !self.fates(is_wanted).contains(&Fate::Lost)
     }
 
-    fn are_not_back(&self, is_wanted: impl Fn(&Switch) -> bool) -> bool {
+    fn are_not_back(&self, is_wanted: impl Fn(&Part) -> bool) -> bool {
         let fates = self.fates(is_wanted);
         !fates.contains(&Fate::Back) && !fates.contains(&Fate::RoundOff)
     }
 
     /// The faces at each of which alone the solution may be flat, with its order back.
     fn single_faces_back(&self) -> Vec<String> {
-        let names = self.0.iter().filter_map(|one| match &one.switch {
-            Switch::Face(name) if matches!(one.fate, Fate::Back | Fate::RoundOff) => {
+        let names = self.0.iter().filter_map(|one| match &one.part {
+            Part::Face(name) if matches!(one.fate, Fate::Back | Fate::RoundOff) => {
                 Some(name.clone())
             }
             _ => None,
@@ -144,8 +143,8 @@ impl Table<'_> {
     }
 
     fn one_face(&self, face: &str) -> Found {
-        let this = |switch: &Switch| *switch == Switch::Face(face.to_owned());
-        let other = |switch: &Switch| matches!(switch, Switch::Face(name) if name != face);
+        let this = |part: &Part| *part == Part::Face(face.to_owned());
+        let other = |part: &Part| matches!(part, Part::Face(name) if name != face);
         let conclusion = match self.time_back() {
             Some(time) => Conclusion::FaceInTime {
                 face: face.to_owned(),
@@ -158,7 +157,7 @@ impl Table<'_> {
             self.are_lost(other),
             // Data at a face act little on a solution that is flat at the first time, and a variant
             // in which the lost part may hide is undecided.
-            self.are_not_back(|switch| *switch == Switch::Initial),
+            self.are_not_back(|part| *part == Part::Initial),
             self.agrees(face),
         ];
         Found::if_all(&conditions, conclusion)
@@ -166,45 +165,41 @@ impl Table<'_> {
 
     /// The time's name, if the order is back where nothing changes in it.
     fn time_back(&self) -> Option<String> {
-        self.0.iter().find_map(|one| match &one.switch {
-            Switch::Time(name) if one.fate == Fate::Back => Some(name.clone()),
+        self.0.iter().find_map(|one| match &one.part {
+            Part::Time(name) if one.fate == Fate::Back => Some(name.clone()),
             _ => None,
         })
     }
 
     /// Whether variants that are flat at this face and at others agree that its data are at fault.
     fn agrees(&self, face: &str) -> bool {
-        let of_others =
-            |switch: &Switch| matches!(switch, Switch::BothFaces(name) if !is_side(face, name));
-        let both =
-            |switch: &Switch| matches!(switch, Switch::BothFaces(name) if is_side(face, name));
-        let others = |switch: &Switch| matches!(switch, Switch::AllFacesBut(name) if name != face);
-        let but_this = |switch: &Switch| *switch == Switch::AllFacesBut(face.to_owned());
+        let of_others = |part: &Part| matches!(part, Part::BothFaces(name) if !is_side(face, name));
+        let both = |part: &Part| matches!(part, Part::BothFaces(name) if is_side(face, name));
+        let others = |part: &Part| matches!(part, Part::AllFacesBut(name) if name != face);
+        let but_this = |part: &Part| *part == Part::AllFacesBut(face.to_owned());
         self.are_back(both)
             && self.are_not_back(of_others)
-            && self.are_back(|switch| *switch == Switch::AllFaces)
+            && self.are_back(|part| *part == Part::AllFaces)
             && self.are_not_lost(others)
-            && self.are_not_lost(|switch| *switch == Switch::AllFacesAndInitial)
+            && self.are_not_lost(|part| *part == Part::AllFacesAndInitial)
             && self.are_not_back(but_this)
     }
 
     fn corner(&self, one: &str, other: &str) -> Found {
         let names = [one.to_owned(), other.to_owned()];
-        let is_of_the_two =
-            |switch: &Switch| matches!(switch, Switch::Face(name) if names.contains(name));
-        let is_another =
-            |switch: &Switch| matches!(switch, Switch::Face(name) if !names.contains(name));
-        let both = |switch: &Switch| matches!(switch, Switch::BothFaces(name) if is_side(one, name) || is_side(other, name));
-        let opposite = |switch: &Switch| matches!(switch, Switch::BothFaces(name) if is_side(one, name) && is_side(other, name));
+        let is_of_the_two = |part: &Part| matches!(part, Part::Face(name) if names.contains(name));
+        let is_another = |part: &Part| matches!(part, Part::Face(name) if !names.contains(name));
+        let both = |part: &Part| matches!(part, Part::BothFaces(name) if is_side(one, name) || is_side(other, name));
+        let opposite = |part: &Part| matches!(part, Part::BothFaces(name) if is_side(one, name) && is_side(other, name));
         let conditions = [
             self.fates(opposite).is_empty(),
             self.are_back(is_of_the_two),
             self.are_lost(is_another),
-            self.are_lost(|switch| *switch == Switch::Initial),
+            self.are_lost(|part| *part == Part::Initial),
             self.are_back(both),
-            self.are_back(|switch| *switch == Switch::AllFaces),
-            self.are_not_lost(|switch| matches!(switch, Switch::AllFacesBut(_))),
-            self.are_not_lost(|switch| *switch == Switch::AllFacesAndInitial),
+            self.are_back(|part| *part == Part::AllFaces),
+            self.are_not_lost(|part| matches!(part, Part::AllFacesBut(_))),
+            self.are_not_lost(|part| *part == Part::AllFacesAndInitial),
         ];
         Found::if_all(&conditions, Conclusion::Corner(names))
     }
@@ -218,8 +213,8 @@ impl Table<'_> {
     }
 
     fn coordinates_with_both_back(&self) -> Vec<String> {
-        let names = self.0.iter().filter_map(|one| match &one.switch {
-            Switch::BothFaces(name) if matches!(one.fate, Fate::Back | Fate::RoundOff) => {
+        let names = self.0.iter().filter_map(|one| match &one.part {
+            Part::BothFaces(name) if matches!(one.fate, Fate::Back | Fate::RoundOff) => {
                 Some(name.clone())
             }
             _ => None,
@@ -229,59 +224,57 @@ impl Table<'_> {
 
     fn both_faces(&self, coordinate: &str) -> Found {
         let faces = ["min", "max"].map(|end| format!("{coordinate}_{end}"));
-        let this =
-            |switch: &Switch| matches!(switch, Switch::BothFaces(name) if name == coordinate);
-        let other =
-            |switch: &Switch| matches!(switch, Switch::BothFaces(name) if name != coordinate);
+        let this = |part: &Part| matches!(part, Part::BothFaces(name) if name == coordinate);
+        let other = |part: &Part| matches!(part, Part::BothFaces(name) if name != coordinate);
         let but_these =
-            |switch: &Switch| matches!(switch, Switch::AllFacesBut(name) if faces.contains(name));
+            |part: &Part| matches!(part, Part::AllFacesBut(name) if faces.contains(name));
         let but_others =
-            |switch: &Switch| matches!(switch, Switch::AllFacesBut(name) if !faces.contains(name));
+            |part: &Part| matches!(part, Part::AllFacesBut(name) if !faces.contains(name));
         let conditions = [
             self.are_back(this),
             self.are_lost(is_single_face),
             self.are_lost(other),
-            self.are_not_back(|switch| *switch == Switch::Initial),
+            self.are_not_back(|part| *part == Part::Initial),
             self.are_not_back(but_these),
             self.are_not_lost(but_others),
-            self.are_back(|switch| *switch == Switch::AllFaces),
-            self.are_not_lost(|switch| *switch == Switch::AllFacesAndInitial),
+            self.are_back(|part| *part == Part::AllFaces),
+            self.are_not_lost(|part| *part == Part::AllFacesAndInitial),
         ];
         Found::if_all(&conditions, Conclusion::Faces(faces.to_vec()))
     }
 
     /// Several faces, of unlike coordinates: each without which the order stays lost.
     fn faces_by_all_but_one(&self) -> Found {
-        let faces = self.0.iter().filter_map(|one| match &one.switch {
-            Switch::AllFacesBut(name) if one.fate == Fate::Lost => Some(name.clone()),
+        let faces = self.0.iter().filter_map(|one| match &one.part {
+            Part::AllFacesBut(name) if one.fate == Fate::Lost => Some(name.clone()),
             _ => None,
         });
         let faces: Vec<String> = faces.collect();
-        let is_all = |switch: &Switch| *switch == Switch::AllFaces;
-        let all_but = |switch: &Switch| matches!(switch, Switch::AllFacesBut(_));
+        let is_all = |part: &Part| *part == Part::AllFaces;
+        let all_but = |part: &Part| matches!(part, Part::AllFacesBut(_));
         let is_known = |fate: &Fate| matches!(fate, Fate::Lost | Fate::Back);
         // Both faces of one coordinate have a variant of their own.
-        let covers = |switch: &Switch| matches!(switch, Switch::BothFaces(name) if faces.iter().all(|face| is_side(face, name)));
+        let covers = |part: &Part| matches!(part, Part::BothFaces(name) if faces.iter().all(|face| is_side(face, name)));
         let conditions = [
             faces.len() >= 2,
             self.fates(covers).is_empty(),
-            self.are_lost(|switch| *switch == Switch::Initial),
+            self.are_lost(|part| *part == Part::Initial),
             !self.fates(is_all).is_empty() && self.are_back(is_all),
             self.fates(all_but).iter().all(is_known),
             self.are_lost(is_single_face),
-            self.are_lost(|switch| matches!(switch, Switch::BothFaces(_))),
-            self.are_not_lost(|switch| *switch == Switch::AllFacesAndInitial),
+            self.are_lost(|part| matches!(part, Part::BothFaces(_))),
+            self.are_not_lost(|part| *part == Part::AllFacesAndInitial),
         ];
         Found::if_all(&conditions, Conclusion::Faces(faces))
     }
 
     fn initial(&self) -> Found {
-        let this = |switch: &Switch| *switch == Switch::Initial;
-        let faces = |switch: &Switch| is_flat(switch) && !this(switch);
+        let this = |part: &Part| *part == Part::Initial;
+        let faces = |part: &Part| is_flat(part) && !this(part);
         let conditions = [
             !self.fates(this).is_empty() && self.are_back(this),
-            self.are_lost(|switch| faces(switch) && *switch != Switch::AllFacesAndInitial),
-            self.are_back(|switch| *switch == Switch::AllFacesAndInitial),
+            self.are_lost(|part| faces(part) && *part != Part::AllFacesAndInitial),
+            self.are_back(|part| *part == Part::AllFacesAndInitial),
         ];
         Found::if_all(&conditions, Conclusion::Initial)
     }
@@ -292,22 +285,18 @@ impl Table<'_> {
         let back = self
             .0
             .iter()
-            .filter(|one| !is_flat(&one.switch) && one.fate == Fate::Back);
-        let back: Vec<Switch> = back.map(|one| one.switch.clone()).collect();
-        let is_along = |switch: &Switch| matches!(switch, Switch::Coordinate(_) | Switch::Time(_));
-        let along = back.iter().filter(|switch| is_along(switch)).count();
+            .filter(|one| !is_flat(&one.part) && one.fate == Fate::Back);
+        let back: Vec<Part> = back.map(|one| one.part.clone()).collect();
+        let is_along = |part: &Part| matches!(part, Part::Coordinate(_) | Part::Time(_));
+        let along = back.iter().filter(|part| is_along(part)).count();
         // If it is lost in the last of these that the file has, it is in those before, too.
-        let of_all = [
-            Switch::Initial,
-            Switch::AllFaces,
-            Switch::AllFacesAndInitial,
-        ];
+        let of_all = [Part::Initial, Part::AllFaces, Part::AllFacesAndInitial];
         let strongest = of_all
             .iter()
-            .rfind(|one| !self.fates(|switch| switch == *one).is_empty());
-        let is_strong = |switch: &Switch| *switch == Switch::AllFaces || Some(switch) == strongest;
-        let both = |switch: &Switch| match switch {
-            Switch::BothFaces(name) => back.contains(&Switch::Coordinate(name.clone())),
+            .rfind(|one| !self.fates(|part| part == *one).is_empty());
+        let is_strong = |part: &Part| *part == Part::AllFaces || Some(part) == strongest;
+        let both = |part: &Part| match part {
+            Part::BothFaces(name) => back.contains(&Part::Coordinate(name.clone())),
             _ => false,
         };
         let conditions = [
@@ -322,20 +311,20 @@ impl Table<'_> {
     }
 }
 
-fn is_single_face(switch: &Switch) -> bool {
-    matches!(switch, Switch::Face(_))
+fn is_single_face(part: &Part) -> bool {
+    matches!(part, Part::Face(_))
 }
 
 /// Whether a variant switches off data.
-fn is_flat(switch: &Switch) -> bool {
-    match switch {
-        Switch::Face(_)
-        | Switch::BothFaces(_)
-        | Switch::AllFaces
-        | Switch::AllFacesBut(_)
-        | Switch::Initial
-        | Switch::AllFacesAndInitial => true,
-        Switch::Coordinate(_) | Switch::Time(_) | Switch::Parameter(_) | Switch::Field(_) => false,
+fn is_flat(part: &Part) -> bool {
+    match part {
+        Part::Face(_)
+        | Part::BothFaces(_)
+        | Part::AllFaces
+        | Part::AllFacesBut(_)
+        | Part::Initial
+        | Part::AllFacesAndInitial => true,
+        Part::Coordinate(_) | Part::Time(_) | Part::Parameter(_) | Part::Field(_) => false,
     }
 }
 

@@ -7,16 +7,11 @@ struct Setting {
     coordinates: &'static [&'static str],
     faces: &'static [&'static str],
     has_time: bool,
-    others: Vec<Switch>,
+    others: Vec<Part>,
 }
 
 fn settings() -> Vec<Setting> {
-    let others = || {
-        vec![
-            Switch::Parameter("p".to_owned()),
-            Switch::Field("u".to_owned()),
-        ]
-    };
+    let others = || vec![Part::Parameter("p".to_owned()), Part::Field("u".to_owned())];
     vec![
         Setting {
             coordinates: &["x", "y"],
@@ -58,9 +53,9 @@ fn owned(names: &[&str]) -> Vec<String> {
 
 impl Setting {
     /// The variants of such a file.
-    fn switches(&self) -> Vec<Switch> {
-        let mut switches = self.inner();
-        switches.extend(owned(self.faces).into_iter().map(Switch::Face));
+    fn parts(&self) -> Vec<Part> {
+        let mut parts = self.inner();
+        parts.extend(owned(self.faces).into_iter().map(Part::Face));
         let mut with_faces = 0;
         for name in owned(self.coordinates) {
             let sides = self
@@ -70,30 +65,30 @@ impl Setting {
                 .count();
             with_faces += usize::from(sides > 0);
             if sides == 2 {
-                switches.push(Switch::BothFaces(name));
+                parts.push(Part::BothFaces(name));
             }
         }
         if with_faces > 1 {
-            switches.push(Switch::AllFaces);
-            switches.extend(owned(self.faces).into_iter().map(Switch::AllFacesBut));
+            parts.push(Part::AllFaces);
+            parts.extend(owned(self.faces).into_iter().map(Part::AllFacesBut));
         }
         if self.has_time {
-            switches.push(Switch::Initial);
+            parts.push(Part::Initial);
             if !self.faces.is_empty() {
-                switches.push(Switch::AllFacesAndInitial);
+                parts.push(Part::AllFacesAndInitial);
             }
         }
-        switches
+        parts
     }
 
     /// The variants that switch off what acts inside the domain.
-    fn inner(&self) -> Vec<Switch> {
-        let mut inner: Vec<Switch> = owned(self.coordinates)
+    fn inner(&self) -> Vec<Part> {
+        let mut inner: Vec<Part> = owned(self.coordinates)
             .into_iter()
-            .map(Switch::Coordinate)
+            .map(Part::Coordinate)
             .collect();
         if self.has_time {
-            inner.push(Switch::Time("t".to_owned()));
+            inner.push(Part::Time("t".to_owned()));
         }
         inner.extend(self.others.iter().cloned());
         inner
@@ -102,7 +97,7 @@ impl Setting {
     /// All single mistakes.
     fn mistakes(&self) -> Vec<Mistake> {
         let inner = self.inner();
-        let subsets = |parts: &[Switch]| -> Vec<Vec<Switch>> {
+        let subsets = |parts: &[Part]| -> Vec<Vec<Part>> {
             let count = 1usize << parts.len();
             let subset = |bits: usize| {
                 let chosen = parts
@@ -142,17 +137,12 @@ impl Setting {
 struct Mistake {
     faces: Vec<String>,
     is_initial: bool,
-    hidden_by: Vec<Switch>,
+    hidden_by: Vec<Part>,
     is_inside: bool,
 }
 
 impl Mistake {
-    fn new(
-        faces: &[&&'static str],
-        is_initial: bool,
-        hidden_by: &[Switch],
-        is_inside: bool,
-    ) -> Self {
+    fn new(faces: &[&&'static str], is_initial: bool, hidden_by: &[Part], is_inside: bool) -> Self {
         Self {
             faces: faces.iter().map(|face| (**face).to_owned()).collect(),
             is_initial,
@@ -161,38 +151,38 @@ impl Mistake {
         }
     }
 
-    fn is_hidden_in(&self, variant: &Switch) -> bool {
+    fn is_hidden_in(&self, variant: &Part) -> bool {
         let at = |is_flat: &dyn Fn(&str) -> bool| self.faces.iter().any(|face| is_flat(face));
         match variant {
-            Switch::Face(name) => at(&|face| face == name),
-            Switch::BothFaces(name) => at(&|face| is_side(face, name)),
-            Switch::AllFaces => at(&|_| true),
-            Switch::AllFacesBut(name) => at(&|face| face != name),
-            Switch::Initial => self.is_initial,
-            Switch::AllFacesAndInitial => self.is_initial || at(&|_| true),
+            Part::Face(name) => at(&|face| face == name),
+            Part::BothFaces(name) => at(&|face| is_side(face, name)),
+            Part::AllFaces => at(&|_| true),
+            Part::AllFacesBut(name) => at(&|face| face != name),
+            Part::Initial => self.is_initial,
+            Part::AllFacesAndInitial => self.is_initial || at(&|_| true),
             inner => self.hidden_by.contains(inner),
         }
     }
 
     /// Whether a part that is named is one of the mistake.
-    fn has(&self, part: &Switch) -> bool {
+    fn has(&self, part: &Part) -> bool {
         match part {
-            Switch::Face(name) => self.faces.contains(name),
-            Switch::Initial => self.is_initial,
+            Part::Face(name) => self.faces.contains(name),
+            Part::Initial => self.is_initial,
             inner => self.hidden_by.contains(inner),
         }
     }
 }
 
-fn fates(switches: &[Switch], mistakes: &[&Mistake]) -> Vec<Examined> {
-    let examined = |switch: &Switch| {
-        let is_seen = mistakes.iter().any(|mistake| !mistake.is_hidden_in(switch));
+fn fates(parts: &[Part], mistakes: &[&Mistake]) -> Vec<Examined> {
+    let examined = |part: &Part| {
+        let is_seen = mistakes.iter().any(|mistake| !mistake.is_hidden_in(part));
         Examined {
-            switch: switch.clone(),
+            part: part.clone(),
             fate: if is_seen { Fate::Lost } else { Fate::Back },
         }
     };
-    switches.iter().map(examined).collect()
+    parts.iter().map(examined).collect()
 }
 
 fn assert_true(conclusion: &Conclusion, mistakes: &[&Mistake]) {
@@ -206,9 +196,9 @@ fn assert_true(conclusion: &Conclusion, mistakes: &[&Mistake]) {
 fn one_mistake_is_named_if_no_other_part_hides_it_and_never_falsely() {
     let mut named = 0;
     for setting in settings() {
-        let switches = setting.switches();
+        let parts = setting.parts();
         for mistake in setting.mistakes() {
-            let conclusion = decide(&fates(&switches, &[&mistake]));
+            let conclusion = decide(&fates(&parts, &[&mistake]));
             assert_true(&conclusion, &[&mistake]);
             named += usize::from(!conclusion.named().is_empty());
             let is_at_one_place = mistake.faces.len() + usize::from(mistake.is_initial) == 1;
@@ -233,11 +223,11 @@ fn one_mistake_is_named_if_no_other_part_hides_it_and_never_falsely() {
 fn of_two_mistakes_no_part_is_named_that_is_right() {
     let mut named = 0;
     for setting in settings() {
-        let switches = setting.switches();
+        let parts = setting.parts();
         let mistakes = setting.mistakes();
         for (place, one) in mistakes.iter().enumerate() {
             for other in &mistakes[place + 1..] {
-                let conclusion = decide(&fates(&switches, &[one, other]));
+                let conclusion = decide(&fates(&parts, &[one, other]));
                 assert_true(&conclusion, &[one, other]);
                 named += usize::from(!conclusion.named().is_empty());
             }
@@ -250,12 +240,12 @@ fn of_two_mistakes_no_part_is_named_that_is_right() {
 #[test]
 fn what_is_unknown_or_round_off_names_nothing_that_is_right() {
     for setting in settings() {
-        let switches = setting.switches();
+        let parts = setting.parts();
         let mistakes = setting.mistakes();
         let pairs = mistakes.iter().enumerate().step_by(3);
         for (place, one) in pairs {
             for other in mistakes[place..].iter().step_by(5) {
-                let whole = fates(&switches, &[one, other]);
+                let whole = fates(&parts, &[one, other]);
                 for changed in 0..whole.len() {
                     for fate in [Fate::Unknown, Fate::RoundOff] {
                         let mut examined = whole.clone();
@@ -270,23 +260,36 @@ fn what_is_unknown_or_round_off_names_nothing_that_is_right() {
     }
 }
 
+/// The name of the variant of a part.
+fn name(part: &Part) -> String {
+    match part {
+        Part::Coordinate(name) | Part::Time(name) | Part::Field(name) => format!("constant_{name}"),
+        Part::Face(name) | Part::BothFaces(name) => format!("flat_{name}"),
+        Part::AllFaces => "flat_faces".to_owned(),
+        Part::AllFacesBut(name) => format!("flat_but_{name}"),
+        Part::Initial => "flat_initial".to_owned(),
+        Part::AllFacesAndInitial => "flat_everywhere".to_owned(),
+        Part::Parameter(name) => format!("zero_{name}"),
+    }
+}
+
 /// The fates of a plane problem in time with these variants back, and all others lost.
 fn back(names: &[&str]) -> Vec<Examined> {
-    let switches = settings()[0].switches();
-    let examined = |switch: &Switch| Examined {
-        switch: switch.clone(),
-        fate: if names.contains(&switch.variant().as_str()) {
+    let parts = settings()[0].parts();
+    let examined = |part: &Part| Examined {
+        part: part.clone(),
+        fate: if names.contains(&name(part).as_str()) {
             Fate::Back
         } else {
             Fate::Lost
         },
     };
-    switches.iter().map(examined).collect()
+    parts.iter().map(examined).collect()
 }
 
 fn with(mut examined: Vec<Examined>, variant: &str, fate: Fate) -> Vec<Examined> {
     let mut entries = examined.iter_mut();
-    let entry = entries.find(|one| one.switch.variant() == variant);
+    let entry = entries.find(|one| name(&one.part) == variant);
     entry.unwrap_or_else(|| panic!("no {variant}")).fate = fate;
     examined
 }
@@ -313,14 +316,14 @@ fn rows() -> Vec<Row> {
         conclusion: Conclusion::Faces(owned(names)),
         back: back.to_vec(),
     };
-    let inside = |parts: Vec<Switch>, back: &[&'static str]| Row {
+    let inside = |parts: Vec<Part>, back: &[&'static str]| Row {
         conclusion: Conclusion::Inside(parts),
         back: back.to_vec(),
     };
     let at_x_max = |more: &'static str| [AT_X_MAX.as_slice(), &[more]].concat();
-    let y = Switch::Coordinate("y".to_owned());
-    let t = Switch::Time("t".to_owned());
-    let p = Switch::Parameter("p".to_owned());
+    let y = Part::Coordinate("y".to_owned());
+    let t = Part::Time("t".to_owned());
+    let p = Part::Parameter("p".to_owned());
     let pair = ["flat_faces", "flat_everywhere"];
     let with_pair = |more: &[&'static str]| [pair.as_slice(), more].concat();
     vec![
@@ -382,8 +385,8 @@ fn each_variant_that_is_flat_must_agree() {
             0
         };
         let decides = |one: &&Examined| {
-            is_flat(&one.switch)
-                && (!is_inside || decide_y[first..].contains(&one.switch.variant().as_str()))
+            is_flat(&one.part)
+                && (!is_inside || decide_y[first..].contains(&name(&one.part).as_str()))
         };
         for examined in back(&row.back).iter().filter(decides) {
             let opposite = if examined.fate == Fate::Back {
@@ -391,7 +394,7 @@ fn each_variant_that_is_flat_must_agree() {
             } else {
                 Fate::Back
             };
-            let variant = examined.switch.variant();
+            let variant = name(&examined.part);
             let conclusion = decide(&with(back(&row.back), &variant, opposite));
             assert_ne!(conclusion, row.conclusion, "{variant}");
         }

@@ -1,18 +1,17 @@
 //! What the variants show, for people: at most fifteen lines.
 
-use manufacture::{Switch, Variants};
-
 use super::decide::Conclusion;
-use crate::cli::screen;
 use crate::judge::verdict::{RateVerdict, Tendency};
 use crate::run::{Fate, Located, VariantRates};
+use crate::study::variants::{Part, Variants};
+use crate::text::columns::Columns;
 use crate::text::number::plain_text;
 
 /// Most rows of the table; more variants stand beside each other.
 const MOST_ROWS: usize = 10;
 
 /// The table of variants, and the conclusion.
-pub(in crate::cli) fn text(located: &Located) -> String {
+pub fn text_of_located(located: &Located) -> String {
     let cells = |variant: &VariantRates| {
         let rate = variant.rates.first();
         vec![
@@ -25,16 +24,24 @@ pub(in crate::cli) fn text(located: &Located) -> String {
     let columns = cells.len().div_ceil(MOST_ROWS).max(1);
     let count = cells.len().div_ceil(columns).max(1);
     let head = ["variant", "rate", "order"].repeat(columns);
-    let row = |place: usize| {
+    let head: Vec<String> = head.into_iter().map(str::to_owned).collect();
+    let row = |place: usize| -> Vec<String> {
         let beside = (0..columns).map(|column| cells.get(place + column * count));
         let beside = beside.map(|cells| cells.cloned().unwrap_or(vec![String::new(); 3]));
         beside.flatten().collect()
     };
     let rows: Vec<Vec<String>> = (0..count).map(row).collect();
-    format!("{}{}\n", screen::table(&head, &rows), located.conclusion)
+    let widths = Columns::of(&head, &rows);
+    let mut text = String::new();
+    for cells in std::iter::once(&head).chain(&rows) {
+        let cells: Vec<String> = widths.pad(cells).collect();
+        text += cells.join("  ").trim_end();
+        text += "\n";
+    }
+    text + &located.conclusion + "\n"
 }
 
-fn order(variant: &VariantRates) -> &'static str {
+pub(super) fn order(variant: &VariantRates) -> &'static str {
     match variant.order {
         Fate::Back => "back",
         Fate::RoundOff => "round-off",
@@ -60,7 +67,7 @@ pub(super) fn sentence(
     conclusion: &Conclusion,
     rows: &[VariantRates],
     tendency: Option<Tendency>,
-    variants: &Variants<'_>,
+    variants: &Variants,
 ) -> String {
     let limit = match tendency {
         Some(Tendency::Constant { limit }) => Some(limit),
@@ -83,30 +90,30 @@ pub(super) fn sentence(
             "{lost} at the face {face}, in time: {it} comes back where the solution is flat there ({}), \
              and where it is constant in {time} ({}), and not where it is flat at any other face; \
              look at the time at which {} is taken",
-            rate(rows, &Switch::Face(face.clone())),
-            rate(rows, &Switch::Time(time.clone())),
+            rate(rows, &Part::Face(face.clone())),
+            rate(rows, &Part::Time(time.clone())),
             conditions(face, variants),
         ),
         Conclusion::Corner([one, other]) => format!(
             "{lost} where the faces {one} and {other} meet: {it} comes back where the solution is flat \
              at {one} ({}) and at {other} ({}) alike, and not where it is flat at any other face; \
              look at what is done at this corner",
-            rate(rows, &Switch::Face(one.clone())),
-            rate(rows, &Switch::Face(other.clone())),
+            rate(rows, &Part::Face(one.clone())),
+            rate(rows, &Part::Face(other.clone())),
         ),
         Conclusion::Initial => format!(
             "{lost} at the first time: {it} comes back where the solution is flat there ({}), and not \
              where it is flat at any face; look at the initial data",
-            rate(rows, &Switch::Initial),
+            rate(rows, &Part::Initial),
         ),
         Conclusion::Inside(parts) => inside([&lost, it], parts, rows),
         Conclusion::Everywhere => format!(
             "{lost} in every variant: everywhere, as by a quadrature, a coefficient or a norm, or in \
              several parts at once; no part is named"
         ),
-        Conclusion::Open(switches) => format!(
+        Conclusion::Open(parts) => format!(
             "no part is named: what would decide is undecided or left out ({}); finer levels may help",
-            listed(switches.iter().map(Switch::variant).collect()),
+            names(rows, |row| parts.contains(&row.switches_off)),
         ),
         Conclusion::Several => format!(
             "no part is named: no single one explains that the order comes back {}",
@@ -124,13 +131,13 @@ fn faces(
     [lost, it]: [&str; 2],
     names: &[String],
     rows: &[VariantRates],
-    variants: &Variants<'_>,
+    variants: &Variants,
 ) -> String {
     if let [face] = names {
         return format!(
             "{lost} at the face {face}: {it} comes back where the solution is flat there ({}), and not \
              where it is flat at any other face; look at {}",
-            rate(rows, &Switch::Face(face.clone())),
+            rate(rows, &Part::Face(face.clone())),
             conditions(face, variants),
         );
     }
@@ -146,75 +153,96 @@ fn faces(
     )
 }
 
-/// * `lost`, `it`: as for [`faces`].
-fn inside([lost, it]: [&str; 2], parts: &[Switch], rows: &[VariantRates]) -> String {
-    let place = |part: &Switch| match part {
-        Switch::Coordinate(name) | Switch::Time(name) => format!("in what acts along {name}"),
-        Switch::Parameter(name) => format!("in the terms with {name}"),
-        Switch::Field(name) => format!("in what acts on {name}"),
-        other => other.words(),
-    };
-    let variant = |part: &Switch| {
-        let rate = rate(rows, part);
+/// What is said of a part inside the domain.
+struct Inside {
+    place: String,
+    /// What its variant is like.
+    variant: String,
+    hint: String,
+}
+
+impl Inside {
+    /// `None` for a part that is not inside.
+    fn of(part: &Part) -> Option<Self> {
         match part {
-            Switch::Parameter(name) => format!("{name} is zero ({rate})"),
-            Switch::Coordinate(name) | Switch::Time(name) => {
-                format!("the solution is constant in {name} ({rate})")
-            }
-            part => format!("{} is constant ({rate})", part.name().unwrap_or_default()),
+            Part::Coordinate(name) => Some(Self {
+                place: format!("in what acts along {name}"),
+                variant: format!("the solution is constant in {name}"),
+                hint: format!("the derivatives by {name} inside the domain"),
+            }),
+            Part::Time(name) => Some(Self {
+                place: format!("in what acts along {name}"),
+                variant: format!("the solution is constant in {name}"),
+                hint: "the time at which source and data are taken, and the time stepping"
+                    .to_owned(),
+            }),
+            Part::Parameter(name) => Some(Self {
+                place: format!("in the terms with {name}"),
+                variant: format!("{name} is zero"),
+                hint: format!("the terms with {name}"),
+            }),
+            Part::Field(name) => Some(Self {
+                place: format!("in what acts on {name}"),
+                variant: format!("{name} is constant"),
+                hint: format!("the terms with {name}"),
+            }),
+            _ => None,
         }
-    };
-    let hint = |part: &Switch| match part {
-        Switch::Coordinate(name) => format!("the derivatives by {name} inside the domain"),
-        Switch::Time(_) => {
-            "the time at which source and data are taken, and the time stepping".to_owned()
+    }
+}
+
+/// * `lost`, `it`: as for [`faces`].
+fn inside([lost, it]: [&str; 2], parts: &[Part], rows: &[VariantRates]) -> String {
+    let mut places = vec![];
+    let mut variants = vec![];
+    let mut hints = vec![];
+    for part in parts {
+        if let Some(words) = Inside::of(part) {
+            places.push(words.place);
+            variants.push(format!("{} ({})", words.variant, rate(rows, part)));
+            hints.push(words.hint);
         }
-        Switch::Parameter(name) => format!("the terms with {name}"),
-        part => format!("the terms with {}", part.name().unwrap_or_default()),
-    };
-    let places = listed(parts.iter().map(place).collect());
-    let variants = listed(parts.iter().map(variant).collect());
-    let hints = listed(parts.iter().map(hint).collect());
+    }
     format!(
-        "{lost} {places}: {it} comes back where {variants}, and stays lost where the solution is flat \
-         at the faces and at the first time; look at {hints}"
+        "{lost} {}: {it} comes back where {}, and stays lost where the solution is flat at the faces \
+         and at the first time; look at {}",
+        listed(places),
+        listed(variants),
+        listed(hints)
     )
 }
 
 /// The data of a face: `the condition flux at x_max`.
-fn conditions(face: &str, variants: &Variants<'_>) -> String {
-    let names: Vec<String> = variants
-        .data_at(face)
-        .into_iter()
-        .map(str::to_owned)
-        .collect();
-    let noun = if names.len() == 1 {
-        "condition"
-    } else {
-        "conditions"
-    };
-    format!("the {noun} {} at {face}", listed(names))
+fn conditions(face: &str, variants: &Variants) -> String {
+    let names = variants.data.get(face).cloned().unwrap_or_default();
+    match names.len() {
+        0 => format!("the data at {face}"),
+        1 => format!("the condition {} at {face}", listed(names)),
+        _ => format!("the conditions {} at {face}", listed(names)),
+    }
 }
 
 /// The rate with a variant.
-fn rate(rows: &[VariantRates], switch: &Switch) -> String {
-    let name = switch.variant();
-    let row = rows.iter().find(|row| row.name == name);
+fn rate(rows: &[VariantRates], part: &Part) -> String {
+    let row = rows.iter().find(|row| row.switches_off == *part);
     let rate = row.and_then(|row| row.rates.first());
     rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate))
 }
 
 /// Where the order comes back.
 fn back(rows: &[VariantRates]) -> String {
-    let back = rows
-        .iter()
-        .filter(|row| matches!(row.order, Fate::Back | Fate::RoundOff));
-    let names: Vec<String> = back.map(|row| row.name.clone()).collect();
-    if names.is_empty() {
-        "in none".to_owned()
+    let is_back = |row: &VariantRates| matches!(row.order, Fate::Back | Fate::RoundOff);
+    if rows.iter().any(is_back) {
+        format!("in {}, and in no other", names(rows, is_back))
     } else {
-        format!("in {}, and in no other", listed(names))
+        "in none".to_owned()
     }
+}
+
+/// The names of variants.
+fn names(rows: &[VariantRates], is_wanted: impl Fn(&VariantRates) -> bool) -> String {
+    let wanted = rows.iter().filter(|row| is_wanted(row));
+    listed(wanted.map(|row| row.name.clone()).collect())
 }
 
 /// `a, b and c`.

@@ -1,0 +1,246 @@
+"""`study(..., variants=module)`: in which part of a solver the order is lost."""
+
+import copy
+import importlib.util
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import convergence_study as cs
+
+pytest_plugins = ["pytester"]
+
+ROD = """
+[manufacture]
+name = "rod"
+coordinates = ["x"]
+time = "t"
+[domain]
+x = [0, 2]
+t = [0, 1]
+[parameters]
+k = 0.3
+[exact]
+T = "2 + sin(1.4*x + 0.3)*(1 + t^2/2) + x*exp(-t)/3"
+[equations.T]
+storage = "dt(T)"
+conduction = "-d(k*(1 + x/4)*d(T, x), x)"
+[boundary.x_min]
+value = "T"
+[boundary.x_max]
+flux = "k*(1 + x/4)*d(T, x)"
+[initial]
+T = "T"
+"""
+
+SOLVER = '''
+"""Heat in a rod by finite volumes, BDF2 in time."""
+
+import numpy as np
+
+import rod as data
+from rod import exact_T
+
+MISTAKE = ""
+
+
+def solve(n):
+    h, dt = 2 / n, 0.5 / n
+    centres, faces = (np.arange(n) + 0.5)[None, :] * h, np.arange(n + 1) * h
+    k = data.parameter_k * (1 + faces / 4)
+    matrix = np.zeros((n, n))
+    for face in range(1, n):
+        left, right, flow = face - 1, face, k[face] / h**2
+        matrix[left, left] += flow
+        matrix[left, right] -= flow
+        matrix[right, right] += flow
+        matrix[right, left] -= flow
+    # The slope at x_min through the value and two centres.
+    weights = [-1, 1, 0] if MISTAKE == "value" else [-8 / 3, 3, -1 / 3]
+    matrix[0, 0] += weights[1] * k[0] / h**2
+    matrix[0, 1] += weights[2] * k[0] / h**2
+
+    def exact(t):
+        return np.broadcast_to(exact_T(centres, t), n)
+
+    def known(t):
+        source = np.broadcast_to(data.source_T(centres, t - dt if MISTAKE == "source" else t), n).copy()
+        source[0] -= weights[0] * k[0] / h**2 * np.ravel(data.boundary_x_min_value(np.array([[0.0]]), t))[0]
+        source[-1] += np.ravel(data.boundary_x_max_flux(np.array([[2.0]]), t))[0] / h
+        return source
+
+    before, now = exact(-dt), exact(0.0)
+    for step in range(1, n + 1):
+        t = step * dt
+        before, now = now, np.linalg.solve(1.5 * np.eye(n) / dt + matrix, (4 * now - before) / (2 * dt) + known(t))
+    return {"L2": float(np.sqrt(np.mean((now - exact(0.5)) ** 2)))}
+'''
+
+NAMED = "the order is lost at the face x_min: it comes back where the solution is flat there"
+
+
+@pytest.fixture(scope="session")
+def modules(tmp_path_factory):
+    """The module of the rod with variants, and without."""
+    texts = []
+    for options in [["--variants"], []]:
+        folder = tmp_path_factory.mktemp("module")
+        (folder / "rod.toml").write_text(ROD)
+        words = [sys.executable, "-m", "convergence_study", "manufacture", "rod.toml", *options, "--language", "python", "--out", ".", "-q"]
+        subprocess.run(words, cwd=folder, check=True, capture_output=True)
+        texts.append((folder / "rod.py").read_text())
+    return texts
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch, modules):
+    """A folder with the module of the rod and its solver, both of which can be imported."""
+    pytest.importorskip("numpy")
+    write(tmp_path, modules[0])
+    monkeypatch.syspath_prepend(str(tmp_path))
+    yield tmp_path
+    for name in ("rod", "solver"):
+        sys.modules.pop(name, None)
+
+
+def write(folder, module):
+    for name, text in {"rod.toml": ROD, "rod.py": module, "solver.py": SOLVER}.items():
+        (folder / name).write_text(text)
+
+
+def located(mistake, **options):
+    import rod
+    import solver
+
+    solver.MISTAKE = mistake
+    return cs.study(solver.solve, order=options.pop("order", 2), variants=rod, **options)
+
+
+def test_the_face_with_the_mistake_is_named_and_the_failure_shows_the_table(folder):
+    found = located("value", n=[8, 16, 32, 64], name="rod")
+    assert found.where["named"] == [{"part": "face", "name": "x_min"}] and NAMED in found.where["conclusion"]
+    names = [variant["name"] for variant in found.where["variants"]]
+    assert names == ["constant_x", "constant_t", "flat_x_min", "flat_x_max", "flat_x", "flat_initial", "flat_everywhere"]
+    with pytest.raises(AssertionError) as failed:
+        found.assert_passes()
+    lines = str(failed.value).splitlines()
+    assert lines[0].startswith("L2: fail: ") and NAMED in lines[-1] and "look at the condition value at x_min" in lines[-1]
+    table = lines[-9:-1]
+    assert table[0].split() == ["variant", "rate", "order"] and [row.split()[0] for row in table[1:]] == names
+    assert table[3].endswith("  back") and table[4].endswith("  lost")
+    # The module is that of the file again.
+    import rod
+    import solver
+
+    assert "MANUFACTURE_VARIANT" not in os.environ and rod._VARIANT == "" and solver.exact_T is rod.exact_T
+    solver.MISTAKE = ""
+    assert cs.study(solver.solve, order=2).verdict == "pass"
+
+
+def test_the_command_names_the_same_part(folder):
+    (folder / "run.py").write_text("import sys, json, solver\nsolver.MISTAKE = 'value'\nprint(json.dumps({'errors': solver.solve(int(sys.argv[1]))}))\n")
+    study = '[study]\nid = "rod"\nclaim = "c"\ntier = "quick"\nkind = "program"\n[program]\nmanufacture = "rod.toml"\n'
+    study += f'command = [{json.dumps(sys.executable)}, "run.py", "{{n}}"]\n[refine]\nn = [8, 16, 32, 64]\n[[expect]]\nerror = "L2"\norder = 2\n'
+    (folder / "study.toml").write_text(study)
+    words = [sys.executable, "-m", "convergence_study", "study", "study.toml", "--where", "--format", "json"]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
+    assert done.returncode == 1, done.stderr
+    by_command, here = json.loads(done.stdout)["studies"][0]["where"], located("value", n=[8, 16, 32, 64]).where
+    assert by_command["named"] == here["named"] and by_command["conclusion"] == here["conclusion"]
+
+
+def test_time_is_named_and_nothing_without_a_mistake(folder):
+    assert located("source").where["named"] == [{"part": "time", "name": "t"}]
+    # A right solver that is undecided is examined, too.
+    assert located("", n=[8, 16, 32, 64]).where["named"] == []
+    right = located("")
+    assert right.verdict == "pass" and right.where is None and right.to_dict()["where"] is None
+    # An order that nobody has promised is lost in every part, and none is named.
+    everywhere = located("", n=[8, 16, 32, 64], order=3).where
+    assert everywhere["named"] == [] and "everywhere" in everywhere["conclusion"]
+
+
+def test_copies_reports_and_dicts_keep_the_place(folder):
+    found = located("value", n=[8, 16, 32, 64], name="rod")
+    again = copy.deepcopy(found)
+    assert again.where == found.where and str(again) == str(found) and NAMED in str(again)
+    assert json.loads(json.dumps(found.to_dict()))["where"] == found.where
+    again.report(folder / "report")
+    picture = (folder / "report/figures/rod-where.svg").read_text()
+    assert "flat_x_min" in picture and "the order claimed, 2" in picture
+    assert NAMED in (folder / "report/README.md").read_text()
+
+
+def test_a_module_without_variants_is_refused_before_anything_is_run(folder, monkeypatch, modules):
+    write(folder, modules[1])
+    import rod
+
+    def never(n):
+        raise AssertionError("called")
+
+    with pytest.raises(ValueError, match="variants: expected a module with the variants of a solution.*found rod, which has none; write it again"):
+        cs.study(never, order=2, variants=rod)
+    with pytest.raises(TypeError, match="variants: expected the module that .*, found 'rod'"):
+        cs.study(never, order=2, variants="rod")
+    write(folder, modules[0])
+    rod.__spec__.loader.exec_module(rod)
+    monkeypatch.setenv("MANUFACTURE_VARIANT", "flat_x")
+    with pytest.raises(ValueError, match="found MANUFACTURE_VARIANT=flat_x in the environment; unset it"):
+        cs.study(never, order=2, variants=rod)
+
+
+def test_a_function_that_ignores_the_variant_is_refused(folder):
+    import rod
+
+    with pytest.raises(ValueError, match="variants: the errors are the same with all variants: solve does not use them. Likely reasons"):
+        cs.study(lambda n: 1 / n, [8, 16, 32], order=2, variants=rod)
+
+
+def test_a_variant_that_does_not_run_is_named(folder):
+    import rod
+
+    def solve(n):
+        if rod._VARIANT == "flat_x":
+            raise ZeroDivisionError("of no use")
+        return 1 / n
+
+    with pytest.raises(RuntimeError, match=r"variants: solve does not run with the variant flat_x: ZeroDivisionError\('of no use'\)"):
+        cs.study(solve, [8, 16, 32], order=2, variants=rod)
+    assert "MANUFACTURE_VARIANT" not in os.environ and rod._VARIANT == ""
+
+
+def test_steps_are_refined_while_a_variant_is_undecided(folder):
+    import rod
+
+    steps = []
+
+    def solve(h):
+        steps.append((rod._VARIANT, h))
+        # Undecided at three levels where it is flat at x_min.
+        hidden = 40 * h**4 if rod._VARIANT == "flat_x_min" else 0.3 * h
+        return h**2 + hidden
+
+    cs.study(solve, h=[0.4, 0.2, 0.1], order=2, variants=rod)
+    assert [h for variant, h in steps if variant == ""] == [0.4, 0.2, 0.1]
+    of_variant = [h for variant, h in steps if variant == "flat_x_min"]
+    assert of_variant[:4] == [0.4, 0.2, 0.1, 0.05]
+
+
+def test_the_fixture_shows_the_place_as_the_page_says(pytester, modules):
+    pytest.importorskip("numpy")
+    write(pathlib.Path(str(pytester.path)), modules[0])
+    (pytester.path / "solver.py").write_text(SOLVER.replace('MISTAKE = ""', 'MISTAKE = "value"'))
+    page = (pathlib.Path(__file__).parents[2] / "convergence-study/book/src/pytest.md").read_text()
+    block, shown = next(part for part in zip(page.split("```")[1::2], page.split("```")[3::2]) if "variants=" in part[0])
+    (pytester.path / "test_rod.py").write_text(block.removeprefix("python\n"))
+    workers = [["-n", "1"]] if importlib.util.find_spec("xdist") else []
+    for options in [[], *workers]:
+        failed = pytester.runpytest_subprocess("--convergence-report", "out", *options)
+        failed.assert_outcomes(failed=1)
+        for line in shown.removeprefix("text\n").splitlines():
+            assert line in failed.outlines, line
+        assert NAMED in (pytester.path / "out/README.md").read_text()

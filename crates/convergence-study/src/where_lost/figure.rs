@@ -1,0 +1,59 @@
+//! The rates by variant, with their intervals, against the order that is claimed.
+
+use super::words::order;
+use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::plots::{ForestAxis, ForestRow, forest};
+use crate::run::{Fate, Located};
+use crate::study::{Figure, Header, Outcome};
+use crate::text::number::{RATE_PLACES, interval_text, rate_text};
+
+/// What the colours mean.
+const COLOURS: [&str; 3] = ["order reached", "undecided", "lost"];
+
+/// Rates of the first error that has lost its order: the study's own, then those of its variants;
+/// `None` if it claims nothing.
+pub fn figure(header: &Header, base: &Outcome, located: &Located) -> Option<Figure> {
+    let first = located.variants.iter().find_map(|row| row.rates.first())?;
+    let error = &first.error;
+    let rate = base.rate(error)?;
+    let mut rows = vec![row("the solution itself", rate, rate.verdict)];
+    for variant in &located.variants {
+        let Some(found) = variant.rates.iter().find(|found| found.error == *error) else {
+            continue;
+        };
+        let verdict = match variant.order {
+            Fate::Back | Fate::RoundOff => Verdict::Pass,
+            Fate::Unknown => Verdict::Inconclusive,
+            Fate::Lost => Verdict::Fail,
+        };
+        let mut row = row(&variant.name, &found.rate, verdict);
+        row.label += &format!(": {}", order(variant));
+        rows.push(row);
+    }
+    let rates = rows.iter().filter_map(|row| row.value);
+    let axis = ForestAxis::of_rates(rate.claimed?, rates, COLOURS);
+    let title = format!("{}: rate of the error {error} by variant", header.id);
+    let caption = format!(
+        "Rates of the error {error} with variants of the solution: {}",
+        located.conclusion
+    );
+    let svg = forest(&title, &axis, &rows);
+    Some(Figure {
+        file: format!("{}-where.svg", header.id),
+        caption,
+        svg,
+    })
+}
+
+fn row(label: &str, rate: &RateVerdict, verdict: Verdict) -> ForestRow {
+    ForestRow {
+        label: label.to_owned(),
+        numbers: rate.interval.map_or_else(
+            || rate_text(rate.fitted),
+            |interval| interval_text(interval, RATE_PLACES),
+        ),
+        value: rate.fitted.or(rate.pairwise.last().copied()),
+        interval: rate.interval,
+        verdict,
+    }
+}

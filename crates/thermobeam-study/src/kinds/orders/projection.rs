@@ -189,7 +189,7 @@ impl Source for Projection {
             ),
             EXPECT,
         ]]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "A run starts from values at the nodes. In one dimension they are the projections (3.6) of the initial data, whose errors \
               (3.4) and (3.5) bound on every mesh.",
         judged: "The orthogonality that defines the projection; the rate of each claimed error; its bound with the best constant, and \

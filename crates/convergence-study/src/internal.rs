@@ -43,9 +43,6 @@ pub mod input {
     pub mod advice {
         pub use crate::input::advice::{Argument, CommandLine, Setting, Surface, Value};
     }
-    pub mod keys {
-        pub use crate::input::keys::{all_or, names};
-    }
 }
 #[cfg(feature = "tables")]
 pub mod plots {

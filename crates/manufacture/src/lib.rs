@@ -34,7 +34,7 @@ use std::time::Duration;
 pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
-pub use problem::{InputError, keys};
+pub use problem::{FILE_KEYS, InputError};
 pub use variants::{DescribedVariant, Description, LeftOut, Switch, Variant, Variants};
 
 /// A file, read and derived.

@@ -34,9 +34,21 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of the harness from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 13] = [
-    "input", "plots", "exchange", "rates", "study", "run", "project", "store", "program",
-    "compare", "report", "verify", "cli",
+const ORDER: [&str; 14] = [
+    "input",
+    "plots",
+    "exchange",
+    "rates",
+    "study",
+    "run",
+    "where_lost",
+    "project",
+    "store",
+    "program",
+    "compare",
+    "report",
+    "verify",
+    "cli",
 ];
 
 /// The modules of the judge, which every module may use under the harness's name.
@@ -60,14 +72,18 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 9] = [
+const CRATES: [(&str, &[&str]); 10] = [
     (
         "convergence-calibration",
         &["convergence-judge", "convergence-study"],
     ),
     ("convergence-judge", &[]),
-    ("manufacture", &[]),
-    ("convergence-study", &["convergence-judge", "manufacture"]),
+    ("convergence-keys", &[]),
+    ("manufacture", &["convergence-keys"]),
+    (
+        "convergence-study",
+        &["convergence-judge", "convergence-keys", "manufacture"],
+    ),
     ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["manufacture", "thermobeam"]),
@@ -75,6 +91,7 @@ const CRATES: [(&str, &[&str]); 9] = [
         "thermobeam-study",
         &[
             "convergence-judge",
+            "convergence-keys",
             "convergence-study",
             "thermobeam",
             "thermobeam-exact",

@@ -12,7 +12,7 @@ pub(crate) use convergence_study::{
     InputError, Key, Keys, Kind, KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading,
     Refinement, Section, Sort, Study, Subject, Table, Untested, Verdict, completion_check,
     internal::{
-        input::{POSITIVE, keys},
+        input::POSITIVE,
         plots::{self, xy::Xy},
         study::{
             Described, allow_only,

@@ -123,7 +123,7 @@ impl Source for AnyOrder {
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
         let problem: &[Key] = if vibration.is_some() { &FREE } else { &LOADED };
-        root.allow(&[&["study"], &keys::names(&[problem, &RUNS])[..]].concat())?;
+        root.allow(&[&["study"], &convergence_keys::names(&[problem, &RUNS])[..]].concat())?;
         let run = root
             .require("run", "a table with over, t_end, degrees and steps")?
             .section()?;
@@ -135,7 +135,7 @@ impl Source for AnyOrder {
         let over = run
             .require("over", "\"space\", \"time\" or \"degree\"")?
             .choice(&overs)?;
-        run.allow(&keys::names(&[&RUN, over.keys().of_run]))?;
+        run.allow(&convergence_keys::names(&[&RUN, over.keys().of_run]))?;
         let t_end = run.positive("t_end")?;
         let (theory, exact) = match &vibration {
             Some(section) => free(section)?,

@@ -112,7 +112,7 @@ const SCENE: [Key; 1] = [Key::new(
     Form::Text,
     "a scene file, relative to this file",
 )];
-const STEPPING: [Key; 5] = keys::all_or(tables::STEPPING_KEYS, "that of the scene");
+const STEPPING: [Key; 5] = convergence_keys::all_or(tables::STEPPING_KEYS, "that of the scene");
 const COUNTS: Form = Form::OneOf(&[Form::Count(1), Form::List(&Form::Count(1))]);
 const LEVELS: [Key; 7] = [
     Key::new(

@@ -19,6 +19,9 @@ use crate::{judge, wrong};
 /// Numbers of levels, equally often.
 const LEVELS: [usize; 4] = [4, 5, 6, 8];
 
+/// Steps of neighbouring levels.
+const RATIO: f64 = 2.0;
+
 /// Largest exponent that a fit with a free limit tries, and the number of exponents.
 const EXPONENTS: (f64, usize) = (8.0, 400);
 
@@ -55,13 +58,15 @@ impl Practice {
     }
 
     /// The numbers that must be in the band around the order.
-    fn numbers(self, levels: &[Level]) -> Vec<f64> {
+    ///
+    /// * `powers`: of the steps of these levels, and possibly of finer ones.
+    fn numbers(self, levels: &[Level], powers: &[Powers]) -> Vec<f64> {
         let rates = pairwise_rates(levels);
         match self {
             Self::LastPair => rates[rates.len() - 1..].to_vec(),
             Self::LastThreeSlopes => rates[rates.len() - 3..].to_vec(),
             Self::LeastSquares => vec![fit_line(levels).map_or(f64::NAN, |line| line.slope)],
-            Self::EcaHoekstra => vec![exponent_with_limit(levels)],
+            Self::EcaHoekstra => vec![exponent_with_limit(levels, powers)],
             Self::Richardson => vec![of_differences(levels)],
         }
     }
@@ -85,21 +90,39 @@ fn of_differences(levels: &[Level]) -> f64 {
     ((coarse.error - middle.error) / (middle.error - fine.error)).log2()
 }
 
+/// The powers of all steps for one exponent.
+struct Powers {
+    exponent: f64,
+    of_steps: Vec<f64>,
+}
+
+impl Powers {
+    /// Those of each exponent that is tried, for steps halved from 1, as all tables have them.
+    fn of_halved_steps(levels: usize) -> Vec<Self> {
+        let (largest, count) = EXPONENTS;
+        let mut all = vec![];
+        for k in 1..=count {
+            let exponent = largest * k as f64 / count as f64;
+            let steps = (0..levels).map(|level| RATIO.powi(-(level as i32)));
+            let of_steps = steps.map(|step| step.powf(exponent)).collect();
+            all.push(Self { exponent, of_steps });
+        }
+        all
+    }
+}
+
 /// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
-fn exponent_with_limit(levels: &[Level]) -> f64 {
+fn exponent_with_limit(levels: &[Level], powers: &[Powers]) -> f64 {
     let weightings = [false, true].map(|is_weighted| Weighting::new(levels, is_weighted));
     let mut best = [Deviation::NONE; 2];
-    let mut powers = vec![0.0; levels.len()];
-    let (largest, count) = EXPONENTS;
-    for k in 1..=count {
-        let exponent = largest * k as f64 / count as f64;
-        for (power, level) in powers.iter_mut().zip(levels) {
-            *power = level.step.powf(exponent);
-        }
+    for Powers { exponent, of_steps } in powers {
         for (best, weighting) in best.iter_mut().zip(&weightings) {
-            let square = weighting.deviation(&powers);
+            let square = weighting.deviation(&of_steps[..levels.len()]);
             if square < best.square {
-                *best = Deviation { square, exponent };
+                *best = Deviation {
+                    square,
+                    exponent: *exponent,
+                };
             }
         }
     }
@@ -230,12 +253,14 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibrat
     let judge = judge(DEFAULT_TOLERANCE)?;
     let [mut wrong_pass, mut true_pass, mut shown_pass] = [Share::default(); 3];
     let mut wrong_passes = 0;
+    let most = LEVELS.into_iter().max().unwrap_or(0);
+    let powers = Powers::of_halved_steps(most);
     let mut all = vec![Distances::default(); Practice::ALL.len()];
     for law in &FRESH {
         for k in 0..tables {
-            let table = law.draw(LEVELS[k % LEVELS.len()], 2.0, draw.next()?);
+            let table = law.draw(LEVELS[k % LEVELS.len()], RATIO, draw.next()?);
             let reading = judge.read(&table.levels);
-            let numbers = Practice::ALL.map(|practice| practice.numbers(&table.levels));
+            let numbers = Practice::ALL.map(|practice| practice.numbers(&table.levels, &powers));
             for claim in wrong(&table, 2.0 * DEFAULT_TOLERANCE) {
                 let passes = judge.decide(&reading, claim).is_pass();
                 wrong_pass.count(passes);
@@ -294,8 +319,9 @@ mod tests {
                 error: step * step,
             })
             .collect();
+        let powers = Powers::of_halved_steps(levels.len());
         for practice in Practice::ALL {
-            let away = distance(&practice.numbers(&levels), 2.0);
+            let away = distance(&practice.numbers(&levels, &powers), 2.0);
             assert!(away < 1e-9, "{practice:?}: {away}");
         }
         // A constant error leaves the free limit as it is, and spoils the others.
@@ -308,7 +334,7 @@ mod tests {
             .collect();
         for practice in Practice::ALL {
             let is_blind = matches!(practice, Practice::EcaHoekstra | Practice::Richardson);
-            let away = distance(&practice.numbers(&shifted), 2.0);
+            let away = distance(&practice.numbers(&shifted, &powers), 2.0);
             assert_eq!(away < 1e-9, is_blind, "{practice:?}: {away}");
         }
         assert_eq!(distance(&[f64::NAN], 2.0), f64::INFINITY);

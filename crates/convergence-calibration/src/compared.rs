@@ -59,14 +59,14 @@ impl Practice {
 
     /// The numbers that must be in the band around the order.
     ///
-    /// * `powers`: of the steps of these levels, and possibly of finer ones.
-    fn numbers(self, levels: &[Level], powers: &[Powers]) -> Vec<f64> {
+    /// * `weightings`: for this number of levels.
+    fn numbers(self, levels: &[Level], weightings: &[Weighting; 2]) -> Vec<f64> {
         let rates = pairwise_rates(levels);
         match self {
             Self::LastPair => rates[rates.len() - 1..].to_vec(),
             Self::LastThreeSlopes => rates[rates.len() - 3..].to_vec(),
             Self::LeastSquares => vec![fit_line(levels).map_or(f64::NAN, |line| line.slope)],
-            Self::EcaHoekstra => vec![exponent_with_limit(levels, powers)],
+            Self::EcaHoekstra => vec![exponent_with_limit(levels, weightings)],
             Self::Richardson => vec![of_differences(levels)],
         }
     }
@@ -93,44 +93,68 @@ fn of_differences(levels: &[Level]) -> f64 {
 /// The powers of all steps for one exponent.
 struct Powers {
     exponent: f64,
-    of_steps: Vec<f64>,
+    /// Without their weighted mean.
+    centred: Vec<f64>,
+    /// The weighted sum of their squares.
+    square: f64,
 }
 
-impl Powers {
-    /// Those of each exponent that is tried, for steps halved from 1, as all tables have them.
-    fn of_halved_steps(levels: usize) -> Vec<Self> {
+/// Levels with weights whose mean is 1, and what of a fit is the same for all tables with their
+/// steps.
+struct Weighting {
+    weights: Vec<f64>,
+    /// For each exponent that is tried.
+    powers: Vec<Powers>,
+}
+
+impl Weighting {
+    /// Unweighted and weighted by 1/h, for steps halved from 1, as all tables have them.
+    fn both(levels: usize) -> [Self; 2] {
+        let steps: Vec<f64> = (0..levels).map(|k| RATIO.powi(-(k as i32))).collect();
+        [false, true].map(|is_weighted| Self::new(&steps, is_weighted))
+    }
+
+    fn new(steps: &[f64], is_weighted: bool) -> Self {
+        let mut weights = vec![];
+        for step in steps {
+            weights.push(if is_weighted { 1.0 / step } else { 1.0 });
+        }
+        let total: f64 = weights.iter().sum();
+        for weight in &mut weights {
+            *weight *= steps.len() as f64 / total;
+        }
         let (largest, count) = EXPONENTS;
-        let mut all = vec![];
+        let mut powers = vec![];
         for k in 1..=count {
             let exponent = largest * k as f64 / count as f64;
-            let steps = (0..levels).map(|level| RATIO.powi(-(level as i32)));
-            let of_steps = steps.map(|step| step.powf(exponent)).collect();
-            all.push(Self { exponent, of_steps });
+            let values = steps.iter().map(|step| step.powf(exponent));
+            let centred = without_mean(values.collect(), &weights);
+            powers.push(Powers {
+                exponent,
+                square: product(&centred, &centred, &weights),
+                centred,
+            });
         }
-        all
+        Self { weights, powers }
     }
-}
 
-/// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
-fn exponent_with_limit(levels: &[Level], powers: &[Powers]) -> f64 {
-    let weightings = [false, true].map(|is_weighted| Weighting::new(levels, is_weighted));
-    let mut best = [Deviation::NONE; 2];
-    for Powers { exponent, of_steps } in powers {
-        for (best, weighting) in best.iter_mut().zip(&weightings) {
-            let square = weighting.deviation(&of_steps[..levels.len()]);
+    /// The exponent of `limit + c h^p` that leaves the least weighted sum of squares.
+    fn best(&self, levels: &[Level]) -> Deviation {
+        let errors = levels.iter().map(|level| level.error).collect();
+        let errors = without_mean(errors, &self.weights);
+        let square_of_errors = product(&errors, &errors, &self.weights);
+        let mut best = Deviation::NONE;
+        for powers in &self.powers {
+            let along = product(&powers.centred, &errors, &self.weights);
+            let square = square_of_errors - along * along / powers.square;
             if square < best.square {
-                *best = Deviation {
+                best = Deviation {
                     square,
-                    exponent: *exponent,
+                    exponent: powers.exponent,
                 };
             }
         }
-    }
-    let [unweighted, weighted] = best;
-    if weighted.square < unweighted.square {
-        weighted.exponent
-    } else {
-        unweighted.exponent
+        best
     }
 }
 
@@ -148,62 +172,35 @@ impl Deviation {
     };
 }
 
-/// Levels with weights whose mean is 1, and what is the same for every exponent.
-struct Weighting {
-    weights: Vec<f64>,
-    /// The errors without their mean.
-    errors: Vec<f64>,
-    /// The weighted sum of their squares.
-    square: f64,
-}
-
-impl Weighting {
-    fn new(levels: &[Level], is_weighted: bool) -> Self {
-        let mut weights = vec![];
-        let mut errors = vec![];
-        for level in levels {
-            weights.push(if is_weighted { 1.0 / level.step } else { 1.0 });
-            errors.push(level.error);
-        }
-        let total: f64 = weights.iter().sum();
-        for weight in &mut weights {
-            *weight *= levels.len() as f64 / total;
-        }
-        let mean = mean(&errors, &weights);
-        let mut square = 0.0;
-        for (error, weight) in errors.iter_mut().zip(&weights) {
-            *error -= mean;
-            square += *error * *error * weight;
-        }
-        Self {
-            weights,
-            errors,
-            square,
-        }
-    }
-
-    /// The weighted sum of squares that `limit + c h^exponent` leaves.
-    ///
-    /// It is computed some million times, by plain loops and without allocations.
-    fn deviation(&self, powers: &[f64]) -> f64 {
-        let mean = mean(powers, &self.weights);
-        let [mut along, mut square] = [0.0; 2];
-        for i in 0..powers.len() {
-            let power = powers[i] - mean;
-            along += power * self.errors[i] * self.weights[i];
-            square += power * power * self.weights[i];
-        }
-        self.square - along * along / square
+/// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
+fn exponent_with_limit(levels: &[Level], weightings: &[Weighting; 2]) -> f64 {
+    let [unweighted, weighted] = weightings.each_ref().map(|one| one.best(levels));
+    if weighted.square < unweighted.square {
+        weighted.exponent
+    } else {
+        unweighted.exponent
     }
 }
 
-/// The weighted mean; the weights have the mean 1.
-fn mean(values: &[f64], weights: &[f64]) -> f64 {
+fn without_mean(mut values: Vec<f64>, weights: &[f64]) -> Vec<f64> {
+    let weighted = values
+        .iter()
+        .zip(weights)
+        .map(|(value, weight)| value * weight);
+    let mean = weighted.sum::<f64>() / values.len() as f64;
+    for value in &mut values {
+        *value -= mean;
+    }
+    values
+}
+
+/// `Σ a b w`; a plain loop, since it runs some million times in a build with little optimisation.
+fn product(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
     let mut sum = 0.0;
-    for i in 0..values.len() {
-        sum += values[i] * weights[i];
+    for i in 0..weights.len() {
+        sum += a[i] * b[i] * weights[i];
     }
-    sum / values.len() as f64
+    sum
 }
 
 /// Distances of one practice from the claims of all tables.
@@ -253,14 +250,15 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibrat
     let judge = judge(DEFAULT_TOLERANCE)?;
     let [mut wrong_pass, mut true_pass, mut shown_pass] = [Share::default(); 3];
     let mut wrong_passes = 0;
-    let most = LEVELS.into_iter().max().unwrap_or(0);
-    let powers = Powers::of_halved_steps(most);
+    let weightings = LEVELS.map(Weighting::both);
     let mut all = vec![Distances::default(); Practice::ALL.len()];
     for law in &FRESH {
         for k in 0..tables {
-            let table = law.draw(LEVELS[k % LEVELS.len()], RATIO, draw.next()?);
+            let place = k % LEVELS.len();
+            let table = law.draw(LEVELS[place], RATIO, draw.next()?);
             let reading = judge.read(&table.levels);
-            let numbers = Practice::ALL.map(|practice| practice.numbers(&table.levels, &powers));
+            let numbers =
+                Practice::ALL.map(|practice| practice.numbers(&table.levels, &weightings[place]));
             for claim in wrong(&table, 2.0 * DEFAULT_TOLERANCE) {
                 let passes = judge.decide(&reading, claim).is_pass();
                 wrong_pass.count(passes);
@@ -319,9 +317,9 @@ mod tests {
                 error: step * step,
             })
             .collect();
-        let powers = Powers::of_halved_steps(levels.len());
+        let weightings = Weighting::both(levels.len());
         for practice in Practice::ALL {
-            let away = distance(&practice.numbers(&levels, &powers), 2.0);
+            let away = distance(&practice.numbers(&levels, &weightings), 2.0);
             assert!(away < 1e-9, "{practice:?}: {away}");
         }
         // A constant error leaves the free limit as it is, and spoils the others.
@@ -334,7 +332,7 @@ mod tests {
             .collect();
         for practice in Practice::ALL {
             let is_blind = matches!(practice, Practice::EcaHoekstra | Practice::Richardson);
-            let away = distance(&practice.numbers(&shifted, &powers), 2.0);
+            let away = distance(&practice.numbers(&shifted, &weightings), 2.0);
             assert_eq!(away < 1e-9, is_blind, "{practice:?}: {away}");
         }
         assert_eq!(distance(&[f64::NAN], 2.0), f64::INFINITY);

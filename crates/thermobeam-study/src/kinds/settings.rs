@@ -34,7 +34,7 @@ pub(crate) const MANUFACTURED: &str = "manufactured solutions";
 pub(crate) const FREE_VIBRATIONS: &str = "free vibrations";
 
 /// Where to look for the cause, by the name of a setting or by the field that changed first.
-pub const PLACES: [(&str, &str); 18] = [
+pub const PLACES: [(&str, &str); 19] = [
     ("one-step schemes", "crates/thermobeam/src/solve"),
     (
         "any order",
@@ -76,6 +76,10 @@ pub const PLACES: [(&str, &str); 18] = [
     (
         "listed nodes",
         "the lengths of elements: crates/thermobeam/src/mesh.rs",
+    ),
+    (
+        "initial data",
+        "crates/thermobeam-study/src/run/simulate.rs",
     ),
     (
         "whole scenes",

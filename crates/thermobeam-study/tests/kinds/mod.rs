@@ -13,6 +13,7 @@ mod exact_experiments;
 mod experiment;
 mod frequencies;
 mod planted;
+mod projection;
 mod random_errors;
 mod refused;
 mod rigid;

@@ -9,7 +9,7 @@ use super::stages::{Stages, stepper};
 use super::time::Load;
 use crate::contact::{ContactEvent, Phase};
 use crate::error::{SetupError, StepError, StepFailure};
-use crate::motion::{Motion, StepReport, Work};
+use crate::motion::{Motion, StepReport, TipRange, Work};
 use crate::norms::max_or_nan;
 use crate::parameters::{Beam, Obstacles};
 
@@ -373,10 +373,10 @@ impl Motion for Dg {
     }
 
     /// Extrema inside the last step count.
-    fn tip_range(&self) -> [f64; 2] {
+    fn tip_range(&self) -> TipRange {
         let u = self.level.places[self.space.tip()][0];
         if self.last_dt == 0.0 {
-            return [u, u];
+            return TipRange::at(u);
         }
         let tip = self.stages.coefficient(Field::U, self.space.tip(), 0);
         let (extrema, count) = tip.derivative().sign_changes();
@@ -384,8 +384,9 @@ impl Motion for Dg {
             .iter()
             .map(|&s| tip.at(s))
             .chain([tip.at(0.0)]);
-        values.fold([u, u], |[low, high], value| {
-            [-max_or_nan(-low, -value), max_or_nan(high, value)]
+        values.fold(TipRange::at(u), |TipRange { low, high }, value| TipRange {
+            low: -max_or_nan(-low, -value),
+            high: max_or_nan(high, value),
         })
     }
 

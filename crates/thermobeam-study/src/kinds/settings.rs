@@ -27,6 +27,9 @@ pub(crate) const CONTACT: &str = "experiments with contact";
 /// The topic of studies of the energy.
 pub(crate) const ENERGY: &str = "the energy's laws";
 
+/// The topic of studies of initial data.
+pub(crate) const INITIAL_DATA: &str = "initial data";
+
 /// The topic of studies of manufactured solutions.
 pub(crate) const MANUFACTURED: &str = "manufactured solutions";
 
@@ -77,10 +80,7 @@ pub const PLACES: [(&str, &str); 19] = [
         "listed nodes",
         "the lengths of elements: crates/thermobeam/src/mesh.rs",
     ),
-    (
-        "initial data",
-        "crates/thermobeam-study/src/run/simulate.rs",
-    ),
+    (INITIAL_DATA, "crates/thermobeam-study/src/run/simulate.rs"),
     (
         "whole scenes",
         "crates/thermobeam-study/src/scene, crates/thermobeam-study/src/run",

@@ -14,13 +14,18 @@ mod planted;
 use std::io;
 use std::path::Path;
 
-use convergence_study::Table;
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{self, Outcome, Unusable};
-use convergence_study::internal::cli::running::LongRun;
-use convergence_study::internal::cli::{screen, workspace};
-use convergence_study::internal::report;
-use convergence_study::internal::store::atomic;
+use convergence_study::{
+    Table, Verdict,
+    internal::{
+        cli::{
+            exit::{self, Outcome, Unusable},
+            running::LongRun,
+            screen, workspace,
+        },
+        report,
+        store::atomic,
+    },
+};
 
 use judged::Judged;
 use list::Regression;

@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::Choice;
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{Outcome, Unusable};
-use convergence_study::internal::rates::{self, Claimed, Refusal, Request, Tables, claimed};
+use convergence_study::{
+    Choice, Verdict,
+    internal::{
+        cli::exit::{Outcome, Unusable},
+        rates::{self, Claimed, Refusal, Request, Tables, claimed},
+    },
+};
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -8,6 +8,7 @@ mod manifests;
 mod place;
 mod quick_tier;
 mod readme;
+mod references;
 mod release;
 mod reworded;
 mod site;

@@ -8,16 +8,17 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use convergence_study::Project;
-use convergence_study::Verdict;
-use convergence_study::internal::store::diagnosis::{Diagnosis, diagnose};
-use convergence_study::internal::store::{Baseline, Change};
-use convergence_study::internal::study::outcome::settle;
 use convergence_study::{
-    Finished,
-    internal::run::{Item, not_passed, run},
+    Finished, Project, Study, Verdict,
+    internal::{
+        run::{Item, not_passed, run},
+        store::{
+            Baseline, Change,
+            diagnosis::{Diagnosis, diagnose},
+        },
+        study::{StudyFile, outcome::settle},
+    },
 };
-use convergence_study::{Study, internal::study::StudyFile};
 use serde_json::Value;
 
 /// The keys of texts for people, in a study as JSON.

@@ -2,8 +2,7 @@
 //! convergence index.
 
 use convergence_judge::judge::verdict::FEWEST_LEVELS;
-use convergence_study::Interval;
-use convergence_study::{Estimator, Value};
+use convergence_study::{Estimator, Interval, Value};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::intervals::{ALL, LEVEL_COUNTS, is_declared, steps};

@@ -1,9 +1,10 @@
 //! Claims other than an order, and wrong claims that few levels or a wrong limit suggest.
 
-use convergence_judge::judge::claims;
-use convergence_judge::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading};
-use convergence_study::Interval;
-use convergence_study::{Reason, Verdict};
+use convergence_judge::judge::{
+    claims,
+    verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading},
+};
+use convergence_study::{Interval, Reason, Verdict};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{hidden_term, three_terms, wrong_limit};

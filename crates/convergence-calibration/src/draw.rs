@@ -1,7 +1,9 @@
 //! Random numbers for tables, and why a calibration ends early.
 
-use convergence_judge::judge::random::SplitMix;
-use convergence_judge::time_limit::{Patience, TimeUp};
+use convergence_judge::{
+    judge::random::SplitMix,
+    time_limit::{Patience, TimeUp},
+};
 use convergence_study::JudgeError;
 use thiserror::Error;
 

@@ -7,10 +7,11 @@
 //! from 0.01 to 1, and p + 1 is claimed. A constant is 10 to 300 % of the finest error, and is
 //! added to the errors, of either sign, or its square to their squares.
 
-use convergence_judge::judge::grid::{Adding, GridErrors};
-use convergence_judge::judge::random::SplitMix;
-use convergence_study::SpaceTime;
-use convergence_study::{RateVerdict, Verdict};
+use convergence_judge::judge::{
+    grid::{Adding, GridErrors},
+    random::SplitMix,
+};
+use convergence_study::{RateVerdict, SpaceTime, Verdict};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::sheet::{Cell, Row, Share, Sheet};

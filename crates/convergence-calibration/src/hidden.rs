@@ -1,7 +1,6 @@
 //! Errors with a term of lower order that is just about to show.
 
-use convergence_judge::judge::fit::Level;
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::judge::{fit::Level, random::SplitMix};
 
 use crate::laws::Table;
 use crate::shapes::log_uniform;

@@ -1,7 +1,9 @@
 //! What each law does to claims and to intervals, on 3 to 8 levels with equal and unequal ratios.
 
-use convergence_judge::judge::random::SplitMix;
-use convergence_judge::judge::verdict::{FEWEST_LEVELS, Judge, Reading};
+use convergence_judge::judge::{
+    random::SplitMix,
+    verdict::{FEWEST_LEVELS, Judge, Reading},
+};
 use convergence_study::Verdict;
 
 use crate::draw::{CalibrationError, Draw};

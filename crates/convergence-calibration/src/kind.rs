@@ -16,14 +16,15 @@
 
 use std::path::Path;
 
-use convergence_study::completion;
-use convergence_study::internal::plots;
-use convergence_study::internal::plots::xy::Xy;
 use convergence_study::{
-    Case, CaseFailure, Check, Figure, FromFile, Header, Kind, KindRow, Outcome, Quantity, Ran,
-    Subject, Table, internal::study::header, reader,
+    Case, CaseFailure, Check, Figure, Form, FromFile, Header, InputError, Key, Keys, Kind, KindRow,
+    Outcome, Quantity, Ran, Section, Subject, Table, completion_check,
+    internal::{
+        plots::{self, xy::Xy},
+        study::header,
+    },
+    read_study,
 };
-use convergence_study::{Form, InputError, Key, Keys, Section};
 use plots::Axis;
 
 use crate::bars::of_the_bars;
@@ -37,7 +38,7 @@ use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
 pub const ROW: KindRow = KindRow {
     name: "calibration",
     keys: Calibration::KEYS,
-    read: reader::<Calibration>,
+    read: read_study::<Calibration>,
     why: "The rules that turn errors into verdicts, and values into error bars, are applied to thousands of made-up sequences and grids whose order or limit \
           is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
@@ -246,7 +247,7 @@ impl Kind for Calibration {
             .iter()
             .flat_map(|expected| expected.checks(&sheets))
             .collect();
-        checks.push(completion(ran, |_| vec![]));
+        checks.push(completion_check(ran, |_| vec![]));
         let summary = format!(
             "{} shares of {} sheets are within their limits",
             checks.len() - 1,

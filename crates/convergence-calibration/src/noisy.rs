@@ -3,9 +3,7 @@
 //!
 //! The laws were written, and their numbers fixed, before the rule looked at them.
 
-use convergence_judge::judge::fit::Level;
-use convergence_judge::judge::random::SplitMix;
-use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
+use convergence_judge::judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
 use convergence_study::Verdict;
 
 use crate::draw::{CalibrationError, Draw};

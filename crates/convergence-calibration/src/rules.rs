@@ -1,11 +1,14 @@
 //! This rule next to those that people use, and with levels added: wrong and true claims, and
 //! hidden terms.
 
-use convergence_judge::judge::fit::{Level, fit_line, pairwise_rates};
-use convergence_judge::judge::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading};
-use convergence_judge::text::number::counted;
-use convergence_study::Verdict;
-use convergence_study::internal::study::until_decided::is_settled;
+use convergence_judge::{
+    judge::{
+        fit::{Level, fit_line, pairwise_rates},
+        verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading},
+    },
+    text::number::counted,
+};
+use convergence_study::{Verdict, internal::study::until_decided::is_settled};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};

@@ -12,9 +12,11 @@
 //! On a mesh that is shifted by a part s of a cell, θ + s takes the place of θ. The errors of eight
 //! shifts, 0 to 7/8, have a mean (of squares in L2) that depends little on θ.
 
-use convergence_judge::judge::fit::{Level, fit_line};
-use convergence_judge::judge::random::SplitMix;
-use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
+use convergence_judge::judge::{
+    fit::{Level, fit_line},
+    random::SplitMix,
+    verdict::DEFAULT_TOLERANCE,
+};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use convergence_calibration::kind::{Calibration, ROW};
 use convergence_calibration::sheet::Sheet;
-use convergence_study::Verdict;
-use convergence_study::internal::input;
-use convergence_study::internal::study::kind::run_cases_here;
-use convergence_study::{CaseFailure, FromFile, Header, Kind, Outcome};
+use convergence_study::{
+    CaseFailure, FromFile, Header, Kind, Outcome, Verdict,
+    internal::{input, study::kind::run_cases_here},
+};
 
 /// A file of the repository's `studies/`.
 fn file(name: &str) -> PathBuf {

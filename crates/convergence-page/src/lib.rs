@@ -9,8 +9,10 @@ mod answer;
 mod memory;
 mod question;
 
-use convergence_study::internal::input::advice::CommandLine;
-use convergence_study::internal::rates::{Refusal, sheet};
+use convergence_study::internal::{
+    input::advice::CommandLine,
+    rates::{Refusal, sheet},
+};
 use serde_json::{Value, json};
 
 use answer::{Judged, Read, Refused};

@@ -1,9 +1,13 @@
 //! What the page asks.
 
 use convergence_judge::text::names::quoted;
-use convergence_study::Choice;
-use convergence_study::internal::input::advice::{CommandLine, Surface};
-use convergence_study::internal::rates::{Claimed, Request, claimed};
+use convergence_study::{
+    Choice,
+    internal::{
+        input::advice::{CommandLine, Surface},
+        rates::{Claimed, Request, claimed},
+    },
+};
 use serde::Deserialize;
 
 use crate::answer::Refused;

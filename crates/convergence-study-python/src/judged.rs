@@ -1,13 +1,18 @@
 //! Judges tables of errors.
 
-use convergence_judge::judge::fit::Level;
-use convergence_judge::judge::shown::{self, MOST_PLACES, Shown};
-use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
-use convergence_judge::text::number::decimals;
-use convergence_study::Interval;
-use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
-use convergence_study::{Axis, Claim, NamedRate, Refinement};
-use convergence_study::{Floor, RateVerdict, Reason, Verdict, observe};
+use convergence_judge::{
+    judge::{
+        fit::Level,
+        shown::{self, MOST_PLACES, Shown},
+        verdict::DEFAULT_TOLERANCE,
+    },
+    text::number::decimals,
+};
+use convergence_study::{
+    Axis, Claim, Floor, Interval, NamedRate, RateVerdict, Reason, Refinement, Verdict,
+    internal::study::over_levels::{ErrorColumn, Levels},
+    observe,
+};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

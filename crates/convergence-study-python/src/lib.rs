@@ -16,8 +16,10 @@ mod values;
 
 use std::ffi::OsString;
 
-use convergence_study::internal::cli;
-use convergence_study::internal::program::{self, guard};
+use convergence_study::internal::{
+    cli,
+    program::{self, guard},
+};
 use pyo3::prelude::*;
 
 /// The program `convergence-study`; returns its exit status.
@@ -37,7 +39,7 @@ fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -
         .into(),
     );
     let arguments = std::iter::once("convergence-study".into()).chain(arguments);
-    py.detach(|| cli::main_with(&program::PROJECT, arguments))
+    py.detach(|| cli::status_of(&program::PROJECT, arguments))
 }
 
 #[pymodule]

@@ -1,7 +1,6 @@
 //! Limits of values without an exact solution.
 
-use convergence_judge::judge::richardson::Estimate;
-use convergence_judge::text::number::RATE_PLACES;
+use convergence_judge::{judge::richardson::Estimate, text::number::RATE_PLACES};
 use convergence_study::{Estimator, Value};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};

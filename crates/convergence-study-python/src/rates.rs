@@ -1,9 +1,12 @@
 //! Tables of files and texts, judged by the command `rates`.
 
-use convergence_study::Claim;
-use convergence_study::PROGRAMS as PROJECT;
-use convergence_study::internal::input::advice::Argument;
-use convergence_study::internal::rates::{Claimed, ClaimedOrder, Request, Tables, object};
+use convergence_study::{
+    Claim, PROGRAMS as PROJECT,
+    internal::{
+        input::advice::Argument,
+        rates::{Claimed, ClaimedOrder, Request, Tables, object},
+    },
+};
 use pyo3::prelude::*;
 
 use crate::call::{Call, literal};

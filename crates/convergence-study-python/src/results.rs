@@ -2,12 +2,15 @@
 
 use std::borrow::Cow;
 
-use convergence_study::Floor;
-use convergence_study::internal::study::over_levels::Levels;
-use convergence_study::internal::study::until_decided::{self, Looks, Next};
 use convergence_study::{
-    Axis, Claim, ErrorsOverLevels, Header,
-    internal::study::{NamedErrors, STEPS, header::is_name, run_cases_here},
+    Axis, Claim, ErrorsOverLevels, Floor, Header,
+    internal::study::{
+        NamedErrors, STEPS,
+        header::is_name,
+        over_levels::Levels,
+        run_cases_here,
+        until_decided::{self, Looks, Next},
+    },
     levels,
 };
 use pyo3::prelude::*;

@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use convergence_study::Header;
-use convergence_study::Project;
-use convergence_study::Verdict;
-use convergence_study::internal::store::{Baseline, Change, Movement, Record, atomic};
-use convergence_study::internal::verify;
-use convergence_study::{Finished, internal::run};
+use convergence_study::{
+    Finished, Header, Project, Verdict,
+    internal::{
+        run,
+        store::{Baseline, Change, Movement, Record, atomic},
+        verify,
+    },
+};
 use pyo3::prelude::*;
 
 use crate::results::TEST;

@@ -4,12 +4,15 @@ use std::io::{IsTerminal as _, Write as _, stderr};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use convergence_study::internal::program;
-use convergence_study::internal::study::until_decided::Next;
-use convergence_study::internal::study::{NamedErrors, STEPS, first_repeated};
-use convergence_study::internal::verify;
-use convergence_study::internal::where_lost::{self, Located};
-use convergence_study::{Finished, NamedRate, Outcome, Verdict};
+use convergence_study::{
+    Finished, NamedRate, Outcome, Verdict,
+    internal::{
+        program,
+        study::{NamedErrors, STEPS, first_repeated, until_decided::Next},
+        where_lost::{self, Located},
+    },
+    write_report,
+};
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -185,7 +188,7 @@ impl Study {
     }
 
     fn report(&self, folder: PathBuf) -> PyResult<()> {
-        verify::report(
+        write_report(
             &program::PROJECT,
             std::slice::from_ref(&self.finished),
             &folder,

@@ -1,8 +1,6 @@
 //! Tables of several errors, read as `convergence-study rates` reads them.
 
-use convergence_study::Claim;
-use convergence_study::observe;
-use convergence_study::{Choice, Column, RateTable};
+use convergence_study::{Choice, Claim, Column, RateTable, observe};
 use pyo3::prelude::*;
 
 use crate::call::{Call, OF_JUDGE};

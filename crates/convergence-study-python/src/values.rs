@@ -2,12 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use convergence_judge::judge::claims::order_from_text;
-use convergence_judge::judge::fit::Level;
-use convergence_judge::judge::verdict::Judge;
-use convergence_study::Claim;
-use convergence_study::Floor;
-use convergence_study::FrameColumn;
+use convergence_judge::judge::{claims::order_from_text, fit::Level, verdict::Judge};
+use convergence_study::{Claim, Floor, FrameColumn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};

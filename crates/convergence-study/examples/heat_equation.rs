@@ -3,7 +3,7 @@
 
 use std::{env, error::Error, f64::consts::PI, path::Path};
 
-use convergence_study::{Finished, Header, Project, VerificationError, levels, report};
+use convergence_study::{Finished, Header, Project, VerificationError, levels, write_report};
 
 /// The errors at t = 1/8 on n cells; the exact solution is exp(-π² t) sin(π x).
 fn errors(n: usize) -> [(&'static str, f64); 2] {
@@ -37,7 +37,7 @@ fn run(folder: &Path) -> Result<Finished, VerificationError> {
         .claim("mean square", 2.0)
         .claim("maximum", 2.0);
     let found = study.run();
-    report(
+    write_report(
         &Project::new("heat-equation", "cargo run --example heat_equation"),
         std::slice::from_ref(&found),
         folder,

@@ -3,7 +3,9 @@
 
 #[cfg(feature = "command-line")]
 pub mod cli {
-    pub use crate::cli::{COMMANDS, Command, command_line, ended, main, main_with, program};
+    pub use crate::cli::{
+        COMMANDS, Command, command_line, ended, program, run_command_line, status_of,
+    };
     pub mod exit {
         pub use crate::cli::exit::{Outcome, Unusable, say};
     }
@@ -40,9 +42,6 @@ pub mod input {
     pub use crate::input::{POSITIVE, parse, parse_beside, parse_overlaid, read_text};
     pub mod advice {
         pub use crate::input::advice::{Argument, CommandLine, Setting, Surface, Value};
-    }
-    pub mod keys {
-        pub use crate::input::keys::{all_or, names};
     }
 }
 #[cfg(feature = "tables")]
@@ -145,7 +144,7 @@ pub mod study {
 }
 #[cfg(feature = "reports")]
 pub mod verify {
-    pub use crate::verify::{publish, report};
+    pub use crate::verify::publish;
 }
 #[cfg(feature = "tables")]
 pub mod where_lost {

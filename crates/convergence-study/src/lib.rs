@@ -27,14 +27,14 @@
 //!
 //! # A project that verifies itself
 //!
-//! A project names its kinds of study in a [`Project`] and calls [`main`]: its program then has
+//! A project names its kinds of study in a [`Project`] and calls [`run_command_line`]: its program then has
 //! all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs, judges,
 //! compares with the baseline and writes the report. The smallest one has no kind of its own: its
 //! studies are programs in any language.
 //!
 #![cfg_attr(feature = "command-line", doc = "```no_run")]
 #![cfg_attr(not(feature = "command-line"), doc = "```ignore")]
-//! use convergence_study::{PROGRAM, Project, main as command_line};
+//! use convergence_study::{PROGRAM, Project, run_command_line};
 //!
 //! const PROJECT: Project = Project {
 //!     kinds: &[PROGRAM],
@@ -42,7 +42,7 @@
 //! };
 //!
 //! fn main() -> std::process::ExitCode {
-//!     command_line(&PROJECT)
+//!     run_command_line(&PROJECT)
 //! }
 //! ```
 //!
@@ -129,9 +129,9 @@ pub use crate::{
     study::{
         Axis, Case, CaseFailure, Check, Coverage, ErrorsOverLevels, Figure, Header, IntoErrors,
         Kind, LevelErrors, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort,
-        Study, Subject, Table, Tier, Untested, erased,
+        Study, Subject, Table, Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
-        kind::completion,
+        kind::completion_check,
         levels,
     },
 };
@@ -148,7 +148,7 @@ pub use crate::{
         Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
         error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, Parameter, RateTable},
     },
-    study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, reader},
+    study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, read_study},
 };
 
 #[cfg(feature = "reports")]
@@ -156,12 +156,12 @@ pub use crate::{
 pub use crate::{
     program::{PROJECT as PROGRAMS, ROW as PROGRAM},
     project::{Front, Project, Template, Term},
-    verify::{Blessing, Request, Scope, Verification, VerificationError, report, verify},
+    verify::{Blessing, Request, Scope, Verification, VerificationError, verify, write_report},
 };
 
 #[cfg(feature = "command-line")]
 #[doc(inline)]
-pub use crate::cli::main;
+pub use crate::cli::run_command_line;
 
 /// The programs of the README and of the book are tests.
 #[cfg(all(doctest, feature = "command-line"))]

@@ -2,13 +2,13 @@
 //! write the report.
 
 mod destination;
-mod folder;
 mod rebuilt;
+mod reports;
 
 use std::fs::File;
 use std::io;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::thread;
 
 use glob::Pattern;
@@ -27,13 +27,11 @@ use crate::text::names::quoted;
 
 #[cfg(feature = "command-line")]
 pub(crate) use destination::folder_of_figures;
-#[cfg(feature = "command-line")]
-pub(crate) use folder::reports_around;
-pub use rebuilt::{publish, report};
+pub use rebuilt::{publish, write_report};
 pub(crate) use rebuilt::{rebuild, record};
 
-use destination::{Destination, scopes, tiers};
-use folder::{lock_file, lock_reports, unwritable};
+use destination::Destination;
+pub(crate) use reports::Reports;
 
 /// Which studies to run. This decides where the report goes: a report on a selection never replaces
 /// one on a tier.
@@ -77,6 +75,15 @@ impl Scope {
                 format!("{verify} {}", words.join(" "))
             }
         }
+    }
+
+    /// One of each kind: the quick tier, the full one, a selection.
+    fn one_of_each() -> [Self; 3] {
+        [
+            Self::Tier(Tier::Quick, vec![]),
+            Self::Tier(Tier::Full, vec![]),
+            Self::Selection(vec![]),
+        ]
     }
 
     /// The headers of all existing studies, if a whole tier is run.
@@ -134,28 +141,18 @@ impl Request {
     /// Waits for other processes that write the reports, and then blocks them; for a blessing first
     /// for those that write the baseline, whose lock is in the project, wherever the reports go.
     fn lock(&self) -> io::Result<[Option<File>; 2]> {
-        let baseline = self
-            .bless
-            .then(|| lock_reports(&self.root.join("reports")))
-            .transpose()?;
+        let reports = Reports::at(&self.reports);
+        let of_project = self.reports_of_project();
+        let baseline = self.bless.then(|| of_project.lock()).transpose()?;
         // A second lock on the same file would wait for the first.
-        let is_held = baseline.is_some() && self.is_one_lock();
-        Ok([
-            baseline,
-            if is_held {
-                None
-            } else {
-                Some(lock_reports(&self.reports)?)
-            },
-        ])
+        let is_held = baseline.is_some() && of_project.shares_its_lock(&reports);
+        let reports = (!is_held).then(|| reports.lock()).transpose()?;
+        Ok([baseline, reports])
     }
 
-    /// Whether baseline and reports have the same lock. One of them must be held: its file then
-    /// exists.
-    fn is_one_lock(&self) -> bool {
-        let [baseline, reports] = [&self.root.join("reports"), &self.reports]
-            .map(|folder| lock_file(folder).canonicalize().ok());
-        baseline.is_some() && baseline == reports
+    /// Those that have the lock of the baseline.
+    fn reports_of_project(&self) -> Reports {
+        Reports::at(self.root.join("reports"))
     }
 }
 
@@ -226,19 +223,20 @@ pub fn verify(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     Baseline::read(&baseline_file)?;
-    let folder = &request.reports;
-    tidy(request)?;
-    // A folder that is not writable is reported before the run.
-    atomic::prepare_folder(folder).map_err(unwritable(folder))?;
-    let works = Works::read(&works_file(request))?;
-    let newest = request.scope.report_folder(folder);
-    if newest.has_any(&NEWEST) {
-        locked(request, || newest.set_aside(&NEWEST))?;
+    let reports = Reports::at(&request.reports);
+    if reports.is_used() {
+        locked(request, &reports, || remove_leftovers(request, &reports))?;
     }
-    let verification = run_and_write(project, studies, request, works, progress);
+    reports.prepare()?;
+    let works = Works::read(&works_file(request))?;
+    let newest = reports.report(&request.scope);
+    if newest.has_any(&NEWEST) {
+        locked(request, &reports, || newest.set_aside(&NEWEST))?;
+    }
+    let verification = run_and_write(project, studies, request, &reports, works, progress);
     if verification.is_err() {
         // The error of the run says more than one of putting back.
-        let _ = locked(request, || newest.put_back(&NEWEST));
+        let _ = locked(request, &reports, || newest.put_back(&NEWEST));
     }
     verification
 }
@@ -249,10 +247,14 @@ fn works_file(request: &Request) -> PathBuf {
 }
 
 /// Changes files of the reports while no other process writes them.
-fn locked(request: &Request, change: impl FnOnce() -> io::Result<()>) -> io::Result<()> {
+fn locked(
+    request: &Request,
+    reports: &Reports,
+    change: impl FnOnce() -> io::Result<()>,
+) -> io::Result<()> {
     let _lock = request.lock()?;
     let _writing = atomic::begin_write();
-    change().map_err(unwritable(&request.reports))
+    change().map_err(|error| reports.unwritable(&error))
 }
 
 /// The part of [`verify`] behind the checks of its input.
@@ -260,10 +262,10 @@ fn run_and_write(
     project: &Project,
     studies: &[Box<dyn Study>],
     request: &Request,
+    reports: &Reports,
     mut works: Works,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
-    let folder = &request.reports;
     let baseline_file = request.baseline();
     // Blessed runs may take longer than before.
     let allowed =
@@ -289,7 +291,7 @@ fn run_and_write(
     let committed = record.clone().committed();
     // A blessing of some changes, or of one tier, can leave others: the run then still fails.
     let passes = record.verdict == Verdict::Pass;
-    let destination = Destination::new(&request.scope, folder, passes);
+    let destination = Destination::new(&request.scope, reports, passes);
     let see_also = destination.see_also(&committed);
     let findings = Findings {
         project,
@@ -297,8 +299,9 @@ fn run_and_write(
         see_also,
         provenance: Some(&provenance),
     };
-    let files = findings.files().map_err(unwritable(folder))?;
-    let provenance = json(&provenance).map_err(unwritable(folder))?;
+    let unwritable = |error| reports.unwritable(&error);
+    let files = findings.files().map_err(unwritable)?;
+    let provenance = json(&provenance).map_err(unwritable)?;
     if blessing == Blessing::Taken {
         baseline.write(&baseline_file)?;
         works.take(&record.studies);
@@ -306,11 +309,8 @@ fn run_and_write(
             write_json(&works_file(request), &works)?;
         }
     }
-    destination
-        .publish(files, &tiers(folder))
-        .map_err(unwritable(folder))?;
-    atomic::write(&folder.join("local").join("provenance.json"), provenance)
-        .map_err(unwritable(folder))?;
+    destination.publish(files, reports).map_err(unwritable)?;
+    atomic::write(&reports.provenance(), provenance).map_err(unwritable)?;
     Ok(Verification {
         record,
         blessing,
@@ -382,32 +382,13 @@ fn bless(
     Ok(Blessing::Taken)
 }
 
-/// Completes or removes what killed runs of any scope have left.
-fn tidy(request: &Request) -> io::Result<()> {
-    let reports = &request.reports;
-    let local = reports.join("local");
-    if !local.is_dir() {
-        return Ok(());
-    }
-    locked(request, || remove_leftovers(request, &local))
-}
-
-/// Removes what runs that were killed have left.
-fn remove_leftovers(request: &Request, local: &Path) -> io::Result<()> {
+/// Completes or removes what runs that were killed have left.
+fn remove_leftovers(request: &Request, reports: &Reports) -> io::Result<()> {
     // If the lock of the baseline is not held, another process may be writing it.
-    if request.bless || request.is_one_lock() {
+    if request.bless || request.reports_of_project().shares_its_lock(reports) {
         atomic::remove_leftovers(&request.baseline())?;
     }
-    atomic::remove_leftovers(&local.join("provenance.json"))?;
-    // Left by a run that was killed while it tested the folder.
-    atomic::remove_leftovers(&request.reports.join(atomic::PROBE))?;
-    for scope in scopes() {
-        scope.report_folder(&request.reports).tidy()?;
-        if let Some(failing) = scope.failing_folder(&request.reports) {
-            failing.tidy()?;
-        }
-    }
-    Ok(())
+    reports.tidy()
 }
 
 /// The worst verdict of all studies; fail if the baseline differs.

@@ -3,9 +3,7 @@
 
 use std::panic::catch_unwind;
 
-use convergence_study::Interval;
-use convergence_study::{Verdict, judge_pairs};
-use convergence_study::{assert_order, levels};
+use convergence_study::{Interval, Verdict, assert_order, judge_pairs, levels};
 
 const H: [f64; 5] = [0.25, 0.125, 0.0625, 0.03125, 0.015625];
 

@@ -1,9 +1,6 @@
 //! Tables of steps and errors.
 
-use convergence_study::Claim;
-use convergence_study::InputError;
-use convergence_study::{Choice, RateTable};
-use convergence_study::{Floor, Verdict};
+use convergence_study::{Choice, Claim, Floor, InputError, RateTable, Verdict};
 
 fn parsed(text: &str) -> Result<RateTable, InputError> {
     RateTable::parse_with(text, "t.csv", &Choice::default())

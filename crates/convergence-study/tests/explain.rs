@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use convergence_study::internal::cli::explain::{contents, nearest_name, study, term, terms};
 use convergence_study::{
-    Axis, Claim, Header, KindRow, Study, erased, internal::study::header, levels,
+    Axis, Claim, Header, InputError, KindRow, Project, Section, Study, Term, boxed_study,
+    internal::{
+        cli::explain::{contents, nearest_name, study, term, terms},
+        study::header,
+    },
+    levels,
 };
-use convergence_study::{InputError, Section};
-use convergence_study::{Project, Term};
 
 const KIND: KindRow = KindRow {
     name: "quadrature",
@@ -46,7 +48,10 @@ const PROJECT: Project = Project {
 fn read(header: Header, _: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
     let study =
         levels([4, 8, 16, 32, 64], |n| [("l2", 1.0 / n as f64)]).counting("cells", Axis::Space);
-    Ok(erased(header, study.claiming("l2", Claim::new(1.0, 0.05))))
+    Ok(boxed_study(
+        header,
+        study.claiming("l2", Claim::new(1.0, 0.05)),
+    ))
 }
 
 fn example(kind: &str) -> Box<dyn Study> {

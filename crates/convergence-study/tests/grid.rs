@@ -2,10 +2,7 @@
 //! measures how often they are right.
 
 use convergence_judge::judge::grid::{Adding, GridErrors};
-use convergence_study::SpaceTime;
-use convergence_study::{Claim, NamedRate, Outcome};
-use convergence_study::{Grid, GridColumn};
-use convergence_study::{Reason, Verdict};
+use convergence_study::{Claim, Grid, GridColumn, NamedRate, Outcome, Reason, SpaceTime, Verdict};
 
 fn halved(first: f64, levels: usize) -> Vec<f64> {
     (0..levels)

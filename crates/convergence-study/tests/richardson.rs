@@ -3,9 +3,7 @@
 use convergence_judge::judge::richardson::{
     Estimate, Refusal, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED,
 };
-use convergence_study::Interval;
-use convergence_study::{Estimator, Value};
-use convergence_study::{Reason, Verdict};
+use convergence_study::{Estimator, Interval, Reason, Value, Verdict};
 
 const RATIO_2: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 const UNEQUAL: [f64; 6] = [1.0, 0.7, 0.3, 0.2, 0.11, 0.05];

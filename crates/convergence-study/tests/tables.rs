@@ -5,11 +5,10 @@
 
 use std::{env, fs, path::Path};
 
-use convergence_study::Claim;
-use convergence_study::Estimator;
-use convergence_study::internal::input::advice::CommandLine;
-use convergence_study::{Choice, Column, RateTable};
-use convergence_study::{Floor, Verdict};
+use convergence_study::{
+    Choice, Claim, Column, Estimator, Floor, RateTable, Verdict,
+    internal::input::advice::CommandLine,
+};
 
 /// The tolerance of all claims of the page.
 const TOLERANCE: f64 = 0.25;

@@ -1,9 +1,10 @@
 //! Tables that the rule once judged wrongly, or without a rate.
 
-use convergence_judge::judge::fit::Level;
-use convergence_judge::judge::verdict::{Aside, Judge, SetAside};
-use convergence_study::Interval;
-use convergence_study::{RateVerdict, Reason, Verdict, judge, judge_pairs};
+use convergence_judge::judge::{
+    fit::Level,
+    verdict::{Aside, Judge, SetAside},
+};
+use convergence_study::{Interval, RateVerdict, Reason, Verdict, judge, judge_pairs};
 
 use super::verdict_laws::with_rates;
 

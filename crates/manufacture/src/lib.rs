@@ -34,7 +34,7 @@ use std::time::Duration;
 pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
-pub use problem::{InputError, keys};
+pub use problem::{FILE_KEYS, InputError};
 pub use variants::{DescribedVariant, Description, LeftOut, Switch, Variant, Variants};
 
 /// A file, read and derived.
@@ -128,7 +128,7 @@ impl Manufacture {
     /// all together, data, averages, norms, and `set_parameter`, by which another value replaces
     /// that of the file. The domain, and the points of an integral, are those of the file.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
-        emit::emit(&self.model, language)
+        emit::emit(&self.model, &[], language)
     }
 
     /// The study file, if the file has `[study]`.
@@ -147,8 +147,7 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::emitted(&self.model, language, folder, seed, points)
+        check::emitted::emitted(&self.model, &[], language, folder, sampling)
     }
 
     /// Builds and runs the files of a language that are in a folder already, and compares their
@@ -162,8 +161,7 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::run(&self.model, language, folder, seed, points)
+        check::emitted::run(&self.model, &[], language, folder, sampling)
     }
 
     /// Values at the points of a table with a header: coordinates, time, and optionally `face`.

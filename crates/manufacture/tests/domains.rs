@@ -229,6 +229,92 @@ fn a_domain_that_is_free_of_poles_has_no_note() {
     }
 }
 
+/// On a square with zero in its middle, and on its boundary.
+fn squares(exact: &str, equation: &str) -> [String; 2] {
+    let text = unit_box(&["x", "y"], exact, equation);
+    [text.replace("[0, 1]", "[-1, 1]"), text]
+}
+
+/// A branch needs its values only where its comparison has that result.
+#[test]
+fn a_guard_makes_the_domain_free() {
+    for (exact, equation) in [
+        ("where(x > 0, sqrt(x), 0) + exp(y)", "u"),
+        ("where(x > 0, x*ln(x), 0) + exp(y)", "u + d(u, x)"),
+        (
+            "where(x < 0, 0, where(x > 0, x^1.5, 0)) + exp(y)",
+            "u + d(u, x)",
+        ),
+        ("where(x <= 0, 0, exp(-1/x)) + y", "laplacian(u) + u"),
+        ("where(0 < x, exp(-1/x^2), 0) + y", "laplacian(u) + u"),
+        ("where(-x < 0, 1/(x*(2 + y)), 1)", "u"),
+        ("where(x > 0.3, ln(x - 0.3), 0)", "u + y"),
+        ("where(y < x, sqrt(x - y) + 1/(y - x), 0)", "u + y"),
+        ("where(abs(x) > 0, sin(x)/x, 1)", "u + y"),
+        ("where(x^2 + y^2 > 0, x^3/(x^2 + y^2), 0)", "u + y"),
+        (
+            "where(sqrt(x^2 + y^2) > 0, x^3/sqrt(x^2 + y^2), 0)",
+            "u + y",
+        ),
+        ("where(x > 0, where(y > 0, ln(x*y), 1), 2)", "u"),
+        (
+            "where(1 - x^2 - y^2 > 0, (1 - x^2 - y^2)^1.5, 0)",
+            "u + d(u, x)",
+        ),
+        ("where(x > 0, ln(exp(x)*atan(x) + sinh(x)), 0)", "u + y"),
+    ] {
+        for text in squares(exact, equation) {
+            let check = check(&text);
+            for code in ["undecided", "pole"] {
+                assert!(found(&check, code).is_empty(), "{exact}: {check:#?}");
+            }
+        }
+    }
+}
+
+/// A guard that lets the wrong points pass, or another use without a guard, is no guard.
+#[test]
+fn what_a_guard_does_not_exclude_is_refused() {
+    for (exact, words) in [
+        ("where(x >= 0, 1/x, 0)", "`x` is zero at about x = 0.000000"),
+        ("where(x >= 0, ln(x), 0)", "`x` is not positive at about x"),
+        ("where(x < 0, sqrt(x), 0)", "`x` is negative"),
+        ("where(x > 0, 0, sqrt(x))", "`x` is negative"),
+        ("where(y > 0, ln(x + 0.5), 0)", "`x + 0.5` is not positive"),
+        ("where(x > 0, sqrt(x - 0.2), 0)", "`x - 0.2` is negative"),
+        ("where(x > 0, 1/(x - 0.3), 0)", "at about x = 0.300000"),
+        ("where(x > 0, ln(-x), 0)", "is not positive"),
+        (
+            "where(x > 0, 1/x, 0) + (2 + y)/x",
+            "`x` is zero at about x = 0.000000",
+        ),
+        (
+            "where(x > 0, sqrt(x), 0)*where(x < 0, sqrt(x), 1)",
+            "`x` is negative",
+        ),
+        (
+            "where(x > 0.5, 1/(x - 0.3), 0) + where(x < 0.4, 2/(x - 0.3), 1)",
+            "at about x = 0.300000",
+        ),
+    ] {
+        is_refused(&squares(exact, "u + y")[0], &["exact.u", words]);
+    }
+}
+
+/// A comparison and an operation that differ by rounding: no claim of a pole.
+#[test]
+fn a_guard_that_is_another_expression_is_undecided() {
+    for exact in [
+        "where(2*x > 1, ln(x - 0.5), 0)",
+        "where(x^2 + y^2 < 1, ln(1 - x^2 - y^2), 0)",
+        "where(x^2 + y^2 < 0.7, sqrt(0.7 - x^2 - y^2), 0)",
+    ] {
+        let check = check(&unit_box(&["x", "y"], exact, "u + y"));
+        assert!(found(&check, "pole").is_empty(), "{exact}: {check:#?}");
+        assert_eq!(found(&check, "undecided")[0].key, "exact.u", "{exact}");
+    }
+}
+
 /// A hole that a level cuts out takes the pole away; a smaller one does not.
 #[test]
 fn a_level_that_cuts_out_the_pole_makes_the_domain_free() {

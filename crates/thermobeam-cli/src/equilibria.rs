@@ -12,10 +12,14 @@ use thermobeam_exact::interval::Interval;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{Outcome, Unusable};
-use convergence_study::internal::cli::flags::Flags;
-use convergence_study::internal::cli::screen;
+use convergence_study::{
+    Verdict,
+    internal::cli::{
+        exit::{Outcome, Unusable},
+        flags::Flags,
+        screen,
+    },
+};
 
 /// List all steady states of a scene
 #[derive(Debug, Args)]

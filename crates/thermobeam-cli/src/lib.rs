@@ -10,9 +10,10 @@ mod run;
 mod sweep;
 
 use clap::{Parser, Subcommand};
-use convergence_study::Project;
-use convergence_study::internal::cli::help::HelpPage;
-use convergence_study::internal::cli::{self, exit};
+use convergence_study::{
+    Project,
+    internal::cli::{self, exit, help::HelpPage},
+};
 
 pub use project::project;
 

@@ -5,9 +5,13 @@ use std::path::PathBuf;
 
 use thermobeam_study::sweep;
 
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{Outcome, Unusable};
-use convergence_study::internal::cli::flags::Flags;
+use convergence_study::{
+    Verdict,
+    internal::cli::{
+        exit::{Outcome, Unusable},
+        flags::Flags,
+    },
+};
 
 /// Writes `results.jsonl` to the folder of `--out`, with a line for each case in order.
 ///

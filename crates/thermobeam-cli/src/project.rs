@@ -1,7 +1,6 @@
 //! The beam as a project of the harness.
 
-use convergence_study::internal::program;
-use convergence_study::{Front, Project, Template};
+use convergence_study::{Front, Project, Template, internal::program};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
 use thermobeam_study::scene;
 

@@ -11,7 +11,18 @@ use std::time::Duration;
 
 use clap::Args;
 use convergence_judge::time_limit;
-use convergence_study::internal::store::atomic;
+use convergence_study::{
+    Verdict,
+    internal::{
+        cli::{
+            exit::{self, Outcome, Unusable},
+            flags::Flags,
+            running::{self, seconds},
+            screen,
+        },
+        store::atomic,
+    },
+};
 use serde::Serialize;
 use thermobeam_study::kinds::tables::cost_of_run;
 use thermobeam_study::predict::Unreachable;
@@ -19,12 +30,6 @@ use thermobeam_study::predict::estimate::Budget;
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::Scene;
-
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{self, Outcome, Unusable};
-use convergence_study::internal::cli::flags::Flags;
-use convergence_study::internal::cli::running::{self, seconds};
-use convergence_study::internal::cli::screen;
 
 use crate::project::NODE_STEP;
 use accuracy::Planned;

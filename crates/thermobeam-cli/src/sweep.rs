@@ -9,11 +9,17 @@ use clap::Args;
 use indicatif::ProgressBar;
 use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
 
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{self, Outcome};
-use convergence_study::internal::cli::flags::Flags;
-use convergence_study::internal::cli::running::{self, seconds};
-use convergence_study::internal::run;
+use convergence_study::{
+    Verdict,
+    internal::{
+        cli::{
+            exit::{self, Outcome},
+            flags::Flags,
+            running::{self, seconds},
+        },
+        run,
+    },
+};
 
 use super::merge;
 

@@ -9,9 +9,7 @@
 use std::error::Error;
 
 use convergence_judge::text::number::max_or_nan;
-use convergence_study::FromFile as _;
-use convergence_study::Verdict;
-use convergence_study::run_one;
+use convergence_study::{FromFile as _, Verdict, run_one};
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};

@@ -4,8 +4,7 @@
 
 use std::error::Error;
 
-use convergence_study::run_one;
-use convergence_study::{Axis, Claim, FromFile as _};
+use convergence_study::{Axis, Claim, FromFile as _, run_one};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::{Settings, Stopping};

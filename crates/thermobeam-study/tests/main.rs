@@ -11,8 +11,7 @@ mod sweep;
 
 use std::path::Path;
 
-use convergence_study::InputError;
-use convergence_study::internal::study::StudyFile;
+use convergence_study::{InputError, internal::study::StudyFile};
 use thermobeam_study::kinds::KINDS;
 
 /// Reads a study of the repository: of a kind of the beam, or the calibration of the rule.

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use convergence_study::Verdict;
-use convergence_study::run_one;
-use convergence_study::{CaseFailure, FromFile as _, Kind as _, internal::study::run_cases_here};
+use convergence_study::{
+    CaseFailure, FromFile as _, Kind as _, Verdict, internal::study::run_cases_here, run_one,
+};
 use thermobeam_study::exact::norm::{Norm, Norms};
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::{Convergence, Defect, Prepared};

@@ -10,15 +10,19 @@ mod step_time;
 
 use std::path::{Path, PathBuf};
 
-use convergence_study::Project;
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::{Outcome, Unusable};
-use convergence_study::internal::cli::running::LongRun;
-use convergence_study::internal::cli::workspace;
-use convergence_study::internal::input;
-use convergence_study::internal::report;
-use convergence_study::internal::store::atomic;
-use convergence_study::{CaseFailure, Table, internal::study::Described};
+use convergence_study::{
+    CaseFailure, Project, Table, Verdict,
+    internal::{
+        cli::{
+            exit::{Outcome, Unusable},
+            running::LongRun,
+            workspace,
+        },
+        input, report,
+        store::atomic,
+        study::Described,
+    },
+};
 use serde::Deserialize;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{METHODS, NamedMethod};

@@ -1,7 +1,6 @@
 //! The report of the benchmark, from its record.
 
-use convergence_study::Table;
-use convergence_study::internal::report;
+use convergence_study::{Table, internal::report};
 use thermobeam_study::error::ErrorMeasure;
 use thermobeam_study::kinds::work_precision::compared::{self, Costed, cheapest};
 use thermobeam_study::kinds::work_precision::method::METHODS;

@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use convergence_study::Table;
-use convergence_study::internal::cli::exit::Unusable;
-use convergence_study::internal::input;
-use convergence_study::internal::store::atomic;
+use convergence_study::{
+    Table,
+    internal::{cli::exit::Unusable, input, store::atomic},
+};
 use serde::{Deserialize, Serialize};
 use thermobeam_study::error::{ErrorMeasure, Errors};
 use thermobeam_study::kinds::work_precision::compared::Costed;

@@ -4,10 +4,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use convergence_study::internal::cli::exit::Unusable;
-use convergence_study::internal::cli::workspace;
-use convergence_study::internal::store::diagnosis::{Diagnosis, diagnose};
-use convergence_study::internal::study::header::Setting;
+use convergence_study::internal::{
+    cli::{exit::Unusable, workspace},
+    store::diagnosis::{Diagnosis, diagnose},
+    study::header::Setting,
+};
 
 use super::list::Regression;
 use super::planted::Found;

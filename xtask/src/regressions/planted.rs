@@ -8,10 +8,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use convergence_study::Verdict;
-use convergence_study::internal::cli::exit::Unusable;
-use convergence_study::internal::run::not_passed;
-use convergence_study::internal::store::{Record, atomic, content_hash, json};
+use convergence_study::{
+    Verdict,
+    internal::{
+        cli::exit::Unusable,
+        run::not_passed,
+        store::{Record, atomic, content_hash, json},
+    },
+};
 use serde::{Deserialize, Serialize};
 
 use super::list::Regression;

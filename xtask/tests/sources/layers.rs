@@ -72,14 +72,18 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 9] = [
+const CRATES: [(&str, &[&str]); 10] = [
     (
         "convergence-calibration",
         &["convergence-judge", "convergence-study"],
     ),
     ("convergence-judge", &[]),
-    ("manufacture", &[]),
-    ("convergence-study", &["convergence-judge", "manufacture"]),
+    ("convergence-keys", &[]),
+    ("manufacture", &["convergence-keys"]),
+    (
+        "convergence-study",
+        &["convergence-judge", "convergence-keys", "manufacture"],
+    ),
     ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["manufacture", "thermobeam"]),
@@ -87,6 +91,7 @@ const CRATES: [(&str, &[&str]); 9] = [
         "thermobeam-study",
         &[
             "convergence-judge",
+            "convergence-keys",
             "convergence-study",
             "thermobeam",
             "thermobeam-exact",

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use convergence_study::Project;
-use convergence_study::internal::cli;
-use convergence_study::internal::program;
-use convergence_study::{Claim, Header, KindRow, Study, erased, internal::study::header, levels};
-use convergence_study::{Form, InputError, Key, Section};
+use convergence_study::{
+    Claim, Form, Header, InputError, Key, KindRow, Project, Section, Study, boxed_study,
+    internal::{cli, program, study::header},
+    levels,
+};
 
 /// The order claimed instead of 1.
 const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
@@ -41,12 +41,12 @@ fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, 
         .number_where("a number > 0", |value| value > 0.0)?;
     let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
-    Ok(erased(
+    Ok(boxed_study(
         header,
         study.claiming("error", Claim::new(order, 0.05)),
     ))
 }
 
 fn main() -> ExitCode {
-    cli::main(&PROJECT)
+    cli::run_command_line(&PROJECT)
 }

@@ -1,6 +1,7 @@
 //! `study --where`: in which part of a program the order is lost.
 
 use std::fs;
+use std::process::Command;
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -218,4 +219,58 @@ fn a_study_that_passes_has_no_place() {
     let (status, out, err) = located(&right, &[]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(!out.contains("flat_x"), "{out}");
+}
+
+/// A solver in C, whose data come from the module that the page's file makes: its planted mistakes
+/// are found, and where there is none nothing is named.
+#[test]
+fn mistakes_in_a_program_in_c_are_found_at_their_places() {
+    const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
+    let root = TempDir::new().unwrap();
+    let file = PAGE.split("```toml\n").nth(1).unwrap();
+    fs::write(
+        root.path().join("rod.toml"),
+        file.split("```").next().unwrap(),
+    )
+    .unwrap();
+    fs::write(root.path().join("solver.c"), include_str!("rod_solver.c")).unwrap();
+    let words = ["manufacture", "rod.toml", "--variants", "--language", "c"];
+    let (status, out, err) = run(&root, &words);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    let build = "cc -std=c99 -Wall -Wextra -Werror -O2 -o solver solver.c rod.c -lm";
+    let mut words = build.split(' ');
+    let compiler = Command::new(words.next().unwrap())
+        .args(words)
+        .current_dir(root.path())
+        .output();
+    let Ok(output) = compiler else {
+        eprintln!("skipped: no cc");
+        return;
+    };
+    assert!(output.status.success(), "{output:?}");
+    let study = |mistake: &str| {
+        format!(
+            "[study]\nid = \"rod\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
+             [program]\ncommand = [\"./solver\", \"{{n}}\", \"{mistake}\"]\nmanufacture = \"rod.toml\"\n\
+             [refine]\nn = [8, 16, 32, 64]\n[[expect]]\nerror = \"L2\"\norder = 2\n"
+        )
+    };
+    for (mistake, words) in [
+        (
+            "x_min",
+            "the order is lost at the face x_min: it comes back where the solution is flat there",
+        ),
+        (
+            "time",
+            "look at the time at which source and data are taken, and the time stepping",
+        ),
+    ] {
+        fs::write(root.path().join("study.toml"), study(mistake)).unwrap();
+        let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+        assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+        assert!(out.contains(words), "{mistake}: {out}");
+    }
+    fs::write(root.path().join("study.toml"), study("-")).unwrap();
+    let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }

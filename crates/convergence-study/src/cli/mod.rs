@@ -231,12 +231,12 @@ pub fn program(project: &Project) -> clap::Command {
 }
 
 /// The whole `main` of a project that adds no commands of its own.
-pub fn main(project: &Project) -> ExitCode {
-    ExitCode::from(main_with(project, env::args_os()))
+pub fn run_command_line(project: &Project) -> ExitCode {
+    ExitCode::from(status_of(project, env::args_os()))
 }
 
 /// The same with these arguments, starting with the program; returns the exit status.
-pub fn main_with(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
+pub fn status_of(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
     let line = program(project);
     status(line.clone(), arguments, |asked: CommandLine| {
         asked.command.run(project, line)

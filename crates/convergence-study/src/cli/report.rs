@@ -13,7 +13,7 @@ use crate::project::Project;
 use crate::report::{sentence, shared};
 use crate::store::{FIGURES, MANIFEST, Provenance, Record};
 use crate::text::visible;
-use crate::verify::{folder_of_figures, rebuild, reports_around};
+use crate::verify::{Reports, folder_of_figures, rebuild};
 
 /// Write the report on a record anew, without running anything
 ///
@@ -50,7 +50,7 @@ pub(super) fn run(
     })?;
     let pictures = folder_of_figures(&record, beside);
     let missing = add_pictures(&mut record, &pictures)?;
-    let times = reports_around(beside).join("local/provenance.json");
+    let times = Reports::around(beside).provenance();
     let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
     let verdict = record.verdict;

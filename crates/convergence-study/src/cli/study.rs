@@ -200,11 +200,11 @@ mod tests {
 
     use super::*;
     use crate::run::Spent;
-    use crate::study::{Header, erased, levels};
+    use crate::study::{Header, boxed_study, levels};
 
     #[test]
     fn the_seconds_of_a_study_are_those_that_passed() {
-        let study = erased(
+        let study = boxed_study(
             Header::new("s", "c"),
             levels([4, 8, 16], |n| 1.0 / n as f64),
         );

@@ -38,7 +38,7 @@ pub(super) fn require(studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
 pub(super) fn no_file(id: &str) -> Unusable {
     Unusable::because(&format!(
         "{id}: --where: found no `manufacture` in [program]; expected the file from which \
-         `manufacture FILE --variants --language python` wrote the module that the program uses"
+         `manufacture FILE --variants --language LANGUAGE` wrote the module that the program uses"
     ))
 }
 

@@ -5,7 +5,7 @@
 //! compute the position of a message.
 
 pub(crate) mod advice;
-pub(crate) mod keys;
+mod keys;
 mod lists;
 mod settings;
 mod values;
@@ -22,13 +22,14 @@ use toml::de::{DeTable, DeValue};
 use advice::{CommandLine, Surface, Text};
 use error_table::Offer;
 
+pub use convergence_keys::{Form, Key, Keys};
+
 use crate::text::names::did_you_mean;
 use crate::text::visible;
 
 pub(crate) mod error_table;
 
 pub(crate) use crate::text::visible::visible;
-pub use keys::{Form, Key, Keys};
 pub(crate) use values::shorten;
 pub use values::{Field, Misread, POSITIVE, Section};
 

@@ -22,7 +22,7 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
             mixed.clone(),
         )
         .about(Subject::of("step"));
-        return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
+        return Outcome::new(mixed, vec![], vec![check, completion_check(ran)]);
     }
     let levels = levels(study, ran);
     let mut outcome = if study.refine.grid {
@@ -59,7 +59,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         squares_add: false,
     };
     let mut outcome = grid.judge();
-    outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));
+    outcome.extend(Outcome::new("", vec![], vec![completion_check(ran)]));
     let mut figures = grid.figures(|name| format!("error {name}"));
     figures.extend(work_precision(levels, ran));
     Outcome {
@@ -111,7 +111,7 @@ fn rates(study: &Program, ran: &[Run]) -> Vec<NamedRate> {
 fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
     let rates = levels.judge();
     let mut checks = exact(study, ran);
-    checks.push(completion(ran));
+    checks.push(completion_check(ran));
     let values = values::judge(study, ran, &levels.refinements);
     let quantities = [levels.quantities(&rates), values.quantities].concat();
     let mut figures = vec![];
@@ -165,7 +165,7 @@ fn number(ran: &Run, expected: &Expectation) -> f64 {
 }
 
 /// A case that answered less than required counts as failed.
-fn completion(ran: &[Run]) -> Check {
+fn completion_check(ran: &[Run]) -> Check {
     let whole = |Ran { case, found }: &Run| {
         let answered = found.as_ref().map_err(Clone::clone);
         let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
@@ -174,7 +174,7 @@ fn completion(ran: &[Run]) -> Check {
             found,
         }
     };
-    kind::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+    kind::completion_check(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
 
 /// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace

@@ -33,7 +33,7 @@ use crate::run::time_limit;
 use crate::study::header;
 use crate::study::until_decided::Next;
 use crate::study::{
-    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, reader,
+    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study,
 };
 use answer::Expectation;
 use command::{Invocation, filled};
@@ -46,7 +46,7 @@ pub(crate) use refine::Resolution;
 pub const ROW: KindRow = KindRow {
     name: "program",
     keys: Program::KEYS,
-    read: reader::<Program>,
+    read: read_study::<Program>,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
              an interval of measured reliability, which is held against the order: it must lie within the tolerance, whole. Above is as wrong as \

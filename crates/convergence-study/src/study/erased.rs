@@ -61,7 +61,7 @@ pub trait Plan: Send + Sync {
 }
 
 /// A typed study in the form that the runner takes.
-pub fn erased<'k, K: Kind + 'k>(header: Header, kind: K) -> Box<dyn Study + 'k> {
+pub fn boxed_study<'k, K: Kind + 'k>(header: Header, kind: K) -> Box<dyn Study + 'k> {
     Box::new(Described { header, kind })
 }
 
@@ -120,7 +120,7 @@ impl<K: Kind> Study for Described<K> {
             id: format!("{} {variant}", self.header.id),
             ..self.header.clone()
         };
-        Some(erased(header, self.kind.with_variant(variant)?))
+        Some(boxed_study(header, self.kind.with_variant(variant)?))
     }
 }
 

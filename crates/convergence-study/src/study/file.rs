@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::erased::{Described, Study, erased};
+use super::erased::{Described, Study, boxed_study};
 use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
@@ -17,14 +17,14 @@ use crate::text::visible;
 pub(crate) type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
 
 /// The reader of a kind.
-pub fn reader<K: FromFile + 'static>(
+pub fn read_study<K: FromFile + 'static>(
     header: Header,
     root: &Section<'_>,
     folder: &Path,
 ) -> Result<Box<dyn Study>, InputError> {
     allow_only(root, K::KEYS)?;
     let kind = K::from_document(&header, root, folder)?;
-    Ok(erased(header, kind))
+    Ok(boxed_study(header, kind))
 }
 
 /// A kind of study: its name, its reader, and what it means in words.
@@ -157,8 +157,8 @@ fn row<'k>(
 /// use std::path::Path;
 ///
 /// use convergence_study::{Case, CaseFailure, Claim, Form, FromFile, Header, InputError, Key, Keys};
-/// use convergence_study::{Kind, KindRow, Outcome, Ran, Section, completion, read_claim, reader};
-/// use convergence_study::settings_of_file;
+/// use convergence_study::{Kind, KindRow, Outcome, Ran, Section, completion_check, read_claim};
+/// use convergence_study::{read_study, settings_of_file};
 ///
 /// /// Sums of `terms` terms.
 /// #[derive(Debug)]
@@ -188,7 +188,7 @@ fn row<'k>(
 /// const ROW: KindRow = KindRow {
 ///     name: "sums",
 ///     keys: Sums::KEYS,
-///     read: reader::<Sums>,
+///     read: read_study::<Sums>,
 ///     why: "The series converges.",
 ///     judged: "Every sum must be finite.",
 ///     failure: "The sum is wrong.",
@@ -218,7 +218,7 @@ fn row<'k>(
 ///     }
 ///
 ///     fn judge(&self, ran: &[Ran<usize, f64>]) -> Outcome {
-///         Outcome::new("", vec![], vec![completion(ran, |_| vec![])])
+///         Outcome::new("", vec![], vec![completion_check(ran, |_| vec![])])
 ///     }
 /// }
 /// # let _ = ROW;

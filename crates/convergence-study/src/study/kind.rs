@@ -116,7 +116,7 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///
 /// ```
 /// use convergence_study::{Case, CaseFailure, Check, Kind, Outcome, Quantity, Ran, Subject, Table};
-/// use convergence_study::{completion, run_one};
+/// use convergence_study::{completion_check, run_one};
 ///
 /// /// Sums of the series 1 + 1/2 + 1/4 + ..., which tends to 2.
 /// struct Series;
@@ -137,7 +137,7 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///     }
 ///
 ///     fn judge(&self, ran: &[Ran<i32, f64>]) -> Outcome {
-///         let mut checks = vec![completion(ran, |_| vec![])];
+///         let mut checks = vec![completion_check(ran, |_| vec![])];
 ///         let mut quantities = vec![];
 ///         let mut rows = vec![];
 ///         for (case, sum) in ran.iter().filter_map(|ran| Some((&ran.case, *ran.ok()?))) {
@@ -268,7 +268,7 @@ const MOST_REASONS: usize = 8;
 /// Fails unless every case has a result with finite numbers only.
 ///
 /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
-pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
+pub fn completion_check<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
     let failed: Vec<_> = ran
         .iter()
         .filter_map(|Ran { case, found }| Some((case, found.as_ref().err()?)))
@@ -338,7 +338,7 @@ mod tests {
                     vec!["error".to_owned()]
                 }
             };
-            completion(&ran, names).verdict
+            completion_check(&ran, names).verdict
         };
         assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
         assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);

@@ -22,7 +22,7 @@ pub(crate) mod variants;
 
 pub use coverage::Coverage;
 pub(crate) use erased::Plan;
-pub use erased::{Described, Study, erased};
+pub use erased::{Described, Study, boxed_study};
 
 pub use errors_over_levels::{
     ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, first_repeated, levels,
@@ -30,7 +30,7 @@ pub use errors_over_levels::{
 #[cfg(feature = "command-line")]
 pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, StudyFile, allow_only, read_claim, reader};
+pub use file::{FromFile, KindRow, StudyFile, allow_only, read_claim, read_study};
 pub(crate) use header::Exercised;
 pub use header::{Header, Tier};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};

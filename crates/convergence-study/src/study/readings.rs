@@ -131,7 +131,7 @@ impl Reading {
     }
 }
 
-/// Names of the readings that are NaN or infinite, for [`completion`](super::kind::completion).
+/// Names of the readings that are NaN or infinite, for [`completion_check`](super::kind::completion_check).
 pub fn not_finite(readings: &[Reading]) -> Vec<String> {
     let broken = readings
         .iter()

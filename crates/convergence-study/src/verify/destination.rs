@@ -4,57 +4,10 @@
 use std::io;
 use std::path::Path;
 
-use super::Scope;
+use super::{Reports, Scope};
 use crate::report::{FULL, newest, shared};
 use crate::store::{MANIFEST, Record, ReportFolder, ReportSet};
 use crate::study::Tier;
-
-/// The folder of the report on the full tier, in that of the report on the quick tier.
-const FULL_FOLDER: &str = "full";
-
-impl Scope {
-    /// Where the report goes if the run passes or is blessed.
-    pub(super) fn report_folder(&self, reports: &Path) -> ReportFolder {
-        let local = reports.join("local");
-        let workshop = local.join("workshop").join(self.name());
-        let folder = match self {
-            Self::Tier(Tier::Quick, _) => reports.to_owned(),
-            Self::Tier(Tier::Full, _) => reports.join(FULL_FOLDER),
-            Self::Selection(_) => local.join("partial"),
-        };
-        ReportFolder { folder, workshop }
-    }
-
-    /// Where the report of a tier goes otherwise; `None` for a selection, whose report is never
-    /// committed.
-    pub(super) fn failing_folder(&self, reports: &Path) -> Option<ReportFolder> {
-        let Self::Tier(tier, _) = self else {
-            return None;
-        };
-        let local = reports.join("local");
-        Some(ReportFolder {
-            folder: local.join(tier.name()),
-            workshop: local
-                .join("workshop")
-                .join(format!("{}-failing", tier.name())),
-        })
-    }
-}
-
-/// The folders of the reports on both tiers, the quick one first.
-pub(super) fn tiers(reports: &Path) -> [ReportFolder; 2] {
-    let [quick, full, _] = scopes().map(|scope| scope.report_folder(reports));
-    [quick, full]
-}
-
-/// One of each kind: the quick tier, the full one, a selection.
-pub(super) fn scopes() -> [Scope; 3] {
-    [
-        Scope::Tier(Tier::Quick, vec![]),
-        Scope::Tier(Tier::Full, vec![]),
-        Scope::Selection(vec![]),
-    ]
-}
 
 /// Where the files of a report go.
 #[derive(Debug)]
@@ -73,9 +26,9 @@ pub(super) enum Destination {
 }
 
 impl Destination {
-    pub(super) fn new(scope: &Scope, reports: &Path, is_accepted: bool) -> Self {
-        let target = scope.report_folder(reports);
-        match scope.failing_folder(reports) {
+    pub(super) fn new(scope: &Scope, reports: &Reports, is_accepted: bool) -> Self {
+        let target = reports.report(scope);
+        match reports.failing(scope) {
             Some(failing) if !is_accepted => Self::Apart {
                 failing,
                 committed: target,
@@ -106,10 +59,10 @@ impl Destination {
         }
     }
 
-    pub(super) fn publish(&self, files: ReportSet, tiers: &[ReportFolder; 2]) -> io::Result<()> {
+    pub(super) fn publish(&self, files: ReportSet, reports: &Reports) -> io::Result<()> {
         match self {
             Self::One { target, failing } => {
-                shared::publish(target, files, tiers)?;
+                shared::publish(target, files, &reports.tiers())?;
                 match failing {
                     Some(failing) if failing.folder.join(MANIFEST).is_file() => {
                         failing.publish(&ReportSet::default())
@@ -119,7 +72,7 @@ impl Destination {
             }
             Self::Apart { failing, committed } => {
                 let newest = newest(&files);
-                shared::publish(failing, files, tiers)?;
+                shared::publish(failing, files, &reports.tiers())?;
                 committed.renew(&newest)
             }
         }
@@ -132,12 +85,12 @@ impl Destination {
 pub(crate) fn folder_of_figures(record: &Record, folder: &Path) -> std::path::PathBuf {
     use crate::judge::verdict::Verdict;
 
-    let reports = super::folder::reports_around(folder);
-    scopes()
+    let reports = Reports::around(folder);
+    Scope::one_of_each()
         .into_iter()
-        .filter(|scope| scope.report_folder(&reports).folder == folder)
+        .filter(|scope| reports.report(scope).folder == folder)
         .filter(|scope| scope.name() == record.scope && record.verdict != Verdict::Pass)
-        .filter_map(|scope| scope.failing_folder(&reports))
+        .filter_map(|scope| reports.failing(&scope))
         .find(|failing| failing.folder.join(MANIFEST).is_file())
         .map_or_else(|| folder.to_owned(), |failing| failing.folder)
 }

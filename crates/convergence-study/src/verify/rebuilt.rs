@@ -2,19 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use super::destination::{Destination, scopes, tiers};
-use super::folder::{lock_file, reports_around, unwritable};
-use super::{VerificationError, verdict};
+use super::destination::Destination;
+use super::{Reports, Scope, VerificationError, verdict};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Finished};
-use crate::store::{Provenance, Record, ReportFolder, diagnosis::diagnose, lock};
+use crate::store::{Provenance, Record, diagnosis::diagnose};
 
 /// Writes a report on studies that have run, without a baseline.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
-pub fn report(
+pub fn write_report(
     project: &Project,
     finished: &[Finished],
     folder: &Path,
@@ -73,37 +72,33 @@ pub(crate) fn rebuild(
     folder: &Path,
 ) -> Result<PathBuf, VerificationError> {
     let record = record.committed();
-    let publish = || {
-        let reports = reports_around(folder);
-        let _lock = lock(&lock_file(&reports))?;
-        let rebuilt = ReportFolder {
-            folder: folder.to_owned(),
-            workshop: reports.join("local/workshop/rebuilt"),
-        };
-        let is_accepted = record.verdict == Verdict::Pass;
-        let own = scopes()
-            .into_iter()
-            .find(|scope| scope.report_folder(&reports).folder == folder);
-        let destination = own.map_or(
-            Destination::One {
-                target: rebuilt,
-                failing: None,
-            },
-            |scope| {
-                // Only a run of the tier is one that the folder of the tier waits for.
-                let is_other = scope.name() != record.scope;
-                Destination::new(&scope, &reports, is_accepted || is_other)
-            },
-        );
-        let see_also = destination.see_also(&record);
-        let findings = Findings {
-            project,
-            record: &record,
-            see_also,
-            provenance,
-        };
-        destination.publish(findings.files()?, &tiers(&reports))?;
-        Ok(destination.folder().to_owned())
+    let reports = Reports::around(folder);
+    let _lock = reports.lock()?;
+    let is_accepted = record.verdict == Verdict::Pass;
+    let own = Scope::one_of_each()
+        .into_iter()
+        .find(|scope| reports.report(scope).folder == folder);
+    let destination = own.map_or_else(
+        || Destination::One {
+            target: reports.elsewhere(folder),
+            failing: None,
+        },
+        |scope| {
+            // Only a run of the tier is one that the folder of the tier waits for.
+            let is_other = scope.name() != record.scope;
+            Destination::new(&scope, &reports, is_accepted || is_other)
+        },
+    );
+    let see_also = destination.see_also(&record);
+    let findings = Findings {
+        project,
+        record: &record,
+        see_also,
+        provenance,
     };
-    Ok(publish().map_err(unwritable(folder))?)
+    findings
+        .files()
+        .and_then(|files| destination.publish(files, &reports))
+        .map_err(|error| reports.unwritable(&error))?;
+    Ok(destination.folder().to_owned())
 }

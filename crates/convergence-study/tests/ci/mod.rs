@@ -12,8 +12,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::PROGRAMS as PROJECT;
-use convergence_study::internal::cli::program;
+use convergence_study::{PROGRAMS as PROJECT, internal::cli::program};
 use yaml_rust2::{Yaml, YamlLoader};
 
 fn text(name: &str) -> String {

@@ -1,9 +1,9 @@
 //! Errors that have become larger, at the same levels.
 
-use convergence_study::Claim;
-use convergence_study::Finished;
-use convergence_study::internal::compare::{Shift, WITHIN, compare};
-use convergence_study::{Floor, Level};
+use convergence_study::{
+    Claim, Finished, Floor, Level,
+    internal::compare::{Shift, WITHIN, compare},
+};
 
 use super::{COUNTS, compared, found, level, record, smooth, sound, study, unjudged};
 

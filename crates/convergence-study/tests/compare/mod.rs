@@ -2,12 +2,15 @@
 
 mod larger;
 
-use convergence_study::Interval;
-use convergence_study::internal::compare::{Comparison, Shift, WITHIN, compare};
-use convergence_study::internal::store::{Record, json};
-use convergence_study::{Finished, internal::run::Spent};
-use convergence_study::{Floor, Verdict, judge_pairs};
-use convergence_study::{Header, LevelErrors, NamedRate, Outcome};
+use convergence_study::{
+    Finished, Floor, Header, Interval, LevelErrors, NamedRate, Outcome, Verdict,
+    internal::{
+        compare::{Comparison, Shift, WITHIN, compare},
+        run::Spent,
+        store::{Record, json},
+    },
+    judge_pairs,
+};
 use std::path::Path;
 
 const COUNTS: [u32; 5] = [8, 16, 32, 64, 128];

@@ -8,10 +8,14 @@ use std::path::Path;
 use std::process::Command;
 
 use blocks::{Printed, fenced, missing, printed};
-use convergence_study::internal::store::{Record, json};
-use convergence_study::{Finished, internal::run::Spent};
-use convergence_study::{Header, LevelErrors, NamedRate, Outcome};
-use convergence_study::{Verdict, judge_pairs};
+use convergence_study::{
+    Finished, Header, LevelErrors, NamedRate, Outcome, Verdict,
+    internal::{
+        run::Spent,
+        store::{Record, json},
+    },
+    judge_pairs,
+};
 
 const README: &str = include_str!("../../README.md");
 

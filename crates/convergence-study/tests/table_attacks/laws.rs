@@ -1,7 +1,6 @@
 //! Laws of the reader, over random tables in every form.
 
-use convergence_study::Verdict;
-use convergence_study::{Choice, RateTable};
+use convergence_study::{Choice, RateTable, Verdict};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;

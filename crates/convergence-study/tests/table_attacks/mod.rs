@@ -6,8 +6,10 @@ mod forms;
 mod found;
 mod laws;
 
-use convergence_study::Choice;
-use convergence_study::internal::rates::{self, Claimed, Request, Sheet, claimed};
+use convergence_study::{
+    Choice,
+    internal::rates::{self, Claimed, Request, Sheet, claimed},
+};
 use forms::{Form, Law, Table, cells};
 
 /// The verdict on a text and the line that says it; `None` for a refusal.

@@ -1,8 +1,6 @@
 use std::{fs, io};
 
-use convergence_study::Finished;
-use convergence_study::Quantity;
-use convergence_study::internal::store::Baseline;
+use convergence_study::{Finished, Quantity, internal::store::Baseline};
 
 use super::fake::{Does, Fake, fake, finished, ids, study};
 

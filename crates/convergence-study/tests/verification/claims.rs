@@ -3,13 +3,14 @@
 use std::fs;
 use std::path::Path;
 
-use convergence_study::Project;
-use convergence_study::Verdict;
-use convergence_study::internal::report::{blessing, sentence};
-use convergence_study::internal::store::diagnosis::diagnose;
-use convergence_study::internal::store::{Baseline, BlessedClaim, Change, junit};
-use convergence_study::{Blessing, Request, Scope, Verification, verify};
-use convergence_study::{Header, Study, Tier};
+use convergence_study::{
+    Blessing, Header, Project, Request, Scope, Study, Tier, Verdict, Verification,
+    internal::{
+        report::{blessing, sentence},
+        store::{Baseline, BlessedClaim, Change, diagnosis::diagnose, junit},
+    },
+    verify,
+};
 
 use super::fake::{Does, Fake, PROJECT, fake, finished, request};
 

@@ -1,13 +1,14 @@
 //! Which settings a diagnosis names, and its words.
 
-use convergence_study::Finished;
-use convergence_study::Project;
-use convergence_study::internal::program;
-use convergence_study::internal::report::text_of_diagnosis;
-use convergence_study::internal::store::diagnosis::diagnose;
-use convergence_study::internal::store::{Change, Movement};
-use convergence_study::internal::study::header::Setting;
-use convergence_study::{Check, Header, KindRow, Outcome, Subject};
+use convergence_study::{
+    Check, Finished, Header, KindRow, Outcome, Project, Subject,
+    internal::{
+        program,
+        report::text_of_diagnosis,
+        store::{Change, Movement, diagnosis::diagnose},
+        study::header::Setting,
+    },
+};
 
 use super::fake::{Does, fake, finished};
 

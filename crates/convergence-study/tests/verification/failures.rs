@@ -1,13 +1,15 @@
 //! What did not pass: one list, printed by terminal, Markdown, page, JUnit and JSON.
 
-use convergence_study::internal::report::{tables, text_of_failures};
-use convergence_study::internal::store::junit;
 use convergence_study::{
-    Finished,
-    internal::run::{Item, NotPassed, not_passed},
+    Finished, NamedRate, Verdict,
+    internal::{
+        report::{tables, text_of_failures},
+        run::{Item, NotPassed, not_passed},
+        store::junit,
+        study::over_levels,
+    },
+    judge_pairs,
 };
-use convergence_study::{NamedRate, internal::study::over_levels};
-use convergence_study::{Verdict, judge_pairs};
 use roxmltree::Document;
 
 use super::fake::{Does, PROJECT, finished, study};

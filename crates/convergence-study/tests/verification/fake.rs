@@ -3,16 +3,12 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use convergence_judge::judge::verdict;
-use convergence_judge::time_limit::Patience;
-use convergence_study::Project;
-use convergence_study::Verdict;
+use convergence_judge::{judge::verdict, time_limit::Patience};
 use convergence_study::{
-    Case, CaseFailure, Check, Figure, Header, Kind, LevelErrors, NamedRate, Outcome, Quantity, Ran,
-    Study, Table, Tier, erased,
+    Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, NamedRate, Outcome,
+    Project, Quantity, Ran, Request, Scope, Study, Table, Tier, Verdict, boxed_study,
+    internal::run,
 };
-use convergence_study::{Finished, internal::run};
-use convergence_study::{Request, Scope};
 
 /// The project of these studies; none of them is read from a file.
 pub(crate) const PROJECT: Project = Project {
@@ -72,7 +68,7 @@ pub(crate) fn study(id: &str, does: Does) -> Box<dyn Study> {
 
 impl Fake {
     pub(crate) fn erased(self) -> Box<dyn Study> {
-        erased(self.header.clone(), self)
+        boxed_study(self.header.clone(), self)
     }
 }
 

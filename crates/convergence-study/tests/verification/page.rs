@@ -1,12 +1,13 @@
 use std::collections::BTreeSet;
 
-use convergence_study::Figure;
-use convergence_study::Finished;
-use convergence_study::Verdict;
-use convergence_study::internal::plots::{ErrorSeries, convergence, xy::Xy};
-use convergence_study::internal::report::Findings;
-use convergence_study::internal::store::Record;
-use convergence_study::{Front, Project};
+use convergence_study::{
+    Figure, Finished, Front, Project, Verdict,
+    internal::{
+        plots::{ErrorSeries, convergence, xy::Xy},
+        report::Findings,
+        store::Record,
+    },
+};
 use roxmltree::{Document, Node};
 
 use super::fake::{Does, PROJECT, finished, study};

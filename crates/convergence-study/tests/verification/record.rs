@@ -1,8 +1,12 @@
 use std::path::Path;
 
-use convergence_study::Verdict;
-use convergence_study::internal::report::Findings;
-use convergence_study::internal::store::{Baseline, Record, json};
+use convergence_study::{
+    Verdict,
+    internal::{
+        report::Findings,
+        store::{Baseline, Record, json},
+    },
+};
 use serde_json::Value;
 
 use super::fake::{Does, Fake, PROJECT, fake, finished, study};

@@ -1,9 +1,13 @@
 //! The report in Markdown and CSV: its parts, their order, and what it says of the baseline.
 
-use convergence_study::Verdict;
-use convergence_study::internal::report::{Findings, LONGEST, sentence};
-use convergence_study::internal::store::{Baseline, Change, Movement, Record, junit};
-use convergence_study::{Finished, internal::run::not_passed};
+use convergence_study::{
+    Finished, Verdict,
+    internal::{
+        report::{Findings, LONGEST, sentence},
+        run::not_passed,
+        store::{Baseline, Change, Movement, Record, junit},
+    },
+};
 
 use super::fake::{Does, PROJECT, finished, study};
 

@@ -1,12 +1,12 @@
 use std::sync::Mutex;
 use std::time::Duration;
 
-use convergence_study::Verdict;
-use convergence_study::internal::store::Works;
-use convergence_study::{Header, Study};
 use convergence_study::{
-    RunError,
-    internal::run::{self, Effort},
+    Header, RunError, Study, Verdict,
+    internal::{
+        run::{self, Effort},
+        store::Works,
+    },
 };
 
 use super::fake::{Does, finished, jobs, study};

@@ -4,8 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::{Request, Scope, verify};
-use convergence_study::{Study, Tier};
+use convergence_study::{Request, Scope, Study, Tier, verify};
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, request};
 

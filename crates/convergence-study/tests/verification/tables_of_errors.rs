@@ -1,9 +1,8 @@
 //! The tables of errors in a report: each error with its rate, none too wide, none with gaps.
 
-use convergence_study::Finished;
-use convergence_study::internal::report::tables;
-use convergence_study::judge_pairs;
-use convergence_study::{LevelErrors, NamedRate, Table};
+use convergence_study::{
+    Finished, LevelErrors, NamedRate, Table, internal::report::tables, judge_pairs,
+};
 
 use super::fake::{Does, finished, study};
 

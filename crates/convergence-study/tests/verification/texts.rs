@@ -1,12 +1,17 @@
 //! The wording of findings decides nothing: verdicts, order, diagnosis and comparison are those of
 //! the data next to it.
 
-use convergence_study::internal::store::diagnosis::{Diagnosis, diagnose};
-use convergence_study::internal::store::{Baseline, Change};
-use convergence_study::internal::study::outcome::settle;
-use convergence_study::{Check, NamedRate, Outcome, Subject};
-use convergence_study::{Finished, internal::run::not_passed};
-use convergence_study::{Reason, Verdict};
+use convergence_study::{
+    Check, Finished, NamedRate, Outcome, Reason, Subject, Verdict,
+    internal::{
+        run::not_passed,
+        store::{
+            Baseline, Change,
+            diagnosis::{Diagnosis, diagnose},
+        },
+        study::outcome::settle,
+    },
+};
 
 use super::fake::{Does, PROJECT, finished, study};
 

@@ -5,12 +5,10 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use convergence_study::Progress;
-use convergence_study::Project;
-use convergence_study::Verdict;
-use convergence_study::internal::report::NEWEST;
-use convergence_study::{Blessing, Request, Scope, Verification, verify};
-use convergence_study::{Study, Tier};
+use convergence_study::{
+    Blessing, Progress, Project, Request, Scope, Study, Tier, Verdict, Verification,
+    internal::report::NEWEST, verify,
+};
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
 

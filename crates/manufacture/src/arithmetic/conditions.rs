@@ -1,6 +1,7 @@
 //! What operations need of their arguments to have a value.
 
 use super::graph::{Graph, Node, NodeId};
+use super::guards::Signs;
 use super::interval::Interval;
 use crate::language::names::Function;
 use crate::language::tree::Binary;
@@ -28,6 +29,16 @@ impl Need {
             Need::NonNegative => argument.lo >= 0.0,
             Need::Unit => argument.lo >= -1.0 && argument.hi <= 1.0,
             Need::Tangent => !argument.has_pole_of_tan(),
+        }
+    }
+
+    /// Whether all numbers with one of these signs have it.
+    pub(super) fn holds_for(self, signs: Signs) -> bool {
+        match self {
+            Need::NonZero => !signs.zero,
+            Need::Positive => !signs.zero && !signs.negative,
+            Need::NonNegative => !signs.negative,
+            Need::Unit | Need::Tangent | Need::OneSide => false,
         }
     }
 

@@ -1,6 +1,8 @@
-//! Enclosures of random graphs over random boxes hold what dense samples find there.
+//! Enclosures of random graphs over random boxes hold what dense samples find there, and so do the
+//! signs that comparisons imply.
 
 use super::enclosure::Enclosure;
+use super::guards::{Facts, Signs};
 use super::interval::Interval;
 use super::tape::{Tape, nodes_below};
 use super::{Algebra, Graph, NodeId};
@@ -60,7 +62,7 @@ fn grown(graph: &mut Graph, nodes: &[NodeId], random: &mut Random) -> NodeId {
     }
 }
 
-fn random_graph(random: &mut Random) -> (Graph, NodeId) {
+fn random_graph(random: &mut Random) -> (Graph, Vec<NodeId>) {
     let mut graph = Graph::new(vec![[-1.0, 1.0]; 2], vec![]);
     let mut nodes = vec![graph.variable(0), graph.variable(1)];
     let number = 4.0 * random.share() - 2.0;
@@ -69,8 +71,7 @@ fn random_graph(random: &mut Random) -> (Graph, NodeId) {
         let node = grown(&mut graph, &nodes, random);
         nodes.push(node);
     }
-    let root = nodes[nodes.len() - 1];
-    (graph, root)
+    (graph, nodes)
 }
 
 fn random_side(random: &mut Random) -> Interval {
@@ -106,13 +107,14 @@ fn values_lie_in_their_enclosures_and_free_boxes_have_all_values() {
     let mut random = Random(11);
     let [mut free, mut contained] = [0, 0];
     for number in 0..4000 {
-        let (graph, root) = random_graph(&mut random);
+        let (graph, nodes) = random_graph(&mut random);
+        let root = nodes[nodes.len() - 1];
         let enclosure = Enclosure::new(&graph, &[root]);
         let tape = Tape::new(&graph, &[root]);
         for _ in 0..3 {
             let cell = [random_side(&mut random), random_side(&mut random)];
             let over = enclosure.over(&cell);
-            let is_free = !enclosure.conditions.iter().any(|c| over.is_open(c));
+            let is_free = enclosure.conditions.iter().all(|c| over.open(c).is_none());
             let range = over.range(root);
             for _ in 0..40 {
                 let point = cell.map(|side| inside(side, &mut random));
@@ -136,4 +138,64 @@ fn values_lie_in_their_enclosures_and_free_boxes_have_all_values() {
         }
     }
     assert!(free > 50_000 && contained > 200_000, "{free} {contained}");
+}
+
+const COMPARISONS: [Comparison; 4] = [
+    Comparison::Less,
+    Comparison::LessOrEqual,
+    Comparison::Greater,
+    Comparison::GreaterOrEqual,
+];
+
+/// The sign of a value that is not rounding alone is one of those that its range and the result of
+/// a comparison allow, at all points with that result.
+#[test]
+fn values_behind_a_comparison_have_the_signs_that_it_implies() {
+    let mut random = Random(12);
+    let mut implied = 0;
+    for number in 0..3000 {
+        let (mut graph, mut nodes) = random_graph(&mut random);
+        nodes.push(graph.number(0.0));
+        let mut any = || nodes[nodes.len() - 1 - below(&mut random, nodes.len())];
+        let [left, right, node] = [any(), any(), any()];
+        let zero = graph.number(0.0);
+        let comparison = COMPARISONS[below(&mut random, 4)];
+        let choice = graph.choose(comparison, [&left, &right], &node, &zero);
+        if choice == node || choice == zero {
+            continue;
+        }
+        let enclosure = Enclosure::new(&graph, &[choice]);
+        let tape = Tape::new(&graph, &[left, right, node, choice]);
+        for _ in 0..4 {
+            let centre = random.share() - 0.5;
+            let wide = Interval::new(centre - random.share(), centre + random.share());
+            let cell = [wide, random_side(&mut random)];
+            let over = enclosure.over(&cell);
+            let mut facts = Facts::new(&over);
+            facts.add(choice, true);
+            let signs = facts.signs(node);
+            implied += usize::from(signs != Signs::between(over.range(node)));
+            for _ in 0..30 {
+                let point = cell.map(|side| inside(side, &mut random));
+                let values = tape.at(&point).roots;
+                // The choice has the value of the node only where the comparison holds.
+                let [left, right, value] = [values[0], values[1], values[2]];
+                let rounding = 1e-12 * (left.size + right.size);
+                let is_sure = (left.value - right.value).abs() > rounding;
+                let holds = value.value == values[3].value && value.value != 0.0;
+                if !is_sure || !holds || overflows(&graph, choice, &point) {
+                    continue;
+                }
+                let least = 1e-12 * value.size;
+                let is_in = value.value.abs() <= least
+                    || (value.value > 0.0 && signs.positive)
+                    || (value.value < 0.0 && signs.negative);
+                assert!(
+                    is_in,
+                    "{number}: {value:?}, {signs:?} over {cell:?} at {point:?}"
+                );
+            }
+        }
+    }
+    assert!(implied > 700, "{implied}");
 }

@@ -5,10 +5,11 @@
 //! continuous with bounded slopes (the mean value theorem; R. E. Moore, Interval Analysis, 1966).
 //! An operation that may lack a value has unbounded slopes.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use super::conditions::{Condition, Need, conditions_of, needs_of};
 use super::graph::{Graph, Node, NodeId};
+use super::guards::{Branches, Facts};
 use super::interval::Interval;
 use super::tape::nodes_below;
 use crate::language::names::Function;
@@ -43,7 +44,9 @@ pub(crate) struct Enclosure<'g> {
     places: Vec<u32>,
     roots: Vec<NodeId>,
     integrals: Vec<Inner<'g>>,
-    pub(crate) conditions: Vec<Condition>,
+    /// Those with the same need of the same argument stand together: all hold, or none does,
+    /// wherever their operations are used.
+    pub(crate) conditions: Vec<Vec<Condition>>,
 }
 
 /// The nodes over one box.
@@ -51,8 +54,13 @@ pub(crate) struct Enclosure<'g> {
 pub(crate) struct Over<'e, 'g> {
     enclosure: &'e Enclosure<'g>,
     values: Vec<Enclosed>,
-    /// Whether the value of a step takes part in a root somewhere in the box.
-    is_used: Vec<bool>,
+    /// Choices that take both branches in the box.
+    undecided: Vec<NodeId>,
+    /// The first choice of each comparison of these.
+    comparisons: Vec<NodeId>,
+    /// Whether the value of a step takes part in a root somewhere in the box: the branches of
+    /// undecided choices that all ways to it go through.
+    uses: Vec<Option<Branches>>,
 }
 
 impl<'g> Enclosure<'g> {
@@ -60,8 +68,8 @@ impl<'g> Enclosure<'g> {
         let steps = nodes_below(graph, roots);
         let mut places = vec![u32::MAX; steps.last().map_or(0, |last| last.0 as usize + 1)];
         let mut integrals = vec![];
-        let mut conditions: Vec<Condition> = vec![];
-        let mut known = HashSet::new();
+        let mut conditions: Vec<Vec<Condition>> = vec![];
+        let mut known = HashMap::new();
         for (place, id) in steps.iter().enumerate() {
             places[id.0 as usize] = place as u32;
             if let Node::Integral { body, variable, .. } = *graph.node(*id) {
@@ -69,9 +77,13 @@ impl<'g> Enclosure<'g> {
                 integrals.push(Inner { body, variable });
             }
             for condition in conditions_of(graph, *id) {
-                if known.insert((condition.argument, condition.need)) {
-                    conditions.push(condition);
+                let number = *known
+                    .entry((condition.argument, condition.need))
+                    .or_insert(conditions.len());
+                if number == conditions.len() {
+                    conditions.push(vec![]);
                 }
+                conditions[number].push(condition);
             }
         }
         Self {
@@ -101,7 +113,9 @@ impl<'g> Enclosure<'g> {
         let mut over = Over {
             enclosure: self,
             values: Vec::with_capacity(self.steps.len()),
-            is_used: vec![],
+            undecided: vec![],
+            comparisons: vec![],
+            uses: vec![],
         };
         let mut integrals = self.integrals.iter();
         for id in &self.steps {
@@ -114,7 +128,7 @@ impl<'g> Enclosure<'g> {
             };
             over.values.push(narrowed(value, cell));
         }
-        over.is_used = over.used();
+        over.uses = over.uses();
         over
     }
 }
@@ -141,18 +155,62 @@ impl Over<'_, '_> {
         result(*comparison, self.range(*left) - self.range(*right))
     }
 
-    /// Whether a condition may fail in the box.
-    pub(crate) fn is_open(&self, condition: &Condition) -> bool {
-        if !self.is_used[self.enclosure.place(condition.operation)] {
-            return false;
-        }
-        match condition.need {
+    pub(crate) fn node(&self, id: NodeId) -> &Node {
+        self.enclosure.graph.node(id)
+    }
+
+    /// Of conditions that stand together, the first that may fail in the box.
+    pub(crate) fn open(&self, conditions: &[Condition]) -> Option<Condition> {
+        let is_open = |condition: &&Condition| match condition.need {
             Need::OneSide => {
-                let choice = self.enclosure.graph.node(condition.argument);
-                self.result(choice).is_none()
+                let is_used = self.uses[self.enclosure.place(condition.operation)].is_some();
+                is_used && self.result(self.node(condition.argument)).is_none()
             }
-            need => !need.holds(self.range(condition.argument)),
+            need => {
+                !need.holds(self.range(condition.argument)) && self.may_be_used_without(condition)
+            }
+        };
+        conditions.iter().find(is_open).copied()
+    }
+
+    /// Whether an operation may be used in the box where its argument lacks what it needs.
+    fn may_be_used_without(&self, condition: &Condition) -> bool {
+        let Some(branches) = self.uses[self.enclosure.place(condition.operation)] else {
+            return false;
+        };
+        if branches == Branches::NONE {
+            return true;
         }
+        let mut facts = Facts::new(self);
+        for (number, choice) in self.comparisons.iter().take(Branches::MOST).enumerate() {
+            for is_first in [true, false] {
+                if branches.has(number, is_first) {
+                    facts.add(*choice, is_first);
+                }
+            }
+        }
+        !condition.need.holds_for(facts.signs(condition.argument))
+    }
+
+    /// What a choice is the absolute value of.
+    pub(super) fn absolute_of(&self, choice: NodeId) -> Option<NodeId> {
+        match *self.node(choice) {
+            Node::Choose(Comparison::Less, operands) => {
+                is_opposite(self.enclosure.graph, operands).then_some(operands[0])
+            }
+            _ => None,
+        }
+    }
+
+    /// The same nodes at a point of the box.
+    pub(crate) fn at(&self, point: &[f64]) -> Self {
+        let cell: Vec<Interval> = point.iter().map(|x| Interval::point(*x)).collect();
+        self.enclosure.over(&cell)
+    }
+
+    /// Whether choices that take both branches in the box decide about the use of an operation.
+    pub(crate) fn is_guarded(&self, operation: NodeId) -> bool {
+        self.uses[self.enclosure.place(operation)].is_some_and(|uses| uses != Branches::NONE)
     }
 
     /// Whether the slopes of a node are bounded: its values have no jump.
@@ -161,36 +219,55 @@ impl Over<'_, '_> {
         slopes.iter().all(|s| s.lo.is_finite() && s.hi.is_finite())
     }
 
-    /// Choices that take both sides in the box.
-    pub(crate) fn undecided(&self) -> impl Iterator<Item = NodeId> {
-        let pairs = self.enclosure.steps.iter().zip(&self.is_used);
-        let used = pairs.filter(|pair| *pair.1).map(|pair| *pair.0);
-        used.filter(|id| {
-            let node = self.enclosure.graph.node(*id);
-            matches!(node, Node::Choose(..)) && self.result(node).is_none()
-        })
+    /// Choices that take both branches in the box.
+    pub(crate) fn undecided(&self) -> &[NodeId] {
+        &self.undecided
     }
 
-    fn used(&self) -> Vec<bool> {
+    fn uses(&mut self) -> Vec<Option<Branches>> {
         let enclosure = self.enclosure;
-        let mut is_used = vec![false; enclosure.steps.len()];
+        let mut uses: Vec<Option<Branches>> = vec![None; enclosure.steps.len()];
         for root in &enclosure.roots {
-            is_used[enclosure.place(*root)] = true;
+            uses[enclosure.place(*root)] = Some(Branches::NONE);
         }
         for (place, id) in enclosure.steps.iter().enumerate().rev() {
-            if !is_used[place] {
-                continue;
-            }
+            let Some(own) = uses[place] else { continue };
             let node = enclosure.graph.node(*id);
-            let operands = node.operands();
-            let skipped = self.result(node).map(|holds| if holds { 3 } else { 2 });
-            for (number, operand) in operands.iter().enumerate() {
-                if Some(number) != skipped {
-                    is_used[enclosure.place(*operand)] = true;
+            let is_choice = matches!(node, Node::Choose(..));
+            let result = self.result(node);
+            let number = if is_choice && result.is_none() {
+                self.undecided.push(*id);
+                self.number_of(node, *id)
+            } else {
+                0
+            };
+            for (position, operand) in node.operands().iter().enumerate() {
+                let is_first = position == 2;
+                let is_branch = is_choice && position >= 2;
+                if is_branch && result.is_some_and(|holds| holds != is_first) {
+                    continue;
                 }
+                let way = if is_branch && result.is_none() {
+                    own.with(number, is_first)
+                } else {
+                    own
+                };
+                let known = &mut uses[enclosure.place(*operand)];
+                *known = Some(known.map_or(way, |known| known.common(way)));
             }
         }
-        is_used
+        uses
+    }
+
+    /// The number of the comparison of a choice; choices with the same comparison share it.
+    fn number_of(&mut self, node: &Node, id: NodeId) -> usize {
+        let graph = self.enclosure.graph;
+        let mut known = self.comparisons.iter();
+        let same = known.position(|known| compared(graph.node(*known)) == compared(node));
+        same.unwrap_or_else(|| {
+            self.comparisons.push(id);
+            self.comparisons.len() - 1
+        })
     }
 
     fn value(&self, node: &Node, cell: &[Interval]) -> Enclosed {
@@ -262,6 +339,14 @@ impl Over<'_, '_> {
                 [Interval::ENTIRE; MOST_VARIABLES]
             },
         }
+    }
+}
+
+/// What a choice compares.
+fn compared(node: &Node) -> Option<(Comparison, [NodeId; 2])> {
+    match *node {
+        Node::Choose(comparison, [left, right, ..]) => Some((comparison, [left, right])),
+        _ => None,
     }
 }
 

@@ -7,6 +7,7 @@ mod containment;
 mod depth;
 pub(crate) mod enclosure;
 pub(crate) mod graph;
+mod guards;
 pub(crate) mod interval;
 pub(crate) mod jet;
 pub(crate) mod quadrature;

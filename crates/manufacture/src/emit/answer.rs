@@ -72,6 +72,7 @@ fn groups<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Group<'f>> {
 
 pub(super) fn program(
     model: &Model,
+    has_alternatives: bool,
     language: Language,
     functions: &[Function],
 ) -> Option<EmittedFile> {
@@ -116,6 +117,14 @@ pub(super) fn program(
             ("REAL", &real.concat()),
             ("WHOLE", if has_parameters { ", place, cut" } else { "" }),
             ("TIME", &time),
+            (
+                "CHOOSE",
+                if has_alternatives {
+                    "    call choose_variant()\n"
+                } else {
+                    ""
+                },
+            ),
             ("SETTINGS", &parameters::settings(model, language, &prefix)),
             ("T", if problem.time.is_some() { ", t" } else { "" }),
             ("D", &dimension.to_string()),

@@ -1,6 +1,7 @@
 //! Functions in the user's language.
 
 mod answer;
+mod choice;
 mod dialect;
 mod functions;
 mod lower;
@@ -17,6 +18,7 @@ use crate::model::Model;
 use crate::problem::InputError;
 
 pub(crate) use answer::OTHERS;
+pub(crate) use choice::Alternative;
 pub(crate) use functions::{Function, functions, others};
 
 /// A language that functions are emitted in.
@@ -128,11 +130,22 @@ pub struct EmittedFile {
     pub text: String,
 }
 
-/// The files of a model in a language.
-pub(crate) fn emit(model: &Model, language: Language) -> Vec<EmittedFile> {
+/// The files of a model in a language, whose functions are those of the alternative that the
+/// environment variable `MANUFACTURE_VARIANT` names.
+pub(crate) fn emit(
+    model: &Model,
+    alternatives: &[Alternative<'_>],
+    language: Language,
+) -> Vec<EmittedFile> {
     let functions = functions(model, language);
-    let mut files = write::library(model, language, &functions);
-    files.extend(answer::program(model, language, &functions));
+    let mut files = write::library(model, alternatives, language, &functions);
+    let has_alternatives = !alternatives.is_empty();
+    files.extend(answer::program(
+        model,
+        has_alternatives,
+        language,
+        &functions,
+    ));
     files
 }
 

@@ -3,9 +3,9 @@
 
 use std::fmt::Write;
 
-use super::Language;
 use super::lower::Lowered;
-use super::write::{Writer, declared};
+use super::write::{Emitted, Writer, declared};
+use super::{Language, choice, fill};
 use crate::model::Model;
 use crate::problem::mentions;
 
@@ -51,8 +51,9 @@ fn definition(language: Language, name: &str, value: f64) -> String {
 }
 
 /// How functions read a parameter.
-pub(super) fn read(language: Language, name: &str) -> String {
-    match language {
+pub(super) fn read(writer: &Writer<'_>, name: &str) -> String {
+    match writer.language {
+        Language::C if writer.changes_parameters() => format!("{}current(&{name})", writer.prefix),
         Language::Rust => format!("current(&{name})"),
         Language::Octave => format!("parameters().{name}"),
         _ => name.to_owned(),
@@ -81,13 +82,19 @@ pub(super) fn definitions(writer: &Writer<'_>) -> String {
     match writer.language {
         Language::Rust => format!(
             "use std::sync::atomic::{{AtomicU64, Ordering::Relaxed}};\n\n{lines}\n\
-             fn current(parameter: &AtomicU64) -> f64 {{\n    f64::from_bits(parameter.load(Relaxed))\n}}\n\n"
+             fn current(parameter: &AtomicU64) -> f64 {{\n{}    f64::from_bits(parameter.load(Relaxed))\n}}\n\n",
+            if writer.changes_parameters() {
+                choice::ready(writer)
+            } else {
+                String::new()
+            }
         ),
         Language::Octave => format!(
-            "function values = parameters(new)\n  persistent known\n  if isempty(known)\n{lines}  end\n  \
+            "function values = parameters(new)\n  persistent known\n  if isempty(known)\n{lines}{}  end\n  \
              if nargin > 0, known = new; end\n  values = known;\nend\n\n\
              function store(name, value)\n  values = parameters();\n  values.(name) = value;\n  \
-             parameters(values);\nend\n\n"
+             parameters(values);\nend\n\n",
+            choice::changes(writer)
         ),
         _ => lines,
     }
@@ -100,13 +107,13 @@ struct Branch<'w> {
     constants: Vec<[String; 2]>,
 }
 
-fn branch<'w>(writer: &'w Writer<'_>, index: usize) -> Branch<'w> {
+fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Branch<'w> {
     let language = writer.language;
     let mut statements = vec![assignment(language, &writer.parameters[index], "value")];
     let mut all = vec![];
-    for follower in followers(writer.model, index) {
-        let node = writer.model.parameters[follower];
-        let Lowered { constants, roots } = writer.statements(&[node], "x", "t");
+    for follower in followers(emitted.model, index) {
+        let node = emitted.model.parameters[follower];
+        let Lowered { constants, roots } = writer.statements(emitted, &[node], "x", "t");
         // One after the other: constants are numbered anew for each, in C in a block of their own.
         let is_block = language == Language::C && !constants.is_empty();
         statements.extend(is_block.then(|| "{".to_owned()));
@@ -127,97 +134,137 @@ fn branch<'w>(writer: &'w Writer<'_>, index: usize) -> Branch<'w> {
     }
 }
 
-/// The function `set_parameter`; empty without parameters.
-pub(super) fn setter(writer: &Writer<'_>) -> String {
-    let count = writer.parameters.len();
-    let branches: Vec<Branch<'_>> = (0..count).map(|index| branch(writer, index)).collect();
-    if branches.is_empty() {
-        return String::new();
-    }
-    let mut cases = String::new();
-    for (
-        number,
-        Branch {
-            name, statements, ..
-        },
-    ) in branches.iter().enumerate()
-    {
-        let [opening, indent, closing] = match writer.language {
-            Language::C => [
-                format!("    if (strcmp(name, \"{name}\") == 0) {{\n"),
-                " ".repeat(8),
-                "        return 0;\n    }\n".to_owned(),
-            ],
-            Language::Fortran => [
-                format!("    case ('{name}')\n"),
-                " ".repeat(8),
-                String::new(),
-            ],
-            Language::Rust => [
-                format!("        \"{name}\" => {{\n"),
-                " ".repeat(12),
-                "        }\n".to_owned(),
-            ],
-            Language::Octave => [format!("    case '{name}'\n"), " ".repeat(6), String::new()],
-            Language::Python | Language::Ufl => {
-                let word = if number == 0 { "if" } else { "elif" };
-                [
-                    format!("    {word} name == \"{name}\":\n"),
-                    " ".repeat(8),
-                    String::new(),
-                ]
-            }
-        };
-        cases += &opening;
-        for statement in statements {
-            let _ = writeln!(cases, "{indent}{statement}");
-        }
-        cases += &closing;
-    }
-    framed(writer, &branches, &cases)
+/// How a language sets a parameter by its name, and returns it.
+struct Access {
+    setter: &'static str,
+    /// The statements around all cases.
+    body: &'static str,
+    first: &'static str,
+    later: &'static str,
+    indent: usize,
+    close: &'static str,
+    /// The function that returns one; empty where programs read the variables of the module.
+    getter: &'static str,
+    getter_case: &'static str,
 }
 
-/// The function around its cases.
-fn framed(writer: &Writer<'_>, branches: &[Branch<'_>], cases: &str) -> String {
-    let Writer {
-        prefix, language, ..
-    } = writer;
+fn texts(language: Language) -> Access {
     match language {
-        Language::C => format!(
-            "int {prefix}set_parameter(const char *name, double value)\n{{\n{cases}    return 1;\n}}\n\n"
-        ),
-        Language::Fortran => {
-            let longest = branches
-                .iter()
-                .map(|b| &b.constants)
-                .max_by_key(|c| c.len());
-            let declared = longest.map_or(String::new(), |c| declared(*language, c));
-            format!(
-                "subroutine set_parameter(name, value)\n    character(*), intent(in) :: name\n    \
-                 real(dp), intent(in) :: value\n{declared}    select case (name)\n{cases}    case default\n        \
-                 error stop 'unknown parameter'\n    end select\nend subroutine set_parameter\n\n"
-            )
-        }
-        Language::Rust => format!(
-            "pub fn set_parameter(name: &str, value: f64) -> Result<(), String> {{\n    match name {{\n{cases}        \
-             _ => return Err(format!(\"unknown parameter `{{name}}`\")),\n    }}\n    Ok(())\n}}\n\n"
-        ),
-        Language::Octave => format!(
-            "function set_parameter(name, value)\n  switch name\n{cases}    otherwise\n      \
-             error('unknown parameter %s', name);\n  end\nend\n\n"
-        ),
-        Language::Python | Language::Ufl => {
-            let globals: String = writer
-                .parameters
-                .iter()
-                .map(|name| format!("    global {name}\n"))
-                .collect();
-            format!(
-                "def set_parameter(name, value):\n{globals}{cases}    else:\n        \
-                 raise ValueError(f\"unknown parameter {{name}}\")\n\n\n"
-            )
-        }
+        Language::C => Access {
+            setter: include_str!("templates/setter.c"),
+            body: "@CASES@",
+            first: "    if (strcmp(name, \"@NAME@\") == 0) {\n",
+            later: "    if (strcmp(name, \"@NAME@\") == 0) {\n",
+            indent: 8,
+            close: "        return 0;\n    }\n",
+            getter: include_str!("templates/getter.c"),
+            getter_case: "    if (strcmp(name, \"@NAME@\") == 0) return @VALUE@;\n",
+        },
+        Language::Fortran => Access {
+            setter: include_str!("templates/setter.f90"),
+            body: "    select case (name)\n@CASES@    case default\n        \
+                   error stop 'unknown parameter'\n    end select\n",
+            first: "    case ('@NAME@')\n",
+            later: "    case ('@NAME@')\n",
+            indent: 8,
+            close: "",
+            getter: "",
+            getter_case: "",
+        },
+        Language::Rust => Access {
+            setter: include_str!("templates/setter.rs"),
+            body: "    match name {\n@CASES@        \
+                   _ => return Err(format!(\"unknown parameter `{name}`\")),\n    }\n",
+            first: "        \"@NAME@\" => {\n",
+            later: "        \"@NAME@\" => {\n",
+            indent: 12,
+            close: "        }\n",
+            getter: include_str!("templates/getter.rs"),
+            getter_case: "        \"@NAME@\" => Some(@VALUE@),\n",
+        },
+        Language::Octave => Access {
+            setter: include_str!("templates/setter.m"),
+            body: "  switch name\n@CASES@    otherwise\n      \
+                   error('unknown parameter %s', name);\n  end\n",
+            first: "    case '@NAME@'\n",
+            later: "    case '@NAME@'\n",
+            indent: 6,
+            close: "",
+            getter: include_str!("templates/getter.m"),
+            getter_case: "    case '@NAME@'\n      value = @VALUE@;\n",
+        },
+        Language::Python | Language::Ufl => Access {
+            setter: include_str!("templates/setter.py"),
+            body: "@CASES@    else:\n        raise ValueError(f\"unknown parameter {name}\")\n",
+            first: "    if name == \"@NAME@\":\n",
+            later: "    elif name == \"@NAME@\":\n",
+            indent: 8,
+            close: "",
+            getter: "",
+            getter_case: "",
+        },
     }
+}
+
+/// The functions that set and return a parameter; empty without parameters.
+pub(super) fn functions(writer: &Writer<'_>) -> String {
+    if writer.parameters.is_empty() {
+        return String::new();
+    }
+    let texts = texts(writer.language);
+    let mut bodies = vec![];
+    let mut longest = vec![];
+    for emitted in &writer.models {
+        let mut cases = String::new();
+        for index in 0..writer.parameters.len() {
+            let Branch {
+                name,
+                statements,
+                constants,
+            } = branch(writer, emitted, index);
+            let opening = if index == 0 { texts.first } else { texts.later };
+            cases += &fill(opening, &[("NAME", name)]);
+            for statement in statements {
+                let _ = writeln!(cases, "{}{statement}", " ".repeat(texts.indent));
+            }
+            cases += texts.close;
+            if constants.len() > longest.len() {
+                longest = constants;
+            }
+        }
+        bodies.push(fill(texts.body, &[("CASES", &cases)]));
+    }
+    let globals: String = writer
+        .parameters
+        .iter()
+        .map(|name| format!("    global {name}\n"))
+        .collect();
+    let setter = fill(
+        texts.setter,
+        &[
+            ("GLOBALS", &globals),
+            ("DECLARED", &declared(writer.language, &longest)),
+            ("READY", &choice::ready(writer)),
+            ("BODY", &choice::body(writer, &bodies)),
+            ("P", &writer.prefix),
+        ],
+    );
+    setter + &getter(writer, &texts)
+}
+
+fn getter(writer: &Writer<'_>, texts: &Access) -> String {
+    let parameters = &writer.model.problem.parameters;
+    let cases = writer.parameters.iter().zip(parameters);
+    let cases: String = cases
+        .map(|(name, parameter)| {
+            let value = read(writer, name);
+            fill(
+                texts.getter_case,
+                &[("NAME", &parameter.name), ("VALUE", &value)],
+            )
+        })
+        .collect();
+    fill(texts.getter, &[("CASES", &cases), ("P", &writer.prefix)])
 }
 
 /// What the answering program does with arguments `NAME=VALUE` behind the face.

@@ -57,7 +57,7 @@ const FORTRAN: [Taken; 2] = [
     },
     Taken {
         by: "a name that the emitted module itself has",
-        names: "dp gauss_x gauss_w rule_x rule_w",
+        names: "choose_variant dp gauss_x gauss_w require_variant rule_x rule_w set_parameter variant",
     },
 ];
 
@@ -73,9 +73,11 @@ const OCTAVE: [Taken; 2] = [
     },
     Taken {
         by: "a function of Octave that the emitted one would hide",
-        names: "abs acos any argv asin atan cos cosh error exp fgetl floor fscanf isfield isscalar \
-                log log10 max min mod num2cell numel ones pick printf puts sin sinh size sqrt \
-                stdin strcmp strsplit strtrim sum tan tanh true zeros",
+        names: "abs acos any argv asin atan cos cosh error exp fgetl find floor fscanf gauss getenv \
+                get_parameter \
+                isempty isfield isscalar log log10 max min mod num2cell numel ones parameters pick \
+                printf puts rule set_parameter sin sinh size sprintf sqrt stdin store strcmp \
+                strsplit strtrim sum tan tanh true variant zeros",
     },
 ];
 

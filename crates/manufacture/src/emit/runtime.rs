@@ -4,11 +4,12 @@ use std::fmt::Write;
 
 use super::functions::Function;
 use super::write::Writer;
-use super::{Language, fill};
+use super::{Language, choice, fill};
 use crate::arithmetic::quadrature::POINTS;
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::derive::Role;
+use crate::model::Model;
 use crate::problem::Norm;
 
 pub(super) fn indent(language: Language) -> &'static str {
@@ -78,13 +79,14 @@ pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
     let name = &writer.model.problem.name;
     match writer.language {
         Language::C => {
-            let has_parameters = !writer.parameters.is_empty();
-            let string = if has_parameters {
-                "#include <string.h>\n"
-            } else {
+            let headers = if writer.has_alternatives() {
+                "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n"
+            } else if writer.parameters.is_empty() {
                 ""
+            } else {
+                "#include <string.h>\n"
             };
-            format!("\n#include <math.h>\n{string}#include \"{name}.h\"\n\n")
+            format!("\n#include <math.h>\n{headers}#include \"{name}.h\"\n\n")
         }
         Language::Fortran => format!(
             "module {name}\nimplicit none\npublic\ninteger, parameter, private :: dp = kind(1.0d0)\n"
@@ -102,9 +104,15 @@ pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
             let exact = functions.iter().filter(|f| f.role == Role::Exact);
             names.extend(exact.map(|f| format!("average_{}", suffix(f))));
             if !writer.parameters.is_empty() {
-                names.push("set_parameter".to_owned());
+                names.extend(["set_parameter", "get_parameter"].map(str::to_owned));
             }
-            let mut text = format!("\nfunction p = {name}()\n");
+            // An unknown variant is refused at once.
+            let variant = if writer.has_alternatives() {
+                "  variant();\n"
+            } else {
+                ""
+            };
+            let mut text = format!("\nfunction p = {name}()\n{variant}");
             for name in names {
                 let _ = writeln!(text, "  p.{name} = @{name};");
             }
@@ -188,28 +196,28 @@ fn prototype(writer: &Writer<'_>, function: &Function) -> String {
 }
 
 /// A function around its statements.
-pub(super) fn framed(
-    writer: &Writer<'_>,
-    function: &Function,
-    declared: &str,
-    body: &str,
-) -> String {
+pub(super) fn framed(writer: &Writer<'_>, place: usize, declared: &str, body: &str) -> String {
+    let function = &writer.models[0].functions[place];
     let Function { name, shape, .. } = function;
+    let all = writer.models.iter();
+    let all: Vec<(&Model, &[NodeId])> = all
+        .map(|emitted| (emitted.model, emitted.functions[place].roots.as_slice()))
+        .collect();
     let [time_declared, time_extra] = time(writer.language, function.has_time);
     let dimension = writer.model.problem.coordinates.len();
     let count = function.roots.len();
     match writer.language {
         Language::C => {
-            let unused = unused(writer, &function.roots, function.has_time);
+            let unused = unused(writer, &all, function.has_time);
             format!("{}\n{{\n{unused}{body}}}\n\n", prototype(writer, function))
         }
         Language::Fortran => {
             let shape = fortran_shape(shape);
-            let unused = unused(writer, &function.roots, function.has_time);
-            let declared = format!("{declared}{unused}");
+            let unused = unused(writer, &all, function.has_time);
+            let ready = choice::ready(writer);
             format!(
                 "pure function {name}(x{time_declared}) result(out)\n    real(dp), intent(in) :: x(:){time_extra}\n    \
-                 real(dp) :: out{shape}\n{declared}{body}end function {name}\n\n"
+                 real(dp) :: out{shape}\n{declared}{unused}{ready}{body}end function {name}\n\n"
             )
         }
         Language::Python => {
@@ -241,18 +249,23 @@ pub(super) fn framed(
     }
 }
 
-/// Statements for the arguments that the nodes below some roots do not use: a compiler that is
-/// strict asks for a use of each.
-pub(super) fn unused(writer: &Writer<'_>, roots: &[NodeId], has_time: bool) -> String {
-    let graph = &writer.model.graph;
+/// Statements for the arguments that the nodes below roots of some models do not use: a compiler
+/// that is strict asks for a use of each.
+pub(super) fn unused(
+    writer: &Writer<'_>,
+    models: &[(&Model, &[NodeId])],
+    has_time: bool,
+) -> String {
     let time = writer.model.problem.coordinates.len();
-    let below = nodes_below(graph, roots);
     let uses = |is_time: bool| {
-        below.iter().any(|id| match graph.node(*id) {
-            Node::Variable(index) => (*index == time) == is_time,
-            // Its helper has both arguments.
-            Node::Integral { .. } => true,
-            _ => false,
+        models.iter().any(|(model, roots)| {
+            let below = nodes_below(&model.graph, roots);
+            below.iter().any(|id| match model.graph.node(*id) {
+                Node::Variable(index) => (*index == time) == is_time,
+                // Its helper has both arguments.
+                Node::Integral { .. } => true,
+                _ => false,
+            })
         })
     };
     let mut unused = vec![];
@@ -391,11 +404,10 @@ fn average(writer: &Writer<'_>, function: &Function) -> String {
 }
 
 /// What is summed, and what is done with the sum.
-fn summed(language: Language, function: &Function, norm: &str) -> [String; 2] {
-    let is_root = norm == "L2" || norm == "H1";
-    let [add, root] = match (language, norm) {
+fn summed(language: Language, norm: &str) -> [&'static str; 2] {
+    match (language, norm) {
         (Language::C | Language::Rust, "L1") => ["sum += weights[k]*difference;", "sum"],
-        // NaN stays: no comparison holds with it.
+        // NaN stays: no comparison holds with it; `max` of Fortran and Octave may lose it.
         (Language::C, "Linf") => [
             "if (!(difference <= sum)) sum = difference + 0.0*sum;",
             "sum",
@@ -413,32 +425,22 @@ fn summed(language: Language, function: &Function, norm: &str) -> [String; 2] {
         (Language::Python, "Linf") => ["", "np.max(difference)"],
         (Language::Python, _) => ["", "np.sqrt(np.sum(weights*difference**2))"],
         (Language::Octave, "L1") => ["", "sum(sum(weights(:).'.*difference))"],
-        (Language::Octave, "Linf") => ["", "max(max(difference))"],
+        (Language::Octave, "Linf") => ["", "max(difference(:)) + 0*sum(difference(:))"],
         (Language::Octave, _) => ["", "sqrt(sum(sum(weights(:).'.*difference.^2)))"],
-        (_, _) if is_root => ["", "sqrt(out)"],
-        _ => ["", "out"],
-    };
-    if language != Language::Fortran {
-        return [add.to_owned(), root.to_owned()];
+        (Language::Fortran, "L1") => ["out = out + weights(k)*sum(difference)", "out"],
+        (Language::Fortran, "Linf") => [
+            "if (.not. all(difference <= out)) out = maxval(difference) + 0.0_dp*(out + sum(difference))",
+            "out",
+        ],
+        (Language::Fortran, _) => ["out = out + weights(k)*sum(difference**2)", "sqrt(out)"],
+        (Language::Ufl, _) => ["", ""],
     }
-    let colons = ":, ".repeat(function.shape.len().min(2));
-    let time = call_time(function.has_time);
-    let difference = format!("abs(values({colons}k) - {}(x(:, k){time}))", function.name);
-    let is_scalar = function.shape.is_empty();
-    let power = if is_root { "**2" } else { "" };
-    let add = match (norm, is_scalar) {
-        ("Linf", true) => format!("out = max(out, {difference})"),
-        ("Linf", false) => format!("out = max(out, maxval({difference}))"),
-        (_, true) => format!("out = out + weights(k)*{difference}{power}"),
-        (_, false) => format!("out = out + weights(k)*sum({difference}{power})"),
-    };
-    [add, root.to_owned()]
 }
 
 fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> String {
     let dimension = writer.model.problem.coordinates.len();
     let [time_declared, time_extra] = time(writer.language, function.has_time);
-    let [add, root] = summed(writer.language, function, norm);
+    let [add, root] = summed(writer.language, norm);
     let point = match writer.language {
         Language::C => format!("x + {dimension}*k"),
         _ => "&x[k]".to_owned(),
@@ -464,8 +466,8 @@ fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> S
                     ""
                 },
             ),
-            ("ADD", &add),
-            ("ROOT", &root),
+            ("ADD", add),
+            ("ROOT", root),
         ],
     )
 }
@@ -488,11 +490,21 @@ pub(super) fn header(writer: &Writer<'_>, functions: &[Function], head: &str) ->
     {
         let _ = writeln!(text, "{};", definition.0.trim_start());
     }
+    if writer.has_alternatives() {
+        text += "/* The number of the variant that MANUFACTURE_VARIANT names; 0 without it. */\n";
+        let _ = writeln!(text, "int {}variant(void);", writer.prefix);
+    }
     if !writer.parameters.is_empty() {
         text += "/* 0, or 1 if no parameter has the name; those that depend on it follow. */\n";
         let _ = writeln!(
             text,
             "int {}set_parameter(const char *name, double value);",
+            writer.prefix
+        );
+        text += "/* NaN if no parameter has the name. */\n";
+        let _ = writeln!(
+            text,
+            "double {}get_parameter(const char *name);",
             writer.prefix
         );
     }

@@ -1,10 +1,12 @@
 //! The library of a language: parameters, integrals, functions.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 
-use super::functions::Function;
+use super::choice::Alternative;
+use super::functions::{Function, functions};
 use super::lower::{Lowered, Names, lower};
-use super::{EmittedFile, Language, fill, parameters, runtime};
+use super::{EmittedFile, Language, choice, fill, parameters, runtime};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
@@ -15,46 +17,47 @@ const WIDTH: usize = 100;
 
 /// What the functions of a file have in common.
 pub(super) struct Writer<'m> {
+    /// The model of the file.
     pub(super) model: &'m Model,
+    /// This model, and then those that can replace it.
+    pub(super) models: Vec<Emitted<'m>>,
     pub(super) language: Language,
     /// The prefix of C.
     pub(super) prefix: String,
     pub(super) parameters: Vec<String>,
-    /// All integrals, the inner before the outer.
-    integrals: Vec<NodeId>,
+    /// The helpers of all integrals, the inner before the outer, with `@NAME@` for the name.
+    integrals: Vec<String>,
+}
+
+/// A model of a file, and its functions: they have the same names in all models.
+pub(super) struct Emitted<'m> {
+    /// Empty for the model of the file.
+    pub(super) name: String,
+    pub(super) model: &'m Model,
+    pub(super) functions: Vec<Function>,
+    /// The place of the helper of each integral.
+    integrals: HashMap<NodeId, usize>,
 }
 
 /// The library, and in C its header.
 pub(super) fn library(
     model: &Model,
+    alternatives: &[Alternative<'_>],
     language: Language,
     functions: &[Function],
 ) -> Vec<EmittedFile> {
     let name = &model.problem.name;
-    let prefix = prefix(model, language);
-    let mut parameters: Vec<String> = vec![];
-    for parameter in &model.problem.parameters {
-        let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
-        let name = format!("{prefix}parameter_{}", parameter.name);
-        parameters.push(language.distinct(name, &names));
-    }
-    let writer = Writer {
-        model,
-        language,
-        parameters,
-        integrals: integrals(model, functions),
-        prefix,
-    };
+    let writer = Writer::new(model, alternatives, language);
     let head = writer.head(functions);
-    let mut body = String::new();
-    for integral in &writer.integrals {
-        body += &writer.integral(*integral);
+    let mut body = choice::functions(&writer);
+    for (place, helper) in writer.integrals.iter().enumerate() {
+        body += &fill(helper, &[("NAME", &writer.name_of_integral(place))]);
     }
-    for function in functions {
-        body += &writer.function(function);
+    for place in 0..functions.len() {
+        body += &writer.function(place);
     }
     body += &runtime::norms(&writer, functions);
-    body += &parameters::setter(&writer);
+    body += &parameters::functions(&writer);
     let opening = runtime::opening(&writer, functions);
     let closing = runtime::closing(&writer);
     let ending = match language {
@@ -66,8 +69,9 @@ pub(super) fn library(
         Language::Rust => ".rs",
     };
     let text = format!(
-        "{head}{opening}{}{}{body}{closing}",
+        "{head}{opening}{}{}{}{body}{closing}",
         parameters::definitions(&writer),
+        choice::variable(&writer),
         runtime::helpers(&writer)
     );
     let mut files = vec![EmittedFile {
@@ -108,7 +112,67 @@ fn integrals(model: &Model, functions: &[Function]) -> Vec<NodeId> {
     integrals
 }
 
-impl Writer<'_> {
+impl<'m> Writer<'m> {
+    fn new(model: &'m Model, alternatives: &[Alternative<'m>], language: Language) -> Self {
+        let prefix = prefix(model, language);
+        let mut parameters: Vec<String> = vec![];
+        for parameter in &model.problem.parameters {
+            let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
+            let name = format!("{prefix}parameter_{}", parameter.name);
+            parameters.push(language.distinct(name, &names));
+        }
+        let base = Alternative {
+            name: String::new(),
+            model,
+        };
+        let all = std::iter::once(&base).chain(alternatives);
+        let models = all.map(|Alternative { name, model }| Emitted {
+            name: name.clone(),
+            model,
+            functions: functions(model, language),
+            integrals: HashMap::new(),
+        });
+        let mut writer = Writer {
+            model,
+            models: models.collect(),
+            language,
+            prefix,
+            parameters,
+            integrals: vec![],
+        };
+        writer.add_integrals();
+        writer
+    }
+
+    /// The helpers of the integrals of all models, each once.
+    fn add_integrals(&mut self) {
+        for place in 0..self.models.len() {
+            let Emitted {
+                model, functions, ..
+            } = &self.models[place];
+            for id in integrals(model, functions) {
+                let helper = self.integral(&self.models[place], id);
+                let known = self.integrals.iter().position(|known| *known == helper);
+                let number = known.unwrap_or_else(|| {
+                    self.integrals.push(helper);
+                    self.integrals.len() - 1
+                });
+                self.models[place].integrals.insert(id, number);
+            }
+        }
+    }
+
+    pub(super) fn has_alternatives(&self) -> bool {
+        self.models.len() > 1
+    }
+
+    /// Whether parameters have other values in an alternative.
+    pub(super) fn changes_parameters(&self) -> bool {
+        let base = &self.model.graph.parameters;
+        let mut models = self.models.iter();
+        models.any(|model| model.model.graph.parameters != *base)
+    }
+
     /// The names of the file that are written with `_` behind them, as a line of the first comment.
     fn renamed(&self, functions: &[Function]) -> String {
         let quantities = functions.iter().map(|f| (&f.name, &f.quantity));
@@ -144,10 +208,11 @@ impl Writer<'_> {
         let mut head = String::new();
         let version = env!("CARGO_PKG_VERSION");
         let lines = format!(
-            "Manufactured solution `{}`, by manufacture {version}, input {hash:016x}.\n{canonical}\
+            "Manufactured solution `{}`, by manufacture {version}, input {hash:016x}.\n{canonical}{}\
              Conventions: grad(v)_ij = dv_i/dx_j, div(A)_i = sum_j dA_ij/dx_j; tensors row by row; n points outwards.\n\
              {}Build: {}",
             problem.name,
+            choice::head(self),
             self.renamed(functions),
             build.replace("NAME", &problem.name)
         );
@@ -159,44 +224,54 @@ impl Writer<'_> {
         head
     }
 
-    fn call_of_integral(&self, id: NodeId, array: &str, time: &str) -> String {
-        let number = self
-            .integrals
-            .iter()
-            .position(|entry| *entry == id)
-            .unwrap_or(0)
-            + 1;
-        let time = if self.model.problem.time.is_some() {
-            format!(", {time}")
+    fn name_of_integral(&self, place: usize) -> String {
+        format!("{}integral_{}", self.prefix, place + 1)
+    }
+
+    fn call_of_integral(
+        &self,
+        emitted: &Emitted<'_>,
+        id: NodeId,
+        array: &str,
+        time: &str,
+    ) -> String {
+        let name = self.name_of_integral(emitted.integrals[&id]);
+        if self.model.problem.time.is_some() {
+            format!("{name}({array}, {time})")
         } else {
-            String::new()
-        };
-        format!("{}integral_{number}({array}{time})", self.prefix)
+            format!("{name}({array})")
+        }
     }
 
     /// Constants and values of roots with these names of the coordinates and of time.
-    pub(super) fn statements(&self, roots: &[NodeId], array: &str, time: &str) -> Lowered {
+    pub(super) fn statements(
+        &self,
+        emitted: &Emitted<'_>,
+        roots: &[NodeId],
+        array: &str,
+        time: &str,
+    ) -> Lowered {
         let array_argument = if self.language == Language::Rust && array == "y" {
             "&y"
         } else {
             array
         };
         let names = self.parameters.iter();
-        let values: Vec<String> = names
-            .map(|name| parameters::read(self.language, name))
-            .collect();
+        let values: Vec<String> = names.map(|name| parameters::read(self, name)).collect();
         let names = Names {
             language: self.language,
             array,
             coordinates: self.model.problem.coordinates.len(),
             time,
             parameters: &values,
-            integrals: &|id| self.call_of_integral(id, array_argument, time),
+            integrals: &|id| self.call_of_integral(emitted, id, array_argument, time),
         };
-        lower(&self.model.graph, roots, &names)
+        lower(&emitted.model.graph, roots, &names)
     }
 
-    fn function(&self, function: &Function) -> String {
+    /// A function, by its place among those of the file.
+    fn function(&self, place: usize) -> String {
+        let function = &self.models[0].functions[place];
         let first = self.model.problem.first_time();
         let first = first.map(|time| self.language.number(time));
         let time = if function.has_time {
@@ -204,30 +279,40 @@ impl Writer<'_> {
         } else {
             first.as_deref().unwrap_or("t")
         };
-        let Lowered { constants, roots } = self.statements(&function.roots, "x", time);
-        let mut body = String::new();
         let indent = runtime::indent(self.language);
-        for [name, value] in &constants {
-            let _ = writeln!(body, "{indent}{}", self.language.assign(name, value));
+        let mut bodies = vec![];
+        let mut longest = vec![];
+        for emitted in &self.models {
+            let roots = &emitted.functions[place].roots;
+            let Lowered { constants, roots } = self.statements(emitted, roots, "x", time);
+            let mut body = String::new();
+            for [name, value] in &constants {
+                let _ = writeln!(body, "{indent}{}", self.language.assign(name, value));
+            }
+            for (place, root) in roots.iter().enumerate() {
+                let line = self.language.result(&function.shape, place, root);
+                let _ = writeln!(body, "{indent}{line}");
+            }
+            bodies.push(body);
+            if constants.len() > longest.len() {
+                longest = constants;
+            }
         }
-        for (place, root) in roots.iter().enumerate() {
-            let line = self.language.result(&function.shape, place, root);
-            let _ = writeln!(body, "{indent}{line}");
-        }
-        runtime::framed(self, function, &declared(self.language, &constants), &body)
+        let body = choice::body(self, &bodies);
+        runtime::framed(self, place, &declared(self.language, &longest), &body)
     }
 
     /// A helper for an integral over a coordinate, with fixed points.
-    fn integral(&self, id: NodeId) -> String {
+    fn integral(&self, emitted: &Emitted<'_>, id: NodeId) -> String {
         let Node::Integral {
             body,
             variable,
             panels,
-        } = self.model.graph.node(id)
+        } = emitted.model.graph.node(id)
         else {
             return String::new();
         };
-        let Lowered { constants, roots } = self.statements(&[*body], "y", "t");
+        let Lowered { constants, roots } = self.statements(emitted, &[*body], "y", "t");
         let indent = runtime::indent(self.language).repeat(2);
         let deeper = if self.language == Language::Fortran {
             "    "
@@ -245,14 +330,14 @@ impl Writer<'_> {
         let has_time = self.model.problem.time.is_some();
         let [low, high] = self.model.graph.intervals[*variable];
         let width = (high - low) / *panels as f64;
-        let call = self.call_of_integral(id, "", "");
-        let name = call.split('(').next().unwrap_or("");
         fill(
             &runtime::integral(self.language, has_time),
             &[
-                ("NAME", name),
                 ("DECLARED", &declared(self.language, &constants)),
-                ("UNUSED", &runtime::unused(self, &[*body], has_time)),
+                (
+                    "UNUSED",
+                    &runtime::unused(self, &[(emitted.model, &[*body])], has_time),
+                ),
                 ("BODY", &statements),
                 ("VALUE", &format!("({})", roots[0])),
                 ("LOW", &self.language.number(low)),

@@ -1,66 +1,8 @@
-//! The keys of a file, each declared once: the reader refuses all others, and schemas are made from
-//! the same constants.
+//! The keys of a file: the reader refuses all others, and schemas are made from the same constants.
+
+use convergence_keys::{Form, Key, Keys};
 
 use super::{Norm, System};
-
-/// A key of a table.
-#[derive(Debug, Clone, Copy)]
-pub struct Key {
-    /// Its name.
-    pub name: &'static str,
-    /// Its values.
-    pub form: Form,
-    /// What holds without it, as in a file or in words; `None` for a key that must be there.
-    pub default: Option<&'static str>,
-    /// What it means, in a few words.
-    pub meaning: &'static str,
-}
-
-/// The values of a key. The reader refuses more: an expression that it cannot parse, or a name that
-/// another key does not define.
-#[derive(Debug, Clone, Copy)]
-pub enum Form {
-    /// A text in quotes.
-    Text,
-    /// A whole number, at least this.
-    Count(usize),
-    /// A finite number.
-    Number,
-    /// One of these texts.
-    Choice(fn() -> Vec<&'static str>),
-    /// A list.
-    List(&'static Form),
-    /// A value of one of these forms.
-    OneOf(&'static [Form]),
-    /// A table with these keys.
-    Table(&'static [Key]),
-    /// A table with these keys, and with values of this form under names that the user chooses.
-    Named(&'static [Key], &'static Form),
-}
-
-impl Key {
-    const fn new(name: &'static str, form: Form, meaning: &'static str) -> Self {
-        Self {
-            name,
-            form,
-            default: None,
-            meaning,
-        }
-    }
-
-    /// The same key, which may be left out.
-    const fn or(self, default: &'static str) -> Self {
-        Self {
-            default: Some(default),
-            ..self
-        }
-    }
-}
-
-/// The names of keys.
-pub(super) fn names(keys: &[Key]) -> Vec<&'static str> {
-    keys.iter().map(|key| key.name).collect()
-}
 
 /// A text, or a number.
 const EXPRESSION: Form = Form::OneOf(&[Form::Text, Form::Number]);
@@ -68,11 +10,22 @@ const VECTOR: Form = Form::List(&EXPRESSION);
 /// A scalar, a vector or a tensor.
 const VALUE: Form = Form::OneOf(&[EXPRESSION, VECTOR, Form::List(&VECTOR)]);
 /// A value, or one that must hold.
-const DATUM: Form = Form::OneOf(&[EXPRESSION, VECTOR, Form::List(&VECTOR), Form::Table(&HELD)]);
+const DATUM: Form = Form::OneOf(&[
+    EXPRESSION,
+    VECTOR,
+    Form::List(&VECTOR),
+    Form::Table(&[&[&HELD]]),
+]);
 
 /// The tables of a file.
-pub const FILE: [Key; 12] = [
-    Key::new("manufacture", Form::Table(&HEAD), "what the file is about"),
+pub const FILE_KEYS: Keys = &[&FILE];
+
+const FILE: [Key; 12] = [
+    Key::new(
+        "manufacture",
+        Form::Table(&[&[&HEAD]]),
+        "what the file is about",
+    ),
     Key::new(
         "domain",
         Form::Named(&[], &VECTOR),
@@ -105,7 +58,7 @@ pub const FILE: [Key; 12] = [
     ),
     Key::new(
         "boundary",
-        Form::Named(&[], &Form::Named(&FACE, &DATUM)),
+        Form::Named(&[], &Form::Named(&[&FACE], &DATUM)),
         "the data on each face: `x_min`, `x_max`, ..., or any name with `face` or `level`",
     )
     .or("none"),
@@ -117,7 +70,7 @@ pub const FILE: [Key; 12] = [
     .or("none"),
     Key::new(
         "require",
-        Form::Table(&REQUIRE),
+        Form::Table(&[&[&REQUIRE]]),
         "what must hold at all points of the domain",
     )
     .or("nothing"),
@@ -129,13 +82,13 @@ pub const FILE: [Key; 12] = [
     .or("none"),
     Key::new(
         "variants",
-        Form::Table(&VARIANTS),
+        Form::Table(&[&[&VARIANTS]]),
         "what the variants of `--variants` may change beside the solution",
     )
     .or("the solution alone"),
     Key::new(
         "study",
-        Form::Table(&STUDY),
+        Form::Table(&[&[&STUDY]]),
         "a study of the solver, which is written beside the files of a language",
     )
     .or("no study is written"),

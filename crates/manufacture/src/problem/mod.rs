@@ -3,7 +3,7 @@
 mod canonical;
 mod constant;
 mod error;
-pub mod keys;
+mod keys;
 mod reader;
 mod sections;
 
@@ -16,6 +16,7 @@ use crate::variants::Variation;
 pub(crate) use constant::constant;
 pub use error::InputError;
 pub(crate) use error::{LineColumn, Place};
+pub use keys::FILE_KEYS;
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]

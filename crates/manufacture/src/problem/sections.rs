@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::keys::{FACE, FILE, HEAD, HELD, REQUIRE, STUDY, VARIANTS, names};
+use convergence_keys::names;
+
+use super::keys::{FACE, FILE_KEYS, HEAD, HELD, REQUIRE, STUDY, VARIANTS};
 use super::reader::{Field, Reader, Section};
 use super::{
     Datum, Definition, Equation, Expression, Face, InputError, Norm, Parameter, Problem, Study,
@@ -16,9 +18,9 @@ impl Problem {
         let reader = Reader { file, text };
         let document = reader.parse()?;
         let whole = reader.whole(document.get_ref());
-        whole.allow(&names(&FILE))?;
+        whole.allow(&names(FILE_KEYS))?;
         let head = whole.require("manufacture")?.section()?;
-        head.allow(&names(&HEAD))?;
+        head.allow(&names(&[&HEAD]))?;
         let time = head.field("time");
         let mut problem = Self {
             file: file.to_owned(),
@@ -56,7 +58,7 @@ impl Problem {
         let Some(section) = whole.section("variants")? else {
             return Ok(());
         };
-        section.allow(&names(&VARIANTS))?;
+        section.allow(&names(&[&VARIANTS]))?;
         for field in section.require("parameters")?.list()? {
             let name = field.string()?;
             let known = self.parameters.iter().map(|entry| entry.name.as_str());
@@ -190,7 +192,7 @@ impl Problem {
             let surface = self.surface(&field, &section)?;
             let mut data = vec![];
             for entry in section.fields() {
-                if !names(&FACE).contains(&entry.name.as_str()) {
+                if !names(&[&FACE]).contains(&entry.name.as_str()) {
                     data.push(datum(&entry)?);
                 }
             }
@@ -260,7 +262,7 @@ impl Problem {
             }
         }
         if let Some(require) = whole.section("require")? {
-            require.allow(&names(&REQUIRE))?;
+            require.allow(&names(&[&REQUIRE]))?;
             self.positive = expressions(&require, "positive")?;
             self.zero = expressions(&require, "zero")?;
         }
@@ -421,7 +423,7 @@ fn datum(field: &Field<'_>) -> Result<Datum, InputError> {
         });
     }
     let section = field.section()?;
-    section.allow(&names(&HELD))?;
+    section.allow(&names(&[&HELD]))?;
     Ok(Datum {
         name,
         value: section.require("of")?.value()?,
@@ -440,7 +442,7 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     let Some(section) = whole.section("study")? else {
         return Ok(None);
     };
-    section.allow(&names(&STUDY))?;
+    section.allow(&names(&[&STUDY]))?;
     let command = section.require("command")?.list()?;
     let n = section.require("n")?.list()?;
     let orders = section.require("order")?.section()?.fields();

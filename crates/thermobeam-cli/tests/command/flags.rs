@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use convergence_study::internal::cli::command_line;
-use convergence_study::internal::program;
+use convergence_study::internal::{cli::command_line, program};
 use serde_json::Value;
 use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 

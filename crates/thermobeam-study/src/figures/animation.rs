@@ -1,11 +1,12 @@
 //! Self-animating SVG of the beam moving between its obstacles.
 
-use convergence_study::internal::plots::Scale;
-use convergence_study::internal::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
-use convergence_study::internal::plots::look::look;
-use convergence_study::internal::plots::ruler::{Ruler, fixed, on_scale};
-use convergence_study::internal::plots::style::elide;
-use convergence_study::internal::plots::style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE};
+use convergence_study::internal::plots::{
+    Scale,
+    canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid},
+    look::look,
+    ruler::{Ruler, fixed, on_scale},
+    style::{self, LABEL_SIZE, TICK_SIZE, TITLE_SIZE, elide},
+};
 
 pub use crate::run::history::Frames;
 use crate::run::snapshot::thinned;

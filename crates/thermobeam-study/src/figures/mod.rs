@@ -7,10 +7,12 @@ mod pictures;
 pub use animation::{Animation, Frames, animation};
 
 use convergence_judge::text::lists::distinct;
-use convergence_study::internal::plots::look::{Look, Marker, Marks, look};
-use convergence_study::internal::plots::style;
-use convergence_study::internal::plots::xy::{Curve, Xy};
-use convergence_study::internal::plots::{Axis, Guide, Series};
+use convergence_study::internal::plots::{
+    Axis, Guide, Series,
+    look::{Look, Marker, Marks, look},
+    style,
+    xy::{Curve, Xy},
+};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The experiments of the paper, in the order of its Section 5.

@@ -1,8 +1,7 @@
 //! The pictures of one run: its displacement over space and time, its motion, and its numbers over
 //! time.
 
-use convergence_study::internal::plots::xy::Xy;
-use convergence_study::internal::plots::{self, Axis, Guide, Phases, Series, SpaceTime};
+use convergence_study::internal::plots::{self, Axis, Guide, Phases, Series, SpaceTime, xy::Xy};
 
 use super::{Animation, Frames, animation, energy_at_rest, obstacle_lines};
 use crate::run::Sample;

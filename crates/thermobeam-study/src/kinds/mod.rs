@@ -18,9 +18,10 @@ pub mod work_precision;
 pub use settings::PLACES;
 pub use tables::TERMS;
 
-use convergence_study::InputError;
-use convergence_study::internal::program;
-use convergence_study::{KindRow, Study, internal::study::StudyFile};
+use convergence_study::{
+    InputError, KindRow, Study,
+    internal::{program, study::StudyFile},
+};
 use orders::Source;
 use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;

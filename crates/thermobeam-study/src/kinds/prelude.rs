@@ -2,30 +2,27 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_judge::judge::random::SplitMix;
-pub(crate) use convergence_judge::judge::richardson;
-pub(crate) use convergence_judge::judge::verdict::Judge;
-pub(crate) use convergence_judge::text::number::{
-    counted, decimals, max_or_nan, min_or_nan, plain_text, short_text,
-};
-pub(crate) use convergence_judge::time_limit::Patience;
-pub(crate) use convergence_study::completion;
-pub(crate) use convergence_study::internal::plots;
-pub(crate) use convergence_study::internal::plots::xy::Xy;
-pub(crate) use convergence_study::internal::study::coverage::NO_RESULT;
-pub(crate) use convergence_study::internal::study::over_levels::{ErrorColumn, Levels, summary};
-pub(crate) use convergence_study::{
-    Axis, Case, CaseFailure, Check, Claim, Coverage, Figure, FromFile, Header, Kind, KindRow,
-    NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort, Study, Subject, Table,
-    Untested,
-    internal::study::{Described, allow_only, readings},
-    read_claim, reader,
+pub(crate) use convergence_judge::{
+    judge::{random::SplitMix, richardson, verdict::Judge},
+    text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text},
+    time_limit::Patience,
 };
 pub(crate) use convergence_study::{
-    Field, Form, InputError, Key, Keys, Section,
-    internal::input::{POSITIVE, keys},
+    Axis, Case, CaseFailure, Check, Claim, Coverage, Field, Figure, Floor, Form, FromFile, Header,
+    InputError, Key, Keys, Kind, KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading,
+    Refinement, Section, Sort, Study, Subject, Table, Untested, Verdict, completion_check,
+    internal::{
+        input::POSITIVE,
+        plots::{self, xy::Xy},
+        study::{
+            Described, allow_only,
+            coverage::NO_RESULT,
+            over_levels::{ErrorColumn, Levels, summary},
+            readings,
+        },
+    },
+    read_claim, read_study,
 };
-pub(crate) use convergence_study::{Floor, Verdict};
 pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
@@ -84,7 +81,7 @@ pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Opti
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
 }
 
-/// Names of the numbers that are NaN or infinite, for [`completion`]; `None` is neither.
+/// Names of the numbers that are NaN or infinite, for [`completion_check`]; `None` is neither.
 pub(crate) fn not_finite<'n>(
     numbers: impl IntoIterator<Item = (&'n str, impl Into<Option<f64>>)>,
 ) -> Vec<String> {

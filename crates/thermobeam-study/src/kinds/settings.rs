@@ -4,8 +4,10 @@
 //! Each kind of study says in its row what its items exercise, as a `Topic`. What an item is
 //! about is data of its [`Subject`].
 
-use convergence_study::internal::study::header::{Setting, study};
-use convergence_study::{Header, Subject};
+use convergence_study::{
+    Header, Subject,
+    internal::study::header::{Setting, study},
+};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::{MIDPOINT, Scheme};
 

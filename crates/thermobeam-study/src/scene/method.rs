@@ -1,9 +1,6 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
-use convergence_study::{
-    Form, InputError, Key, Section,
-    internal::input::{POSITIVE, keys},
-};
+use convergence_study::{Form, InputError, Key, Section, internal::input::POSITIVE};
 use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::Stepping;
@@ -233,7 +230,10 @@ pub(super) fn read(
 
 /// A one-step scheme, and t_end.
 fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
-    time.allow(&keys::names(&[&ONE_STEP_KEYS, &tables::STEPPING_KEYS]))?;
+    time.allow(&convergence_keys::names(&[
+        &ONE_STEP_KEYS,
+        &tables::STEPPING_KEYS,
+    ]))?;
     let (dt, t_end) = time_steps(time)?;
     let (scheme, settings) = (tables::scheme(time)?, tables::settings(time)?);
     Ok((
@@ -284,7 +284,7 @@ fn dg(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
 ) -> Result<(Method, f64), InputError> {
-    time.allow(&keys::names(&[&DG_KEYS]))?;
+    time.allow(&convergence_keys::names(&[&DG_KEYS]))?;
     let t_end = time.positive("t_end")?;
     let defaults = default_stepping(beam, obstacles, t_end);
     let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| field.positive());

@@ -170,7 +170,6 @@ impl fmt::Display for Share {
 mod tests {
     use super::*;
     use crate::scene::tables;
-    use convergence_study::internal::input::keys;
 
     #[test]
     fn every_coefficient_can_be_varied() {
@@ -180,8 +179,14 @@ mod tests {
                 .map(|key| key.name)
                 .collect::<Vec<_>>()
         };
-        assert_eq!(names("beam"), keys::names(&[&tables::BEAM_KEYS]));
-        assert_eq!(names("obstacles"), keys::names(&[&tables::OBSTACLE_KEYS]));
+        assert_eq!(
+            names("beam"),
+            convergence_keys::names(&[&tables::BEAM_KEYS])
+        );
+        assert_eq!(
+            names("obstacles"),
+            convergence_keys::names(&[&tables::OBSTACLE_KEYS])
+        );
         assert!(KEYS.iter().all(|key| TABLES.contains(&key.table)));
     }
 

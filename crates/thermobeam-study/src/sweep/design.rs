@@ -3,8 +3,7 @@
 use super::{Key, MOST_CASES};
 use crate::scene::limits::SWEEP_VALUES;
 use convergence_judge::judge::random::SplitMix;
-use convergence_study::internal::store::content_hash;
-use convergence_study::{Field, InputError};
+use convergence_study::{Field, InputError, internal::store::content_hash};
 
 /// The values of each key: those of a grid, or a number for each sample of a Latin hypercube.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,8 +6,10 @@ use super::case::{KEYS, TABLES};
 use super::design::{self, Design, VariedKey};
 use super::{Base, Key, MOST_CASES, Sweep};
 use crate::scene::{Scene, limits, stem};
-use convergence_study::internal::store::content_hash;
-use convergence_study::{Complaint, Field, InputError, Section, internal::input};
+use convergence_study::{
+    Complaint, Field, InputError, Section,
+    internal::{input, store::content_hash},
+};
 
 /// Interdependent keys: dt must divide t_end.
 const STEPS: [&str; 2] = ["dt", "t_end"];

@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::internal::store::Baseline;
-use convergence_study::{Choice, RateTable};
-use convergence_study::{Claim, Floor};
+use convergence_study::{Choice, Claim, Floor, RateTable, internal::store::Baseline};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;

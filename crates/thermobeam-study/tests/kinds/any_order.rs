@@ -1,9 +1,9 @@
 //! Laws of studies of orders for the scheme of any order: they pass, and planted defects make them
 //! fail.
 
-use convergence_study::Verdict;
-use convergence_study::run_one;
-use convergence_study::{CaseFailure, FromFile, Kind, internal::study::run_cases_here};
+use convergence_study::{
+    CaseFailure, FromFile, Kind, Verdict, internal::study::run_cases_here, run_one,
+};
 use thermobeam_study::kinds::orders::any_order::{self, Errors};
 use thermobeam_study::kinds::orders::{Orders, Source};
 

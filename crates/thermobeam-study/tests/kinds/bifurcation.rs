@@ -1,5 +1,4 @@
-use convergence_study::Verdict;
-use convergence_study::{FromFile, Kind};
+use convergence_study::{FromFile, Kind, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::bifurcation::{AtRest, Bifurcation, Diagram, Found, ROW};
 

@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use convergence_study::run_one;
 use convergence_study::{
-    CaseFailure, Check, FromFile, Kind, Outcome, internal::study::run_cases_here,
+    CaseFailure, Check, FromFile, Kind, Outcome, Reason, Verdict, internal::study::run_cases_here,
+    run_one,
 };
-use convergence_study::{Reason, Verdict};
 use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};

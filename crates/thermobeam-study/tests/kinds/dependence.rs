@@ -1,5 +1,4 @@
-use convergence_study::Verdict;
-use convergence_study::{FromFile, Kind, internal::study::run_cases_here};
+use convergence_study::{FromFile, Kind, Verdict, internal::study::run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::dependence::{self, ROW};
 

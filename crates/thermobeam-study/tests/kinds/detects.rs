@@ -3,8 +3,7 @@
 
 use std::sync::LazyLock;
 
-use convergence_study::Verdict;
-use convergence_study::{CaseFailure, FromFile, Kind, internal::study::run_cases_here};
+use convergence_study::{CaseFailure, FromFile, Kind, Verdict, internal::study::run_cases_here};
 use thermobeam_study::kinds::detects::{Detects, Fault, ROW, Sensitivity};
 use thermobeam_study::kinds::orders::manufactured::Convergence;
 

@@ -1,8 +1,7 @@
 //! Laws of the matrix of faults in the solver of any order: wrong coefficients, and mistakes in the
 //! loads.
 
-use convergence_study::Verdict;
-use convergence_study::{CaseFailure, FromFile, Kind};
+use convergence_study::{CaseFailure, FromFile, Kind, Verdict};
 use thermobeam_study::kinds::detects::{Detects, Fault, ROW};
 use thermobeam_study::kinds::orders::any_order::AnyOrder;
 

@@ -1,5 +1,6 @@
-use convergence_study::Verdict;
-use convergence_study::{CaseFailure, FromFile, Kind, Outcome, internal::study::run_cases_here};
+use convergence_study::{
+    CaseFailure, FromFile, Kind, Outcome, Verdict, internal::study::run_cases_here,
+};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::energy::ROW;

@@ -1,8 +1,7 @@
 use super::planted::verdict_with;
 use super::typed::{Runs, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
-use convergence_study::Verdict;
-use convergence_study::{FromFile, internal::study::run_cases_here};
+use convergence_study::{FromFile, Verdict, internal::study::run_cases_here};
 use thermobeam_exact::equilibrium::Phase;
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::equilibrium::{self, AtRest, Nearest};

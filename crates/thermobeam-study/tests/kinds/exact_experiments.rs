@@ -1,8 +1,7 @@
 //! Laws of the paper's experiments to ten digits: two discretisations must agree, and planted
 //! differences fail.
 
-use convergence_study::Verdict;
-use convergence_study::{CaseFailure, FromFile, Kind};
+use convergence_study::{CaseFailure, FromFile, Kind, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::exact_experiments::{self, ROW, ShownStates};
 

@@ -1,6 +1,6 @@
-use convergence_study::Verdict;
-use convergence_study::internal::study::kind::run_cases_here;
-use convergence_study::{Case, Check, FromFile, Kind, Origin, Outcome};
+use convergence_study::{
+    Case, Check, FromFile, Kind, Origin, Outcome, Verdict, internal::study::kind::run_cases_here,
+};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::experiment::{

@@ -1,9 +1,6 @@
 use super::typed::{changed, passes_but_not_without_each_case};
 use super::{file, text};
-use convergence_study::Verdict;
-use convergence_study::internal::study::kind::run_cases_here;
-use convergence_study::run_one;
-use convergence_study::{FromFile, Kind};
+use convergence_study::{FromFile, Kind, Verdict, internal::study::kind::run_cases_here, run_one};
 use thermobeam_study::kinds::orders::{Orders, frequencies};
 
 type Frequencies = Orders<frequencies::Frequencies>;

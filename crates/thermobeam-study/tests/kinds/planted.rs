@@ -1,7 +1,6 @@
 //! One planted defect at a time.
 
-use convergence_study::Kind;
-use convergence_study::Verdict;
+use convergence_study::{Kind, Verdict};
 
 use super::typed::Runs;
 

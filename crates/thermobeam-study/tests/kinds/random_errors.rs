@@ -1,6 +1,4 @@
-use convergence_study::Verdict;
-use convergence_study::internal::study::kind::run_cases_here;
-use convergence_study::{FromFile, Kind};
+use convergence_study::{FromFile, Kind, Verdict, internal::study::kind::run_cases_here};
 use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors, Refusal};
 
 use super::refused::refusal;

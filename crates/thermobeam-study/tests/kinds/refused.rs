@@ -1,7 +1,6 @@
 //! Study files with errors.
 
-use convergence_study::internal::input;
-use convergence_study::{Header, KindRow};
+use convergence_study::{Header, KindRow, internal::input};
 
 use super::{file, text};
 

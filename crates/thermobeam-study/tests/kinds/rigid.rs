@@ -3,8 +3,7 @@
 use super::file;
 use super::planted::verdict_with;
 use super::typed::{leaves_one_out, passes_but_not_without_each_case};
-use convergence_study::Verdict;
-use convergence_study::{FromFile, Kind};
+use convergence_study::{FromFile, Kind, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::rigid::{RigidObstacles, RunOf, ShownImpact};
 

@@ -1,10 +1,7 @@
 //! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in
 //! some case.
 
-use convergence_study::Complaint;
-use convergence_study::Verdict;
-use convergence_study::run_one;
-use convergence_study::{FromFile, Outcome, Quantity};
+use convergence_study::{Complaint, FromFile, Outcome, Quantity, Verdict, run_one};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::scenes::{self, NUMBERS, ROW, Shown};

@@ -1,10 +1,9 @@
 use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, text};
-use convergence_study::Verdict;
-use convergence_study::run_one;
 use convergence_study::{
-    FromFile, Kind, NamedRate,
+    FromFile, Kind, NamedRate, Verdict,
     internal::study::{Described, run_cases_here},
+    run_one,
 };
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;

@@ -1,5 +1,4 @@
-use convergence_study::Verdict;
-use convergence_study::{FromFile, internal::study::run_cases_here};
+use convergence_study::{FromFile, Verdict, internal::study::run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::solutions::{self, Found, ROW};
 

@@ -3,9 +3,7 @@
 use super::planted::verdict_with;
 use super::typed::{Runs, changed, counted, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, text};
-use convergence_study::Verdict;
-use convergence_study::run_one;
-use convergence_study::{FromFile, Kind, Outcome};
+use convergence_study::{FromFile, Kind, Outcome, Verdict, run_one};
 use thermobeam_study::kinds::solvers::{
     Agreement, Boundary, Contraction, FixedPointStep, Found, Point, Solvers,
 };

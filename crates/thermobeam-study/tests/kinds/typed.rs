@@ -1,9 +1,12 @@
 //! Requirements on every typed kind of study, and defects planted in its results.
 
-use convergence_study::Verdict;
-use convergence_study::internal::study::kind::{judge, run_cases_here};
-use convergence_study::internal::study::outcome::settle;
-use convergence_study::{CaseFailure, Coverage, Kind, NamedRate, Outcome, Ran};
+use convergence_study::{
+    CaseFailure, Coverage, Kind, NamedRate, Outcome, Ran, Verdict,
+    internal::study::{
+        kind::{judge, run_cases_here},
+        outcome::settle,
+    },
+};
 
 /// The results of a study: every case, run on this thread.
 pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;

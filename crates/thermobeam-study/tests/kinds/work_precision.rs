@@ -3,12 +3,11 @@
 
 use super::file;
 use super::typed::passes_but_not_without_each_case;
-use convergence_study::Outcome;
-use convergence_study::Verdict;
-use convergence_study::internal::study::kind::judge;
-use convergence_study::internal::study::outcome::settle;
-use convergence_study::run_one;
-use convergence_study::{CaseFailure, FromFile, Kind, Ran, internal::study::run_cases_here};
+use convergence_study::{
+    CaseFailure, FromFile, Kind, Outcome, Ran, Verdict,
+    internal::study::{kind::judge, outcome::settle, run_cases_here},
+    run_one,
+};
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::compared::{Costed, cheapest, front};
 use thermobeam_study::kinds::work_precision::method::{METHODS, Measurement, Trial};

@@ -3,7 +3,6 @@
 //! It is made from the keys that the readers allow. It is weaker where a reader compares values: a
 //! list whose numbers must increase is a list of numbers here.
 
-mod manufacture;
 mod page;
 
 use serde_json::{Map, Value, json};
@@ -61,7 +60,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 
 /// The files of a project that are no studies, by name, with the keys of their topmost table.
 pub fn other_files(project: &Project) -> Vec<(&'static str, Keys)> {
-    let manufacture = (MANUFACTURE, manufacture::keys());
+    let manufacture = (MANUFACTURE, manufacture::FILE_KEYS);
     project
         .tables
         .iter()

@@ -146,7 +146,7 @@ impl TableReader<'_> {
                 + ", or "
                 + Argument::Step.with_placeholder();
             self.refuse(expected, &names)
-                .offering([self.offer(|choice| choice.ratio = None)])
+                .offering([self.choice.offer("", |choice| choice.ratio = None)])
         })
     }
 
@@ -200,7 +200,7 @@ impl TableReader<'_> {
                     + ", or "
                     + Argument::Dim.with_placeholder()
                     + format!(" for h = {name}^(-1/D)");
-                let edge = self.offer(|choice| choice.dim = Some(1.0));
+                let edge = self.choice.offer("", |choice| choice.dim = Some(1.0));
                 Err(self
                     .refuse(expected, &found)
                     .offering([self.with_step(count), edge]))
@@ -251,19 +251,18 @@ impl TableReader<'_> {
             .filter(|k| unknown.contains(k))
             .map(|k| self.with_step(k));
         let has_levels = self.columns.iter().any(is_named_level);
-        let with_levels = has_levels.then(|| Offer {
-            comment: "if each level halves the step",
-            ..self.offer(|choice| choice.ratio = Some(2.0))
+        let with_levels = has_levels.then(|| {
+            self.choice
+                .offer("if each level halves the step", |choice| {
+                    choice.ratio = Some(2.0);
+                })
         });
         let offers_rows = with_first.is_none()
             && !has_levels
             && self.columns.iter().any(is_steep_error)
             && !self.columns.iter().any(has_power_of_step)
             && !self.columns.iter().any(counts_orders);
-        let with_rows = offers_rows.then(|| Offer {
-            comment: "if each row halves the step",
-            ..self.offer(|choice| choice.ratio = Some(2.0))
-        });
+        let with_rows = offers_rows.then(|| self.choice.with_halved_rows());
         let names = listed(self.columns.iter().map(name_with_reason));
         let expected =
             Text::from("a column of steps: add `h`, or name it with ") + Argument::Step.alone();
@@ -278,7 +277,8 @@ impl TableReader<'_> {
             .trim_start_matches("column ")
             .to_owned();
         let dim = self.choice.dim.or(self.is_count(column).then_some(1.0));
-        self.offer(|choice| (choice.step, choice.dim) = (Some(name), dim))
+        self.choice
+            .offer("", |choice| (choice.step, choice.dim) = (Some(name), dim))
     }
 
     /// What the column of the step holds, and the rates that say so where no option does.
@@ -289,7 +289,7 @@ impl TableReader<'_> {
         let is_count = self.is_count(step);
         if *word == Word::Logarithm {
             let refusal = self.refuse("the values, not their logarithms", &format!("`{name}`"));
-            return Err(refusal.offering([self.offer(|choice| choice.dim = None)]));
+            return Err(refusal.offering([self.choice.offer("", |choice| choice.dim = None)]));
         }
         let (expected, found) = match (self.choice.dim, self.choice.ratio) {
             (Some(_), Some(_)) => {
@@ -329,7 +329,7 @@ impl TableReader<'_> {
         };
         Err(self
             .refuse(expected, &found)
-            .offering([self.offer(|choice| choice.dim = None)]))
+            .offering([self.choice.offer("", |choice| choice.dim = None)]))
     }
 
     /// The refusal of a count without its dimension: regular columns, which may be the step, are
@@ -346,10 +346,8 @@ impl TableReader<'_> {
             &["along an edge", "all, in the plane", "all, in space"]
         };
         let dims = comments.iter().zip([1.0, 2.0, 3.0]);
-        let dims = dims.map(|(comment, dim)| Offer {
-            comment,
-            ..self.offer(|choice| choice.dim = Some(dim))
-        });
+        let dims =
+            dims.map(|(comment, dim)| self.choice.offer(comment, |choice| choice.dim = Some(dim)));
         let expected = Argument::Dim.with_placeholder()
             + format!(" for h = {name}^(-1/D), with D = 1 for cells along an edge, or ")
             + Argument::Step.with_placeholder();
@@ -381,7 +379,7 @@ impl TableReader<'_> {
     fn surplus_of_falling(&self, column: usize) -> f64 {
         let cells = &self.columns[column];
         self.near(column)
-            .filter(|other| !other.is_number.contains(&false))
+            .filter(|other| other.has_all_numbers())
             .map(|other| {
                 if other.is_whole() || other.values.iter().any(|value| !(*value > 0.0)) {
                     -1.0

@@ -1,7 +1,8 @@
 //! Tables whose columns stand as rows.
 
+use super::grid::RawTable;
 use super::number::number;
-use super::pairs::RawTable;
+use super::original::offset;
 
 /// Least numbers of a row with rates between its errors: three errors and two rates.
 const LEAST: usize = 5;
@@ -65,7 +66,7 @@ impl<'t> Variable<'t> {
             .collect();
         let is_rate = |three: &[f64]| (three[1] - (three[0] / three[2]).log2()).abs() < NEAR;
         let are_rates = values.windows(3).step_by(2).all(is_rate);
-        let end = numbers[0].as_ptr() as usize - line.as_ptr() as usize;
+        let end = offset(line, numbers[0]);
         are_rates.then(|| Self {
             name: line[..end].trim(),
             errors: numbers.iter().step_by(2).copied().collect(),

@@ -20,9 +20,21 @@ pub(super) fn kind(
     sides: &[Interval],
 ) -> Kind {
     let probe = Probe::new(model, condition);
+    let is_guarded = over.is_guarded(condition.operation);
     let mut values = vec![];
+    let mut touches = false;
     for point in candidates(sides) {
-        values.push(probe.at(&point));
+        // Behind a choice only points count at which the operation is used for sure.
+        let is_used = !is_guarded || {
+            let at = over.at(&point);
+            let is_open = at.open(&[condition]).is_some();
+            let is_sure = !at.is_guarded(condition.operation);
+            touches |= is_open && !is_sure;
+            is_open && is_sure
+        };
+        if is_used {
+            values.push(probe.at(&point));
+        }
     }
     let is_zero = |v: &Measured| v.value.abs() <= ZERO * v.size;
     let zero = values.iter().find(|v| is_zero(&v.argument));
@@ -31,7 +43,8 @@ pub(super) fn kind(
     let is_missing = match condition.need {
         Need::OneSide => zero.is_some() || changes_sign,
         Need::NonZero | Need::Tangent => {
-            zero.is_some() || (changes_sign && over.is_continuous(condition.argument))
+            let is_whole = !is_guarded && over.is_continuous(condition.argument);
+            zero.is_some() || (changes_sign && is_whole)
         }
         Need::Positive => zero.is_some() || has(|v| v <= 0.0),
         Need::NonNegative | Need::Unit => values
@@ -45,6 +58,7 @@ pub(super) fn kind(
         (true, Some(_)) if numerators.all(|is_zero| is_zero) => Kind::ZeroOverZero,
         (true, _) => Kind::Missing,
         (false, Some(_)) => Kind::Touching,
+        (false, None) if touches => Kind::Touching,
         (false, None) => Kind::Undecided,
     }
 }

@@ -97,12 +97,8 @@ impl<'m> Search<'m> {
             }
             if budget == 0 {
                 for place in &cell.open {
-                    self.record(
-                        &mut states[*place],
-                        conditions[*place],
-                        Kind::Undecided,
-                        &cell,
-                    );
+                    let condition = conditions[*place][0];
+                    self.record(&mut states[*place], condition, Kind::Undecided, &cell);
                 }
                 continue;
             }
@@ -111,7 +107,8 @@ impl<'m> Search<'m> {
             if self.is_outside(&over) {
                 continue;
             }
-            cell.open.retain(|place| over.is_open(&conditions[*place]));
+            cell.open
+                .retain(|place| over.open(&conditions[*place]).is_some());
             self.probe_middle(&over, &mut cell, &mut states);
             if cell.open.is_empty() {
                 continue;
@@ -120,7 +117,9 @@ impl<'m> Search<'m> {
                 Some(side) => stack.extend(self.halves(cell, side)),
                 None => {
                     for place in &cell.open {
-                        self.settle(&mut states[*place], conditions[*place], &over, &cell);
+                        if let Some(condition) = over.open(&conditions[*place]) {
+                            self.settle(&mut states[*place], condition, &over, &cell);
+                        }
                     }
                 }
             }
@@ -149,7 +148,7 @@ impl<'m> Search<'m> {
     fn probe_middle(&self, over: &Over<'_, '_>, cell: &mut Cell, states: &mut [State]) {
         let conditions = &self.enclosure.conditions;
         let is_violated = |place: &usize| {
-            let Condition { need, argument, .. } = conditions[*place];
+            let Condition { need, argument, .. } = conditions[*place][0];
             need != Need::OneSide && need.is_violated(over.middle(argument))
         };
         if !cell.open.iter().any(is_violated) {
@@ -161,13 +160,14 @@ impl<'m> Search<'m> {
             return;
         }
         cell.open.retain(|place| {
-            if !is_violated(place) || !at.is_open(&conditions[*place]) {
+            let condition = at.open(&conditions[*place]);
+            let Some(condition) = condition.filter(|_| is_violated(place)) else {
                 return true;
-            }
+            };
             let state = &mut states[*place];
             state.is_settled = true;
             state.trouble = Some(Trouble {
-                condition: conditions[*place],
+                condition,
                 kind: Kind::Missing,
                 is_on_boundary: self.is_on_boundary(&point),
                 point: point.clone(),
@@ -181,7 +181,7 @@ impl<'m> Search<'m> {
     fn widest(&self, over: &Over<'_, '_>, cell: &Cell) -> Option<usize> {
         let open = cell.open.iter();
         let mut nodes: Vec<NodeId> = open
-            .map(|place| self.enclosure.conditions[*place].argument)
+            .map(|place| self.enclosure.conditions[*place][0].argument)
             .collect();
         nodes.extend(over.undecided());
         nodes.extend(self.levels.iter().map(|level| level.root));

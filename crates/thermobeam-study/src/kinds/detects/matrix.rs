@@ -104,7 +104,7 @@ impl<S: Plantable> Kind for Detects<S> {
             .iter()
             .map(|&fault| self.row(fault, ran))
             .collect();
-        let mut checks = vec![completion(ran, not_finite_without_a_fault::<S>)];
+        let mut checks = vec![completion_check(ran, not_finite_without_a_fault::<S>)];
         checks.extend(rows.iter().map(|row| self.check(row)));
         let detected = rows.iter().filter(|row| self.is_detected(row)).count();
         let planted = rows.iter().filter(|row| row.fault != Fault::None).count();

@@ -91,8 +91,8 @@ const ELEMENTS: Key = Key::new(
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
     match only_table(root, ["controls", "any-order", "sensitivity"], allowed)? {
-        "controls" => reader::<Detects<Convergence>>(header, root, folder),
-        "any-order" => reader::<Detects<AnyOrder>>(header, root, folder),
-        _ => reader::<Sensitivity>(header, root, folder),
+        "controls" => read_study::<Detects<Convergence>>(header, root, folder),
+        "any-order" => read_study::<Detects<AnyOrder>>(header, root, folder),
+        _ => read_study::<Sensitivity>(header, root, folder),
     }
 }

@@ -106,7 +106,7 @@ impl Kind for Sensitivity {
     }
 
     fn judge(&self, ran: &[Ran<(usize, &'static str), Option<f64>>]) -> Outcome {
-        let mut checks = vec![completion(ran, |smallest| {
+        let mut checks = vec![completion_check(ran, |smallest| {
             not_finite([("the smallest error", *smallest)])
         })];
         let mut rows = vec![];

@@ -83,7 +83,7 @@ impl Source for Frequencies {
             Form::Table(&[&[&KEYS]]),
             "frequencies and meshes",
         )]]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
               a scalar equation.",
         judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \

@@ -14,11 +14,14 @@ pub mod vibration;
 
 use std::ops::{Deref, DerefMut};
 
-use convergence_study::Grid;
-use convergence_study::LevelErrors;
-use convergence_study::internal::study::over_levels::rate_table;
-use convergence_study::internal::study::until_decided::{self, Looks, Next};
-use convergence_study::variants::Variants;
+use convergence_study::{
+    Grid, LevelErrors,
+    internal::study::{
+        over_levels::rate_table,
+        until_decided::{self, Looks, Next},
+    },
+    variants::Variants,
+};
 
 use super::prelude::*;
 
@@ -220,7 +223,7 @@ impl<S: Source> Kind for Orders<S> {
             let title = "Rates shown, not claimed: not needed for a pass";
             outcome.tables.push(rate_table(title, &not_claimed));
         }
-        let mut checks = vec![completion(runs, |found| self.0.not_finite(found))];
+        let mut checks = vec![completion_check(runs, |found| self.0.not_finite(found))];
         checks.extend(measured.checks);
         outcome.extend(Outcome {
             tables: measured.tables,

@@ -17,7 +17,7 @@ impl RandomErrors {
         ran: &[Ran<Drawn, Found>],
         found: &[(&Ran<Drawn, Found>, &Found)],
     ) -> Vec<Check> {
-        let mut checks = vec![completion(ran, |found| {
+        let mut checks = vec![completion_check(ran, |found| {
             readings::not_finite(&found.readings())
         })];
         checks.extend(self.of_errors(found));

@@ -34,7 +34,7 @@ use crate::scene;
 pub const ROW: KindRow = KindRow {
     name: "random-errors",
     keys: RandomErrors::KEYS,
-    read: reader::<RandomErrors>,
+    read: read_study::<RandomErrors>,
     why: "Users rely on an error that the program prints. Here it is measured against runs on twelve elements of degree 11 or 14, which no \
           search tries, at other times and by other quadrature; for some scenes linear elements and small steps must tend to the same \
           motion.",

@@ -14,7 +14,7 @@ use crate::kinds::prelude::*;
 pub const ROW: KindRow = KindRow {
     name: "runs/dependence",
     keys: Dependence::KEYS,
-    read: reader::<RunStudy<Dependence>>,
+    read: read_study::<RunStudy<Dependence>>,
     why: "Theorem 2.6: a solution is unique. Its proof is an estimate for the difference of two solutions, by which data δ apart \
           cause a difference of at most C δ.",
     judged: "A scene is run with data δ apart. At each time difference/δ is the same for every δ, through contacts too, and at most \

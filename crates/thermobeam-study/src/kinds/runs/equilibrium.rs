@@ -19,7 +19,7 @@ use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation, mean_width};
 pub const ROW: KindRow = KindRow {
     name: "runs/equilibrium",
     keys: EndStates::KEYS,
-    read: reader::<RunStudy<EndStates>>,
+    read: read_study::<RunStudy<EndStates>>,
     why: "All steady states are roots of a function of one variable, known to round-off. A damped beam must come to rest at one.",
     judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
              state; a run of any order ends in it.",

@@ -209,7 +209,7 @@ impl<R: Runs> Kind for RunStudy<R> {
             levels,
             quantities,
         } = self.0.judge(&Results { ran });
-        let complete = completion(&numbers, |numbers| readings::not_finite(numbers));
+        let complete = completion_check(&numbers, |numbers| readings::not_finite(numbers));
         let checks = [vec![complete], checks].concat();
         let (tables, guarded): (Vec<_>, Vec<_>) = self
             .table_of_runs(numbers)

@@ -26,7 +26,7 @@ use thermobeam::bracket::bisect;
 pub const ROW: KindRow = KindRow {
     name: "runs/solutions",
     keys: Solutions::KEYS,
-    read: reader::<RunStudy<Solutions>>,
+    read: read_study::<RunStudy<Solutions>>,
     why: "Remark 3.3 of the paper allows any step. The linear step has one solution where λ = B (ζ + dt/2) + m dt/2 >= 0, and \
           the nonlinear one several beyond.",
     judged: "All solutions of a step from rest are found, for each dt, and their tips compared with answers of another program. Where \

@@ -54,7 +54,7 @@ pub use step::FixedPointStep;
 pub const ROW: KindRow = KindRow {
     name: "solvers",
     keys: Solvers::KEYS,
-    read: reader::<Solvers>,
+    read: read_study::<Solvers>,
     why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
           it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \
           Newton's method solves the same step wherever its operator is definite.",
@@ -214,7 +214,7 @@ impl Kind for Solvers {
         let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
         let map = self.map.iter().map(|map| map.judge(ran));
         let parts = contraction.chain(comparison).chain(map);
-        let completion = completion(ran, |found| readings::not_finite(&found.readings()));
+        let completion = completion_check(ran, |found| readings::not_finite(&found.readings()));
         Outcome::of_parts(completion, parts)
     }
 }

@@ -262,8 +262,8 @@ pub(crate) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
 pub(crate) const CONTROL: Key = Key::new(
     "control",
     Form::Table(&[&[
-        &keys::all_or(tables::BEAM_KEYS, "the value of the sources"),
-        &keys::all_or(tables::OBSTACLE_KEYS, "the value of the sources"),
+        &convergence_keys::all_or(tables::BEAM_KEYS, "the value of the sources"),
+        &convergence_keys::all_or(tables::OBSTACLE_KEYS, "the value of the sources"),
     ]]),
     "coefficients in which the solver differs from the sources: the study must fail",
 )
@@ -287,7 +287,10 @@ pub(crate) fn control(
         let value = field.number()?;
         let Some(coefficient) = solver.get_mut(name) else {
             let found = format!("{} without a table [obstacles]", field.as_written());
-            return Err(field.refuse(found, keys::names(&[&tables::BEAM_KEYS]).join(", ")));
+            return Err(field.refuse(
+                found,
+                convergence_keys::names(&[&tables::BEAM_KEYS]).join(", "),
+            ));
         };
         // A control that changes nothing would pass where it has to fail.
         if *coefficient == value {

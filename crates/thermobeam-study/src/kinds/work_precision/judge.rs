@@ -102,7 +102,7 @@ pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> 
         .iter()
         .flat_map(|target| ratios(target, &costed(ran, target.measure)))
         .collect();
-    let mut checks = vec![completion(made, not_finite)];
+    let mut checks = vec![completion_check(made, not_finite)];
     checks.extend(
         study
             .targets

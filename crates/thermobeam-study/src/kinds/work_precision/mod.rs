@@ -53,7 +53,7 @@ use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Tri
 pub const ROW: KindRow = KindRow {
     name: "work-precision",
     keys: WorkPrecision::KEYS,
-    read: reader::<WorkPrecision>,
+    read: read_study::<WorkPrecision>,
     why: "Every method pays for a smaller error with more work. At each error that two methods both reach, the ratio of their work \
           is measured. High orders pay little more for ten digits than for five.",
     judged: "Work is counted, not timed. The ratios must be at least those claimed, and every method that reaches a target must be \

@@ -1,8 +1,10 @@
 mod refused;
 
 use super::says;
-use convergence_study::internal::input;
-use convergence_study::{Axis, FromFile as _, Header, Kind as _, Tier, internal::study::Described};
+use convergence_study::{
+    Axis, FromFile as _, Header, Kind as _, Tier,
+    internal::{input, study::Described},
+};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver, Stopping};

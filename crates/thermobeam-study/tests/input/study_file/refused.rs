@@ -1,7 +1,6 @@
 //! Study files that are refused, with place, value found and values allowed.
 
-use convergence_study::Header;
-use convergence_study::internal::input;
+use convergence_study::{Header, internal::input};
 use thermobeam_study::kinds::tables::Perturbation;
 
 use super::super::says;

@@ -104,7 +104,7 @@ impl Source for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
         keys: &[&[&LOADED, &RUNS], &[&FREE, &RUNS]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
               polynomials of its degree: q + 2, but at most 2q + 1, for displacements, q + 1 for velocities (THEORY.md).",
@@ -123,7 +123,7 @@ impl Source for AnyOrder {
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
         let problem: &[Key] = if vibration.is_some() { &FREE } else { &LOADED };
-        root.allow(&[&["study"], &keys::names(&[problem, &RUNS])[..]].concat())?;
+        root.allow(&[&["study"], &convergence_keys::names(&[problem, &RUNS])[..]].concat())?;
         let run = root
             .require("run", "a table with over, t_end, degrees and steps")?
             .section()?;
@@ -135,7 +135,7 @@ impl Source for AnyOrder {
         let over = run
             .require("over", "\"space\", \"time\" or \"degree\"")?
             .choice(&overs)?;
-        run.allow(&keys::names(&[&RUN, over.keys().of_run]))?;
+        run.allow(&convergence_keys::names(&[&RUN, over.keys().of_run]))?;
         let t_end = run.positive("t_end")?;
         let (theory, exact) = match &vibration {
             Some(section) => free(section)?,

@@ -134,7 +134,7 @@ pub(super) fn series(
     section: &Section<'_>,
 ) -> Result<RunsOfDegree, InputError> {
     let keys = over.keys();
-    section.allow(&keys::names(&[keys.of_series]))?;
+    section.allow(&convergence_keys::names(&[keys.of_series]))?;
     let allowed = "a list of at least three increasing whole numbers";
     let levels = increasing(section, keys.levels, allowed, 3, |item| {
         count(keys.levels, item)

@@ -37,9 +37,8 @@ mod constant;
 pub(in crate::kinds) mod design;
 mod variants;
 
-use convergence_study::SpaceTime;
 use convergence_study::variants::Variants;
-use convergence_study::{Grid, GridColumn};
+use convergence_study::{Grid, GridColumn, SpaceTime};
 
 use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};
@@ -88,7 +87,7 @@ impl Source for Convergence {
             constant::CONSTANT,
             EXPECT,
         ]]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
               it by c (h + dt).",

@@ -112,7 +112,7 @@ const SCENE: [Key; 1] = [Key::new(
     Form::Text,
     "a scene file, relative to this file",
 )];
-const STEPPING: [Key; 5] = keys::all_or(tables::STEPPING_KEYS, "that of the scene");
+const STEPPING: [Key; 5] = convergence_keys::all_or(tables::STEPPING_KEYS, "that of the scene");
 const COUNTS: Form = Form::OneOf(&[Form::Count(1), Form::List(&Form::Count(1))]);
 const LEVELS: [Key; 7] = [
     Key::new(
@@ -149,7 +149,7 @@ impl Source for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
         keys: &[&[&KEYS]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
               the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
         judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",

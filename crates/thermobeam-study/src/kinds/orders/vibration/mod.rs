@@ -100,7 +100,7 @@ impl Source for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
         keys: &[&[&KEYS]],
-        read: reader::<Orders<Self>>,
+        read: read_study::<Orders<Self>>,
         why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
               in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
               leave the time error alone.",

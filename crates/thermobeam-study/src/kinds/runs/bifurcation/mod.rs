@@ -22,7 +22,7 @@ use buckling::discrete_buckling_force;
 pub const ROW: KindRow = KindRow {
     name: "runs/bifurcation",
     keys: Bifurcation::KEYS,
-    read: reader::<RunStudy<Bifurcation>>,
+    read: read_study::<RunStudy<Bifurcation>>,
     why: "Below the buckling force -(pi^2/4)/(1 + pi^2/4) the straight beam is unstable and bent states appear; the branches are \
           followed over beta, and stability is an exact count.",
     judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",

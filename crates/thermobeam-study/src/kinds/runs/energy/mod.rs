@@ -59,7 +59,7 @@ fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Stu
         ["energy", "case", "random"],
         "one of the tables [energy], [[case]] and [random]",
     )? {
-        "random" => reader::<RunStudy<random::RandomScenes>>(header, root, folder),
-        _ => reader::<RunStudy<one_by_one::EnergyRuns>>(header, root, folder),
+        "random" => read_study::<RunStudy<random::RandomScenes>>(header, root, folder),
+        _ => read_study::<RunStudy<one_by_one::EnergyRuns>>(header, root, folder),
     }
 }

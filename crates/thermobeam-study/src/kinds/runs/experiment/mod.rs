@@ -62,7 +62,7 @@ pub use trace::Trace;
 pub const ROW: KindRow = KindRow {
     name: "runs/experiment",
     keys: Experiments::KEYS,
-    read: reader::<RunStudy<Experiments>>,
+    read: read_study::<RunStudy<Experiments>>,
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
              Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",

@@ -1,11 +1,13 @@
 //! The figures as data: curves by the first discretisation, their errors by the second, the paper's
 //! algorithm on top.
 
-use convergence_study::internal::plots::inset::{Inset, Place};
-use convergence_study::internal::plots::look::{Look, look};
-use convergence_study::internal::plots::ruler::on_scale;
-use convergence_study::internal::plots::style;
-use convergence_study::internal::plots::xy::Curve;
+use convergence_study::internal::plots::{
+    inset::{Inset, Place},
+    look::{Look, look},
+    ruler::on_scale,
+    style,
+    xy::Curve,
+};
 
 use super::group::OfExperiment;
 use super::{Experiment, Trace};

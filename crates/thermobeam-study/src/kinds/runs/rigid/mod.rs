@@ -34,7 +34,7 @@ use crate::kinds::prelude::*;
 pub const ROW: KindRow = KindRow {
     name: "runs/rigid",
     keys: RigidObstacles::KEYS,
-    read: reader::<RunStudy<RigidObstacles>>,
+    read: read_study::<RunStudy<RigidObstacles>>,
     why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",

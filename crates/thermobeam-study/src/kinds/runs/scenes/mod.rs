@@ -56,7 +56,7 @@ pub use shown::{COUNTS, NUMBERS, Shown};
 pub const ROW: KindRow = KindRow {
     name: "runs/scenes",
     keys: Scenes::KEYS,
-    read: reader::<RunStudy<Scenes>>,
+    read: read_study::<RunStudy<Scenes>>,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
           order those of a converged solution.",

@@ -2,122 +2,34 @@
 //! schema, and a file with a key too many, a key too few or a value of another type is refused by
 //! both or by none.
 
+mod mutants;
+mod schema;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::internal::cli::schema::{
-    MANUFACTURE, of_studies, of_tables_file, other_files,
+use convergence_study::{
+    Keys,
+    internal::{
+        cli::{
+            explain,
+            schema::{MANUFACTURE, of_studies, of_tables_file, other_files},
+            workspace,
+        },
+        program,
+        study::StudyFile,
+    },
 };
-use convergence_study::internal::program;
-use convergence_study::internal::study::StudyFile;
-use convergence_study::{Form, Key, Keys};
 use manufacture::Manufacture;
 use serde_json::Value;
 use thermobeam_study::scene::{self, Scene};
 
-use super::files;
-use crate::PROJECT;
+use xtask::PROJECT;
+use xtask::references::{Reference, files};
 
-/// Why a value does not satisfy a schema; `None` if it does. All words that the schemas use.
-fn complaint(schema: &Value, value: &Value, path: &str) -> Option<String> {
-    let wrong = |what: &str| Some(format!("{path}: {what}: {value}"));
-    for (word, rule) in schema.as_object().expect("a schema") {
-        let found = match word.as_str() {
-            "$schema" | "title" | "description" | "default" | "then" => None,
-            "type" if !has_type(rule.as_str().unwrap(), value) => wrong(&format!("no {rule}")),
-            "minimum" if value.as_f64().is_some_and(|x| x < rule.as_f64().unwrap()) => wrong(word),
-            "exclusiveMinimum" if value.as_f64().is_some_and(|x| x <= rule.as_f64().unwrap()) => {
-                wrong(word)
-            }
-            "enum" if !rule.as_array().unwrap().contains(value) => {
-                wrong(&format!("none of {rule}"))
-            }
-            "const" if rule != value => wrong(&format!("not {rule}")),
-            "type" | "minimum" | "exclusiveMinimum" | "enum" | "const" => None,
-            "items" => in_list(rule, value, path),
-            "properties" => in_table(rule, value, path),
-            "required" => {
-                let names = rule
-                    .as_array()
-                    .unwrap()
-                    .iter()
-                    .map(|name| name.as_str().unwrap());
-                let missing = names
-                    .into_iter()
-                    .find(|name| value.is_object() && value.get(name).is_none());
-                missing.map(|name| format!("{path}.{name}: missing"))
-            }
-            // A table of values by any names.
-            "additionalProperties" if rule.is_object() => {
-                let known = schema.get("properties").and_then(Value::as_object);
-                let is_known = |name: &str| known.is_some_and(|known| known.contains_key(name));
-                let values = value.as_object().into_iter().flatten();
-                let values = values.filter(|(name, _)| !is_known(name));
-                let mut values = values.map(|(name, value)| (format!("{path}.{name}"), value));
-                values.find_map(|(path, value)| complaint(rule, value, &path))
-            }
-            "additionalProperties" => {
-                let known = schema["properties"].as_object().unwrap();
-                let names = value
-                    .as_object()
-                    .into_iter()
-                    .flatten()
-                    .map(|(name, _)| name);
-                let other = names.into_iter().find(|name| !known.contains_key(*name));
-                other.map(|name| format!("{path}.{name}: unknown"))
-            }
-            "allOf" => rule
-                .as_array()
-                .unwrap()
-                .iter()
-                .find_map(|rule| complaint(rule, value, path)),
-            "anyOf" => {
-                let complaints = rule
-                    .as_array()
-                    .unwrap()
-                    .iter()
-                    .map(|rule| complaint(rule, value, path));
-                let complaints: Option<Vec<String>> = complaints.collect();
-                complaints.map(|complaints| complaints.join("; or "))
-            }
-            "if" if complaint(rule, value, path).is_none() => {
-                complaint(&schema["then"], value, path)
-            }
-            "if" => None,
-            _ => panic!("{word}: unknown to this test"),
-        };
-        if found.is_some() {
-            return found;
-        }
-    }
-    None
-}
-
-fn in_list(rule: &Value, value: &Value, path: &str) -> Option<String> {
-    let items = value.as_array().into_iter().flatten().enumerate();
-    items
-        .into_iter()
-        .find_map(|(k, item)| complaint(rule, item, &format!("{path}[{k}]")))
-}
-
-fn in_table(rules: &Value, value: &Value, path: &str) -> Option<String> {
-    let rules = rules.as_object().unwrap().iter();
-    let mut known = rules.filter_map(|(name, rule)| Some((name, rule, value.get(name)?)));
-    known.find_map(|(name, rule, value)| complaint(rule, value, &format!("{path}.{name}")))
-}
-
-fn has_type(name: &str, value: &Value) -> bool {
-    match name {
-        "object" => value.is_object(),
-        "array" => value.is_array(),
-        "string" => value.is_string(),
-        "boolean" => value.is_boolean(),
-        "integer" => value.is_i64() || value.is_u64(),
-        "number" => value.is_number(),
-        _ => panic!("{name}: unknown to this test"),
-    }
-}
+use mutants::{Mutant, insertions, mutants};
+use schema::complaint;
 
 /// Both answers to a text: of the schema, and of the reader.
 #[derive(Debug)]
@@ -155,60 +67,6 @@ fn as_json(text: &str) -> Value {
     serde_json::to_value(table).expect("JSON")
 }
 
-/// A change of a text, and what it does to which key.
-struct Mutant {
-    text: String,
-    change: String,
-}
-
-/// Each key left out, each key with a value of another type, a key too many in each table. Each
-/// line of the repository's files has one key, or closes a list.
-fn mutants(text: &str) -> Vec<Mutant> {
-    let lines: Vec<&str> = text.lines().collect();
-    let mut mutants = vec![];
-    let mut table = String::new();
-    for (k, line) in lines.iter().enumerate() {
-        let with =
-            |new: &str, until: usize| [&lines[..k], &[new], &lines[until..]].concat().join("\n");
-        if line.starts_with('[') {
-            table = line.split('#').next().unwrap().trim().to_owned();
-            let text = with(&format!("{table}\nsurplus = 1"), k + 1);
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} has surplus"),
-            });
-            let next = lines[k + 1..].iter().position(|line| line.starts_with('['));
-            let text = with("", next.map_or(lines.len(), |next| k + 1 + next));
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} is missing"),
-            });
-        } else if let Some((key, value)) = line.split_once('=')
-            && !key.starts_with([' ', '#', '"', '{'])
-        {
-            let key = key.trim();
-            let end = (k + 1..=lines.len())
-                .find(|end| toml::from_str::<toml::Table>(&lines[k..*end].join("\n")).is_ok())
-                .expect("a value");
-            mutants.push(Mutant {
-                text: with("", end),
-                change: format!("{table} without {key}"),
-            });
-            let other = if value.trim().starts_with(['t', 'f']) {
-                "1.5"
-            } else {
-                "true"
-            };
-            let text = with(&format!("{key} = {other}"), end);
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} with {key} = {other}"),
-            });
-        }
-    }
-    mutants
-}
-
 /// The changes that a reader refuses and a schema does not, because the reader compares values of
 /// several keys or counts tables.
 const STRICTER: [&str; 13] = [
@@ -226,79 +84,6 @@ const STRICTER: [&str; 13] = [
     "[refine] without iterations",
     "[refine] without steps",
 ];
-
-/// Keys of the tables of a text that are not there, each with a value of another type: a reader that
-/// does not read a key which it allows would not refuse that.
-fn insertions(text: &str, sets: &[Keys]) -> Vec<Mutant> {
-    let lines: Vec<&str> = text.lines().collect();
-    let mut mutants = vec![];
-    for (k, line) in lines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| line.starts_with('['))
-    {
-        let table = line.split('#').next().unwrap().trim();
-        let path = table.trim_matches(['[', ']']);
-        let own = lines[k + 1..]
-            .iter()
-            .take_while(|line| !line.starts_with('['));
-        let own: Vec<&str> = own
-            .map(|line| line.split('=').next().unwrap().trim())
-            .collect();
-        let names: Vec<&str> = path.split('.').collect();
-        for key in keys_in(sets, None, &names) {
-            let below = format!("{path}.{}]", key.name);
-            if own.contains(&key.name) || text.contains(&below) {
-                continue;
-            }
-            let other = if matches!(key.form, Form::Boolean) {
-                "1.5"
-            } else {
-                "true"
-            };
-            let added = format!("{} = {other}", key.name);
-            let text = [&lines[..=k], &[&added], &lines[k + 1..]]
-                .concat()
-                .join("\n");
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} with {added}"),
-            });
-        }
-    }
-    mutants
-}
-
-/// The keys of the table at a path below a value of this form; a name may be one of the user's.
-fn keys_at(form: Form, path: &[&str]) -> Vec<&'static Key> {
-    match form {
-        Form::List(form) => keys_at(*form, path),
-        Form::OneOf(forms) => forms.iter().flat_map(|form| keys_at(*form, path)).collect(),
-        Form::Table(sets) => keys_in(sets, None, path),
-        Form::Named(keys, others) => match (keys, path) {
-            ([], []) => vec![],
-            _ => keys_in(&[keys], Some(others), path),
-        },
-        _ => vec![],
-    }
-}
-
-fn keys_in(sets: &[Keys], others: Option<&Form>, path: &[&str]) -> Vec<&'static Key> {
-    let keys = sets.iter().copied().flatten().copied().flatten();
-    let Some((name, below)) = path.split_first() else {
-        return keys.collect();
-    };
-    let forms: Vec<Form> = keys
-        .filter(|key| key.name == *name)
-        .map(|key| key.form)
-        .collect();
-    let others = others.filter(|_| forms.is_empty()).copied();
-    forms
-        .into_iter()
-        .chain(others)
-        .flat_map(|form| keys_at(form, below))
-        .collect()
-}
 
 /// Tries all changes but the `known` ones; returns those to which the two answers differ.
 ///
@@ -470,7 +255,7 @@ fn schema_and_reader_of_manufacture_allow_the_same_keys() {
 
 #[test]
 fn the_committed_schemas_and_pages_are_current() {
-    for (path, text) in files() {
+    for Reference { path, text } in files() {
         let committed = fs::read_to_string(repository().join(&path)).unwrap_or_default();
         assert!(
             committed == text,
@@ -489,7 +274,7 @@ fn new_files_name_a_committed_schema() {
     assert!(
         include_str!("../../../Cargo.toml").contains(&format!("repository = \"{repository}\""))
     );
-    let committed: Vec<String> = files().into_iter().map(|(path, _)| path).collect();
+    let committed: Vec<String> = files().into_iter().map(|file| file.path).collect();
     let templates = PROJECT.templates.iter().chain(program::PROJECT.templates);
     let mut named = BTreeSet::new();
     for template in templates {
@@ -501,4 +286,29 @@ fn new_files_name_a_committed_schema() {
         named.insert(path);
     }
     assert_eq!(named.len(), 4, "{named:?}");
+}
+
+#[test]
+fn every_study_of_the_repository_is_explained() {
+    let files =
+        workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join("..")).unwrap();
+    assert!(files.len() > 10);
+    for file in files {
+        let header = file.study.header();
+        let text = explain::study(&PROJECT, file.study.as_ref());
+        let text =
+            text.unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
+        for title in [
+            "what is claimed",
+            "why it should hold",
+            "how it is judged",
+            "what a failure would mean",
+        ] {
+            assert!(text.contains(&format!("\n{title}\n")), "{text}");
+        }
+        assert!(
+            text.starts_with(&header.id) && text.lines().all(|line| line.chars().count() <= 100),
+            "{text}"
+        );
+    }
 }

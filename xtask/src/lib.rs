@@ -1,0 +1,76 @@
+//! `cargo xtask <command>`: the commands of `thermobeam`, and tools for developing the project.
+//!
+//! A library, so that tests see the project and the files that it writes.
+
+mod bench;
+pub mod references;
+mod regressions;
+mod tables;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use convergence_calibration::kind;
+use convergence_study::{
+    KindRow, Project,
+    internal::cli::{command_line, ended},
+};
+use thermobeam_cli::{GROUPS, PAGES, project};
+use thermobeam_study::kinds::{KINDS, settings};
+
+/// The beam under this command, and the calibration of the rule.
+pub const PROJECT: Project = Project {
+    kinds: &WITH_CALIBRATION,
+    ..project("cargo xtask")
+};
+
+/// The kinds of the beam, and that which counts how often the rule errs: it is not published.
+const WITH_CALIBRATION: [KindRow; KINDS.len() + 1] = {
+    let calibration = KindRow {
+        settings: settings::of_harness,
+        ..kind::ROW
+    };
+    let mut kinds = [calibration; KINDS.len() + 1];
+    let mut place = 0;
+    while place < KINDS.len() {
+        kinds[place] = KINDS[place];
+        place += 1;
+    }
+    kinds
+};
+
+#[derive(Debug, Parser)]
+struct Xtask {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    #[command(flatten)]
+    Thermobeam(thermobeam_cli::Command),
+    Bench(bench::Arguments),
+    /// Tools for developing this project
+    #[command(subcommand, hide = true)]
+    Dev(Dev),
+}
+
+#[derive(Debug, Subcommand)]
+enum Dev {
+    References(references::Arguments),
+    Regressions(regressions::Arguments),
+    Tables(tables::Arguments),
+}
+
+/// Runs the command line.
+pub fn run() -> ExitCode {
+    let groups = [&GROUPS[..], &[("This project", &["bench"])]].concat();
+    let line = command_line::<Xtask>(&PROJECT, &groups, &PAGES);
+    ended(line.clone(), |program: Xtask| match program.command {
+        Command::Thermobeam(command) => command.run(&PROJECT, line),
+        Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
+        Command::Dev(Dev::References(arguments)) => references::run(&arguments),
+        Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
+        Command::Dev(Dev::Tables(arguments)) => tables::run(&arguments),
+    })
+}

@@ -35,6 +35,12 @@ struct Key<'t> {
 }
 
 impl<'t> Pair<'t> {
+    /// Its name without the names of other columns before it.
+    pub(super) fn last_word(&self) -> &'t str {
+        let mut words = self.name.split_whitespace();
+        words.next_back().unwrap_or_default()
+    }
+
     /// A key for each of its numbers.
     fn keys(&self) -> impl Iterator<Item = Key<'t>> + use<'t> {
         let name = self.name;
@@ -163,7 +169,9 @@ impl<'t> Scan<'t> {
         let (marked, others): (Vec<&Pair<'_>>, Vec<&Pair<'_>>) =
             pairs.iter().partition(|pair| pair.is_marked);
         // Steps in a row of names, as `dx=1/32 dx=1/64`, above rows with a name in front.
-        let is_head = marked.iter().all(|pair| pair.name == marked[0].name)
+        let is_head = marked
+            .iter()
+            .all(|pair| pair.last_word() == marked[0].last_word())
             && others.iter().any(|pair| pair.values.len() > 1);
         let are_most = marked.len() >= 2 && marked.len() > rows.len();
         Self {

@@ -84,6 +84,18 @@ pub(super) struct Scan<'t> {
     pub(super) is_log: bool,
 }
 
+/// Whether more numbers have a name and a mark than lines have none. Steps in a row of names, as
+/// `dx=1/32 dx=1/64`, are no log.
+fn is_log(pairs: &[Pair<'_>], rows: usize) -> bool {
+    let (marked, others): (Vec<&Pair<'_>>, Vec<&Pair<'_>>) =
+        pairs.iter().partition(|pair| pair.is_marked);
+    let has_one_name = marked
+        .windows(2)
+        .all(|two| two[0].last_word() == two[1].last_word());
+    let is_head = has_one_name && others.iter().any(|pair| pair.values.len() > 1);
+    marked.len() >= 2 && marked.len() > rows && !is_head
+}
+
 /// Whether a text has rows of LaTeX, whose names may be `k=1`.
 fn has_rows_of_latex(text: &str) -> bool {
     const ROWS: usize = 3;
@@ -166,16 +178,8 @@ impl<'t> Scan<'t> {
             }
             label = position;
         }
-        let (marked, others): (Vec<&Pair<'_>>, Vec<&Pair<'_>>) =
-            pairs.iter().partition(|pair| pair.is_marked);
-        // Steps in a row of names, as `dx=1/32 dx=1/64`, above rows with a name in front.
-        let is_head = marked
-            .iter()
-            .all(|pair| pair.last_word() == marked[0].last_word())
-            && others.iter().any(|pair| pair.values.len() > 1);
-        let are_most = marked.len() >= 2 && marked.len() > rows.len();
         Self {
-            is_log: are_most && !is_head && !has_rows_of_latex(text),
+            is_log: is_log(&pairs, rows.len()) && !has_rows_of_latex(text),
             pairs,
             rows,
             worded,

@@ -431,6 +431,13 @@ fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
     &section[..first.min(section.len())]
 }
 
+/// Whether a line has no more numbers than a heading may have.
+fn has_few_numbers(line: &str) -> bool {
+    const FEW: usize = 2;
+    let words = line.split_whitespace();
+    words.filter(|word| number(word, false).is_some()).count() <= FEW
+}
+
 /// The first line of words above the rows, if there is another, which has the names, or if names
 /// stand beside the numbers.
 fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
@@ -448,7 +455,7 @@ fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
             && !line.trim().starts_with('\\')
             && !is_closing(line)
             && !is_name(line)
-            && !looks_like_row(line)
+            && (has_few_numbers(line) || !looks_like_row(line))
     });
     let words = lines.next()?;
     let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));

@@ -1,5 +1,7 @@
 //! `--where`: runs a study whose order is lost with the variants of its manufactured solution.
 
+use std::path::Path;
+
 use manufacture::{Manufacture, Sampling};
 
 use super::exit::Unusable;
@@ -18,12 +20,17 @@ struct Search<'s> {
     variants: Variants,
 }
 
+/// Whether a study has variants: its own, or those of a file of `manufacture`.
+pub(super) fn has_variants(study: &dyn Study) -> bool {
+    study.manufactured().is_some() || study.variants().is_some()
+}
+
 /// Refuses studies without variants, before anything is run.
 ///
 /// # Errors
-/// The first study without a file of `manufacture`.
+/// The first study without variants.
 pub(super) fn require(studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
-    let without = studies.iter().find(|study| study.manufactured().is_none());
+    let without = studies.iter().find(|study| !has_variants(study.as_ref()));
     without.map_or(Ok(()), |study| Err(no_file(&study.header().id)))
 }
 
@@ -36,8 +43,7 @@ pub(super) fn no_file(id: &str) -> Unusable {
 }
 
 /// Finds where the order of each study is lost that does not pass, as far as its variants tell.
-/// Studies without a file of `manufacture` are left as they are, and so are those with a case
-/// without a result.
+/// Studies without variants are left as they are, and so are those with a case without a result.
 ///
 /// * `finished`: what the studies found, in their order.
 ///
@@ -133,20 +139,21 @@ fn searches<'s>(
     for (place, finished) in finished.iter().enumerate() {
         let mut studies = studies.iter();
         let study = studies.find(|study| study.header().id == finished.header.id);
-        let Some((study, file)) = study.and_then(|study| Some((study, study.manufactured()?)))
-        else {
+        let Some(study) = study.filter(|study| has_variants(study.as_ref())) else {
             continue;
         };
         if lost(&finished.outcome).is_empty() || !finished.failed_cases.is_empty() {
             continue;
         }
-        let name = file.display().to_string();
-        let manufacture = Manufacture::parse(&read_text(file)?, &name)?;
-        searches.push(Search {
+        let variants = match study.manufactured() {
+            Some(file) => variants_of(file)?,
+            None => study.variants(),
+        };
+        searches.extend(variants.map(|variants| Search {
             study: study.as_ref(),
             place,
-            variants: variants(&manufacture)?,
-        });
+            variants,
+        }));
     }
     Ok(searches)
 }
@@ -176,8 +183,10 @@ fn refuse(base: &Finished, variants: &Variants, ran: &[Option<Finished>]) -> Res
     Ok(())
 }
 
-/// The variants of a file, as its modules describe them to other programs.
-fn variants(manufacture: &Manufacture) -> Result<Variants, Unusable> {
+/// The variants of a file of `manufacture`, as its modules describe them to other programs.
+fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
+    let name = file.display().to_string();
+    let manufacture = Manufacture::parse(&read_text(file)?, &name)?;
     let of_file = manufacture.variants(&Sampling::default())?;
     let description = serde_json::to_value(of_file.description());
     let variants = description.and_then(serde_json::from_value);

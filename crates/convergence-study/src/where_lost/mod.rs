@@ -21,6 +21,7 @@ use decide::{Examined, decide};
 use fate::{Sized, fate};
 
 pub use figure::figure;
+pub(crate) use words::summary_of_located;
 pub use words::text_of_located;
 
 /// The errors whose rates do not pass; values without an exact solution are not compared.

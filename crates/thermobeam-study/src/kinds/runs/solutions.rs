@@ -32,9 +32,6 @@ pub const ROW: KindRow = KindRow {
     judged: "All solutions of a step from rest are found, for each dt, and their tips compared with answers of another program. Where \
              λ >= 0 there must be one.",
     failure: "The matrices of the step are wrong, or a solution was missed.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// Relative change of a number that the baseline tolerates: that of round-off in dense matrices.
@@ -131,6 +128,11 @@ impl Runs for Solutions {
             steps,
             within: root.positive("within")?,
         })
+    }
+
+    fn exercise(&self, _case: Option<&str>) -> Exercise {
+        let terms = Terms::of(&self.beam, Some(&self.obstacles));
+        Exercise::new(CONTACT, Integration::PAPER, terms)
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
@@ -408,15 +410,19 @@ fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let share = 0.5 * (5.0_f64.sqrt() - 1.0);
     let mut left = high - share * (high - low);
     let mut right = low + share * (high - low);
+    let mut at_left = function(left);
+    let mut at_right = function(right);
     for _ in 0..SEARCH {
-        if function(left) < function(right) {
+        if at_left < at_right {
             high = right;
-            right = left;
+            (right, at_right) = (left, at_left);
             left = high - share * (high - low);
+            at_left = function(left);
         } else {
             low = left;
-            left = right;
+            (left, at_left) = (right, at_right);
             right = low + share * (high - low);
+            at_right = function(right);
         }
     }
     0.5 * (low + high)

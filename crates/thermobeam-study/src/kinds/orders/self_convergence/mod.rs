@@ -155,9 +155,6 @@ impl Source for SelfConvergence {
         judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
         failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
                   reference fail, scheme and reference solve different equations.",
-        settings: |header, item| {
-            Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-        },
     };
 
     /// Number of the run: the levels, then the two references.
@@ -205,6 +202,11 @@ impl Source for SelfConvergence {
         })
     }
 
+    fn exercise(&self) -> Exercise {
+        let integration = Integration::of_scene(&self.scene);
+        Exercise::of_scene(CONTACT, integration, &self.scene).refined_in(axis_in_words(self.axis))
+    }
+
     fn cases(&self) -> Vec<Case<usize>> {
         let mut cases = vec![];
         for (run, &(n, steps)) in self.levels.iter().enumerate() {
@@ -240,7 +242,7 @@ impl Source for SelfConvergence {
 
     fn not_finite(&self, found: &Traced) -> Vec<String> {
         let mut broken = vec![];
-        if found.tip_range.iter().any(|tip| !tip.is_finite()) {
+        if !(found.tip_range.low.is_finite() && found.tip_range.high.is_finite()) {
             broken.push("the range of u(1)".to_owned());
         }
         let mut samples = found.levels.iter().zip(&found.energies);

@@ -27,7 +27,6 @@ pub const ROW: KindRow = KindRow {
           followed over beta, and stability is an exact count.",
     judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
     failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
-    settings: |header, item| Topic::new("steady states", ItemMethod::Exact).settings(header, item),
 };
 
 /// The study.
@@ -123,6 +122,10 @@ impl Runs for Bifurcation {
         })
     }
 
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        Exercise::of_scenes("steady states", Integration::Exact, &self.scenes, case)
+    }
+
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
     fn runs(&self) -> Vec<Case<DiagramTask>> {
         // Each β takes some 50 microseconds: as much as one step of 3000 elements.
@@ -160,8 +163,8 @@ impl Runs for Bifurcation {
     fn numbers(&self, _: &DiagramTask, found: &Found) -> Vec<Reading> {
         match found {
             Found::Diagram(diagram) => vec![
-                Reading::new("event, below", diagram.event[0]),
-                Reading::new("event, above", diagram.event[1]),
+                Reading::new("event, below", diagram.event.low),
+                Reading::new("event, above", diagram.event.high),
             ],
             Found::Force(force) => vec![Reading::new("force", *force)],
             Found::Rest(rest) => vec![

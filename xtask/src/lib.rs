@@ -16,7 +16,7 @@ use convergence_study::{
     internal::cli::{command_line, ended},
 };
 use thermobeam_cli::{GROUPS, PAGES, project};
-use thermobeam_study::kinds::{KINDS, settings};
+use thermobeam_study::kinds::KINDS;
 
 /// The beam under this command, and the calibration of the rule.
 pub const PROJECT: Project = Project {
@@ -26,11 +26,7 @@ pub const PROJECT: Project = Project {
 
 /// The kinds of the beam, and that which counts how often the rule errs: it is not published.
 const WITH_CALIBRATION: [KindRow; KINDS.len() + 1] = {
-    let calibration = KindRow {
-        settings: settings::of_harness,
-        ..kind::ROW
-    };
-    let mut kinds = [calibration; KINDS.len() + 1];
+    let mut kinds = [kind::ROW; KINDS.len() + 1];
     let mut place = 0;
     while place < KINDS.len() {
         kinds[place] = KINDS[place];

@@ -21,7 +21,7 @@ use convergence_study::{
     Outcome, Quantity, Ran, Section, Subject, Table, completion_check,
     internal::{
         plots::{self, xy::Xy},
-        study::header,
+        study::header::{Setting, study},
     },
     read_study,
 };
@@ -44,7 +44,6 @@ pub const ROW: KindRow = KindRow {
     judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
              has its limit.",
     failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
-    settings: header::of_file,
 };
 
 /// A quantity that can be counted.
@@ -224,6 +223,11 @@ impl FromFile for Calibration {
 impl Kind for Calibration {
     type Data = Measure;
     type Found = Vec<Sheet>;
+
+    /// It puts no code but the rule to the test.
+    fn settings(&self, header: &Header, _subject: &Subject) -> Vec<Setting> {
+        vec![study(header), ("kind".to_owned(), "the harness".to_owned())]
+    }
 
     fn cases(&self) -> Vec<Case<Measure>> {
         let mut cases = vec![];

@@ -136,6 +136,11 @@ pub use crate::{
     },
 };
 
+/// Variants of a study's solution, by which `--where` names the part that has lost the order.
+pub mod variants {
+    pub use crate::study::variants::{LeftOut, Part, Variant, Variants};
+}
+
 #[cfg(feature = "files")]
 #[doc(inline)]
 pub use crate::{
@@ -143,7 +148,7 @@ pub use crate::{
         Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
         error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, Parameter, RateTable},
     },
-    study::{FromFile, KindRow, header::of_file as settings_of_file, read_claim, read_study},
+    study::{FromFile, KindRow, read_claim, read_study},
 };
 
 #[cfg(feature = "reports")]

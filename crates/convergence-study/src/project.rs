@@ -1,9 +1,7 @@
 //! A project's description of itself for the harness.
 
 use crate::input::Keys;
-use crate::study::Exercised;
-use crate::study::header::{self, Setting};
-use crate::study::{Header, KindRow, Subject};
+use crate::study::KindRow;
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -63,15 +61,6 @@ impl Project {
             places: &[],
             seconds_per_cost: None,
         }
-    }
-}
-
-impl Project {
-    /// The settings that an item exercises, as its kind states them; those of the file for a kind
-    /// that is not the project's.
-    pub fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
-        let row = self.kinds.iter().find(|row| row.name == header.kind);
-        row.map_or(header::of_file as Exercised, |row| row.settings)(header, subject)
     }
 }
 

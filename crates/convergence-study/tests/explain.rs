@@ -5,10 +5,7 @@ use std::path::Path;
 
 use convergence_study::{
     Axis, Claim, Header, InputError, KindRow, Project, Section, Study, Term, boxed_study,
-    internal::{
-        cli::explain::{contents, nearest_name, study, term, terms},
-        study::header,
-    },
+    internal::cli::explain::{contents, nearest_name, study, term, terms},
     levels,
 };
 
@@ -20,7 +17,6 @@ const KIND: KindRow = KindRow {
           shows for each cell, and adding the errors of all cells loses one power that the smallness of a cell gains.",
     judged: "By the rate at h -> 0.",
     failure: "A wrong weight or node.",
-    settings: header::of_file,
 };
 
 const PROJECT: Project = Project {

@@ -10,7 +10,7 @@
 //! | `model.rs`, `sample.rs`, `fit.rs` | a file as one graph and as jets; points of domains and faces; least squares |
 //! | `check/`, `against/` | what is right, wrong, or not noticed; foreign sources and their causes |
 //! | `variants/` | other solutions, each of which switches off a part of a program |
-//! | `emit/`, `at.rs` | printers as tables, with templates of each language; values at points as JSON |
+//! | `emit/`, `at.rs` | printers by a row of texts for each language, `emit/languages/`, and templates; values at points as JSON |
 //!
 //! Jets walk the tree and share no rule of derivatives with the graph. Named terms are summed in
 //! alphabetical order, so that the emitted bytes do not depend on the order of keys.
@@ -128,7 +128,7 @@ impl Manufacture {
     /// all together, data, averages, norms, and `set_parameter`, by which another value replaces
     /// that of the file. The domain, and the points of an integral, are those of the file.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
-        emit::emit(&self.model, language)
+        emit::emit(&self.model, &[], language)
     }
 
     /// The study file, if the file has `[study]`.
@@ -147,8 +147,7 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::emitted(&self.model, language, folder, seed, points)
+        check::emitted::emitted(&self.model, &[], language, folder, sampling)
     }
 
     /// Builds and runs the files of a language that are in a folder already, and compares their
@@ -162,8 +161,7 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::run(&self.model, language, folder, seed, points)
+        check::emitted::run(&self.model, &[], language, folder, sampling)
     }
 
     /// Values at the points of a table with a header: coordinates, time, and optionally `face`.

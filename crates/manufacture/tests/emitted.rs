@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use manufacture::{Finding, Language, Sampling};
+use manufacture::{EmittedFile, Finding, Language, Sampling};
 
 use crate::files::{HEAT, LIMIT, read};
 
@@ -284,35 +284,40 @@ fn emitted_files_compile_without_a_warning() {
     assert!(texts.len() > 10, "{}", texts.len());
     for text in &texts {
         let manufacture = read(text);
-        for (word, language) in Language::ALL {
-            let folder = tempfile::tempdir().unwrap();
-            for file in manufacture.emit(language) {
-                std::fs::write(folder.path().join(file.name), file.text).unwrap();
-            }
-            for command in strict(language) {
-                let words = command
-                    .iter()
-                    .map(|word| word.replace("NAME", manufacture.name()));
-                let words: Vec<String> = words.collect();
-                let output = std::process::Command::new(&words[0])
-                    .args(&words[1..])
-                    .current_dir(folder.path())
-                    .output();
-                let Ok(output) = output else {
-                    eprintln!("skipped: no {}", words[0]);
-                    continue;
-                };
-                let message = String::from_utf8_lossy(&output.stderr).into_owned();
-                if message.contains("No module named 'numpy'") {
-                    eprintln!("skipped: no NumPy");
-                    continue;
-                }
-                assert!(
-                    output.status.success() && message.is_empty(),
-                    "{word}: {words:?}\n{message}"
-                );
-            }
+        for (_, language) in Language::ALL {
+            compiles_without_a_warning(language, manufacture.name(), manufacture.emit(language));
         }
+    }
+}
+
+/// * `name`: of the module.
+#[track_caller]
+pub(crate) fn compiles_without_a_warning(language: Language, name: &str, files: Vec<EmittedFile>) {
+    let folder = tempfile::tempdir().unwrap();
+    for file in files {
+        std::fs::write(folder.path().join(file.name), file.text).unwrap();
+    }
+    for command in strict(language) {
+        let words = command.iter().map(|word| word.replace("NAME", name));
+        let words: Vec<String> = words.collect();
+        let output = std::process::Command::new(&words[0])
+            .args(&words[1..])
+            .env_remove("MANUFACTURE_VARIANT")
+            .current_dir(folder.path())
+            .output();
+        let Ok(output) = output else {
+            eprintln!("skipped: no {}", words[0]);
+            continue;
+        };
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        if message.contains("No module named 'numpy'") {
+            eprintln!("skipped: no NumPy");
+            continue;
+        }
+        assert!(
+            output.status.success() && message.is_empty(),
+            "{language:?}: {words:?}\n{message}"
+        );
     }
 }
 

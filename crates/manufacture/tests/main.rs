@@ -16,3 +16,4 @@ mod public;
 mod random;
 mod refusals;
 mod threads;
+mod variants;

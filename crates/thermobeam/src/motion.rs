@@ -37,7 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::dg::ContactEvent;
+use crate::contact::ContactEvent;
 use crate::error::StepError;
 
 /// A beam at one time level, which does one step at a time.

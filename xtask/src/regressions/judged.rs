@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use convergence_study::Study;
 use convergence_study::internal::{
     cli::{exit::Unusable, workspace},
     store::diagnosis::{Diagnosis, diagnose},
-    study::header::Setting,
 };
 
 use super::list::Regression;
@@ -37,20 +37,11 @@ pub(super) fn judged<'r>(
     found: Vec<(&'r Regression, Found)>,
 ) -> Result<Vec<Judged<'r>>, Unusable> {
     let files = workspace::studies(&crate::PROJECT, root)?;
-    let settings: BTreeMap<&str, &Vec<Setting>> = files
-        .iter()
-        .map(|file| file.study.header())
-        .map(|header| (header.id.as_str(), &header.settings))
-        .collect();
+    let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     let mut all: Vec<Judged<'r>> = vec![];
-    for (regression, mut found) in found {
-        for study in &mut found.record.studies {
-            study.header.settings = settings
-                .get(study.header.id.as_str())
-                .map_or(vec![], |known| (*known).clone());
-        }
+    for (regression, found) in found {
         let record = &found.record;
-        let diagnosis = diagnose(&crate::PROJECT, &record.studies, record.moves());
+        let diagnosis = diagnose(&crate::PROJECT, &studies, &record.studies, record.moves());
         let diagnosis = diagnosis.unwrap_or_default();
         all.push(Judged {
             regression,

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use convergence_study::{
     Claim, Form, Header, InputError, Key, KindRow, Project, Section, Study, boxed_study,
-    internal::{cli, program, study::header},
+    internal::{cli, program},
     levels,
 };
 
@@ -25,7 +25,6 @@ const PROJECT: Project = Project {
             why: "",
             judged: "",
             failure: "",
-            settings: header::of_file,
         },
         program::ROW,
     ],

@@ -1,6 +1,8 @@
 //! `study --where`: in which part of a program the order is lost.
 
+use std::collections::BTreeSet;
 use std::fs;
+use std::process::Command;
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -124,6 +126,29 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
 }
 
 #[test]
+fn a_variant_that_is_left_out_has_its_reason_in_json() {
+    let root = project(PROGRAM, &["-"]);
+    let fixed = ROD.replace(
+        "[boundary.x_min]\nu = \"u\"",
+        "[boundary.x_min]\nu = { of = \"u\", is = \"1\" }",
+    );
+    assert_ne!(fixed, ROD);
+    fs::write(root.path().join("rod.toml"), fixed).unwrap();
+    let words = ["study", "study.toml", "--where", "--format", "json"];
+    let record: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let variants = record["studies"][0]["where"]["variants"]
+        .as_array()
+        .unwrap();
+    let row = |name: &str| variants.iter().find(|row| row["name"] == name).unwrap();
+    let reason = row("constant_x")["left_out"].as_str().unwrap();
+    assert!(
+        reason.starts_with("boundary.x_min.u: condition-violated: "),
+        "{reason}"
+    );
+    assert_eq!(row("constant_t").get("left_out"), None);
+}
+
+#[test]
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
     for (hidden_in, words) in [
         (
@@ -159,6 +184,12 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     let ignoring = PROGRAM.replace("scale=1.${#MANUFACTURE_VARIANT}", "scale=1");
     assert_ne!(ignoring, PROGRAM);
     let root = project(&ignoring, &[]);
+    let log = root.path().join("log");
+    let logged = format!(
+        "echo \"$MANUFACTURE_VARIANT\" >> '{}'\n{ignoring}",
+        log.display()
+    );
+    fs::write(root.path().join("run.sh"), logged).unwrap();
     let words = ["study", "study.toml", "--where", "--out", "report"];
     let (status, out, err) = run(&root, &words);
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
@@ -169,6 +200,10 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     ] {
         assert!(err.contains(part), "{err}");
     }
+    // One variant was run, not all.
+    let log = fs::read_to_string(log).unwrap();
+    let variants: BTreeSet<&str> = log.lines().collect();
+    assert_eq!(variants, BTreeSet::from(["", "flat_x"]));
     let written = fs::read_dir(root.path().join("report")).map_or(0, Iterator::count);
     assert_eq!(written, 0);
 }
@@ -218,4 +253,58 @@ fn a_study_that_passes_has_no_place() {
     let (status, out, err) = located(&right, &[]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(!out.contains("flat_x"), "{out}");
+}
+
+/// A solver in C, whose data come from the module that the page's file makes: its planted mistakes
+/// are found, and where there is none nothing is named.
+#[test]
+fn mistakes_in_a_program_in_c_are_found_at_their_places() {
+    const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
+    let root = TempDir::new().unwrap();
+    let file = PAGE.split("```toml\n").nth(1).unwrap();
+    fs::write(
+        root.path().join("rod.toml"),
+        file.split("```").next().unwrap(),
+    )
+    .unwrap();
+    fs::write(root.path().join("solver.c"), include_str!("rod_solver.c")).unwrap();
+    let words = ["manufacture", "rod.toml", "--variants", "--language", "c"];
+    let (status, out, err) = run(&root, &words);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    let build = "cc -std=c99 -Wall -Wextra -Werror -O2 -o solver solver.c rod.c -lm";
+    let mut words = build.split(' ');
+    let compiler = Command::new(words.next().unwrap())
+        .args(words)
+        .current_dir(root.path())
+        .output();
+    let Ok(output) = compiler else {
+        eprintln!("skipped: no cc");
+        return;
+    };
+    assert!(output.status.success(), "{output:?}");
+    let study = |mistake: &str| {
+        format!(
+            "[study]\nid = \"rod\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
+             [program]\ncommand = [\"./solver\", \"{{n}}\", \"{mistake}\"]\nmanufacture = \"rod.toml\"\n\
+             [refine]\nn = [8, 16, 32, 64]\n[[expect]]\nerror = \"L2\"\norder = 2\n"
+        )
+    };
+    for (mistake, words) in [
+        (
+            "x_min",
+            "the order is lost at the face x_min: it comes back where the solution is flat there",
+        ),
+        (
+            "time",
+            "look at the time at which source and data are taken, and the time stepping",
+        ),
+    ] {
+        fs::write(root.path().join("study.toml"), study(mistake)).unwrap();
+        let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+        assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+        assert!(out.contains(words), "{mistake}: {out}");
+    }
+    fs::write(root.path().join("study.toml"), study("-")).unwrap();
+    let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }

@@ -38,8 +38,8 @@ pub struct Arguments {
     /// List variants of the solution, each of which switches off what a part of a program can get
     /// wrong; with --language, the module holds them
     ///
-    /// The environment variable MANUFACTURE_VARIANT chooses one when the program starts. Languages
-    /// with variants: python.
+    /// The environment variable MANUFACTURE_VARIANT chooses one when the program starts; without it
+    /// the solution is that of the file. A program in Fortran calls choose_variant first.
     #[arg(long, conflicts_with_all = ["at", "against"])]
     variants: bool,
     /// Print the values at the points of a table: coordinates, time and optionally the face, under
@@ -117,13 +117,14 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
         .variants
         .then(|| manufacture.variants(&sampling))
         .transpose()?;
-    let files = files(arguments, &manufacture, variants.as_ref())?;
+    let files = files(arguments, &manufacture, variants.as_ref());
     check.add(
         emitted(arguments, &manufacture, variants.as_ref(), &sampling)?,
         arguments.strict,
     );
     let verdict = verdict(check.verdict == "pass");
     let wrote = if verdict.is_pass() {
+        refuse_without_variants(arguments, variants.as_ref())?;
         write(arguments, files)?
     } else {
         vec![]
@@ -148,6 +149,22 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     Ok(verdict)
 }
 
+/// Refuses to write a module with variants that would have none.
+fn refuse_without_variants(
+    arguments: &Arguments,
+    variants: Option<&Variants<'_>>,
+) -> Result<(), Unusable> {
+    match variants {
+        Some(variants) if variants.usable.is_empty() && !arguments.language.is_empty() => {
+            let file = arguments.file.display();
+            let list = list(variants);
+            let problem = format!("{file}: --variants: no variant can be used\n{list}");
+            Err(Unusable::because(problem.trim_end()))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// What differs in the files of all languages, and in those of each variant, from the values.
 fn emitted(
     arguments: &Arguments,
@@ -158,12 +175,10 @@ fn emitted(
     let folder = temporary(&arguments.language)?;
     let mut findings = vec![];
     for language in &arguments.language {
-        findings.extend(manufacture.check_emitted(*language, &folder, sampling)?);
-        for variant in variants.iter().flat_map(|variants| &variants.usable) {
-            let of_variant = variant.check_emitted(*language, &folder, sampling)?;
-            // That a language was not run is said once.
-            findings.extend(of_variant.into_iter().filter(|finding| finding.fails));
-        }
+        findings.extend(match variants {
+            None => manufacture.check_emitted(*language, &folder, sampling)?,
+            Some(variants) => variants.check_emitted(*language, &folder, sampling)?,
+        });
     }
     if !arguments.language.is_empty() {
         fs::remove_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
@@ -242,20 +257,18 @@ fn files(
     arguments: &Arguments,
     manufacture: &Manufacture,
     variants: Option<&Variants<'_>>,
-) -> Result<Vec<EmittedFile>, Unusable> {
+) -> Vec<EmittedFile> {
     let mut files = vec![];
     for language in &arguments.language {
         files.extend(match variants {
             None => manufacture.emit(*language),
-            Some(variants) => variants
-                .emit(*language)
-                .map_err(|why| Unusable::because(&why))?,
+            Some(variants) => variants.emit(*language),
         });
     }
     if !files.is_empty() {
         files.extend(manufacture.study());
     }
-    Ok(files)
+    files
 }
 
 /// Writes the files to the folder of --out.

@@ -115,7 +115,7 @@ pub(super) fn run_files(
             finished.untested = untested(study.as_ref(), effort);
         }
     }
-    let record = record(project, &finished, &command);
+    let record = record(project, &studies, &finished, &command);
     let verdict = record.verdict;
     let findings = Findings {
         project,

@@ -30,7 +30,6 @@ use std::time::{Duration, Instant};
 use crate::input::{InputError, Keys, Section};
 use crate::project::{Project, Template};
 use crate::run::time_limit;
-use crate::study::header;
 use crate::study::until_decided::Next;
 use crate::study::{
     Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study,
@@ -56,7 +55,6 @@ pub const ROW: KindRow = KindRow {
              or answers no finite numbers is a failed case, and fails the study.",
     failure: "The program does not have the order at these resolutions: a term, a boundary value or a quadrature is wrong, or another error, \
               such as that of the time steps, hides the one that was refined. Look which error fails, and from which level on.",
-    settings: header::of_file,
 };
 
 /// The files that `new program NAME` writes: a study of a program, and the program.

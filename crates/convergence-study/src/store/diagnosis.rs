@@ -10,8 +10,8 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement, baseline::signed_percent};
-use crate::study::header::Setting;
-use crate::study::{Check, Header, NamedRate, Origin, Outcome, Subject};
+use crate::study::header::{self, Setting};
+use crate::study::{Check, Header, NamedRate, Origin, Outcome, Study, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
 use crate::text::number::{decimals, short_text};
@@ -76,8 +76,14 @@ impl WrongRate {
 
 /// Diagnoses a run that does not pass; `None` for one that passes.
 ///
+/// * `studies`: those that have run; of one that is missing only the file is known.
 /// * `changes`: differences from the baseline.
-pub fn diagnose(project: &Project, finished: &[Finished], changes: &[Change]) -> Option<Diagnosis> {
+pub fn diagnose(
+    project: &Project,
+    studies: &[Box<dyn Study + '_>],
+    finished: &[Finished],
+    changes: &[Change],
+) -> Option<Diagnosis> {
     let failing: Vec<&Finished> = finished
         .iter()
         .filter(|study| study.outcome.verdict != Verdict::Pass)
@@ -99,7 +105,7 @@ pub fn diagnose(project: &Project, finished: &[Finished], changes: &[Change]) ->
         .iter()
         .filter(|change| change.movement.needs_a_reason());
     let claims: Vec<String> = claims.map(Change::words).collect();
-    let contrast = contrast(&votes(project, finished, changes));
+    let contrast = contrast(&votes(studies, finished, changes));
     let first = fields::first(finished, changes);
     let clearest = clearest(&failing);
     let look_at = if claims.is_empty() {
@@ -162,7 +168,7 @@ fn moved_numbers<'c>(changes: &'c [Change], study: &str) -> impl Iterator<Item =
 }
 
 /// One vote for each study and set of settings.
-fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vote> {
+fn votes(studies: &[Box<dyn Study + '_>], finished: &[Finished], changes: &[Change]) -> Vec<Vote> {
     let any_judged = finished
         .iter()
         .any(|study| study.outcome.verdict != Verdict::Pass);
@@ -171,8 +177,11 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
         header, outcome, ..
     } in finished
     {
+        let mut known = studies.iter();
         let mut study = StudyVotes {
-            project,
+            study: known
+                .find(|study| study.header().id == header.id)
+                .map(Box::as_ref),
             header,
             votes: vec![],
         };
@@ -209,7 +218,7 @@ fn votes(project: &Project, finished: &[Finished], changes: &[Change]) -> Vec<Vo
 
 /// The votes of one study, one for each set of settings.
 struct StudyVotes<'s> {
-    project: &'s Project,
+    study: Option<&'s (dyn Study + 's)>,
     header: &'s Header,
     votes: Vec<Vote>,
 }
@@ -221,7 +230,10 @@ impl StudyVotes<'_> {
     ///   whether the vote fails.
     fn count(&mut self, subject: &Subject, fails: bool, counts: bool) {
         for side in subject.sides() {
-            let settings = self.project.settings(self.header, &side);
+            let settings = match self.study {
+                Some(study) => study.settings(&side),
+                None => header::of_file(self.header, &side),
+            };
             self.count_with(settings, fails, counts);
         }
     }

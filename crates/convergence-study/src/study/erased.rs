@@ -3,9 +3,11 @@
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::header::Header;
+use super::header::{Header, Setting};
 use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
 use super::outcome::Outcome;
+use super::subject::Subject;
+use super::variants::Variants;
 
 /// A study of any kind, as the runner sees it.
 pub trait Study: Send + Sync {
@@ -21,8 +23,16 @@ pub trait Study: Send + Sync {
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
 
+    /// The settings that an item exercises, as [`Kind::settings`] states them.
+    fn settings(&self, subject: &Subject) -> Vec<Setting>;
+
     /// As [`Kind::manufactured`].
     fn manufactured(&self) -> Option<&Path> {
+        None
+    }
+
+    /// As [`Kind::variants`].
+    fn variants(&self) -> Option<Variants> {
         None
     }
 
@@ -101,8 +111,16 @@ impl<K: Kind> Study for Described<K> {
         self.kind.untested()
     }
 
+    fn settings(&self, subject: &Subject) -> Vec<Setting> {
+        self.kind.settings(&self.header, subject)
+    }
+
     fn manufactured(&self) -> Option<&Path> {
         self.kind.manufactured()
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        self.kind.variants()
     }
 
     fn with_variant(&self, variant: &str) -> Option<Box<dyn Study + '_>> {

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use super::erased::{Described, Study, boxed_study};
-use super::header::{DEFAULT_KIND, Exercised, Header, KIND, NAME, Tier, is_kind, is_name};
+use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
 use crate::interval::Interval;
@@ -44,9 +44,6 @@ pub struct KindRow {
     pub judged: &'static str,
     /// What a failure would mean.
     pub failure: &'static str,
-    /// The settings that an item of such a study exercises: by these a diagnosis separates failing
-    /// from passing items.
-    pub settings: Exercised,
 }
 
 impl KindRow {
@@ -158,7 +155,7 @@ fn row<'k>(
 ///
 /// use convergence_study::{Case, CaseFailure, Claim, Form, FromFile, Header, InputError, Key, Keys};
 /// use convergence_study::{Kind, KindRow, Outcome, Ran, Section, completion_check, read_claim};
-/// use convergence_study::{read_study, settings_of_file};
+/// use convergence_study::read_study;
 ///
 /// /// Sums of `terms` terms.
 /// #[derive(Debug)]
@@ -192,7 +189,6 @@ fn row<'k>(
 ///     why: "The series converges.",
 ///     judged: "Every sum must be finite.",
 ///     failure: "The sum is wrong.",
-///     settings: settings_of_file,
 /// };
 ///
 /// let text = r#"

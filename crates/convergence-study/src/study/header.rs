@@ -111,9 +111,6 @@ pub fn is_name(text: &str) -> bool {
 /// `refined in space`.
 pub type Setting = (String, String);
 
-/// The settings that an item exercises, by the header of its study and what it is about.
-pub(crate) type Exercised = fn(&Header, &Subject) -> Vec<Setting>;
-
 /// The setting that only the items of one study share.
 pub(crate) const STUDY: &str = "study";
 

@@ -4,8 +4,10 @@
 use std::path::Path;
 
 use super::coverage::{Coverage, NO_RESULT};
+use super::header::{self, Header, Setting};
 use super::outcome::{Check, Origin, Outcome};
 use super::subject::Subject;
+use super::variants::Variants;
 use crate::text::lists::{and_more, grouped};
 
 /// One computation of a study.
@@ -194,13 +196,25 @@ pub trait Kind: Send + Sync {
         vec![]
     }
 
+    /// The settings that an item exercises, each with its key: by these a diagnosis separates
+    /// failing from passing items. By default the values of the study's file.
+    ///
+    /// * `subject`: what the item is about; its quantity is known.
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        header::of_file(header, subject)
+    }
+
     /// The file of `manufacture` whose module gives the study's program its solution.
     fn manufactured(&self) -> Option<&Path> {
         None
     }
 
-    /// The same study with a variant of that solution, judged by itself: levels are added while it
-    /// is undecided. `None` without such a file.
+    /// The variants of the study's own solution, for `--where`.
+    fn variants(&self) -> Option<Variants> {
+        None
+    }
+
+    /// The same study with a variant of its solution, judged by itself. `None` without variants.
     fn with_variant(&self, _variant: &str) -> Option<Self>
     where
         Self: Sized,

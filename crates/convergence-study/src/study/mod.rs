@@ -31,7 +31,6 @@ pub use errors_over_levels::{
 pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, StudyFile, allow_only, read_claim, read_study};
-pub(crate) use header::Exercised;
 pub use header::{Header, Tier};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
 pub use outcome::{Check, Figure, LevelErrors, NamedRate, Origin, Outcome, Quantity, Table};

@@ -9,8 +9,10 @@ use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Finished};
 use crate::store::{Provenance, Record, diagnosis::diagnose};
+use crate::study::Study;
 
-/// Writes a report on studies that have run, without a baseline.
+/// Writes a report on studies that have run, without a baseline. Of what their items exercise it
+/// knows the values of their files.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
 pub fn write_report(
@@ -20,7 +22,7 @@ pub fn write_report(
 ) -> Result<(), VerificationError> {
     publish(
         project,
-        record(project, finished, project.command),
+        record(project, &[], finished, project.command),
         run::available().get(),
         folder,
     )
@@ -29,8 +31,13 @@ pub fn write_report(
 /// The record of studies that have run without a baseline.
 ///
 /// * `command`: the command that ran them.
-pub(crate) fn record(project: &Project, finished: &[Finished], command: &str) -> Record {
-    let diagnosis = diagnose(project, finished, &[]);
+pub(crate) fn record(
+    project: &Project,
+    studies: &[Box<dyn Study>],
+    finished: &[Finished],
+    command: &str,
+) -> Record {
+    let diagnosis = diagnose(project, studies, finished, &[]);
     Record {
         diagnosis,
         ..Record::new(

@@ -321,7 +321,7 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     };
     let diagnosed = |study: Box<dyn Study>| {
         let ran = finished(vec![study]);
-        diagnose(&project, &ran, &baseline.compare(&ran, None))
+        diagnose(&project, &[], &ran, &baseline.compare(&ran, None))
     };
     let found = diagnosed(failing).expect("a study fails");
     assert_eq!(found.claims, ["a: expect[0].tolerance 0.002, now 0.49"]);

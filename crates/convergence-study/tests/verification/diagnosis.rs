@@ -1,10 +1,13 @@
 //! Which settings a diagnosis names, and its words.
 
+use std::num::NonZeroUsize;
+
 use convergence_study::{
-    Check, Finished, Header, KindRow, Outcome, Project, Subject,
+    Case, CaseFailure, Check, Finished, Header, Kind, Outcome, Ran, Subject, boxed_study,
     internal::{
         program,
         report::text_of_diagnosis,
+        run::run,
         store::{Change, Movement, diagnosis::diagnose},
         study::header::Setting,
     },
@@ -12,11 +15,29 @@ use convergence_study::{
 
 use super::fake::{Does, fake, finished};
 
-/// A kind whose items exercise nothing but their method.
-const KIND: KindRow = KindRow {
-    settings: |_, subject| vec![method(subject.method.as_deref().unwrap_or_default())],
-    ..program::ROW
-};
+/// A study whose items exercise nothing but their method.
+struct Methods;
+
+impl Kind for Methods {
+    type Data = ();
+    type Found = ();
+
+    fn cases(&self) -> Vec<Case<()>> {
+        vec![Case::new("all", 1.0, ())]
+    }
+
+    fn run(&self, (): &()) -> Result<(), CaseFailure> {
+        Ok(())
+    }
+
+    fn judge(&self, _: &[Ran<(), ()>]) -> Outcome {
+        Outcome::new("", vec![], vec![Check::that(true, "c", "")])
+    }
+
+    fn settings(&self, _: &Header, subject: &Subject) -> Vec<Setting> {
+        vec![method(subject.method.as_deref().unwrap_or_default())]
+    }
+}
 
 fn method(name: &str) -> Setting {
     ("method".to_owned(), name.to_owned())
@@ -24,21 +45,14 @@ fn method(name: &str) -> Setting {
 
 /// What is named where a ratio of two methods fails, and a check of each method passes.
 fn settings_named(ratio: Subject) -> Vec<Setting> {
-    let project = Project {
-        kinds: &[KIND],
-        ..Project::new("a", "a")
-    };
     let mut checks = vec![Check::that(false, "c", "").about(ratio)];
     for method in ["midpoint", "dg", "one-step", "fixed-point"] {
         checks.push(Check::that(true, "c", "").about(Subject::of("error").by(method)));
     }
-    let mut studies: Vec<Finished> = finished(vec![fake("s", Does::Converge).erased()]);
-    studies[0].header = Header {
-        kind: KIND.name.to_owned(),
-        ..Header::new("s", "c")
-    };
-    studies[0].outcome = Outcome::new("", vec![], checks);
-    let found = diagnose(&project, &studies, &[]);
+    let studies = [boxed_study(Header::new("s", "c"), Methods)];
+    let mut ran: Vec<Finished> = run(&studies, NonZeroUsize::MIN, &|_| ()).unwrap();
+    ran[0].outcome = Outcome::new("", vec![], checks);
+    let found = diagnose(&program::PROJECT, &studies, &ran, &[]);
     found.expect("a check fails").contrast.settings
 }
 
@@ -72,7 +86,7 @@ fn checks_also_fail_and_a_zero_is_multiplied_by_nothing() {
         (2e-3, 1e-3, "loss (by a factor up to 0.5)"),
     ] {
         let changes = [moved("loss", from, to)];
-        let found = diagnose(&program::PROJECT, &studies, &changes).expect("a check fails");
+        let found = diagnose(&program::PROJECT, &[], &studies, &changes).expect("a check fails");
         let text = text_of_diagnosis(&found);
         assert!(text.contains("also fails the energy falls"), "{text}");
         assert!(text.contains(words) && !text.contains("infinity"), "{text}");

@@ -91,7 +91,7 @@ struct Conclusions {
 fn conclusions(studies: &[Finished], baseline: &Baseline) -> Conclusions {
     let changes = baseline.compare(studies, None);
     let verdict = |study: &Finished| settle("id", study.outcome.clone()).verdict;
-    let diagnosis = diagnose(&PROJECT, studies, &changes);
+    let diagnosis = diagnose(&PROJECT, &[], studies, &changes);
     Conclusions {
         verdicts: studies.iter().map(verdict).collect(),
         order: not_passed(studies)

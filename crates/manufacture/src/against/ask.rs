@@ -70,11 +70,15 @@ pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
 
 /// Runs a command on a question, and returns what it prints.
 ///
+/// * `variant`: of the solution, for a program whose module has variants; empty for that of the
+///   file. `None` leaves the environment as it is.
+///
 /// # Errors
 /// It cannot be started, it fails, or it takes longer than its time limit: then it is stopped.
 pub(crate) fn run(
     command: &[String],
     question: String,
+    variant: Option<&str>,
     limit: Duration,
 ) -> Result<String, InputError> {
     let name = command.join(" ");
@@ -84,6 +88,7 @@ pub(crate) fn run(
         .ok_or_else(|| failed("expected a command, found none".to_owned()))?;
     let child = Command::new(program)
         .args(arguments)
+        .envs(variant.map(|variant| ("MANUFACTURE_VARIANT", variant)))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn();

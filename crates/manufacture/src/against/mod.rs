@@ -174,6 +174,6 @@ pub(crate) fn compare(
 ) -> Result<Vec<Comparison>, InputError> {
     let question = Question::new(model, face, sampling)?;
     let words = command_words(command).words;
-    let answer = ask::run(&words, question.text.clone(), limit)?;
+    let answer = ask::run(&words, question.text.clone(), None, limit)?;
     question.compare(&answer, command)
 }

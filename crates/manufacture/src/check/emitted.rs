@@ -11,7 +11,7 @@ use crate::against::{Right, ask, questions};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{Measured, Tape};
 use crate::derive::{Part, Role};
-use crate::emit::{self, Function, Language, OTHERS, accept, emit, functions};
+use crate::emit::{self, Alternative, Function, Language, OTHERS, accept, emit, functions};
 use crate::language::tree::Tree;
 use crate::model::Model;
 use crate::problem::{InputError, Setting, mentions};
@@ -22,21 +22,10 @@ const SAME: f64 = 1e3 * f64::EPSILON;
 /// An emitted program that takes longer is wrong.
 const LIMIT: Duration = Duration::from_secs(600);
 
-/// The command that succeeds if the tool chain is there, and what is missing if not.
-fn probe(language: Language) -> Option<(&'static [&'static str], &'static str)> {
-    match language {
-        Language::C => Some((&["cc", "--version"], "C compiler")),
-        Language::Fortran => Some((&["gfortran", "--version"], "gfortran")),
-        Language::Python => Some((&["python3", "-c", "import numpy"], "Python with NumPy")),
-        Language::Octave => Some((&["octave", "--version"], "Octave")),
-        Language::Rust => Some((&["rustc", "--version"], "rustc")),
-        Language::Ufl => None,
-    }
-}
-
-fn succeeds(command: &[&str]) -> bool {
-    let status = Command::new(command[0])
-        .args(&command[1..])
+fn succeeds(command: &str) -> bool {
+    let mut words = command.split(' ');
+    let status = Command::new(words.next().unwrap_or_default())
+        .args(words)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .status();
@@ -46,10 +35,10 @@ fn succeeds(command: &[&str]) -> bool {
 /// Builds and runs the files of a language in a folder, which must exist.
 pub(crate) fn emitted(
     model: &Model,
+    alternatives: &[Alternative<'_>],
     language: Language,
     folder: &Path,
-    seed: u64,
-    points: usize,
+    sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     accept(model, language)?;
     let name = language.name();
@@ -59,35 +48,35 @@ pub(crate) fn emitted(
             ..finding("emitted", name, format!("not run: {reason}"), None)
         }]
     };
-    let Some((command, missing)) = probe(language) else {
+    let Some(tools) = &language.texts().tools else {
         return Ok(not_run(
             "values need fenics-ufl and basix, which are not run here; Python has the same statements",
         ));
     };
-    if !succeeds(command) {
-        return Ok(not_run(&format!("no {missing}")));
+    if !succeeds(tools.probe) {
+        return Ok(not_run(&format!("no {}", tools.missing)));
     }
-    for file in emit(model, language) {
+    for file in emit(model, alternatives, language) {
         let path = folder.join(&file.name);
         let failed = |error: std::io::Error| {
             InputError::whole(&path.display().to_string(), error.to_string())
         };
         fs::write(&path, file.text).map_err(failed)?;
     }
-    run(model, language, folder, seed, points)
+    run(model, alternatives, language, folder, sampling)
 }
 
 /// Builds and runs the files of a language that are in a folder.
 pub(crate) fn run(
     model: &Model,
+    alternatives: &[Alternative<'_>],
     language: Language,
     folder: &Path,
-    seed: u64,
-    points: usize,
+    sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let name = language.name();
     let mut commands = language.commands(&model.problem.name, folder);
-    let Some(answer) = commands.pop() else {
+    let Some(command) = commands.pop() else {
         return Ok(vec![]);
     };
     for build in commands {
@@ -101,6 +90,60 @@ pub(crate) fn run(
             return Ok(vec![finding("emitted", name, text, None)]);
         }
     }
+    let of_file = Alternative {
+        name: String::new(),
+        model,
+    };
+    let base = &model.graph.parameters;
+    let mut findings = vec![];
+    for Alternative {
+        name: variant,
+        model,
+    } in std::iter::once(&of_file).chain(alternatives)
+    {
+        let answer = Answer {
+            command: &command,
+            variant,
+        };
+        let mut of_model = values(model, language, &answer, sampling)?;
+        // All models read parameters by the same statements; these differ where a value does.
+        if variant.is_empty() || model.graph.parameters != *base {
+            of_model.extend(values_with_settings(model, language, &answer, sampling)?);
+        }
+        for mut finding in of_model {
+            name.clone_into(&mut finding.key);
+            if !variant.is_empty() {
+                finding.text = format!("{variant}: {}", finding.text);
+            }
+            findings.push(finding);
+        }
+    }
+    Ok(findings)
+}
+
+/// The answering program, for a variant.
+struct Answer<'c> {
+    command: &'c [String],
+    /// Empty for the solution of the file.
+    variant: &'c str,
+}
+
+impl Answer<'_> {
+    fn to(&self, arguments: &[String], question: String) -> Result<String, InputError> {
+        let command = [self.command, arguments].concat();
+        ask::run(&command, question, Some(self.variant), LIMIT)
+    }
+}
+
+/// What differs from the values of a model.
+fn values(
+    model: &Model,
+    language: Language,
+    answer: &Answer<'_>,
+    sampling: &Sampling,
+) -> Result<Vec<Finding>, InputError> {
+    let Sampling { seed, points, .. } = *sampling;
+    let name = language.name();
     let faces = model
         .problem
         .faces
@@ -111,9 +154,9 @@ pub(crate) fn run(
     for face in std::iter::once(None).chain(faces) {
         let questions = questions(model, face, seed, points)?;
         let right = Right::new(model, &questions);
-        let mut command = answer.clone();
-        command.extend(face.map(str::to_owned));
-        let compared = ask::run(&command, questions.text.clone(), LIMIT)
+        let arguments: Vec<String> = face.map(str::to_owned).into_iter().collect();
+        let compared = answer
+            .to(&arguments, questions.text.clone())
             .and_then(|text| ask::read(&text, name, &right.names(), questions.points.len()));
         match compared {
             Ok(answers) => findings.extend(differences(&right, &answers, name)),
@@ -121,25 +164,28 @@ pub(crate) fn run(
         }
     }
     let functions = functions(model, language);
-    let others = Round {
-        argument: OTHERS.to_owned(),
-        face: None,
-        functions: emit::others(&functions),
-    };
-    let sampling = Sampling {
-        seed,
-        points,
-        is_strict: false,
-    };
-    findings.extend(others.held(model, &answer, &[], &sampling)?);
+    findings.extend(others(&functions).held(model, answer, &[], sampling)?);
+    Ok(findings)
+}
+
+/// What differs from the values of a model with other parameters; nothing without parameters.
+fn values_with_settings(
+    model: &Model,
+    language: Language,
+    answer: &Answer<'_>,
+    sampling: &Sampling,
+) -> Result<Vec<Finding>, InputError> {
     let settings = settings(model);
-    if !settings.is_empty() {
-        for round in rounds(model, &functions).iter().chain([&others]) {
-            findings.extend(round.held(model, &answer, &settings, &sampling)?);
-        }
+    let mut findings = vec![];
+    if settings.is_empty() {
+        return Ok(findings);
     }
-    for finding in &mut findings {
-        finding.key = name.to_owned();
+    let functions = functions(model, language);
+    for round in rounds(model, &functions)
+        .iter()
+        .chain([&others(&functions)])
+    {
+        findings.extend(round.held(model, answer, &settings, sampling)?);
     }
     Ok(findings)
 }
@@ -150,6 +196,15 @@ struct Round<'f> {
     argument: String,
     face: Option<&'f str>,
     functions: Vec<&'f Function>,
+}
+
+/// All functions but sources and data.
+fn others(functions: &[Function]) -> Round<'_> {
+    Round {
+        argument: OTHERS.to_owned(),
+        face: None,
+        functions: emit::others(functions),
+    }
 }
 
 /// The sources, and the data of each face.
@@ -198,7 +253,7 @@ impl Round<'_> {
     fn held(
         &self,
         model: &Model,
-        answer: &[String],
+        answer: &Answer<'_>,
         settings: &[Setting],
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
@@ -212,12 +267,13 @@ impl Round<'_> {
             .iter()
             .flat_map(|f| f.roots.clone())
             .collect();
-        let mut command = [answer, std::slice::from_ref(&self.argument)].concat();
+        let mut arguments = vec![self.argument.clone()];
         for Setting { parameter, value } in settings {
             let name = &model.problem.parameters[*parameter].name;
-            command.push(format!("{name}={value:?}"));
+            arguments.push(format!("{name}={value:?}"));
         }
-        let rows = ask::run(&command, questions.text.clone(), LIMIT)
+        let rows = answer
+            .to(&arguments, questions.text.clone())
             .map_err(|error| error.to_string())
             .and_then(|text| rows(&text, &names, questions.points.len()));
         let rows = match rows {

@@ -1,13 +1,16 @@
 //! Functions in the user's language.
 
 mod answer;
+mod choice;
 mod dialect;
 mod functions;
+mod languages;
 mod lower;
 mod parameters;
 mod reserved;
 mod runtime;
 mod study;
+mod texts;
 mod write;
 
 use std::path::Path;
@@ -17,6 +20,7 @@ use crate::model::Model;
 use crate::problem::InputError;
 
 pub(crate) use answer::OTHERS;
+pub(crate) use choice::Alternative;
 pub(crate) use functions::{Function, functions, others};
 
 /// A language that functions are emitted in.
@@ -55,68 +59,14 @@ impl Language {
     /// The commands that make the answering program of a file in a folder, the last of which runs
     /// it; none for UFL.
     pub(crate) fn commands(self, name: &str, folder: &Path) -> Vec<Vec<String>> {
-        let file = |file: String| folder.join(file).display().to_string();
-        let answer = |ending: &str| file(format!("{name}_answer.{ending}"));
-        let program = file(format!("{name}_answer_{}", self.name()));
-        let modules = folder.display().to_string();
-        match self {
-            Language::C => {
-                let library = file(format!("{name}.c"));
-                let build = [
-                    "cc",
-                    "-std=c99",
-                    "-O2",
-                    "-o",
-                    &program,
-                    &library,
-                    &answer("c"),
-                    "-lm",
-                ];
-                vec![words(&build), words(&[&program])]
-            }
-            Language::Fortran => {
-                let library = file(format!("{name}.f90"));
-                let build = [
-                    "gfortran",
-                    "-std=f2008",
-                    "-O2",
-                    "-J",
-                    &modules,
-                    "-o",
-                    &program,
-                    &library,
-                    &answer("f90"),
-                ];
-                vec![words(&build), words(&[&program])]
-            }
-            Language::Python => vec![words(&["python3", "-B", &answer("py")])],
-            Language::Octave => vec![words(&[
-                "octave",
-                "--quiet",
-                "--no-history",
-                "--path",
-                &modules,
-                &answer("m"),
-            ])],
-            Language::Rust => {
-                let build = [
-                    "rustc",
-                    "--edition",
-                    "2021",
-                    "-O",
-                    "-o",
-                    &program,
-                    &answer("rs"),
-                ];
-                vec![words(&build), words(&[&program])]
-            }
-            Language::Ufl => vec![],
-        }
+        let folder = folder.join("").display().to_string();
+        let values = [("IN", folder.as_str()), ("NAME", name)];
+        let tools = self.texts().tools.iter();
+        let commands = tools.flat_map(|tools| tools.commands);
+        commands
+            .map(|words| words.split(' ').map(|word| fill(word, &values)).collect())
+            .collect()
     }
-}
-
-fn words(words: &[&str]) -> Vec<String> {
-    words.iter().map(|word| (*word).to_owned()).collect()
 }
 
 /// A file to be written.
@@ -128,11 +78,22 @@ pub struct EmittedFile {
     pub text: String,
 }
 
-/// The files of a model in a language.
-pub(crate) fn emit(model: &Model, language: Language) -> Vec<EmittedFile> {
+/// The files of a model in a language, whose functions are those of the alternative that the
+/// environment variable `MANUFACTURE_VARIANT` names.
+pub(crate) fn emit(
+    model: &Model,
+    alternatives: &[Alternative<'_>],
+    language: Language,
+) -> Vec<EmittedFile> {
     let functions = functions(model, language);
-    let mut files = write::library(model, language, &functions);
-    files.extend(answer::program(model, language, &functions));
+    let mut files = write::library(model, alternatives, language, &functions);
+    let has_alternatives = !alternatives.is_empty();
+    files.extend(answer::program(
+        model,
+        has_alternatives,
+        language,
+        &functions,
+    ));
     files
 }
 

@@ -10,17 +10,17 @@
 
 mod described;
 mod design;
-mod emitted;
 mod switch;
 mod variation;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Serialize;
 
 use crate::check::Check;
 use crate::derive::{Part, Role};
-use crate::emit::{EmittedFile, Language};
+use crate::emit::{self, Alternative, EmittedFile, Language};
 use crate::model::{Model, Rows};
 use crate::problem::{InputError, Problem};
 use crate::sample::Sampler;
@@ -76,32 +76,55 @@ impl Variants<'_> {
     }
 
     /// The files of a language, whose functions are those of the variant that the environment
-    /// variable `MANUFACTURE_VARIANT` names.
-    ///
-    /// # Errors
-    /// In words: a language that has no variants yet.
-    pub fn emit(&self, language: Language) -> Result<Vec<EmittedFile>, String> {
-        let mut files = emitted::files(self.base, &self.usable, language)?;
+    /// variable `MANUFACTURE_VARIANT` names; it is read once, and without it they are those of the
+    /// file. In Fortran a program calls `choose_variant` first. In Python the module says what each
+    /// variant switches off, too.
+    pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
+        let mut files = emit::emit(self.base, &self.alternatives(), language);
         if language == Language::Python {
             files[0].text += &self.description().literal();
         }
-        Ok(files)
+        files
     }
-}
 
-impl Variant {
-    /// Checks its files in a language, as [`Manufacture::check_emitted`](crate::Manufacture) does.
+    /// Builds and runs the files of a language in a folder, which is for temporary files, and
+    /// compares the values of the file's solution and of each variant.
     ///
     /// # Errors
     /// A folder that cannot be written to.
     pub fn check_emitted(
         &self,
         language: Language,
-        folder: &std::path::Path,
+        folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        let Sampling { seed, points, .. } = *sampling;
-        check::emitted::emitted(&self.model, language, folder, seed, points)
+        let alternatives = self.alternatives();
+        check::emitted::emitted(self.base, &alternatives, language, folder, sampling)
+    }
+
+    /// Builds and runs the files of a language that are in a folder already, and compares their
+    /// values.
+    ///
+    /// # Errors
+    /// A folder that cannot be written to.
+    pub fn check_built(
+        &self,
+        language: Language,
+        folder: &Path,
+        sampling: &Sampling,
+    ) -> Result<Vec<Finding>, InputError> {
+        let alternatives = self.alternatives();
+        check::emitted::run(self.base, &alternatives, language, folder, sampling)
+    }
+
+    fn alternatives(&self) -> Vec<Alternative<'_>> {
+        let usable = self.usable.iter();
+        usable
+            .map(|variant| Alternative {
+                name: variant.switch.variant(),
+                model: &variant.model,
+            })
+            .collect()
     }
 }
 

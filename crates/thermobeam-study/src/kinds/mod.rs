@@ -52,10 +52,7 @@ pub const KINDS: [KindRow; 20] = [
     runs::solutions::ROW,
     runs::dependence::ROW,
     work_precision::ROW,
-    KindRow {
-        settings: settings::of_harness,
-        ..program::ROW
-    },
+    program::ROW,
 ];
 
 /// Reads a study file of any of the beam's kinds.

@@ -17,6 +17,7 @@ pub(crate) use convergence_study::{
         study::{
             Described, allow_only,
             coverage::NO_RESULT,
+            header::Setting,
             over_levels::{ErrorColumn, Levels, summary},
             readings,
         },
@@ -35,7 +36,10 @@ pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
 pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
 pub(crate) use thermobeam_exact::vibration::Mode;
 
-pub(crate) use super::settings::{ItemMethod, Topic};
+pub(crate) use super::settings::{
+    CONTACT, ENERGY, Exercise, FREE_VIBRATIONS, Integration, ItemMethod, MANUFACTURED, Nodes,
+    Terms, axis_in_words,
+};
 pub(crate) use crate::error::{ErrorMeasure, free_vibration};
 pub(crate) use crate::exact::errors::ErrorMeter;
 pub(crate) use crate::exact::norm::{Norm, Norms};

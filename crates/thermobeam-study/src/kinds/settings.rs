@@ -1,20 +1,40 @@
 //! The settings that an item of a study exercises; by these a diagnosis separates failing from
 //! passing items.
 //!
-//! Each kind of study says in its row what its items exercise, as a `Topic`. What an item is
-//! about is data of its [`Subject`].
+//! Each kind of study says what its items exercise, as an [`Exercise`], from what it has read of
+//! its file. What an item is about is data of its [`Subject`].
 
 use convergence_study::{
-    Header, Subject,
+    Axis, Header, Subject,
     internal::study::header::{Setting, study},
 };
-use thermobeam::parameters::Beam;
+use thermobeam::mesh::Mesh;
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{MIDPOINT, Scheme};
+use thermobeam::solve::Solver;
 
+use super::tables::Layout;
 use crate::exact::norm::Norm;
+use crate::run::family::is_uniform;
+use crate::scene::{Method, Scene};
 
 /// A viscosity below this is small.
 const SMALL_ZETA: f64 = 0.02;
+
+/// The topic of studies of experiments.
+pub(crate) const CONTACT: &str = "experiments with contact";
+
+/// The topic of studies of the energy.
+pub(crate) const ENERGY: &str = "the energy's laws";
+
+/// The topic of studies of initial data.
+pub(crate) const INITIAL_DATA: &str = "initial data";
+
+/// The topic of studies of manufactured solutions.
+pub(crate) const MANUFACTURED: &str = "manufactured solutions";
+
+/// The topic of studies of vibrations.
+pub(crate) const FREE_VIBRATIONS: &str = "free vibrations";
 
 /// Where to look for the cause, by the name of a setting or by the field that changed first.
 pub const PLACES: [(&str, &str); 19] = [
@@ -60,10 +80,7 @@ pub const PLACES: [(&str, &str); 19] = [
         "listed nodes",
         "the lengths of elements: crates/thermobeam/src/mesh.rs",
     ),
-    (
-        "initial data",
-        "crates/thermobeam-study/src/run/simulate.rs",
-    ),
+    (INITIAL_DATA, "crates/thermobeam-study/src/run/simulate.rs"),
     (
         "whole scenes",
         "crates/thermobeam-study/src/scene, crates/thermobeam-study/src/run",
@@ -125,98 +142,309 @@ impl From<ItemMethod> for String {
     }
 }
 
-/// What a kind of study puts to the test.
+/// How the runs of a study advance in time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Topic {
-    /// In words that can stand alone.
-    name: &'static str,
-    method: ItemMethod,
-    beam: BeamOf,
+pub(crate) enum Integration {
+    /// By a one-step scheme: the midpoint rule or the paper's, the fixed point or Newton's method.
+    OneStep {
+        is_midpoint: bool,
+        is_fixed_point: bool,
+    },
+    /// By dG(q).
+    AnyOrder,
+    /// Not at all.
+    Exact,
 }
 
-/// The beam of a study, where its file has no coefficients.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum BeamOf {
-    /// The default one; the file says what is refined, and whether there are obstacles.
-    File,
-    /// The default one without coupling and Kirchhoff's term; otherwise the same.
-    Vibration,
-    /// That of the paper, between obstacles, from scenes in other files.
-    Paper,
-}
+impl Integration {
+    /// By the paper's scheme and Newton's method.
+    pub(crate) const PAPER: Self = Self::OneStep {
+        is_midpoint: false,
+        is_fixed_point: false,
+    };
 
-impl Topic {
-    /// A topic whose studies take the paper's beam and obstacles.
-    ///
-    /// * `method`: that of items which name no other.
-    pub(crate) const fn new(name: &'static str, method: ItemMethod) -> Self {
-        Self {
-            name,
-            method,
-            beam: BeamOf::Paper,
+    pub(crate) fn of(scheme: &Scheme, solver: Solver) -> Self {
+        Self::OneStep {
+            is_midpoint: *scheme == MIDPOINT,
+            is_fixed_point: solver == Solver::FixedPoint,
         }
     }
 
-    /// The same with the beam of the study's file.
-    pub(crate) const fn of_file(self) -> Self {
+    pub(crate) fn of_scene(scene: &Scene) -> Self {
+        match &scene.method {
+            Method::OneStep(stepping) => Self::of(&stepping.scheme, stepping.settings.solver),
+            Method::Dg(_) => Self::AnyOrder,
+        }
+    }
+
+    /// That of an item which has a method of its own.
+    fn by(self, method: ItemMethod) -> Self {
+        let (is_midpoint, is_fixed_point) = match self {
+            Self::OneStep {
+                is_midpoint,
+                is_fixed_point,
+            } => (is_midpoint, is_fixed_point),
+            Self::AnyOrder | Self::Exact => (false, false),
+        };
+        match method {
+            ItemMethod::Exact => Self::Exact,
+            ItemMethod::AnyOrder => Self::AnyOrder,
+            _ => Self::OneStep {
+                is_midpoint: is_midpoint || method == ItemMethod::Midpoint,
+                is_fixed_point: is_fixed_point || method == ItemMethod::FixedPoint,
+            },
+        }
+    }
+
+    /// Method, scheme and solver; a method without a choice of these is named instead.
+    fn settings(self) -> [Setting; 3] {
+        let keys = ["method", "scheme", "solver"];
+        match self {
+            Self::Exact => keys.map(|key| setting(key, "no time steps")),
+            Self::AnyOrder => keys.map(|key| setting(key, "any order")),
+            Self::OneStep {
+                is_midpoint,
+                is_fixed_point,
+            } => {
+                let [method, scheme, solver] = keys;
+                [
+                    setting(method, "one-step schemes"),
+                    either(
+                        scheme,
+                        is_midpoint,
+                        "the midpoint rule",
+                        "the paper's scheme",
+                    ),
+                    either(solver, is_fixed_point, "the fixed point", "Newton's method"),
+                ]
+            }
+        }
+    }
+}
+
+/// The terms of the equations that are active.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Terms {
+    is_coupled: bool,
+    is_nonlinear: bool,
+    is_hot: bool,
+    has_small_zeta: bool,
+    has_obstacles: bool,
+}
+
+impl Terms {
+    /// All but a small ζ, as in random scenes with moderate coefficients.
+    pub(crate) const MODERATE: Self = Self {
+        is_coupled: true,
+        is_nonlinear: true,
+        is_hot: true,
+        has_small_zeta: false,
+        has_obstacles: true,
+    };
+
+    /// All, as in random scenes.
+    pub(crate) const ALL: Self = Self {
+        has_small_zeta: true,
+        ..Self::MODERATE
+    };
+
+    pub(crate) fn of(beam: &Beam, obstacles: Option<&Obstacles>) -> Self {
         Self {
-            beam: BeamOf::File,
+            is_coupled: beam.a != 0.0,
+            is_nonlinear: beam.rho != 0.0,
+            is_hot: beam.theta_a != 0.0,
+            has_small_zeta: beam.zeta < SMALL_ZETA,
+            has_obstacles: obstacles.is_some(),
+        }
+    }
+
+    /// Those of one or the other.
+    #[must_use]
+    pub(crate) fn or(self, other: Self) -> Self {
+        Self {
+            is_coupled: self.is_coupled || other.is_coupled,
+            is_nonlinear: self.is_nonlinear || other.is_nonlinear,
+            is_hot: self.is_hot || other.is_hot,
+            has_small_zeta: self.has_small_zeta || other.has_small_zeta,
+            has_obstacles: self.has_obstacles || other.has_obstacles,
+        }
+    }
+
+    fn settings(self) -> [Setting; 5] {
+        [
+            either("coupling", self.is_coupled, "coupling a > 0", "no coupling"),
+            either(
+                "rho",
+                self.is_nonlinear,
+                "Kirchhoff's term, rho > 0",
+                "a linear beam",
+            ),
+            either(
+                "theta_a",
+                self.is_hot,
+                "a hot end, theta_A > 0",
+                "a cold end",
+            ),
+            either(
+                "zeta",
+                self.has_small_zeta,
+                "small zeta",
+                "zeta of order 0.1",
+            ),
+            either("obstacles", self.has_obstacles, "obstacles", "a free end"),
+        ]
+    }
+}
+
+/// Where the nodes of the meshes are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Nodes {
+    Uniform,
+    Graded,
+    Listed,
+    Perturbed,
+}
+
+impl Nodes {
+    pub(crate) fn of_layout(layout: &Layout) -> Self {
+        match layout {
+            Layout { map: Some(_), .. } => Self::Graded,
+            Layout {
+                perturbation: Some(_),
+                ..
+            } => Self::Perturbed,
+            _ => Self::Uniform,
+        }
+    }
+
+    pub(crate) fn of_mesh(mesh: &Mesh) -> Self {
+        if is_uniform(mesh) {
+            Self::Uniform
+        } else {
+            Self::Graded
+        }
+    }
+
+    pub(crate) fn of_scene(scene: &Scene) -> Self {
+        if scene.listed.is_empty() {
+            Self::of_mesh(&scene.mesh)
+        } else {
+            Self::Listed
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "a uniform mesh",
+            Self::Graded => "a graded mesh",
+            Self::Listed => "listed nodes",
+            Self::Perturbed => "a perturbed mesh",
+        }
+    }
+}
+
+/// What an item of a study exercises.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Exercise {
+    /// What is put to the test, in words that can stand alone.
+    topic: &'static str,
+    /// What is refined, in words.
+    axis: Option<&'static str>,
+    integration: Integration,
+    terms: Terms,
+    nodes: Nodes,
+}
+
+impl Exercise {
+    /// On uniform meshes, without refinement.
+    ///
+    /// * `topic`: what is put to the test, in words that can stand alone.
+    pub(crate) fn new(topic: &'static str, integration: Integration, terms: Terms) -> Self {
+        Self {
+            topic,
+            axis: None,
+            integration,
+            terms,
+            nodes: Nodes::Uniform,
+        }
+    }
+
+    /// Beam and mesh of a scene.
+    pub(crate) fn of_scene(topic: &'static str, integration: Integration, scene: &Scene) -> Self {
+        let terms = Terms::of(&scene.beam, scene.obstacles.as_ref());
+        Self::new(topic, integration, terms).on(Nodes::of_scene(scene))
+    }
+
+    /// Beams and meshes of the scene that a case is named after; of all scenes, if none is.
+    pub(crate) fn of_scenes<'s>(
+        topic: &'static str,
+        integration: Integration,
+        scenes: impl IntoIterator<Item = &'s Scene>,
+        case: Option<&str>,
+    ) -> Self {
+        let mut all = Self::new(topic, integration, Terms::default());
+        for (place, scene) in scenes.into_iter().enumerate() {
+            let one = Self::of_scene(topic, integration, scene);
+            if Some(&*scene.name) == case {
+                return one;
+            }
+            all = if place == 0 { one } else { all.and(one) };
+        }
+        all
+    }
+
+    /// This and another one together: the terms of both, and special nodes only if both have them.
+    #[must_use]
+    pub(crate) fn and(self, other: Self) -> Self {
+        let is_same = self.nodes == other.nodes;
+        Self {
+            terms: self.terms.or(other.terms),
+            nodes: if is_same { self.nodes } else { Nodes::Uniform },
             ..self
         }
     }
 
-    /// Vibrations of a linear beam.
-    pub(crate) const fn vibrations(method: ItemMethod) -> Self {
+    /// The same on other meshes.
+    #[must_use]
+    pub(crate) fn on(self, nodes: Nodes) -> Self {
+        Self { nodes, ..self }
+    }
+
+    /// The same with refinement.
+    #[must_use]
+    pub(crate) fn refined_in(self, axis: &'static str) -> Self {
         Self {
-            name: "free vibrations",
-            method,
-            beam: BeamOf::Vibration,
+            axis: Some(axis),
+            ..self
         }
     }
 
-    /// Errors against a manufactured solution, or a vibration where the file has one.
-    pub(crate) fn of_solution(header: &Header, method: ItemMethod) -> Self {
-        if has_table(header, "vibration.") {
-            Self::vibrations(method)
-        } else {
-            Self::new("manufactured solutions", method).of_file()
-        }
-    }
-
-    /// The settings of an item of the study with this header.
-    ///
-    /// * `subject`: what it is about; in a study with named cases, its case has settings of its
-    ///   own, and its method is that of the study unless the file or the subject names another.
+    /// The settings of an item, which may have a method of its own.
     pub(crate) fn settings(self, header: &Header, subject: &Subject) -> Vec<Setting> {
-        let item = Item {
-            header,
-            case: case(header, subject),
-        };
-        let mut settings = general(header, subject, self.name);
-        if self.beam != BeamOf::Paper {
-            settings.extend(item.axis());
+        let mut settings = vec![study(header), setting("kind", self.topic)];
+        let quantity = subject.quantity.as_str();
+        if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
+            settings.push(setting("field", quantity));
+        }
+        if let Some(axis) = self.axis {
+            settings.push(setting("axis", &format!("refined in {axis}")));
         }
         let own = subject.method.as_deref().and_then(ItemMethod::named);
-        settings.extend(item.method(own, self.method));
-        settings.extend(item.beam(self.beam));
-        settings.push(setting("mesh", item.mesh()));
+        let integration = own.map_or(self.integration, |own| self.integration.by(own));
+        settings.extend(integration.settings());
+        settings.extend(self.terms.settings());
+        settings.push(setting("mesh", self.nodes.name()));
         settings
     }
 }
 
-/// Of the harness itself.
-pub fn of_harness(header: &Header, subject: &Subject) -> Vec<Setting> {
-    general(header, subject, "the harness")
-}
-
-/// Study, topic and field.
-fn general(header: &Header, subject: &Subject, topic: &str) -> Vec<Setting> {
-    let mut settings = vec![study(header), setting("kind", topic)];
-    let quantity = subject.quantity.as_str();
-    if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
-        settings.push(setting("field", quantity));
+/// What is refined, in words.
+pub(crate) fn axis_in_words(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Space => "space",
+        Axis::Time => "time",
+        Axis::Both => "space and time",
     }
-    settings
 }
 
 fn setting(key: &str, value: &str) -> Setting {
@@ -227,226 +455,98 @@ fn either(key: &str, holds: bool, value: &str, otherwise: &str) -> Setting {
     setting(key, if holds { value } else { otherwise })
 }
 
-/// Whether a study file has values in a table.
-pub(crate) fn has_table(header: &Header, table: &str) -> bool {
-    let mut paths = header.settings.iter().map(|(path, _)| path);
-    paths.any(|path| path.starts_with(table))
-}
-
-/// The dotted path of the item's case, such as `case[2].`; empty without a case.
-fn case(header: &Header, subject: &Subject) -> String {
-    let Some(name) = &subject.case else {
-        return String::new();
-    };
-    let is_named =
-        |(path, value): &&Setting| path.ends_with("].name") && value.trim_matches('"') == name;
-    header
-        .settings
-        .iter()
-        .find(is_named)
-        .map_or(String::new(), |(path, _)| {
-            path.trim_end_matches("name").to_owned()
-        })
-}
-
-/// An item of a study.
-struct Item<'s> {
-    header: &'s Header,
-    case: String,
-}
-
-impl Item<'_> {
-    /// The value of a key: of the item's case, or of the study.
-    fn text(&self, path: &str) -> Option<&str> {
-        let value = |path: &str| {
-            let setting = self.header.settings.iter().find(|(known, _)| known == path);
-            setting.map(|(_, value)| value.trim_matches('"'))
-        };
-        value(&(self.case.clone() + path)).or_else(|| value(path))
-    }
-
-    fn axis(&self) -> Option<Setting> {
-        let axis = self.text("refine.axis").or(self.text("run.over"))?;
-        let axis = if axis == "both" {
-            "space and time"
-        } else {
-            axis
-        };
-        Some(setting("axis", &format!("refined in {axis}")))
-    }
-
-    fn has(&self, table: &str) -> bool {
-        has_table(self.header, &(self.case.clone() + table)) || has_table(self.header, table)
-    }
-
-    /// Whether the file names this scheme or solver.
-    fn names(&self, word: &str) -> bool {
-        let keys = [
-            "time.scheme",
-            "time.solver",
-            "refine.scheme",
-            "refine.solver",
-            "scheme",
-            "solver",
-        ];
-        keys.iter().any(|key| self.text(key) == Some(word))
-    }
-
-    /// Method, scheme and solver; a method without a choice of these is named instead.
-    ///
-    /// * `own`: the method of the item, if it has one of its own; `of_study`: that of its study.
-    fn method(&self, own: Option<ItemMethod>, of_study: ItemMethod) -> [Setting; 3] {
-        let whole = match own.unwrap_or(of_study) {
-            ItemMethod::Exact => Some("no time steps"),
-            ItemMethod::AnyOrder => Some("any order"),
-            _ => self.names("dg").then_some("any order"),
-        };
-        if let Some(method) = whole {
-            return ["method", "scheme", "solver"].map(|key| setting(key, method));
-        }
-        let is_midpoint = own == Some(ItemMethod::Midpoint) || self.names("midpoint");
-        let is_fixed_point = own == Some(ItemMethod::FixedPoint) || self.names("fixed-point");
-        [
-            setting("method", "one-step schemes"),
-            either(
-                "scheme",
-                is_midpoint,
-                "the midpoint rule",
-                "the paper's scheme",
-            ),
-            either(
-                "solver",
-                is_fixed_point,
-                "the fixed point",
-                "Newton's method",
-            ),
-        ]
-    }
-
-    /// The active terms of the equations.
-    fn beam(&self, of: BeamOf) -> [Setting; 5] {
-        let Beam { a, rho, zeta, .. } = Beam::default();
-        let terms = if of == BeamOf::Vibration { 0.0 } else { 1.0 };
-        let number = |name: &str, default: f64| {
-            let text = self.text(&format!("beam.{name}"));
-            text.and_then(|text| text.parse().ok()).unwrap_or(default)
-        };
-        let is_coupled = number("a", terms * a) != 0.0;
-        let is_nonlinear = number("rho", terms * rho) != 0.0;
-        let is_hot = number("theta_a", 0.0) != 0.0;
-        let is_small = number("zeta", zeta) < SMALL_ZETA;
-        // A scene in another file is one of the paper.
-        let has_obstacles =
-            of == BeamOf::Paper || self.text("refine.scene").is_some() || self.has("obstacles.");
-        [
-            either("coupling", is_coupled, "coupling a > 0", "no coupling"),
-            either(
-                "rho",
-                is_nonlinear,
-                "Kirchhoff's term, rho > 0",
-                "a linear beam",
-            ),
-            either("theta_a", is_hot, "a hot end, theta_A > 0", "a cold end"),
-            either("zeta", is_small, "small zeta", "zeta of order 0.1"),
-            either("obstacles", has_obstacles, "obstacles", "a free end"),
-        ]
-    }
-
-    fn mesh(&self) -> &'static str {
-        let tables = ["mesh", "refine", "run", "energy"];
-        let has = |key: &str| {
-            tables
-                .iter()
-                .any(|table| self.text(&format!("{table}.{key}")).is_some())
-        };
-        if has("map") {
-            "a graded mesh"
-        } else if has("nodes") {
-            "listed nodes"
-        } else if has("perturb") {
-            "a perturbed mesh"
-        } else {
-            "a uniform mesh"
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{ItemMethod, Topic};
-    use convergence_study::internal::study::header::Setting;
+    use super::{Exercise, Integration, ItemMethod, Nodes, Setting, Terms};
+    use crate::kinds::KINDS;
+    use crate::scene::Scene;
+    use convergence_study::internal::study::StudyFile;
     use convergence_study::{Header, Subject};
-
-    fn header(kind: &str, values: &[(&str, &str)]) -> Header {
-        let settings = values
-            .iter()
-            .map(|(path, value)| ((*path).to_owned(), (*value).to_owned()))
-            .collect();
-        Header {
-            kind: kind.to_owned(),
-            settings,
-            ..Header::new("a", "b")
-        }
-    }
+    use std::path::Path;
 
     fn values(settings: Vec<Setting>) -> Vec<String> {
         settings.into_iter().map(|(_, value)| value).collect()
     }
 
+    /// The settings of an item of a study of this repository.
+    fn of_study(file: &str, subject: &Subject) -> Vec<String> {
+        let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+        let read = StudyFile::read(&KINDS, &studies.join(file)).unwrap();
+        values(read.study.settings(subject))
+    }
+
+    #[track_caller]
+    fn has(settings: &[String], expected: &[&str]) {
+        for value in expected {
+            assert!(
+                settings.iter().any(|own| own == value),
+                "{value}: {settings:?}"
+            );
+        }
+    }
+
     #[test]
     fn the_method_of_an_item_replaces_that_of_its_study() {
-        let topic = Topic::new("steady states", ItemMethod::Exact);
-        let of = |subject: Subject| values(topic.settings(&header("bifurcation", &[]), &subject));
+        let exercise = Exercise::new("steady states", Integration::Exact, Terms::default());
+        let of = |subject: Subject| values(exercise.settings(&Header::new("a", "b"), &subject));
         let state = Subject::of("steady state");
-        assert!(of(state.clone()).contains(&"no time steps".to_owned()));
-        let run = of(state.by(ItemMethod::OneStep));
-        assert!(run.contains(&"one-step schemes".to_owned()), "{run:?}");
+        has(&of(state.clone()), &["no time steps"]);
+        has(&of(state.by(ItemMethod::OneStep)), &["one-step schemes"]);
         for (_, method) in ItemMethod::ALL {
             assert_eq!(ItemMethod::named(&String::from(method)), Some(method));
         }
     }
 
     #[test]
-    fn a_case_has_its_own_settings_and_a_study_of_orders_those_of_its_file() {
-        let whole = header(
-            "scenes",
+    fn a_scene_gives_its_terms_its_nodes_and_its_scheme() {
+        let text = "[beam]\nzeta = 0.01\na = 0\n[mesh]\nelements = 8\nmap = \"s^2/2 + s/2\"\n\
+                    [time]\nscheme = \"midpoint\"\nsolver = \"fixed-point\"\ndt = 0.1\nt_end = 1\n";
+        let scene = Scene::parse(text, "a.toml").unwrap();
+        let integration = Integration::of_scene(&scene);
+        let exercise = Exercise::of_scene("whole scenes", integration, &scene);
+        let settings = values(exercise.settings(&Header::new("a", "b"), &Subject::of("u")));
+        has(
+            &settings,
             &[
-                ("case[1].name", "\"cold\""),
-                ("case[1].beam.a", "0"),
-                ("case[1].time.scheme", "\"dg\""),
+                "the midpoint rule",
+                "the fixed point",
+                "no coupling",
+                "Kirchhoff's term, rho > 0",
+                "small zeta",
+                "a cold end",
+                "a free end",
+                "a graded mesh",
             ],
         );
-        let subject = Subject::of("u_tip").in_case("cold");
-        let scenes = Topic::new("whole scenes", ItemMethod::OneStep).of_file();
-        let cold = values(scenes.settings(&whole, &subject));
-        assert!(
-            ["whole scenes", "any order", "no coupling"]
-                .iter()
-                .all(|value| cold.iter().any(|own| own == value)),
-            "{cold:?}"
+        assert_eq!(Nodes::of_mesh(&scene.mesh), Nodes::Graded);
+    }
+
+    /// Of the study's own values, of those of the case, and of scenes in other files.
+    #[test]
+    fn a_study_gives_what_it_has_read() {
+        let space = of_study("theorem-3.4-space.toml", &Subject::of("temperature"));
+        has(
+            &space,
+            &[
+                "temperature",
+                "refined in space",
+                "manufactured solutions",
+                "Newton's method",
+                "a uniform mesh",
+                "obstacles",
+            ],
         );
-        let file = [
-            ("beam.a", "0.5"),
-            ("refine.axis", "\"time\""),
-            ("refine.scheme", "\"midpoint\""),
-            ("refine.map", "\"s\""),
-        ];
-        let header = header("orders/manufactured", &file);
-        let topic = Topic::of_solution(&header, ItemMethod::OneStep);
-        let found = values(topic.settings(&header, &Subject::of("temperature")));
-        for expected in [
-            "temperature",
-            "refined in time",
-            "one-step schemes",
-            "the midpoint rule",
-            "coupling a > 0",
-            "a graded mesh",
-            "a free end",
-        ] {
-            assert!(
-                found.iter().any(|value| value == expected),
-                "{expected}: {found:?}"
-            );
-        }
+        let graded = of_study("graded-mesh.toml", &Subject::of("temperature"));
+        has(&graded, &["a graded mesh"]);
+        let midpoint = of_study("vibration-midpoint.toml", &Subject::of("velocity"));
+        has(
+            &midpoint,
+            &[
+                "free vibrations",
+                "the midpoint rule",
+                "no coupling",
+                "a linear beam",
+            ],
+        );
     }
 }

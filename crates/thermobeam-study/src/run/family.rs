@@ -76,23 +76,24 @@ pub struct Family {
     grading: Option<Mesh>,
 }
 
+/// Whether all elements are equally long, but for rounding.
+pub(crate) fn is_uniform(mesh: &Mesh) -> bool {
+    let n = mesh.elements() as f64;
+    let mut nodes = mesh.nodes().iter().enumerate();
+    nodes.all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON)
+}
+
 impl Family {
     /// The problem of a scene; its dt and number of elements have no influence, the grading of its
     /// mesh is kept.
     pub fn of_scene(scene: &Scene) -> Self {
-        let nodes = scene.mesh.nodes();
-        let n = scene.mesh.elements() as f64;
-        let is_uniform = nodes
-            .iter()
-            .enumerate()
-            .all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON);
         Self {
             beam: scene.beam,
             obstacles: scene.obstacles,
             t_end: scene.t_end,
             start: Start::Scene(Box::new(scene.clone())),
             loaded: false,
-            grading: (!is_uniform).then(|| scene.mesh.clone()),
+            grading: (!is_uniform(&scene.mesh)).then(|| scene.mesh.clone()),
         }
     }
 
@@ -119,6 +120,11 @@ impl Family {
             loaded: false,
             ..Self::of_solution(exact, beam, None, t_end)
         }
+    }
+
+    /// The mesh whose grading all others follow, if they are not uniform.
+    pub(crate) fn grading(&self) -> Option<&Mesh> {
+        self.grading.as_ref()
     }
 
     /// The exact solution, if there is one.

@@ -23,6 +23,7 @@ mod solutions;
 mod solvers;
 mod typed;
 mod untested;
+mod variants;
 mod vibration;
 mod work_precision;
 

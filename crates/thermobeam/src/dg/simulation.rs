@@ -1,14 +1,13 @@
 //! [`Dg`], which holds one level and does steps of the right lengths.
 
 use super::DgLevel;
-use super::contact_event::ContactEvent;
 use super::lengths::Lengths;
 use super::problem::{DgProblem, DgStepping, check_problem, initial_level};
 use super::residual::Equations;
 use super::space::{Field, Space};
 use super::stages::{Stages, stepper};
 use super::time::Load;
-use crate::contact::Phase;
+use crate::contact::{ContactEvent, Phase};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::motion::{Motion, StepReport, TipRange, Work};
 use crate::norms::max_or_nan;

@@ -2,9 +2,11 @@
 
 use std::f64::consts::LN_2;
 
+use super::grid::ColumnName;
 use super::names::{self, Word};
-use super::number::is_dash;
+use super::number::{Number, halves, is_dash};
 use super::stated::DIMENSIONS;
+use super::text::counts_rows;
 
 /// Largest relative difference of two equal ratios, given their digits.
 const SAME: f64 = 1e-5;
@@ -16,13 +18,15 @@ const STEEP: f64 = 0.72;
 
 /// A column, row by row.
 pub(super) struct Cells<'t> {
+    /// Its name in the text.
+    pub(super) head: &'t str,
     /// Its name in messages.
     pub(super) name: String,
     pub(super) word: Word,
     pub(super) texts: Vec<&'t str>,
+    pub(super) numbers: Vec<Option<Number>>,
     /// NaN if there is no number.
     pub(super) values: Vec<f64>,
-    pub(super) is_number: Vec<bool>,
     /// Half a unit of the last place of each number.
     pub(super) halves: Vec<f64>,
     /// Whether `--columns`, `--values` or `--order` names it.
@@ -31,20 +35,57 @@ pub(super) struct Cells<'t> {
     pub(super) is_index: bool,
 }
 
-impl Cells<'_> {
-    /// Puts the rows in this order.
-    pub(super) fn sort(&mut self, order: &[usize]) {
-        self.texts = order.iter().map(|row| self.texts[*row]).collect();
-        self.values = order.iter().map(|row| self.values[*row]).collect();
-        self.is_number = order.iter().map(|row| self.is_number[*row]).collect();
-        self.halves = order.iter().map(|row| self.halves[*row]).collect();
+impl<'t> Cells<'t> {
+    /// * `head`: the name in the text.
+    pub(super) fn new(
+        head: &'t str,
+        ColumnName { name, word }: ColumnName,
+        texts: Vec<&'t str>,
+        numbers: Vec<Option<Number>>,
+    ) -> Self {
+        let may_count =
+            matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && texts.len() > 1;
+        let value = |number: &Option<Number>| number.map_or(f64::NAN, |number| number.value);
+        Self {
+            head,
+            name,
+            word,
+            values: numbers.iter().map(value).collect(),
+            halves: halves(&numbers),
+            is_claimed: false,
+            is_index: may_count && counts_rows(&texts),
+            texts,
+            numbers,
+        }
+    }
+
+    /// The column with these of its rows.
+    pub(super) fn select(&self, rows: &[usize]) -> Self {
+        let name = ColumnName {
+            name: self.name.clone(),
+            word: self.word,
+        };
+        let texts = rows.iter().map(|row| self.texts[*row]).collect();
+        let numbers = rows.iter().map(|row| self.numbers[*row]).collect();
+        Self {
+            is_claimed: self.is_claimed,
+            ..Self::new(self.head, name, texts, numbers)
+        }
+    }
+
+    pub(super) fn is_number(&self, row: usize) -> bool {
+        self.numbers[row].is_some()
+    }
+
+    pub(super) fn has_all_numbers(&self) -> bool {
+        self.values.iter().all(|value| !value.is_nan())
     }
 
     /// What the cells hold.
     pub(super) fn holdings(&self) -> Holdings {
-        let cells = self.texts.iter().zip(&self.is_number);
+        let cells = self.texts.iter().zip(&self.numbers);
         let others: Vec<&str> = cells
-            .filter(|(_, is_number)| !**is_number)
+            .filter(|(_, number)| number.is_none())
             .map(|(cell, _)| *cell)
             .collect();
         let has_numbers = others.len() < self.texts.len();
@@ -68,8 +109,8 @@ impl Cells<'_> {
 
     /// The number of coarsest levels that have no number, as a dash or a blank says.
     pub(super) fn missing(&self) -> usize {
-        let mut cells = self.texts.iter().zip(&self.is_number);
-        let first = cells.position(|(cell, is_number)| *is_number || !is_dash(cell));
+        let mut cells = self.texts.iter().zip(&self.numbers);
+        let first = cells.position(|(cell, number)| number.is_some() || !is_dash(cell));
         first.unwrap_or(0)
     }
 
@@ -77,7 +118,7 @@ impl Cells<'_> {
     /// reader.
     pub(super) fn has_failed(&self, row: usize) -> bool {
         let cell = self.texts[row];
-        !self.is_number[row] && (names::is_failure(cell) || is_dash(cell) && !cell.is_empty())
+        !self.is_number(row) && (names::is_failure(cell) || is_dash(cell) && !cell.is_empty())
     }
 
     pub(super) fn is_constant(&self) -> bool {

@@ -1,13 +1,12 @@
 //! What columns hold that nobody has chosen: an error, unless the name or arithmetic that can be
 //! checked says otherwise. Nothing is left out because its numbers look wrong.
 
-use super::Offer;
+use super::NotError;
 use super::columns::{Cells, Derived, Holdings, Trend};
 use super::names::{self, Word};
-use super::pairs::LeftOut;
-use super::reader::{NEIGHBOURS, TableReader};
+use super::reader::TableReader;
 use super::roles::reasons;
-use super::stated::DIMENSIONS;
+use super::stated::{DIMENSIONS, Derivation};
 use super::step::Step;
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
@@ -21,37 +20,23 @@ enum Content {
     Error,
     /// An error only if the table has no other.
     Residual,
-    /// A value or an error that no longer falls: numbers that tend to this limit.
+    /// A value or an error that no longer falls: numbers that tend to a limit.
     Limit(String),
     /// A count or an error that grows: whole numbers that grow.
     Growth,
-    /// Whether each level was solved.
-    States,
-    Other(Reason),
-}
-
-/// Why a column is not an error.
-struct Reason {
-    words: String,
-    /// Whether arithmetic has shown it, and not the name of the column alone.
-    is_checked: bool,
+    /// No error, as the numbers show.
+    Checked(String),
+    /// No error, by its name alone.
+    Named(String),
 }
 
 impl Content {
-    /// No error, as the numbers show.
-    fn checked(words: impl Into<String>) -> Self {
-        Self::Other(Reason {
-            words: words.into(),
-            is_checked: true,
-        })
+    fn checked(because: impl Into<String>) -> Self {
+        Self::Checked(because.into())
     }
 
-    /// No error, by its name alone.
-    fn named(words: impl Into<String>) -> Self {
-        Self::Other(Reason {
-            words: words.into(),
-            is_checked: false,
-        })
+    fn named(because: impl Into<String>) -> Self {
+        Self::Named(because.into())
     }
 }
 
@@ -63,7 +48,7 @@ struct Undecided {
     /// Whole numbers that grow.
     counts: Vec<usize>,
     /// A name in a log with more numbers or fewer than there are levels, and why it is no column.
-    uneven: Option<LeftOut>,
+    uneven: Option<NotError>,
 }
 
 impl Undecided {
@@ -101,58 +86,36 @@ impl TableReader<'_> {
         step: &Step,
         steps: &[f64],
         values: &[usize],
+        uneven: Option<&NotError>,
     ) -> Result<Vec<usize>, InputError> {
         let mut errors = vec![];
         let mut residuals = vec![];
         let mut undecided = Undecided {
-            uneven: self.uneven(),
+            // Under a claim for all columns it may be an error.
+            uneven: uneven.filter(|_| self.choice.claimed.is_empty()).cloned(),
             ..Undecided::default()
         };
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
-            let reason = match self.content(k, step.column, steps)? {
-                Content::Error => {
-                    errors.push(k);
-                    continue;
-                }
-                Content::Residual => {
-                    residuals.push(k);
-                    continue;
-                }
-                Content::Limit(words) => {
+            match self.content(k, step.column, steps)? {
+                Content::Error => errors.push(k),
+                Content::Residual => residuals.push(k),
+                Content::Limit(because) => {
                     undecided.limits.push(k);
-                    Reason {
-                        words,
-                        is_checked: false,
-                    }
+                    self.leave_out(k, &because, false);
                 }
                 Content::Growth => {
                     undecided.counts.push(k);
-                    let words = "whole numbers that grow".to_owned();
-                    Reason {
-                        words,
-                        is_checked: false,
-                    }
+                    self.leave_out(k, "whole numbers that grow", false);
                 }
-                Content::States => Reason {
-                    words: "states".to_owned(),
-                    is_checked: true,
-                },
-                Content::Other(reason) => reason,
-            };
-            self.leave_out(k, reason);
+                Content::Checked(because) => self.leave_out(k, &because, true),
+                Content::Named(because) => self.leave_out(k, &because, false),
+            }
         }
         if errors.is_empty() && values.is_empty() {
             errors = std::mem::take(&mut residuals);
         }
         for k in residuals {
-            let words = "a residual".to_owned();
-            self.leave_out(
-                k,
-                Reason {
-                    words,
-                    is_checked: false,
-                },
-            );
+            self.leave_out(k, "a residual", false);
         }
         if errors.is_empty() && values.is_empty() {
             return Err(self.refuse_without_errors(&undecided.limits)?);
@@ -163,23 +126,11 @@ impl TableReader<'_> {
         Err(self.refuse_undecided(&errors, values, &undecided))
     }
 
-    /// The first name with more numbers or fewer than there are levels, which may be an error under a
-    /// claim for all columns.
-    fn uneven(&self) -> Option<LeftOut> {
-        let mut left_out = self.left_out.iter().filter(|one| one.may_be_error());
-        left_out
-            .next()
-            .filter(|_| self.choice.claimed.is_empty())
-            .cloned()
-    }
-
-    fn leave_out(&mut self, k: usize, Reason { words, is_checked }: Reason) {
-        let name = self.columns[k].name.clone();
-        self.left_out.push(LeftOut {
-            name,
-            reason: words,
+    fn leave_out(&mut self, k: usize, because: &str, is_checked: bool) {
+        self.left_out.push(NotError {
+            column: self.columns[k].name.clone(),
+            because: because.to_owned(),
             is_checked,
-            is_single: false,
         });
     }
 
@@ -188,12 +139,14 @@ impl TableReader<'_> {
     fn refuse_without_errors(&self, limits: &[usize]) -> Result<InputError, InputError> {
         let mut columns = self.columns.iter();
         let unknown =
-            columns.position(|column| column.word.noun().is_none() && !column.is_number[0]);
+            columns.position(|column| column.word.noun().is_none() && !column.is_number(0));
         if let Some(k) = unknown {
             self.must(0, k)?;
         }
-        let offer =
-            (!limits.is_empty()).then(|| self.offer(|choice| choice.values = self.names(limits)));
+        let as_values = self
+            .choice
+            .offer("", |choice| choice.values = self.names(limits));
+        let offer = (!limits.is_empty()).then_some(as_values);
         let expected = Text::from("a column of errors, or ") + Argument::Columns.with_placeholder();
         Ok(self
             .refuse(expected, &reasons(&self.left_out))
@@ -213,11 +166,14 @@ impl TableReader<'_> {
         }: &Undecided,
     ) -> InputError {
         let found = match (limits.first(), uneven) {
-            (None, Some(LeftOut { name, reason, .. })) => {
-                format!(
-                    "`{}`, {reason}: a table of its own, or no error",
-                    shorten(name)
-                )
+            (
+                None,
+                Some(NotError {
+                    column, because, ..
+                }),
+            ) => {
+                let name = shorten(column);
+                format!("`{name}`, {because}: a table of its own, or no error")
             }
             (Some(limit), _) => format!(
                 "{}, which tends to a limit: a value, or an error that no longer falls",
@@ -232,33 +188,29 @@ impl TableReader<'_> {
             + " or "
             + Argument::Columns.with_placeholder()
             + " to say what each column holds";
-        let mut as_others = self.offer(|choice| {
-            choice.values = self.names(&[values, limits].concat());
-            if (!counts.is_empty() || uneven.is_some()) && !errors.is_empty() {
-                choice.columns = Some(self.names(errors));
-            }
-        });
-        as_others.comment = match (limits.len(), counts.len()) {
+        let comment = match (limits.len(), counts.len()) {
             (1.., 1..) => "if they are values and counts",
             (1.., _) => "if it is a value",
             (_, 1..) => "if it is a count",
             _ => "if it is no error",
         };
+        let as_others = self.choice.offer(comment, |choice| {
+            choice.values = self.names(&[values, limits].concat());
+            if (!counts.is_empty() || uneven.is_some()) && !errors.is_empty() {
+                choice.columns = Some(self.names(errors));
+            }
+        });
         // What has the name of an error is none to be left out.
-        let is_error = |name: &LeftOut| Word::of(&names::without_markup(&name.name)) == Word::Error;
+        let is_error =
+            |one: &NotError| Word::of(&names::without_markup(&one.column)) == Word::Error;
         let as_others = Some(as_others).filter(|_| !uneven.as_ref().is_some_and(is_error));
-        let as_errors = Offer {
-            comment: "if it is an error",
-            ..self.with_columns(&[errors, limits, counts].concat())
-        };
-        let as_errors = (!limits.is_empty() || !counts.is_empty()).then_some(as_errors);
+        let all = [errors, limits, counts].concat();
+        let as_errors = self.choice.offer("if it is an error", |choice| {
+            choice.columns = Some(self.names(&all));
+        });
+        let as_errors = (all.len() > errors.len()).then_some(as_errors);
         self.refuse(expected, &found)
             .offering(as_others.into_iter().chain(as_errors))
-    }
-
-    /// The command with these columns as errors.
-    fn with_columns(&self, columns: &[usize]) -> Offer {
-        self.offer(|choice| choice.columns = Some(self.names(columns)))
     }
 
     /// What a column holds, by what its cells are, by the rates that it may print, and by its name.
@@ -269,7 +221,7 @@ impl TableReader<'_> {
         }
         match column.holdings() {
             Holdings::Nothing => return Ok(Content::named("no number")),
-            Holdings::States => return Ok(Content::States),
+            Holdings::States => return Ok(Content::checked("states")),
             Holdings::Words if names::is_group(&column.name) => {
                 return Ok(Content::checked("words"));
             }
@@ -352,16 +304,9 @@ impl TableReader<'_> {
             })
         });
         let mut all_steps = [steps.to_vec()].into_iter().chain(over_counts);
-        let (error, derived) = all_steps.find_map(|steps: Vec<f64>| {
-            // Errors before it, the nearest first, and those after it.
-            let near = (k.saturating_sub(NEIGHBOURS)..k)
-                .rev()
-                .chain(k + 1..(k + NEIGHBOURS).min(self.columns.len()));
-            let mut near = near
-                .filter(|near| *near != step)
-                .map(|near| &self.columns[near]);
-            near.find_map(|error| Some((error, column.derived_from(error, &steps)?)))
-        })?;
+        let Derivation { error, derived } =
+            all_steps.find_map(|steps: Vec<f64>| self.derivation(k, step, &steps))?;
+        let error = &self.columns[error];
         Some(match derived {
             // Errors that are halved have the rate 1 and the factor 2.
             Derived::Factors if column.word == Word::Rate => Content::checked(format!(

@@ -1,7 +1,8 @@
 //! Columns of numbers, read like the text of a table.
 
+use super::original::{Original, Rows};
 use super::{Choice, RateTable, cleaned, roles};
-use crate::input::{Complaint, InputError, failed};
+use crate::input::InputError;
 use crate::text::number::counted;
 
 /// A column of a data frame.
@@ -11,53 +12,6 @@ pub struct FrameColumn {
     pub name: String,
     /// Its numbers, row by row.
     pub numbers: Vec<f64>,
-}
-
-/// A table to be read.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Original<'t> {
-    /// Its text.
-    pub(super) text: &'t str,
-    /// Its name in messages.
-    pub(super) name: &'t str,
-    pub(super) rows: Rows,
-}
-
-/// What the rows of a table are to the caller.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Rows {
-    /// Lines of a text, from 1.
-    Lines,
-    /// Rows of a data frame, from 0; the text has the names in its first line.
-    Frame,
-}
-
-impl<'t> Original<'t> {
-    /// A text, and the name of its file.
-    pub(super) fn of_text(text: &'t str, name: &'t str) -> Self {
-        Self {
-            text,
-            name,
-            rows: Rows::Lines,
-        }
-    }
-
-    /// The number of the row with the byte at `offset`, as the caller counts.
-    pub(super) fn row(&self, offset: usize) -> usize {
-        let before = self.text[..offset].matches('\n').count();
-        match self.rows {
-            Rows::Lines => before + 1,
-            Rows::Frame => before.saturating_sub(1),
-        }
-    }
-
-    /// What the caller calls several rows.
-    pub(super) fn noun(&self) -> &'static str {
-        match self.rows {
-            Rows::Lines => "lines",
-            Rows::Frame => "rows",
-        }
-    }
 }
 
 impl RateTable {
@@ -75,12 +29,10 @@ impl RateTable {
         let rows = columns.iter().map(|column| column.numbers.len()).max();
         let rows = rows.unwrap_or(0);
         let short = columns.iter().find(|column| column.numbers.len() != rows);
-        if let Some(column) = short {
-            let complaint = Complaint::Table {
-                expected: format!("{}, as other columns have", counted(rows, "number")).into(),
-                found: column.numbers.len().to_string(),
-            };
-            return Err(failed(&column.name, complaint));
+        if let Some(FrameColumn { name, numbers }) = short {
+            let expected = format!("{}, as other columns have", counted(rows, "number"));
+            let found = numbers.len().to_string();
+            return Err(Original::of_text("", name).refuse(expected, &found));
         }
         let original = Original {
             text: &cleaned::plain(&text(columns, rows)),

@@ -211,7 +211,7 @@ fn names<'t>(
             .filter(|k| !(without_rates && is_rate[*k]))
             .collect::<Vec<usize>>()
     });
-    let mut first = "";
+    let mut first = None;
     for (k, line) in heads.iter().enumerate().rev() {
         let splits = splits(line, separator);
         // Between words of several names there are single blanks: no word is the name of a rate
@@ -236,17 +236,16 @@ fn names<'t>(
         {
             if let Some(cells) = splits.iter().find(|cells| fits(mask, cells)) {
                 let mut names = vec![&line[..0]; width];
-                names[0] = first;
+                names[0] = first.unwrap_or(names[0]);
                 for (column, cell) in mask.iter().zip(cells) {
                     names[*column] = cell;
                 }
                 return Some(NamesInLine { names, line: k });
             }
         }
-        first = if splits[0].len() == 1 {
-            splits[0][0]
-        } else {
-            ""
+        first = match splits[0][..] {
+            [name] => Some(name),
+            _ => None,
         };
     }
     None

@@ -1,8 +1,8 @@
 //! How large a text of tables may be. Reading takes a time in proportion to the text, judging more.
 
-use super::frame::Original;
+use super::original::Original;
 use super::parts::Part;
-use crate::input::{Complaint, InputError, Source, failed, shorten};
+use crate::input::{InputError, shorten};
 use crate::text::number::counted;
 
 /// Most tables of a text.
@@ -16,58 +16,26 @@ const NAME: usize = 200;
 
 /// Refuses a text with more tables, or a table with more rows or columns, or a longer name.
 pub(super) fn check(original: Original<'_>, parts: &[Part<'_>]) -> Result<(), InputError> {
+    let most = |count: usize, noun: &str| format!("at most {}", counted(count, noun));
     if parts.len() > TABLES {
-        return Err(refusal(
-            original,
-            None,
-            &format!("at most {}", counted(TABLES, "table")),
-            &counted(parts.len(), "table"),
-        ));
+        return Err(original.refuse(most(TABLES, "table"), &counted(parts.len(), "table")));
     }
     for Part { table, .. } in parts {
-        let first = table.rows.iter().flatten().next().copied();
-        let width = table
-            .rows
-            .iter()
-            .map(Vec::len)
-            .max()
-            .unwrap_or(0)
-            .max(table.names.len());
-        for (most, count, noun) in [(ROWS, table.rows.len(), "row"), (COLUMNS, width, "column")] {
-            if count > most {
-                return Err(refusal(
-                    original,
-                    first,
-                    &format!("at most {}", counted(most, noun)),
-                    &counted(count, noun),
-                ));
+        let first = table.rows.iter().flatten().next().unwrap_or(&original.text);
+        let width = table.width().max(table.names.len());
+        for (limit, count, noun) in [(ROWS, table.rows.len(), "row"), (COLUMNS, width, "column")] {
+            if count > limit {
+                let found = counted(count, noun);
+                return Err(original.error(first, None, most(limit, noun), &found));
             }
         }
-        let names = table.names.iter().chain(&table.groups);
-        for name in names.filter(|name| name.len() > NAME) {
-            let count = name.chars().count();
-            if count > NAME {
-                let found = format!("{}, `{}`", counted(count, "character"), shorten(name));
-                let most = format!("a name of at most {}", counted(NAME, "character"));
-                return Err(refusal(original, Some(name), &most, &found));
-            }
+        let mut names = table.names.iter().chain(&table.groups);
+        if let Some(name) = names.find(|name| name.chars().nth(NAME).is_some()) {
+            let count = counted(name.chars().count(), "character");
+            let found = format!("{count}, `{}`", shorten(name));
+            let expected = format!("a name of {}", most(NAME, "character"));
+            return Err(original.error(name, None, expected, &found));
         }
     }
     Ok(())
-}
-
-/// * `piece`: the text at which the limit is passed.
-fn refusal(original: Original<'_>, piece: Option<&str>, most: &str, found: &str) -> InputError {
-    let complaint = Complaint::Table {
-        expected: most.into(),
-        found: found.to_owned(),
-    };
-    let Original { text, name, .. } = original;
-    match piece {
-        Some(piece) => {
-            let offset = (piece.as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
-            Source { file: name, text }.error(offset.min(text.len()), None, complaint)
-        }
-        None => failed(name, complaint),
-    }
 }

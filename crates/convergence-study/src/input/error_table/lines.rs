@@ -2,6 +2,7 @@
 //! without a word.
 
 use super::number::number;
+use super::original::offset;
 use super::parts::Part;
 use super::text::is_closing;
 
@@ -18,8 +19,8 @@ pub(super) fn outside(text: &str, parts: &[Part<'_>]) -> Outside {
     for Part { words, table, .. } in parts {
         let cells = table.rows.iter().flatten();
         let pieces = cells.chain(&table.names).chain(&table.groups);
-        used.extend(pieces.map(|piece| place(text, piece)));
-        used.extend(words.map(|words| place(text, words)));
+        used.extend(pieces.map(|piece| offset(text, piece)));
+        used.extend(words.map(|words| offset(text, words)));
     }
     used.sort_unstable();
     let mut used = used.into_iter().peekable();
@@ -31,7 +32,7 @@ pub(super) fn outside(text: &str, parts: &[Part<'_>]) -> Outside {
     for (k, line) in text.split_inclusive('\n').enumerate() {
         end += line.len();
         let mut is_used = false;
-        while used.next_if(|place| *place < end).is_some() {
+        while used.next_if(|start| *start < end).is_some() {
             is_used = true;
         }
         let is_markup = line.trim_start().starts_with('\\');
@@ -53,11 +54,4 @@ fn looks_like_row(line: &str) -> bool {
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
     let numbers = words.iter().filter(|word| number(word, true).is_some());
     2 * numbers.count() >= words.len() && !line.contains([':', '=']) && !is_closing(line)
-}
-
-/// The byte at which a piece begins; the end of the text for a piece of none.
-fn place(text: &str, piece: &str) -> usize {
-    (piece.as_ptr() as usize)
-        .wrapping_sub(text.as_ptr() as usize)
-        .min(text.len())
 }

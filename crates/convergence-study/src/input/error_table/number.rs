@@ -17,6 +17,13 @@ pub(super) struct Number {
     place: Option<Place>,
 }
 
+impl Number {
+    /// A number without rounding.
+    pub(super) fn exact(value: f64) -> Self {
+        Self { value, place: None }
+    }
+}
+
 /// The last printed place of a number.
 #[derive(Debug, Clone, Copy)]
 struct Place {
@@ -164,10 +171,7 @@ fn value(text: &str) -> Option<Number> {
         .split_once('/')
         .filter(|(_, below)| !below.contains('/'))
     {
-        return Some(Number {
-            value: value(above)?.value / value(below)?.value,
-            place: None,
-        });
+        return Some(Number::exact(value(above)?.value / value(below)?.value));
     }
     if let Some((factor, power)) = text.split_once('*') {
         // Read as one number, because a product is rounded once more.
@@ -177,14 +181,11 @@ fn value(text: &str) -> Option<Number> {
         ));
     }
     match text.split_once('^') {
-        Some(("10", exponent)) => Some(Number {
-            place: None,
-            ..real(&format!("1e{}", integer(exponent)?))?
-        }),
-        Some((base, exponent)) => Some(Number {
-            value: real(base)?.value.powi(integer(exponent)?),
-            place: None,
-        }),
+        Some(("10", exponent)) => {
+            let number = real(&format!("1e{}", integer(exponent)?))?;
+            Some(Number::exact(number.value))
+        }
+        Some((base, exponent)) => Some(Number::exact(real(base)?.value.powi(integer(exponent)?))),
         None => real(text),
     }
 }

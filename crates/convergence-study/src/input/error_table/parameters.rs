@@ -1,8 +1,8 @@
 //! Numbers that a whole table shares: the degree in its heading, or in a column of groups.
 
+use super::columns::Cells;
 use super::names;
 use super::number::number;
-use super::pairs::RawTable;
 
 /// A number that all rows of a table share.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,18 +38,20 @@ pub(crate) fn is_degree(name: &str) -> bool {
 
 /// The degrees of a heading behind their names, as in `Degree = 2`, `p: 2` and `P2 elements`, and
 /// those of columns of groups with the same number in all rows.
-pub(super) fn of_table(heading: &str, table: &RawTable<'_>) -> Vec<Parameter> {
+pub(super) fn of_table(heading: &str, columns: &[Cells<'_>]) -> Vec<Parameter> {
     let mut parameters = of_heading(heading);
-    for (k, column) in table.column_names(None).into_iter().enumerate() {
-        let mut cells = table.rows.iter().map(|row| row.get(k).copied());
-        let first = cells.next().flatten();
-        if let Some(number) = first.and_then(|cell| number(cell, table.decimal_comma))
-            && names::is_group(&column.name)
-            && cells.all(|cell| cell == first)
-        {
+    for Cells {
+        name,
+        texts,
+        values,
+        ..
+    } in columns
+    {
+        let is_same = texts.iter().all(|cell| *cell == texts[0]);
+        if names::is_group(name) && is_same && !values[0].is_nan() {
             parameters.push(Parameter {
-                name: column.name,
-                value: number.value,
+                name: name.clone(),
+                value: values[0],
             });
         }
     }

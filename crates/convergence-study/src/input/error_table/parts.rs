@@ -8,9 +8,11 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::grid::RawTable;
 use super::names::{self, Word};
 use super::number::number;
-use super::pairs::{self, NamedPlace, Naming, Pair, RawTable};
+use super::original::offset;
+use super::pairs::{self, NamedPlace, Naming, Pair, Scan};
 use super::text::{self, begins_with_number, is_closing, is_rule};
 
 /// A table of a text.
@@ -34,7 +36,7 @@ pub(super) fn read(text: &str) -> Vec<Part<'_>> {
         let earlier = parts.last().map_or(&[][..], |part| &part.table.names);
         let table = match table {
             Some(table) if earlier.is_empty() => table,
-            _ => text::read(text, earlier),
+            _ => text::read(text, &Scan::of(text), earlier),
         };
         let words = heading(text, &table);
         let number = parts.len() + 1;
@@ -77,22 +79,20 @@ struct Cuts<'t> {
 }
 
 fn cuts(text: &str) -> Cuts<'_> {
-    let mixed = mixed_cuts(text);
-    if !mixed.is_empty() {
-        return Cuts {
-            at: mixed,
-            table: None,
-        };
+    let scan = Scan::of(text);
+    let mut at = mixed_cuts(text, &scan);
+    if at.is_empty() && scan.is_log {
+        at = log_cuts(text, &scan);
     }
-    if let Some(pairs) = pairs::log(text) {
-        return Cuts {
-            at: log_cuts(text, &pairs),
-            table: None,
-        };
+    if !at.is_empty() {
+        return Cuts { at, table: None };
     }
-    let table = text::read(text, &[]);
+    let table = text::read(text, &scan, &[]);
+    if !(scan.is_log && scan.has_columns()) {
+        at = gap_cuts(&gaps(text, &table, scan.is_log));
+    }
     Cuts {
-        at: gap_cuts(&row_gaps(text, &table)),
+        at,
         table: Some(table),
     }
 }
@@ -220,72 +220,131 @@ fn values(gap: &[Piece]) -> HashMap<&str, Vec<&str>> {
     values
 }
 
-/// What stands between the lines of rows.
-fn row_gaps(text: &str, table: &RawTable<'_>) -> Vec<Vec<Piece>> {
-    let mut starts: Vec<usize> = vec![];
-    for row in &table.rows {
-        starts.extend(row.iter().map(|cell| offset(text, cell)));
+/// A cell of a table in its text.
+struct Place<'t> {
+    start: usize,
+    end: usize,
+    row: usize,
+    /// The name in front of it; empty in a table of rows.
+    name: &'t str,
+}
+
+/// What stands between the rows of a table, in a log with the names of its numbers.
+fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
+    let mut places: Vec<Place<'_>> = vec![];
+    for (row, cells) in table.rows.iter().enumerate() {
+        let cells = cells.iter().enumerate();
+        places.extend(cells.filter(|(_, cell)| !cell.is_empty()).map(|(k, cell)| {
+            let start = offset(text, cell);
+            Place {
+                start,
+                end: start + cell.len(),
+                row,
+                name: if is_log { table.names[k] } else { "" },
+            }
+        }));
     }
-    let first = starts.iter().copied().min().unwrap_or(text.len());
-    starts.sort_unstable();
-    let mut starts = starts.into_iter().peekable();
+    if !is_log {
+        places.extend(rows_of_other_forms(text, &places));
+    }
+    places.sort_by_key(|place| place.start);
     let mut gaps = vec![];
     let mut gap = vec![];
-    let mut has_rows = false;
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        let end = start + line.len();
-        let mut is_row = start > first && begins_with_number(&line) && !is_closing(line);
-        while starts.next_if(|cell| *cell < end).is_some() {
-            is_row = true;
+    for two in places.windows(2) {
+        let between = text.get(two[0].end..two[1].start).unwrap_or_default();
+        // Between the numbers of a list there is no name.
+        let words = between.trim_end_matches(pairs::is_mark);
+        let words = words.strip_suffix(two[1].name).filter(|_| is_log);
+        match words {
+            Some(words) => gap.extend(pieces(two[0].end, words, true)),
+            None if is_log => {}
+            None => gap.extend(pieces(two[0].end, between, false)),
         }
-        if is_row {
-            if has_rows {
-                gaps.push(std::mem::take(&mut gap));
-            }
-            gap.clear();
-            has_rows = true;
-        } else if is_rule(line) {
-            gap.push(Piece::of_words(
-                start,
-                if line.trim().is_empty() { "" } else { "-" },
-            ));
+        let begins_row = if is_log {
+            two[0].row != two[1].row
         } else {
-            gap.push(Piece::of_words(start, line));
+            between.contains('\n')
+        };
+        if begins_row {
+            gaps.push(std::mem::take(&mut gap));
+        } else if let Some(words) = words {
+            gap.push(Piece {
+                offset: two[0].end + words.len(),
+                shape: two[1].name.to_owned(),
+                value: String::new(),
+                is_named: true,
+            });
         }
-        // The rest of a gap belongs to the next table.
-        start = end;
-    }
-    for gap in &mut gaps {
-        let begin = gap.first().map(|piece| piece.offset);
-        gap.iter_mut()
-            .for_each(|piece| piece.offset = begin.unwrap_or(piece.offset));
     }
     gaps
 }
 
-/// The byte at which a piece begins in its text.
-fn offset(text: &str, piece: &str) -> usize {
-    (piece.as_ptr() as usize).saturating_sub(text.as_ptr() as usize)
+/// The lines below the first row that begin with a number: they may be rows of another table, which
+/// is written in another form.
+fn rows_of_other_forms(text: &str, places: &[Place<'_>]) -> Vec<Place<'static>> {
+    let first = places.iter().map(|place| place.start).min();
+    let first = first.unwrap_or(text.len());
+    let lines = text.lines().map(|line| (offset(text, line), line));
+    let rows = lines
+        .filter(|(start, line)| *start > first && begins_with_number(line) && !is_closing(line));
+    let place = |(start, _): (usize, &str)| Place {
+        start,
+        end: start,
+        row: 0,
+        name: "",
+    };
+    rows.map(place).collect()
 }
 
-/// Where a log of names and numbers is cut: lists with their names come again, names end before
-/// others begin, or something stands between some of its rows.
-fn log_cuts(text: &str, pairs: &[Pair<'_>]) -> Vec<usize> {
+/// The words, rulers and blank lines between two numbers; of a table of rows only whole lines. They
+/// belong to the next table from the first whole line on.
+fn pieces(start: usize, between: &str, is_log: bool) -> Vec<Piece> {
+    let mut pieces = vec![];
+    // A list ends, and another one begins.
+    if is_log
+        && let Some(end) = between.find(']')
+        && between[end..].contains('[')
+    {
+        pieces.push(Piece::of_words(start + end, "]["));
+    }
+    let lines: Vec<&str> = between.split('\n').collect();
+    for (k, line) in lines.iter().enumerate() {
+        let is_whole = 0 < k && k + 1 < lines.len();
+        if !is_whole && !is_log {
+            continue;
+        }
+        let words = line.trim_matches(|c| pairs::is_mark(c) || "-=_*#|".contains(c));
+        // A line of nothing but separators is a blank one; brackets open and close records.
+        let is_empty = |c: char| c.is_whitespace() || ",;\"'".contains(c);
+        let is_blank = is_whole && line.chars().all(is_empty);
+        let is_drawn = is_rule(line) || line.contains(|c| !pairs::is_mark(c));
+        let is_ruler = words.is_empty() && is_drawn;
+        if is_blank || is_ruler || !words.is_empty() {
+            let begin = if k == 0 { 0 } else { lines[0].len() + 1 };
+            pieces.push(Piece::of_words(
+                start + begin,
+                if is_ruler { "-" } else { words },
+            ));
+        }
+    }
+    pieces
+}
+
+/// Where a log is cut: lists with their names come again, or names end before others begin.
+fn log_cuts(text: &str, scan: &Scan<'_>) -> Vec<usize> {
+    let pairs = &scan.pairs;
     if let Some(first) = pairs::first_column(pairs) {
-        let is_list = |pair: &Pair<'_>| pair.values.len() > 1;
-        let lists: Vec<&Pair<'_>> = pairs.iter().filter(|pair| is_list(pair)).collect();
+        let is_list = |pair: &&Pair<'_>| pair.values.len() > 1;
+        let lists: Vec<&Pair<'_>> = pairs.iter().filter(is_list).collect();
         let again = lists.windows(2).filter(|two| two[1].name == first);
         return again.map(|two| end_of_numbers(text, two[0])).collect();
     }
-    let ends = successive_names(pairs);
-    if !ends.is_empty() {
-        return ends
-            .into_iter()
-            .map(|k| after_number(text, pairs, k))
-            .collect();
-    }
-    gap_cuts(&log_gaps(text, pairs))
+    let ends = successive_names(pairs).into_iter();
+    ends.map(|k| match k.checked_sub(1) {
+        Some(before) => end_of_numbers(text, &pairs[before]),
+        None => offset(text, pairs[k].name),
+    })
+    .collect()
 }
 
 /// The end of the numbers behind a name, of the brackets that close there, or of their line.
@@ -297,14 +356,6 @@ fn end_of_numbers(text: &str, pair: &Pair<'_>) -> usize {
     let marks = &behind[..marks.unwrap_or(behind.len())];
     let line = marks.rfind('\n').or_else(|| marks.rfind([']', '}', ')']));
     end + line.map_or(0, |last| last + 1)
-}
-
-/// The end of the number before the k-th name, or of its line.
-fn after_number(text: &str, pairs: &[Pair<'_>], k: usize) -> usize {
-    match k.checked_sub(1) {
-        Some(before) => end_of_numbers(text, &pairs[before]),
-        None => offset(text, pairs[k].name),
-    }
 }
 
 /// The pairs with which rows begin whose names come after others that occur several times have
@@ -347,70 +398,10 @@ fn successive_names(pairs: &[Pair<'_>]) -> Vec<usize> {
     cuts
 }
 
-/// What stands in a log between one step and the next: other names, and words.
-fn log_gaps(text: &str, pairs: &[Pair<'_>]) -> Vec<Vec<Piece>> {
-    let mut gaps = vec![];
-    let Some(key) = pairs::key_of_records(pairs) else {
-        return gaps;
-    };
-    let mut gap = vec![];
-    let mut has_rows = false;
-    let mut end = 0;
-    for pair in pairs {
-        let start = offset(text, pair.name);
-        let between = text.get(end..start).unwrap_or_default();
-        gap.extend(pieces(end, between));
-        if pair.name == key {
-            if has_rows {
-                gaps.push(std::mem::take(&mut gap));
-            }
-            gap.clear();
-            has_rows = true;
-        } else {
-            gap.push(Piece {
-                offset: start,
-                shape: pair.name.to_owned(),
-                value: String::new(),
-                is_named: true,
-            });
-        }
-        let last = pair.values.last().copied().unwrap_or(pair.name);
-        end = offset(text, last) + last.len();
-    }
-    gaps
-}
-
-/// The words and blank lines between two numbers of a log.
-fn pieces(start: usize, between: &str) -> Vec<Piece> {
-    let mut pieces = vec![];
-    let mut offset = start;
-    // A list ends, and another one begins.
-    if let Some(end) = between.find(']')
-        && between[end..].contains('[')
-    {
-        pieces.push(Piece::of_words(start + end, "]["));
-    }
-    let lines: Vec<&str> = between.split('\n').collect();
-    for (k, line) in lines.iter().enumerate() {
-        let words = line.trim_matches(|c| pairs::is_mark(c) || "-=_*#|".contains(c));
-        let is_whole_line = 0 < k && k + 1 < lines.len();
-        // A line of nothing but separators is a blank one; brackets open and close records.
-        let is_empty = |c: char| c.is_whitespace() || ",;\"'".contains(c);
-        let is_blank_line = is_whole_line && line.chars().all(is_empty);
-        let is_drawn = is_rule(line) && !line.trim().is_empty();
-        let is_ruler = words.is_empty() && (is_drawn || line.contains(|c| !pairs::is_mark(c)));
-        if is_blank_line || is_ruler || !words.is_empty() {
-            pieces.push(Piece::of_words(offset, if is_ruler { "-" } else { words }));
-        }
-        offset += line.len() + 1;
-    }
-    pieces
-}
-
 /// Where a log, rows of numbers without names and lists stand beside each other, each with several
 /// numbers.
-fn mixed_cuts(text: &str) -> Vec<usize> {
-    let places = pairs::namings(text);
+fn mixed_cuts(text: &str, scan: &Scan<'_>) -> Vec<usize> {
+    let places = scan.namings(text);
     let mut runs: Vec<&[NamedPlace<'_>]> = places.chunk_by(|a, b| a.naming == b.naming).collect();
     runs.retain(|run| {
         let mut names = HashSet::new();

@@ -3,14 +3,14 @@
 use std::collections::HashSet;
 
 use super::columns::Cells;
-use super::frame::{Original, Rows};
+use super::grid::{ColumnName, RawTable};
 use super::names::{self, Word};
-use super::number::{common_unit, halves, has_percent, in_percent, number};
-use super::pairs::{ColumnName, LeftOut, RawTable};
-use super::text::counts_rows;
-use super::{Choice, Offer};
+use super::number::{Number, common_unit, has_percent, in_percent, number};
+use super::original::Original;
+use super::turned::Turned;
+use super::{Choice, NotError, Offer};
 use crate::input::advice::{Argument, Text};
-use crate::input::{Complaint, InputError, Source, failed, shorten};
+use crate::input::{InputError, shorten};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::counted;
 use crate::text::visible::is_hidden;
@@ -20,28 +20,140 @@ const LISTED: usize = 12;
 /// Rates are searched for among this many columns on either side.
 pub(super) const NEIGHBOURS: usize = 40;
 
+/// When an offer to number the rows is right.
+pub(super) const HALVED_ROWS: &str = "if each row halves the step";
+
 /// A table and the choices of the user.
 pub(super) struct TableReader<'t> {
     pub(super) original: Original<'t>,
     pub(super) choice: &'t Choice,
-    table: &'t RawTable<'t>,
     pub(super) columns: Vec<Cells<'t>>,
+    /// Whether its columns stand as rows in the text.
+    pub(super) turned: Option<Turned>,
+    /// The ratio of the steps of consecutive levels, as chosen or as the rates between errors say.
+    pub(super) ratio: Option<f64>,
     /// The column that the reader has added: the numbers of the rows.
     pub(super) rows: Option<usize>,
     /// What is not an error.
-    pub(super) left_out: Vec<LeftOut>,
+    pub(super) left_out: Vec<NotError>,
     /// For each row whether its level was solved, as a column of states says.
     pub(super) is_solved: Vec<bool>,
     /// Whether the rows were in no order and have been sorted.
     pub(super) is_shuffled: bool,
 }
 
-/// The name of a column, with its unit if its numbers are in per cent.
-fn named_in(name: String, percent: Option<bool>) -> String {
-    match percent {
-        Some(true) if !name.contains('%') => format!("{name} [%]"),
-        _ => name,
+/// Names in a message, but not too many.
+pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.take(LISTED + 1).collect();
+    names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
+}
+
+impl Choice {
+    /// This choice, changed.
+    ///
+    /// * `comment`: when it is right; may be empty.
+    pub(super) fn offer(&self, comment: &'static str, change: impl FnOnce(&mut Self)) -> Offer {
+        let mut choice = self.clone();
+        change(&mut choice);
+        Offer { choice, comment }
     }
+
+    /// The choice that the step is halved, with the comment when.
+    pub(super) fn halved(&self, comment: &'static str) -> Offer {
+        self.offer(comment, |choice| choice.ratio = Some(2.0))
+    }
+}
+
+/// The columns of a table; refuses a text without a table, and names that do not fit its columns.
+pub(super) fn columns<'t>(
+    original: Original<'t>,
+    choice: &Choice,
+    table: &RawTable<'t>,
+) -> Result<Vec<Cells<'t>>, InputError> {
+    let width = table.width();
+    if width == 0 {
+        let mut lines = original.text.lines().filter(|line| !line.trim().is_empty());
+        let found = lines.next().map_or("an empty table".to_owned(), |line| {
+            format!("no row of numbers, but `{}`", shorten(line.trim()))
+        });
+        let expected =
+            "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
+        return Err(original.error(original.text, None, expected, &found));
+    }
+    let names = table.column_names(choice.names.as_deref());
+    if let Some(row) = table.rows.iter().find(|row| row.len() != names.len()) {
+        let example = (1..=width).map(|k| format!("c{k}")).collect();
+        let offer = choice.offer("", |choice| choice.names = Some(example));
+        let expected = format!("{}, one for each name", counted(names.len(), "cell"));
+        let found = counted(row.len(), "cell");
+        let first = row.first().unwrap_or(&original.text);
+        let error = original.error(first, None, expected, &found);
+        return Err(error.offering([offer]));
+    }
+    let heads: Vec<&str> = (0..width)
+        .map(|k| table.names.get(k).copied().unwrap_or(original.text))
+        .collect();
+    if let Some(k) = names
+        .iter()
+        .position(|column| column.name.contains(is_hidden))
+    {
+        let found = format!("`{}`", shorten(&names[k].name));
+        let expected = "a name without control characters";
+        return Err(original.error(heads[k], None, expected, &found));
+    }
+    let columns = columns_of(table, names, &heads, choice);
+    if width < 2 && choice.ratio.is_none() {
+        let found = "one column: write the table as CSV";
+        let expected = "a column of steps and at least one of errors";
+        let halved = columns[0].is_steep().then(|| choice.halved(HALVED_ROWS));
+        let refusal = original.error(heads[0], None, expected, found);
+        return Err(refusal.offering(halved));
+    }
+    Ok(columns)
+}
+
+/// * `heads`: the names in the text.
+fn columns_of<'t>(
+    table: &RawTable<'t>,
+    mut names: Vec<ColumnName>,
+    heads: &[&'t str],
+    choice: &Choice,
+) -> Vec<Cells<'t>> {
+    let nameless = names.iter_mut().enumerate();
+    for (k, column) in nameless.filter(|(_, column)| column.name.is_empty()) {
+        column.name = format!("column {}", k + 1);
+    }
+    let claims = choice.columns.iter().flatten().chain(&choice.claimed);
+    let claims = claims.chain(&choice.values).filter_map(|name| {
+        names::claimed_position(names.iter().map(|column| column.name.as_str()), name)
+    });
+    let claims: HashSet<usize> = claims.collect();
+    // With decimal commas, `1.024` may be 1024.
+    let has_comma = table.decimal_comma
+        && table
+            .rows
+            .iter()
+            .flatten()
+            .any(|cell| cell.contains(',') && number(cell, true).is_some());
+    let mut columns = Vec::with_capacity(names.len());
+    for (k, mut name) in names.into_iter().enumerate() {
+        let texts = without_unit(table.column(k));
+        let percent = in_percent(&texts);
+        if percent == Some(true) && !name.name.contains('%') {
+            name.name += " [%]";
+        }
+        let number = |text: &&str| {
+            let is_ambiguous =
+                has_comma && text.contains('.') || percent.is_none() && has_percent(text);
+            number(text, table.decimal_comma).filter(|_| !is_ambiguous)
+        };
+        let numbers = texts.iter().map(number).collect();
+        columns.push(Cells {
+            is_claimed: claims.contains(&k),
+            ..Cells::new(heads[k], name, texts, numbers)
+        });
+    }
+    columns
 }
 
 /// The cells of a column without the unit that stands in all of them.
@@ -56,186 +168,44 @@ fn without_unit(cells: Vec<&str>) -> Vec<&str> {
         .collect()
 }
 
-/// Names in a message, but not too many.
-pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
-    let names: Vec<String> = names.take(LISTED + 1).collect();
-    names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
-}
-
 impl<'t> TableReader<'t> {
-    /// Splits the table of a text into columns.
     pub(super) fn new(
         original: Original<'t>,
         choice: &'t Choice,
-        table: &'t RawTable<'t>,
-    ) -> Result<Self, InputError> {
+        columns: Vec<Cells<'t>>,
+        table: &RawTable<'t>,
+    ) -> Self {
+        let rows = columns[0].texts.len();
+        let Choice {
+            step, dim, ratio, ..
+        } = choice;
+        let is_halved = table.turned == Some(Turned::Halved);
+        let stated = (is_halved && step.is_none() && dim.is_none()).then_some(2.0);
         let mut reader = Self {
             original,
             choice,
-            table,
-            columns: vec![],
+            columns,
+            turned: table.turned,
+            ratio: ratio.or(stated),
             rows: None,
             left_out: table.left_out.clone(),
-            is_solved: vec![true; table.rows.len()],
+            is_solved: vec![true; rows],
             is_shuffled: false,
         };
-        reader.columns = reader.columns()?;
         let has_levels = reader.columns.iter().any(|column| column.is_index);
-        if choice.ratio.is_some() && choice.step.is_none() && !has_levels {
+        if reader.ratio.is_some() && step.is_none() && !has_levels {
             reader.rows = Some(reader.columns.len());
-            reader.columns.push(reader.numbers_of_rows());
+            reader.columns.push(numbers_of_rows(rows));
         }
-        Ok(reader)
-    }
-
-    /// The choice of the user, changed.
-    pub(super) fn offer(&self, change: impl FnOnce(&mut Choice)) -> Offer {
-        let mut choice = self.choice.clone();
-        change(&mut choice);
-        Offer {
-            choice,
-            comment: "",
-        }
-    }
-
-    /// The columns; refuses a text without a table, and names that do not fit its columns.
-    fn columns(&self) -> Result<Vec<Cells<'t>>, InputError> {
-        let RawTable { rows, .. } = self.table;
-        let width = rows.iter().map(Vec::len).max().unwrap_or(0);
-        if width == 0 {
-            let line = self
-                .original
-                .text
-                .lines()
-                .find(|line| !line.trim().is_empty())
-                .map(|line| shorten(line.trim()));
-            let found = line.map_or("an empty table".to_owned(), |line| {
-                format!("no row of numbers, but `{line}`")
-            });
-            let expected = "a row of names, such as `h L2 H1`, then rows of numbers, such as `0.1 1.6e-3 4e-2`";
-            return Err(self.refuse(expected, &found));
-        }
-        let names = self.table.column_names(self.choice.names.as_deref());
-        if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
-            let example = (1..=width).map(|k| format!("c{k}")).collect();
-            let offer = self.offer(|choice| choice.names = Some(example));
-            let expected = format!("{}, one for each name", counted(names.len(), "cell"));
-            let found = counted(row.len(), "cell");
-            let first = row.first().unwrap_or(&self.original.text);
-            let error = self.error(first, None, expected, &found);
-            return Err(error.offering([offer]));
-        }
-        if let Some(k) = names
-            .iter()
-            .position(|column| column.name.contains(is_hidden))
-        {
-            let found = format!("`{}`", shorten(&names[k].name));
-            let expected = "a name without control characters";
-            return Err(self.error(self.head(k), None, expected, &found));
-        }
-        let columns = self.columns_of(names);
-        if width < 2 && self.choice.ratio.is_none() {
-            let found = "one column: write the table as CSV";
-            let refusal = self.refuse("a column of steps and at least one of errors", found);
-            let halved = Offer {
-                comment: "if each row halves the step",
-                ..self.offer(|choice| choice.ratio = Some(2.0))
-            };
-            let is_column = columns[0].is_steep();
-            return Err(refusal.offering(is_column.then_some(halved)));
-        }
-        Ok(columns)
-    }
-
-    /// A column that the table lacks: the numbers of its rows, for `--ratio`.
-    fn numbers_of_rows(&self) -> Cells<'t> {
-        let rows = self.table.rows.len();
-        Cells {
-            name: "row".to_owned(),
-            word: Word::Cost,
-            texts: vec![""; rows],
-            values: (0..rows).map(|row| row as f64).collect(),
-            is_number: vec![true; rows],
-            halves: vec![0.0; rows],
-            is_claimed: false,
-            is_index: false,
-        }
-    }
-
-    fn columns_of(&self, names: Vec<ColumnName>) -> Vec<Cells<'t>> {
-        let RawTable {
-            rows,
-            decimal_comma,
-            ..
-        } = self.table;
-        let mut names = names;
-        for (k, column) in names
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, column)| column.name.is_empty())
-        {
-            column.name = format!("column {}", k + 1);
-        }
-        let Choice {
-            columns,
-            claimed,
-            values,
-            ..
-        } = self.choice;
-        let claimed = columns.iter().flatten().chain(claimed).chain(values);
-        let claimed = claimed.filter_map(|name| {
-            names::claimed_position(names.iter().map(|column| column.name.as_str()), name)
-        });
-        let claimed: HashSet<usize> = claimed.collect();
-        // With decimal commas, `1.024` may be 1024.
-        let has_comma = *decimal_comma
-            && rows
-                .iter()
-                .flatten()
-                .any(|cell| cell.contains(',') && number(cell, true).is_some());
-        let mut columns = Vec::with_capacity(names.len());
-        for (k, ColumnName { name, word }) in names.into_iter().enumerate() {
-            let texts = without_unit(rows.iter().map(|row| row[k]).collect());
-            let percent = in_percent(&texts);
-            let numbers: Vec<_> = texts
-                .iter()
-                .map(|text| {
-                    let is_ambiguous =
-                        has_comma && text.contains('.') || percent.is_none() && has_percent(text);
-                    number(text, *decimal_comma).filter(|_| !is_ambiguous)
-                })
-                .collect();
-            let name = named_in(name, percent);
-            let may_count =
-                matches!(word, Word::Unknown | Word::Cost | Word::Count(_)) && rows.len() > 1;
-            columns.push(Cells {
-                name,
-                word,
-                values: numbers
-                    .iter()
-                    .map(|number| number.map_or(f64::NAN, |number| number.value))
-                    .collect(),
-                is_number: numbers.iter().map(Option::is_some).collect(),
-                halves: halves(&numbers),
-                is_claimed: claimed.contains(&k),
-                is_index: may_count && counts_rows(&texts),
-                texts,
-            });
-        }
-        columns
+        reader
     }
 
     /// The column with that name, or with that number from 1, which an argument selects.
     pub(super) fn find(&self, wanted: &str, argument: Argument) -> Result<usize, InputError> {
-        let names = self.columns.iter().map(|column| column.name.as_str());
-        if let Some(column) = names::position(names.clone(), wanted) {
+        if let Some(column) = position(&self.columns, wanted) {
             return Ok(column);
         }
-        if let Ok(number @ 1..) = wanted.parse::<usize>()
-            && number <= self.columns.len()
-        {
-            return Ok(number - 1);
-        }
+        let names = self.columns.iter().map(|column| column.name.as_str());
         let suggestion = nearest(wanted, names.clone().take(LISTED)).map(str::to_owned);
         let found = format!("`{}`{}", shorten(wanted), did_you_mean(&suggestion));
         let list = listed(names.map(str::to_owned));
@@ -245,28 +215,24 @@ impl<'t> TableReader<'t> {
 
     /// The number of a cell that must hold one.
     pub(super) fn must(&self, row: usize, column: usize) -> Result<f64, InputError> {
-        let Cells {
-            name,
-            texts,
-            values,
-            is_number,
-            ..
-        } = &self.columns[column];
-        is_number[row].then_some(values[row]).ok_or_else(|| {
-            let cell = texts[row];
-            let more = if has_percent(cell) && number(cell, true).is_some() {
-                "; of its column, some numbers have `%` and others do not"
-            } else if cell.len() > 1 && cell.chars().all(|c| c == '*') {
-                "; Fortran writes stars where the field is too narrow"
-            } else if self.table.decimal_comma && cell.contains(',') {
-                "; its comma may be that of decimals or of thousands"
-            } else if number(cell, true).is_some() {
-                "; its point may be that of decimals or of thousands, for others have decimal commas"
-            } else {
-                ""
-            };
-            self.error(cell, Some(name), format!("a number{more}"), &format!("`{}`", shorten(cell)))
-        })
+        let cells = &self.columns[column];
+        if cells.is_number(row) {
+            return Ok(cells.values[row]);
+        }
+        let cell = cells.texts[row];
+        let more = if has_percent(cell) && number(cell, true).is_some() {
+            "; of its column, some numbers have `%` and others do not"
+        } else if cell.len() > 1 && cell.chars().all(|c| c == '*') {
+            "; Fortran writes stars where the field is too narrow"
+        } else if cell.contains(',') {
+            "; its comma may be that of decimals or of thousands"
+        } else if number(cell, true).is_some() {
+            "; its point may be that of decimals or of thousands, for others have decimal commas"
+        } else {
+            ""
+        };
+        let found = format!("`{}`", shorten(cell));
+        Err(self.error(cell, Some(&cells.name), format!("a number{more}"), &found))
     }
 
     pub(super) fn names(&self, columns: &[usize]) -> Vec<String> {
@@ -285,23 +251,9 @@ impl<'t> TableReader<'t> {
         )
     }
 
-    /// The name above a column, or the beginning of the text.
-    pub(super) fn head(&self, column: usize) -> &str {
-        self.table
-            .names
-            .get(column)
-            .copied()
-            .unwrap_or(self.original.text)
-    }
-
     /// A complaint about the row of names.
     pub(super) fn refuse(&self, expected: impl Into<Text>, found: &str) -> InputError {
-        self.error(self.head(0), None, expected, found)
-    }
-
-    /// The byte offset of a piece within the text.
-    pub(super) fn offset(&self, piece: &str) -> usize {
-        (piece.as_ptr() as usize).saturating_sub(self.original.text.as_ptr() as usize)
+        self.error(self.columns[0].head, None, expected, found)
     }
 
     /// A complaint about a piece of the text.
@@ -312,22 +264,23 @@ impl<'t> TableReader<'t> {
         expected: impl Into<Text>,
         found: &str,
     ) -> InputError {
-        let Original { text, name, rows } = self.original;
-        let complaint = Complaint::Table {
-            expected: expected.into(),
-            found: found.to_owned(),
-        };
-        let offset = self.offset(piece);
-        match (rows, field) {
-            (Rows::Frame, Some(field)) => {
-                let row = self.original.row(offset);
-                failed(&format!("{field}[{row}]"), complaint)
-            }
-            (Rows::Lines, _) if !text.trim().is_empty() => {
-                let source = Source { file: name, text };
-                source.error(offset, field.map(str::to_owned), complaint)
-            }
-            _ => failed(name, complaint),
-        }
+        self.original.error(piece, field, expected, found)
     }
+}
+
+/// A column that the table lacks: the numbers of its rows, for `--ratio`.
+fn numbers_of_rows<'t>(rows: usize) -> Cells<'t> {
+    let name = ColumnName {
+        name: "row".to_owned(),
+        word: Word::Cost,
+    };
+    let numbers = (0..rows).map(|row| Some(Number::exact(row as f64)));
+    Cells::new("", name, vec![""; rows], numbers.collect())
+}
+
+/// The column of this name, or of this number from 1.
+pub(super) fn position(columns: &[Cells<'_>], wanted: &str) -> Option<usize> {
+    let names = columns.iter().map(|column| column.name.as_str());
+    let number = || wanted.parse::<usize>().ok()?.checked_sub(1);
+    names::position(names, wanted).or_else(|| number().filter(|k| *k < columns.len()))
 }

@@ -7,19 +7,18 @@ use std::hash::Hash;
 use super::columns::Cells;
 use super::doubt;
 use super::failed_run;
-use super::frame::Original;
-use super::groups;
+use super::groups::{self, Group, Side};
 use super::limits;
 use super::lines;
 use super::names::Word;
-use super::pairs::{LeftOut, RawTable};
-use super::parameters::{self, Parameter};
+use super::original::Original;
+use super::parameters;
 use super::parts::{self, Part};
-use super::reader::{TableReader, listed};
+use super::reader::{self, TableReader, listed};
 use super::step::{Measure, Step};
 use super::{Choice, Column, NotError, RateTable, names};
 use crate::input::advice::{Argument, Text};
-use crate::input::{Complaint, InputError, failed, shorten};
+use crate::input::{InputError, shorten};
 use crate::judge::verdict::Level;
 use crate::text::number::counted;
 
@@ -75,11 +74,7 @@ pub(super) fn read(original: Original<'_>, choice: &Choice) -> Result<RateTable,
                 .iter()
                 .chain(&last)
                 .map(|(heading, _)| format!("`{heading}`"));
-            let complaint = Complaint::Table {
-                expected: "one table".into(),
-                found: listed(headings),
-            };
-            Err(failed(original.name, complaint))
+            Err(original.refuse("one table", &listed(headings)))
         }
     }
 }
@@ -95,34 +90,10 @@ fn has_claimed_columns(tables: &[(String, RateTable)], choice: &Choice) -> bool 
     claimed.all(|name| tables.iter().any(|(_, table)| has(table, name)))
 }
 
-/// A table that is not yet read.
-struct Grid<'t> {
-    heading: String,
-    parameters: Vec<Parameter>,
-    table: RawTable<'t>,
-}
-
-/// The tables of all parts.
-fn grids<'t>(parts: &[Part<'t>], choice: &Choice) -> Vec<Grid<'t>> {
-    let mut grids = vec![];
-    for part in parts {
-        for group in groups::split(&part.table, choice) {
-            let headings = [part.heading.as_str(), group.heading.as_str()];
-            let all = headings.join(", ");
-            let parameters = parameters::of_table(&all, &group.table);
-            let heading = match headings {
-                [_, group] if parts.len() == 1 => group.to_owned(),
-                [part, ""] => part.to_owned(),
-                _ => all,
-            };
-            grids.push(Grid {
-                heading,
-                parameters,
-                table: group.table,
-            });
-        }
-    }
-    grids
+/// Columns of a part, which are a table or several below each other.
+struct Grid<'p, 't> {
+    part: &'p Part<'t>,
+    side: Side<'t>,
 }
 
 /// Reads all tables with one choice. Beside others, a table that holds no errors by its names is
@@ -132,50 +103,73 @@ fn attempt_all(
     choice: &Choice,
     parts: &[Part<'_>],
 ) -> Result<Vec<(String, RateTable)>, InputError> {
-    let mut grids = grids(parts, choice);
-    let has_errors = |grid: &Grid<'_>| may_have_errors(&grid.table, choice);
-    let mut without_errors: Vec<String> = vec![];
-    if grids.iter().any(has_errors) {
-        let others = grids.iter().filter(|grid| !has_errors(grid));
-        without_errors = others.map(|grid| grid.heading.clone()).collect();
-        grids.retain(has_errors);
+    let sides = parts.iter().flat_map(|part| {
+        let sides = groups::side_by_side(&part.table, choice).into_iter();
+        sides.map(move |side| Grid { part, side })
+    });
+    let chosen = choice.names.as_deref();
+    let (mut grids, mut others): (Vec<Grid<'_, '_>>, Vec<Grid<'_, '_>>) =
+        sides.partition(|grid| grid.side.table.may_have_errors(chosen));
+    if grids.is_empty() {
+        std::mem::swap(&mut grids, &mut others);
     }
     let mut tables = vec![];
-    for Grid {
-        heading,
-        parameters,
-        table,
-    } in grids
-    {
-        let table = attempt(original, choice, &table)?;
-        tables.push((
-            heading,
-            RateTable {
-                parameters,
-                ..table
-            },
-        ));
+    for grid in &grids {
+        attempt_grid(original, choice, grid, parts.len() == 1, &mut tables)?;
     }
     if let Some((_, first)) = tables.first_mut()
-        && !without_errors.is_empty()
+        && !others.is_empty()
     {
-        let quoted = without_errors.iter().map(|heading| format!("`{heading}`"));
+        let headings = others
+            .iter()
+            .map(|Grid { part, side }| match &*side.heading {
+                "" => part.heading.clone(),
+                heading => heading.to_owned(),
+            });
+        let headings: Vec<String> = headings.collect();
+        let quoted = headings.iter().map(|heading| format!("`{heading}`"));
         first.reading += &format!("; without errors: {}", listed(quoted));
-        let not_errors = without_errors.into_iter().map(|heading| NotError {
-            column: heading,
-            because: "a table without errors".to_owned(),
-            is_checked: false,
-        });
-        first.not_errors.extend(not_errors);
+        first
+            .not_errors
+            .extend(headings.into_iter().map(|column| NotError {
+                column,
+                because: "a table without errors".to_owned(),
+                is_checked: false,
+            }));
     }
     Ok(tables)
 }
 
-/// Whether some name of a grid is not that of a step, a count, a rate or a cost.
-fn may_have_errors(grid: &RawTable<'_>, choice: &Choice) -> bool {
-    let names = grid.column_names(choice.names.as_deref());
-    let is_uneven = grid.left_out.iter().any(LeftOut::may_be_error);
-    is_uneven || names.iter().any(|column| column.word.noun().is_none())
+/// Reads the tables below each other in some columns.
+///
+/// * `is_only`: whether no other part needs a heading.
+fn attempt_grid(
+    original: Original<'_>,
+    choice: &Choice,
+    Grid { part, side }: &Grid<'_, '_>,
+    is_only: bool,
+    tables: &mut Vec<(String, RateTable)>,
+) -> Result<(), InputError> {
+    let group = Group {
+        heading: side.heading.clone(),
+        columns: reader::columns(original, choice, &side.table)?,
+    };
+    for Group { heading, columns } in groups::below_each_other(group, choice) {
+        let all = [part.heading.as_str(), &heading].join(", ");
+        let parameters = parameters::of_table(&all, &columns);
+        let reader = TableReader::new(original, choice, columns, &side.table);
+        let table = RateTable {
+            parameters,
+            ..attempt(reader, side.table.uneven.as_ref())?
+        };
+        let heading = match heading.as_str() {
+            _ if is_only => heading,
+            "" => part.heading.clone(),
+            _ => all,
+        };
+        tables.push((heading, table));
+    }
+    Ok(())
 }
 
 /// The k-th column over the steps.
@@ -190,7 +184,6 @@ fn column(
     step_halves: &[f64],
 ) -> Result<Column, InputError> {
     let cells = &reader.columns[k];
-    let Cells { name, halves, .. } = cells;
     let missing = match cells.missing() {
         missing if missing < steps.len() => missing,
         _ => 0,
@@ -206,28 +199,28 @@ fn column(
         levels.push(Level { step: *step, error });
     }
     Ok(Column {
-        name: name.clone(),
+        name: cells.name.clone(),
         levels,
-        halves: halves[missing..].to_vec(),
+        halves: cells.halves[missing..].to_vec(),
         step_halves: step_halves[missing..].to_vec(),
     })
 }
 
 /// Reads a table with one choice.
+///
+/// * `uneven`: a name in a log with more numbers or fewer than there are levels.
 fn attempt(
-    original: Original<'_>,
-    choice: &Choice,
-    table: &RawTable<'_>,
+    mut reader: TableReader<'_>,
+    uneven: Option<&NotError>,
 ) -> Result<RateTable, InputError> {
-    let mut reader = TableReader::new(original, choice, table)?;
     let step = reader.step()?;
     let steps = reader.sort(&step)?;
     let ChosenColumns { mut errors, values } = reader.chosen_columns(step.column)?;
     reader.find_states(step.column, &errors, &values);
-    let mut others = vec![];
-    if choice.columns.is_none() {
-        errors = reader.error_columns(&step, &steps, &values)?;
-        others = std::mem::take(&mut reader.left_out);
+    let mut not_errors = vec![];
+    if reader.choice.columns.is_none() {
+        errors = reader.error_columns(&step, &steps, &values, uneven)?;
+        not_errors = std::mem::take(&mut reader.left_out);
     }
     if let Some(&second) = repeated(errors.iter().chain(&values), |k| &reader.columns[*k].name) {
         return Err(reader.refuse_repetition(second));
@@ -243,32 +236,18 @@ fn attempt(
             .map(|k| column(&reader, *k, &steps, &step_halves))
             .collect()
     };
-    let errors_over_steps = columns(&errors)?;
-    let jumps = errors_over_steps
+    let columns_of_errors = columns(&errors)?;
+    let jumps = columns_of_errors
         .iter()
         .filter_map(|column| doubt::unit(column).or_else(|| doubt::jump(column)));
-    let doubts = jumps.chain(reader.contradiction(step.column));
+    let doubts = jumps.chain(reader.contradiction(step.column)).collect();
     Ok(RateTable {
-        reading: reading(&reader, &step, [&errors, &values], &others),
-        columns: columns(&errors)?,
+        reading: reading(&reader, &step, [&errors, &values], &not_errors),
+        columns: columns_of_errors,
         values: columns(&values)?,
-        not_errors: others
-            .into_iter()
-            .map(
-                |LeftOut {
-                     name,
-                     reason,
-                     is_checked,
-                     ..
-                 }| NotError {
-                    column: name,
-                    because: reason,
-                    is_checked,
-                },
-            )
-            .collect(),
+        not_errors,
         parameters: vec![],
-        doubts: doubts.collect(),
+        doubts,
         rows_outside: vec![],
         is_guessed: !step.how.is_empty(),
         step: step.label,
@@ -282,7 +261,7 @@ fn reading(
     reader: &TableReader<'_>,
     step: &Step,
     judged: [&[usize]; 2],
-    others: &[LeftOut],
+    others: &[NotError],
 ) -> String {
     let parts = [
         ("errors", reader.quoted(judged[0])),
@@ -308,11 +287,11 @@ fn reading(
 }
 
 /// Columns that are not errors, each with the reason.
-pub(super) fn reasons(others: &[LeftOut]) -> String {
+pub(super) fn reasons(others: &[NotError]) -> String {
     listed(
         others
             .iter()
-            .map(|LeftOut { name, reason, .. }| format!("`{name}` ({reason})")),
+            .map(|one| format!("`{}` ({})", one.column, one.because)),
     )
 }
 
@@ -343,7 +322,7 @@ impl TableReader<'_> {
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]));
         if let Some(two) = order.windows(2).find(|two| steps[two[0]] == steps[two[1]]) {
             let [before, cell] = [two[0], two[1]].map(|row| cells.texts[row]);
-            let [first, second] = [before, cell].map(|cell| self.original.row(self.offset(cell)));
+            let [first, second] = [before, cell].map(|cell| self.original.row(cell));
             let rows = self.original.noun();
             let found = format!("`{}` = {cell} in {rows} {first} and {second}", cells.name);
             return Err(self.error(
@@ -355,7 +334,8 @@ impl TableReader<'_> {
         }
         let is_in_order = order.is_sorted() || order.is_sorted_by(|a, b| a > b);
         self.is_shuffled = !is_in_order;
-        self.columns.iter_mut().for_each(|cells| cells.sort(&order));
+        let sorted = self.columns.iter().map(|cells| cells.select(&order));
+        self.columns = sorted.collect();
         Ok(order.iter().map(|row| steps[*row]).collect())
     }
 
@@ -405,9 +385,11 @@ impl TableReader<'_> {
                 }
                 .replace(',', ";")
             });
-        let offer = self.offer(|choice| choice.names = Some(numbered.collect()));
+        let offer = self
+            .choice
+            .offer("", |choice| choice.names = Some(numbered.collect()));
         let found = format!("`{}` a second time", shorten(&self.columns[column].name));
-        self.error(self.head(column), None, "each name once", &found)
+        self.error(self.columns[column].head, None, "each name once", &found)
             .offering([offer])
     }
 }

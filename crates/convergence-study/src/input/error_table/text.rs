@@ -1,9 +1,11 @@
 //! Any text as rows of cells below names.
 
+use super::grid::RawTable;
 use super::heads::{self, Names};
 use super::names;
 use super::number::number;
-use super::pairs::{self, RawTable};
+use super::original::offset;
+use super::pairs::Scan;
 use super::turned;
 
 /// First words of a row that sums up those above it.
@@ -15,12 +17,15 @@ const FULL: usize = 4;
 /// Finds the table in a text that has been made [plain](super::cleaned::plain): names with numbers
 /// after them, or rows below names.
 ///
+/// * `scan`: the names and numbers of the text.
 /// * `earlier`: the names of the table above it in the same text, which it may share.
-pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
-    if let Some(table) = pairs::read(text, true) {
+pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> RawTable<'t> {
+    if let Some(table) = turned::with_rates_between(text) {
         return table;
     }
-    if let Some(table) = turned::with_rates_between(text) {
+    if scan.is_log
+        && let Some(table) = scan.table()
+    {
         return table;
     }
     let Lines {
@@ -35,7 +40,8 @@ pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
         .iter_mut()
         .for_each(|line| *line = line.trim_start_matches(['#', '%', '!']));
     if rows.is_empty() {
-        return pairs::read(text, false).unwrap_or_default();
+        let table = scan.table().filter(|_| scan.rows.is_empty());
+        return table.unwrap_or_default();
     }
     let spans = spans(&rows);
     if separator.is_none() {
@@ -43,6 +49,9 @@ pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
     }
     let rows: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
     let width = rows.iter().map(Vec::len).max().unwrap_or(0);
+    if turned::has_steps_in_head(&rows, &heads) {
+        return turned::transpose(&rows, &heads);
+    }
     let table = RawTable {
         decimal_comma: separator != Some(','),
         ..RawTable::default()
@@ -62,7 +71,10 @@ pub(super) fn read<'t>(text: &'t str, earlier: &[&'t str]) -> RawTable<'t> {
         .or_else(|| heads::find(&heads, &rows, &spans, separator))
         .or_else(|| heads::shared(earlier, &heads, separator, width).map(with_names))
     {
-        None if turned::is_turned(&rows) => turned::transpose(&rows, width, table),
+        None if turned::is_turned(&rows) => RawTable {
+            decimal_comma: table.decimal_comma,
+            ..turned::transpose(&rows, &heads)
+        },
         names => {
             // If the number of words is not that of the columns, it says how many columns there
             // should be.
@@ -249,12 +261,7 @@ fn names_in_quotes<'t>(
 
 /// Whether a quote stands before a cell in its line.
 fn is_quoted(line: &str, cell: &str) -> bool {
-    line[..place(line, cell)].ends_with('"')
-}
-
-/// The byte at which a cell begins in its line.
-pub(super) fn place(line: &str, cell: &str) -> usize {
-    cell.as_ptr() as usize - line.as_ptr() as usize
+    line[..offset(line, cell)].ends_with('"')
 }
 
 /// The separator of a table: the first that leaves no two numbers in one cell of its first row;
@@ -303,7 +310,7 @@ fn is_drawn(c: char) -> bool {
 
 /// The first byte of a cell in its line, and the byte after its last one.
 pub(super) fn span(line: &str, cell: &str) -> [usize; 2] {
-    let start = place(line, cell);
+    let start = offset(line, cell);
     [start, start + cell.len()]
 }
 

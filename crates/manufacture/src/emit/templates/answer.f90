@@ -5,7 +5,7 @@ program @NAME@_answer
     character(4096) :: text, face
     real(double) :: p(@V@), x(@D@)@REAL@
     integer :: status@WHOLE@
-    call get_command_argument(1, face)
+@CHOOSE@    call get_command_argument(1, face)
 @SETTINGS@    read(*, '(a)', iostat=status) text
     select case (trim(face))
 @NAMES@    case default

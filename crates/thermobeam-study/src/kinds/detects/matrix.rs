@@ -1,7 +1,7 @@
 //! Every study under every fault: runs, verdicts, and the rule that judges them.
 
-use super::fault::Fault;
-use super::plantable::{Plantable, verdict};
+use crate::kinds::orders::planted::fault::Fault;
+use crate::kinds::orders::planted::plantable::{Plantable, verdict};
 use crate::kinds::orders::{Orders, Source};
 use crate::kinds::prelude::*;
 
@@ -64,6 +64,10 @@ struct Row {
 impl<S: Plantable> Kind for Detects<S> {
     type Data = RunOf<S::Data>;
     type Found = UnderFaults<S::Found>;
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        super::exercise(&self.studies, subject).settings(header, subject)
+    }
 
     fn cases(&self) -> Vec<Case<RunOf<S::Data>>> {
         let faults = self.faults.len() as f64;

@@ -25,22 +25,19 @@
 //! ```
 
 mod any_order;
-mod fault;
 mod manufactured;
 mod matrix;
-mod plantable;
 mod smallest;
-pub(super) mod untested;
 
-pub use fault::{Fault, Planted};
+pub use super::orders::planted::fault::{Fault, Planted};
+pub use super::orders::planted::plantable::Plantable;
 pub use matrix::{Detects, RunOf, UnderFaults};
-pub use plantable::Plantable;
 pub use smallest::Sensitivity;
 
 use super::orders::any_order::AnyOrder;
 use super::orders::manufactured::Convergence;
+use super::orders::{Orders, Source};
 use super::prelude::*;
-use crate::kinds::settings::has_table;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -58,15 +55,6 @@ pub const ROW: KindRow = KindRow {
              coefficient some study must detect a relative error as small as the file says.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
-    settings: |header, item| {
-        let is_any_order = has_table(header, "any-order.");
-        let method = if is_any_order {
-            ItemMethod::AnyOrder
-        } else {
-            ItemMethod::OneStep
-        };
-        Topic::of_solution(header, method).settings(header, item)
-    },
 };
 
 const RELATIVE_KEY: Key = Key::new(
@@ -85,6 +73,19 @@ const ELEMENTS: Key = Key::new(
     "numbers of elements in place of those of the studies",
 )
 .or("those of the studies");
+
+/// What an item exercises: what the study does that it is about, or all of them.
+fn exercise<S: Source>(studies: &[Described<Orders<S>>], subject: &Subject) -> Exercise {
+    let case = subject.case.as_deref();
+    let named = studies.iter().find(|study| Some(&*study.header.id) == case);
+    let all = match named {
+        Some(study) => std::slice::from_ref(study),
+        None => studies,
+    };
+    let all = all.iter().map(|study| study.kind.exercise());
+    all.reduce(Exercise::and)
+        .unwrap_or_else(|| Exercise::new(MANUFACTURED, Integration::PAPER, Terms::default()))
+}
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
 /// the file.

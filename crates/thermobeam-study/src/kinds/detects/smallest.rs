@@ -8,12 +8,12 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use super::fault::{RELATIVE, relative};
 use super::manufactured::named_studies;
-use super::plantable::Detector;
 use super::{ELEMENTS, STUDIES};
 use crate::kinds::orders::Orders;
 use crate::kinds::orders::manufactured::Convergence;
+use crate::kinds::orders::planted::fault::{RELATIVE, relative};
+use crate::kinds::orders::planted::plantable::Detector;
 use crate::kinds::prelude::*;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
@@ -70,6 +70,10 @@ impl Kind for Sensitivity {
     type Data = (usize, &'static str);
     /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        super::exercise(&self.studies, subject).settings(header, subject)
+    }
 
     fn cases(&self) -> Vec<Case<Self::Data>> {
         let runs = BISECTIONS as f64 + 2.0;

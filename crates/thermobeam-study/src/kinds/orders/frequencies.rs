@@ -89,7 +89,6 @@ impl Source for Frequencies {
         judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \
                  below the first must be met on the finest mesh.",
         failure: "Mass, stiffness or coupling of the discretisation is wrong.",
-        settings: |header, item| Topic::vibrations(ItemMethod::Exact).settings(header, item),
     };
 
     /// Number of elements.
@@ -120,6 +119,12 @@ impl Source for Frequencies {
                 ..claim
             },
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let linear = Terms::default();
+        Exercise::new(FREE_VIBRATIONS, Integration::Exact, linear)
+            .on(Nodes::of_layout(&self.layout))
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

@@ -9,6 +9,7 @@ pub mod any_order;
 pub mod frequencies;
 pub mod manufactured;
 mod one_step;
+pub(in crate::kinds) mod planted;
 pub mod projection;
 pub mod self_convergence;
 pub mod vibration;
@@ -21,6 +22,7 @@ use convergence_study::{
         over_levels::rate_table,
         until_decided::{self, Looks, Next},
     },
+    variants::Variants,
 };
 
 use super::prelude::*;
@@ -42,6 +44,9 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// # Errors
     /// [`InputError`] with file, line, field, the value found and the values allowed.
     fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+
+    /// What its items exercise.
+    fn exercise(&self) -> Exercise;
 
     /// The runs, coarse to fine.
     fn cases(&self) -> Vec<Case<Self::Data>>;
@@ -71,6 +76,16 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// As [`Kind::untested`].
     fn untested(&self) -> Vec<Untested> {
         vec![]
+    }
+
+    /// As [`Kind::variants`].
+    fn variants(&self) -> Option<Variants> {
+        None
+    }
+
+    /// As [`Kind::with_variant`].
+    fn with_variant(&self, _variant: &str) -> Option<Self> {
+        None
     }
 }
 
@@ -237,12 +252,24 @@ impl<S: Source> Kind for Orders<S> {
         }
     }
 
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        self.0.exercise().settings(header, subject)
+    }
+
     fn details(&self) -> Vec<(String, String)> {
         self.0.details()
     }
 
     fn untested(&self) -> Vec<Untested> {
         self.0.untested()
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        self.0.variants()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.0.with_variant(variant).map(Self)
     }
 }
 

@@ -21,10 +21,12 @@
 //! tolerance = 0.005
 //! ```
 
+use crate::kinds::settings::INITIAL_DATA;
 use thermobeam_exact::projection::{Projected, SMOOTH_BOUND, Target, VALUE_BOUND};
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
+use crate::kinds::settings::INITIAL_DATA;
 use crate::kinds::tables::{CLAIM_KEYS, Layout, MAP, claims, increasing, mean_width};
 use crate::scene::{INITIAL, Initial};
 
@@ -195,11 +197,6 @@ impl Source for Projection {
         judged: "The orthogonality that defines the projection; the rate of each claimed error; its bound with the best constant, and \
                  the leading term, known before the run.",
         failure: "The initial data of a scene are not its projections on this mesh.",
-        settings: |header, item| {
-            Topic::new("initial data", ItemMethod::Exact)
-                .of_file()
-                .settings(header, item)
-        },
     };
 
     /// Number of elements.
@@ -249,6 +246,11 @@ impl Source for Projection {
             layout,
             expect,
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let terms = Terms::of(&self.beam, None);
+        Exercise::new(INITIAL_DATA, Integration::Exact, terms).on(Nodes::of_layout(&self.layout))
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

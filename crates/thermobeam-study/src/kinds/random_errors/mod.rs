@@ -41,9 +41,6 @@ pub const ROW: KindRow = KindRow {
     judged: "No error of any number exceeds 1.3 times its estimate, no run the error asked for, no search is refused unless its data \
              are rough, and the error of linear elements falls at least fourfold with four times the elements and steps.",
     failure: "The comparisons of a search are too coarse, or look where the error is not; a run that no finer one confirms may be wrong.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// Tolerance of the baseline on the work: one round more or less of a search.
@@ -148,6 +145,16 @@ fn given(section: &Section<'_>, name: String) -> Result<Scene, InputError> {
 impl Kind for RandomErrors {
     type Data = Drawn;
     type Found = Found;
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let case = subject.case.as_deref();
+        let given = self.given.iter().find(|scene| Some(&*scene.name) == case);
+        let exercise = match given {
+            Some(scene) => Exercise::of_scene(CONTACT, Integration::PAPER, scene),
+            None => Exercise::new(CONTACT, Integration::PAPER, Terms::MODERATE),
+        };
+        exercise.settings(header, subject)
+    }
 
     fn cases(&self) -> Vec<Case<Drawn>> {
         let smooth =

@@ -20,9 +20,6 @@ pub const ROW: KindRow = KindRow {
     judged: "A scene is run with data δ apart. At each time difference/δ is the same for every δ, through contacts too, and at most \
              the bound that Lipschitz constants along the run give.",
     failure: "The motion depends on its data by jumps: a contact event is missed, or a step has several solutions.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::AnyOrder).settings(header, item)
-    },
 };
 
 /// Elements on whose nodes runs are compared.
@@ -96,6 +93,10 @@ impl Runs for Dependence {
             within: root.positive("within")?,
             scene,
         })
+    }
+
+    fn exercise(&self, _case: Option<&str>) -> Exercise {
+        Exercise::of_scene(CONTACT, Integration::AnyOrder, &self.scene)
     }
 
     fn runs(&self) -> Vec<Case<Option<usize>>> {

@@ -24,9 +24,6 @@ pub const ROW: KindRow = KindRow {
     judged: "Beams are run to rest on several meshes; their end states converge at second order to an exact \
              state; a run of any order ends in it.",
     failure: "The steady part of the equations is discretised wrongly, or the beam has not come to rest.",
-    settings: |header, item| {
-        Topic::new("steady states", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// Order of the elements in u and φ.
@@ -146,6 +143,10 @@ impl Runs for EndStates {
             error: expect.positive("error")?,
             any_order: any_order.as_ref().map(AnyOrder::read).transpose()?,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        Exercise::of_scenes("steady states", Integration::PAPER, &self.scenes, case)
     }
 
     fn runs(&self) -> Vec<Case<LongRun>> {

@@ -39,6 +39,9 @@ pub trait Runs: Sized + Send + Sync {
     /// [`InputError`] with file, line, field, the value found and the values allowed.
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
 
+    /// What the items of a case exercise; those of the study as a whole without one.
+    fn exercise(&self, case: Option<&str>) -> Exercise;
+
     /// The runs, in the order in which they are judged.
     fn runs(&self) -> Vec<Case<Self::Run>>;
 
@@ -194,6 +197,11 @@ impl<R: Runs> Kind for RunStudy<R> {
 
     fn run(&self, run: &R::Run) -> Result<R::Shown, CaseFailure> {
         self.0.run(run)
+    }
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let exercise = self.0.exercise(subject.case.as_deref());
+        exercise.settings(header, subject)
     }
 
     fn judge(&self, ran: &[Ran<R::Run, R::Shown>]) -> Outcome {

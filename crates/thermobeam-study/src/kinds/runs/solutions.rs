@@ -32,9 +32,6 @@ pub const ROW: KindRow = KindRow {
     judged: "All solutions of a step from rest are found, for each dt, and their tips compared with answers of another program. Where \
              λ >= 0 there must be one.",
     failure: "The matrices of the step are wrong, or a solution was missed.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// Relative change of a number that the baseline tolerates: that of round-off in dense matrices.
@@ -131,6 +128,11 @@ impl Runs for Solutions {
             steps,
             within: root.positive("within")?,
         })
+    }
+
+    fn exercise(&self, _case: Option<&str>) -> Exercise {
+        let terms = Terms::of(&self.beam, Some(&self.obstacles));
+        Exercise::new(CONTACT, Integration::PAPER, terms)
     }
 
     fn runs(&self) -> Vec<Case<usize>> {

@@ -44,6 +44,10 @@ pub(super) const KEYS: [Key; 4] = [
 ];
 
 impl Comparison {
+    pub(super) fn terms(&self) -> Terms {
+        Terms::of(&self.scene.beam, self.scene.obstacles.as_ref())
+    }
+
     pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         Ok(Self {
             scene: Scene::read_one_step(

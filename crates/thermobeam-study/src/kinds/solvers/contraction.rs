@@ -79,20 +79,30 @@ impl Grid {
         cases
     }
 
+    /// The terms at the place that a case is named after, or at any.
+    pub(super) fn terms(&self, case: Option<&str>) -> Terms {
+        let mut terms = Terms::default();
+        for known in self.cases() {
+            let SolverTask::Contraction(place) = known.data else {
+                continue;
+            };
+            let one = Terms::of(&place.beam(), Some(&place.obstacles()));
+            if Some(&*known.label) == case {
+                return one;
+            }
+            terms = terms.or(one);
+        }
+        terms
+    }
+
     /// The beam at rest in contact, before it is disturbed.
-    fn state(&self, Place { epsilon, zeta, .. }: Place) -> Result<Problem, MeshError> {
+    fn state(&self, place: Place) -> Result<Problem, MeshError> {
         let mesh = Mesh::uniform(self.elements)?;
         let mut initial = InitialValues::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
         Ok(Problem {
-            beam: Beam {
-                zeta,
-                ..Beam::default()
-            },
-            obstacles: Some(Obstacles {
-                epsilon,
-                ..Obstacles::default()
-            }),
+            beam: place.beam(),
+            obstacles: Some(place.obstacles()),
             mesh,
             initial,
         })
@@ -177,6 +187,22 @@ pub struct Place {
     dt: f64,
     epsilon: f64,
     zeta: f64,
+}
+
+impl Place {
+    fn beam(self) -> Beam {
+        Beam {
+            zeta: self.zeta,
+            ..Beam::default()
+        }
+    }
+
+    fn obstacles(self) -> Obstacles {
+        Obstacles {
+            epsilon: self.epsilon,
+            ..Obstacles::default()
+        }
+    }
 }
 
 impl fmt::Display for Place {

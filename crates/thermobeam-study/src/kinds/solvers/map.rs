@@ -171,6 +171,12 @@ impl Map {
         beam
     }
 
+    /// The terms at the least value of the second parameter.
+    pub(super) fn terms(&self) -> Terms {
+        let obstacles = Obstacles::default();
+        Terms::of(&self.beam(self.range.low), Some(&obstacles))
+    }
+
     /// The scene at a value of the second parameter.
     fn problem(&self, value: f64) -> Result<Problem, MeshError> {
         let mut obstacles = Obstacles {

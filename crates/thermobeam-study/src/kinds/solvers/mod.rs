@@ -63,9 +63,6 @@ pub const ROW: KindRow = KindRow {
              and for Newton's method convergence, energy and balance at every point.",
     failure: "The iteration is not the paper's, its steps are not solved to the tolerance, or a solver is less stable \
               than theory says.",
-    settings: |header, item| {
-        Topic::new("maps of the solvers", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// A study of the two solvers; it has at least one part.
@@ -188,6 +185,19 @@ fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
 impl Kind for Solvers {
     type Data = SolverTask;
     type Found = Found;
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let case = subject.case.as_deref();
+        let mut terms = Terms::default();
+        for part in [
+            self.contraction.as_ref().map(|grid| grid.terms(case)),
+            self.comparison.as_ref().map(Comparison::terms),
+            self.map.as_ref().map(Map::terms),
+        ] {
+            terms = terms.or(part.unwrap_or_default());
+        }
+        Exercise::new("maps of the solvers", Integration::PAPER, terms).settings(header, subject)
+    }
 
     fn cases(&self) -> Vec<Case<SolverTask>> {
         let mut cases: Vec<_> = self.contraction.iter().flat_map(Grid::cases).collect();

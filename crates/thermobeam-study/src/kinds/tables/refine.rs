@@ -113,6 +113,17 @@ pub struct Refine {
 }
 
 impl Refine {
+    /// What a study with this refinement exercises.
+    pub(crate) fn exercise(&self, topic: &'static str, terms: Terms) -> Exercise {
+        Exercise::new(
+            topic,
+            Integration::of(&self.scheme, self.settings.solver),
+            terms,
+        )
+        .refined_in(axis_in_words(self.axis))
+        .on(Nodes::of_layout(&self.layout))
+    }
+
     /// The runs as (elements, steps), coarse to fine.
     pub fn cases(&self) -> Vec<(usize, usize)> {
         if self.axis == Axis::Both && !self.grid {

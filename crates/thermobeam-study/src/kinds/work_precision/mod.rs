@@ -60,11 +60,6 @@ pub const ROW: KindRow = KindRow {
              compared. Of each run the neighbours are made, an eighth coarser in h or dt, or a degree lower: none may be cheaper.",
     failure: "A method has become more expensive for the same error, it does not reach an error any more, or a listed run is not \
               the cheapest.",
-    settings: |header, item| {
-        Topic::new("cost", ItemMethod::OneStep)
-            .of_file()
-            .settings(header, item)
-    },
 };
 
 /// A reference is so many times better than the smallest target.
@@ -236,6 +231,17 @@ impl Trial {
 impl Kind for WorkPrecision {
     type Data = Trial;
     type Found = Measurement;
+
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+        let Family {
+            beam, obstacles, ..
+        } = &self.family;
+        let terms = Terms::of(beam, obstacles.as_ref());
+        let grading = self.family.grading();
+        Exercise::new("cost", Integration::PAPER, terms)
+            .on(grading.map_or(Nodes::Uniform, Nodes::of_mesh))
+            .settings(header, subject)
+    }
 
     fn cases(&self) -> Vec<Case<Trial>> {
         let near = self

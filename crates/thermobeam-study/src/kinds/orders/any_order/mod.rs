@@ -112,9 +112,6 @@ impl Source for AnyOrder {
                  must fall by the factor claimed for each degree until it reaches round-off.",
         failure: "Integrals in space or time are not exact enough, a term of the step is wrong, or the iteration for the axial force \
                   is stopped too early: look at the highest degree that still passes.",
-        settings: |header, item| {
-            Topic::of_solution(header, ItemMethod::AnyOrder).settings(header, item)
-        },
     };
 
     type Data = Resolution;
@@ -158,6 +155,19 @@ impl Source for AnyOrder {
             over,
             series,
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let theory = &self.theory;
+        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        let topic = if self.loaded {
+            MANUFACTURED
+        } else {
+            FREE_VIBRATIONS
+        };
+        Exercise::new(topic, Integration::AnyOrder, terms)
+            .refined_in(self.over.in_words())
+            .on(Nodes::of_layout(&self.layout))
     }
 
     fn cases(&self) -> Vec<Case<Resolution>> {

@@ -42,6 +42,17 @@ pub(super) enum Over {
     Degree,
 }
 
+impl Over {
+    /// What is refined, in words.
+    pub(super) fn in_words(self) -> &'static str {
+        match self {
+            Over::Space => "space",
+            Over::Time => "time",
+            Over::Degree => "degree",
+        }
+    }
+}
+
 /// One run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resolution {

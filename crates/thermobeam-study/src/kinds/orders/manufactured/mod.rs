@@ -35,14 +35,15 @@
 
 mod constant;
 pub(in crate::kinds) mod design;
+mod variants;
 
-use convergence_study::{Grid, GridColumn, SpaceTime};
+use convergence_study::{Grid, GridColumn, SpaceTime, variants::Variants};
 
 use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
-use crate::kinds::detects::untested::untested;
+use crate::kinds::orders::planted::untested::untested;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{
     CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, mean_width,
@@ -94,9 +95,6 @@ impl Source for Convergence {
                  within the tolerance, whole. Above is as wrong as below. Where this is open, the verdict is inconclusive, which is not a pass.",
         failure: "The scheme, as it is programmed, does not have the order: a term is missing, belongs to another time level, has a \
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
-        settings: |header, item| {
-            Topic::of_solution(header, ItemMethod::OneStep).settings(header, item)
-        },
     };
 
     /// Elements and steps.
@@ -127,6 +125,20 @@ impl Source for Convergence {
             expect,
             formulas: None,
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let theory = &self.theory;
+        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        self.refine.exercise(MANUFACTURED, terms)
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        Some(self.own_variants())
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.varied(variant)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

@@ -155,9 +155,6 @@ impl Source for SelfConvergence {
         judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",
         failure: "With contact and rough data the order is lost, or the levels are too coarse for it. Where only the distances to the \
                   reference fail, scheme and reference solve different equations.",
-        settings: |header, item| {
-            Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-        },
     };
 
     /// Number of the run: the levels, then the two references.
@@ -203,6 +200,11 @@ impl Source for SelfConvergence {
                 ..scene
             },
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let integration = Integration::of_scene(&self.scene);
+        Exercise::of_scene(CONTACT, integration, &self.scene).refined_in(axis_in_words(self.axis))
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

@@ -107,7 +107,6 @@ impl Source for Vibration {
         judged: "Errors in each norm over the levels, by the rule of every rate; and the solver against the closed form, to round-off.",
         failure: "The beam that is simulated is not the beam of the equations, or a step of the scheme is wrong. No manufactured load \
                   can be to blame.",
-        settings: |header, item| Topic::vibrations(ItemMethod::OneStep).settings(header, item),
     };
 
     /// Elements and steps.
@@ -129,6 +128,12 @@ impl Source for Vibration {
             refine,
             expect: expectations(root)?,
         })
+    }
+
+    fn exercise(&self) -> Exercise {
+        let theory = &self.theory;
+        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        self.refine.exercise(FREE_VIBRATIONS, terms)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

@@ -27,7 +27,6 @@ pub const ROW: KindRow = KindRow {
           followed over beta, and stability is an exact count.",
     judged: "The buckling point, found by counting states and by elements alone; and that moving beams end on stable branches.",
     failure: "Steady states are missed or invented, or the dynamics end where no stable state is.",
-    settings: |header, item| Topic::new("steady states", ItemMethod::Exact).settings(header, item),
 };
 
 /// The study.
@@ -121,6 +120,10 @@ impl Runs for Bifurcation {
             rest: ToRest::read(&rest)?,
             distance: rest.positive("distance")?,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        Exercise::of_scenes("steady states", Integration::Exact, &self.scenes, case)
     }
 
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.

@@ -47,9 +47,6 @@ pub const ROW: KindRow = KindRow {
              with its answer or, where the scene asks for it, with the failure that it names.",
     failure: "A term of the step or of the energy is wrong, or a step has not been solved. The balance shows the defect in the \
               very step in which it happens. Run the scene named alone.",
-    settings: |header, item| {
-        Topic::new("the energy's laws", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.

@@ -90,6 +90,10 @@ impl Runs for RandomScenes {
         })
     }
 
+    fn exercise(&self, _case: Option<&str>) -> Exercise {
+        Exercise::new(ENERGY, Integration::PAPER, Terms::ALL).on(Nodes::Perturbed)
+    }
+
     fn runs(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;

@@ -40,9 +40,6 @@ pub const ROW: KindRow = KindRow {
     judged: "Both must agree at each time listed within the tolerance, in the state of the free end and the energy, and on every \
              contact event. The energy must fall, its balance close to round-off.",
     failure: "One of the two is not resolved: raise the degrees or lower the steps of both and see which one moves.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::AnyOrder).settings(header, item)
-    },
 };
 
 /// Times at which the free end is compared over the whole time.
@@ -149,6 +146,10 @@ impl Runs for ExactExperiments {
             agreement,
             compare,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        Exercise::of_scenes(CONTACT, Integration::AnyOrder, &self.scenes, case)
     }
 
     fn runs(&self) -> Vec<Case<SceneRun>> {

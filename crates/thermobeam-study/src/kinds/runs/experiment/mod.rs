@@ -66,9 +66,6 @@ pub const ROW: KindRow = KindRow {
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \
              Figures are drawn from curves whose error, by two discretisations, is below the width of the line.",
     failure: "Our beam does not do what the paper's does, or the resolution is too coarse to tell.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// One of the experiments.
@@ -256,6 +253,11 @@ impl Runs for Experiments {
             window: run.positive("window")?,
             rate: run.positive("rate")?,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        let scenes = self.experiments.iter().map(|experiment| &experiment.scene);
+        Exercise::of_scenes(CONTACT, Integration::PAPER, scenes, case)
     }
 
     /// The experiments by both discretisations and, where asked for, by the paper's algorithm; then

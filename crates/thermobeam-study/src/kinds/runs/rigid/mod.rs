@@ -39,9 +39,6 @@ pub const ROW: KindRow = KindRow {
           epsilon^(2/3) in an impact that the grid resolves.",
     judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
     failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
-    settings: |header, item| {
-        Topic::new("experiments with contact", ItemMethod::OneStep).settings(header, item)
-    },
 };
 
 /// The study.
@@ -241,6 +238,11 @@ impl Runs for RigidObstacles {
             impact: impact_scene(&impact, folder)?,
             steps: impact.count("steps", 1..=1_000_000)?,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        let scenes = [&self.moving, &self.resting, &self.impact];
+        Exercise::of_scenes(CONTACT, Integration::PAPER, scenes, case)
     }
 
     /// The rigid limit, then each compliance in four scenes.

@@ -65,11 +65,6 @@ pub const ROW: KindRow = KindRow {
              run and its counts: steps, iterations, factorisations.",
     failure: "A value of the scene is not used, or used for something else: look which keys the case sets and its neighbours do \
               not. Counts alone that move mean another stopping criterion or another rule for factorising anew.",
-    settings: |header, item| {
-        Topic::new("whole scenes", ItemMethod::OneStep)
-            .of_file()
-            .settings(header, item)
-    },
 };
 
 /// Times of a history.
@@ -143,6 +138,13 @@ impl Runs for Scenes {
         Ok(Self {
             scenes: named_cases(root, Whole::read)?,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        let scenes = self.scenes.iter().map(|whole| &whole.case.scene);
+        let named = scenes.clone().find(|scene| Some(&*scene.name) == case);
+        let integration = named.map_or(Integration::PAPER, Integration::of_scene);
+        Exercise::of_scenes("whole scenes", integration, scenes, case)
     }
 
     fn runs(&self) -> Vec<Case<usize>> {

@@ -87,6 +87,7 @@ pub(super) fn runs(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun
         for &scheme in &schemes {
             runs.push(EnergyRun {
                 name: format!("{}, {}", beam.name, scheme.name),
+                nodes: Nodes::of_mesh(&beam.problem.mesh),
                 problem: beam.problem.clone(),
                 stepping: Stepping {
                     scheme,
@@ -180,6 +181,7 @@ pub(super) fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, Inp
     let drift = section.get("drift").map(|field| field.positive());
     Ok(EnergyRun {
         name,
+        nodes: Nodes::of_scene(&scene),
         problem: simulate::problem(&scene),
         stepping,
         steps: scene.steps(),

@@ -56,6 +56,8 @@ struct EnergyRun {
     name: String,
     /// The scene's, or a beam with random coefficients and smooth random data.
     problem: Problem,
+    /// Where the nodes of its mesh are.
+    nodes: Nodes,
     stepping: Stepping,
     steps: usize,
     /// In words.
@@ -155,6 +157,16 @@ impl Runs for EnergyRuns {
             runs,
             histories: false,
         })
+    }
+
+    fn exercise(&self, case: Option<&str>) -> Exercise {
+        let named = self.runs.iter().find(|run| Some(&*run.name) == case);
+        let runs = match named {
+            Some(run) => std::slice::from_ref(run),
+            None => &self.runs,
+        };
+        let all = runs.iter().map(EnergyRun::exercise).reduce(Exercise::and);
+        all.unwrap_or(Exercise::new(ENERGY, Integration::PAPER, Terms::ALL))
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
@@ -282,6 +294,17 @@ impl Runs for EnergyRuns {
 }
 
 impl EnergyRun {
+    fn exercise(&self) -> Exercise {
+        let Problem {
+            beam, obstacles, ..
+        } = &self.problem;
+        let Stepping {
+            scheme, settings, ..
+        } = &self.stepping;
+        let integration = Integration::of(scheme, settings.solver);
+        Exercise::new(ENERGY, integration, Terms::of(beam, obstacles.as_ref())).on(self.nodes)
+    }
+
     /// Largest rise or residual of a run in units of its bound.
     fn share_of(&self, Found { worst, .. }: &Found) -> f64 {
         match self.share {
@@ -374,6 +397,7 @@ mod tests {
         let stepping = scene.one_step().expect("a one-step scheme");
         let result = |loaded: bool| {
             let run = EnergyRun {
+                nodes: Nodes::Uniform,
                 name: "s".to_owned(),
                 problem: simulate::problem(&scene),
                 stepping: Stepping { loaded, ..stepping },

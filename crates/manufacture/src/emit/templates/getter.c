@@ -1,0 +1,5 @@
+double @P@get_parameter(const char *name)
+{
+@CASES@    return NAN;
+}
+

@@ -1,0 +1,3 @@
+function set_parameter(name, value)
+@BODY@end
+

@@ -1,0 +1,3 @@
+def set_parameter(name, value):
+@GLOBALS@@BODY@
+

@@ -1,0 +1,460 @@
+//! Modules with variants: what each language computes with each of them, and how it refuses one
+//! that it does not have.
+
+use std::fs;
+use std::process::{Command, Output};
+
+use manufacture::{Language, Sampling};
+use tempfile::TempDir;
+
+use crate::emitted::compiles_without_a_warning;
+use crate::files::read;
+use crate::functions;
+
+/// Time, two fields, a tensor, an integral, parameters of which one is set to zero and another
+/// depends on it, a normal.
+const RICH: &str = r#"
+[manufacture]
+name = "rich"
+coordinates = ["x", "y"]
+time = "t"
+[domain]
+x = [0, 1]
+y = [0.5, 2]
+t = [0.25, 1]
+[parameters]
+b = 0.4
+k = "1 + b/2"
+a = 1.5
+[exact]
+u = "2 + sin(x + 0.3*y)*exp(-t)"
+v = ["x*y + t", "cos(y)*t"]
+[define]
+q = "-k*grad(u)"
+[equations.u]
+storage = "dt(u)"
+conduction = "div(q)"
+advection = "b*d(u, x) + a*dot(v, grad(u))"
+memory = "integral(u*x, x)/3"
+[equations.v]
+storage = "dt(v)"
+pull = "grad(u)"
+[boundary.x_max]
+flux = "dot(q, n)"
+[boundary.y_min]
+u = "u"
+[initial]
+u = "u"
+[variants]
+parameters = ["b"]
+[norms]
+u = ["L1", "L2", "Linf", "H1"]
+"#;
+
+/// Stationary, without parameters.
+const STILL: &str = r#"
+[manufacture]
+name = "still"
+coordinates = ["x"]
+[domain]
+x = [0, 1]
+[exact]
+u = "exp(x)*sin(2*x)"
+[equations.u]
+diffusion = "-d(u, x, x)"
+[boundary.x_min]
+u = "u"
+[boundary.x_max]
+u = "u"
+"#;
+
+fn few() -> Sampling {
+    Sampling {
+        points: 30,
+        ..Sampling::default()
+    }
+}
+
+/// The names of the variants, and a folder with their files.
+struct Module {
+    name: String,
+    variants: Vec<String>,
+    folder: TempDir,
+}
+
+impl Module {
+    fn new(text: &str, language: Language) -> Self {
+        let manufacture = read(text);
+        let variants = manufacture.variants(&few()).unwrap();
+        let folder = TempDir::new().unwrap();
+        for file in variants.emit(language) {
+            fs::write(folder.path().join(&file.name), file.text).unwrap();
+        }
+        Module {
+            name: manufacture.name().to_owned(),
+            variants: variants.usable.iter().map(|v| v.switch.variant()).collect(),
+            folder,
+        }
+    }
+
+    /// Builds a program beside the files; the command that runs it.
+    fn built(&self, language: Language, program: &str) -> Vec<String> {
+        let path = |file: String| self.folder.path().join(file).display().to_string();
+        let (ending, build): (&str, &[&str]) = match language {
+            Language::C => (
+                "c",
+                &[
+                    "cc", "-std=c99", "-O1", "-o", "driver", "NAME.c", "driver.c", "-lm",
+                ],
+            ),
+            Language::Fortran => (
+                "f90",
+                &["gfortran", "-O1", "-o", "driver", "NAME.f90", "driver.f90"],
+            ),
+            Language::Rust => (
+                "rs",
+                &["rustc", "--edition", "2021", "-o", "driver", "driver.rs"],
+            ),
+            Language::Python | Language::Ufl => ("py", &[]),
+            Language::Octave => ("m", &[]),
+        };
+        let file = path(format!("driver.{ending}"));
+        fs::write(&file, program).unwrap();
+        if let [compiler, arguments @ ..] = build {
+            let arguments = arguments
+                .iter()
+                .map(|word| word.replace("NAME", &self.name));
+            let output = Command::new(compiler)
+                .args(arguments)
+                .current_dir(self.folder.path())
+                .output()
+                .unwrap();
+            assert!(output.status.success(), "{output:?}");
+            return vec![path("driver".to_owned())];
+        }
+        let interpreter: &[&str] = match language {
+            Language::Octave => &["octave", "--quiet", "--no-history"],
+            _ => &["python3", "-B"],
+        };
+        let words = interpreter.iter().map(|word| (*word).to_owned());
+        words.chain([file]).collect()
+    }
+
+    fn run(&self, command: &[String], variant: &str) -> Output {
+        Command::new(&command[0])
+            .args(&command[1..])
+            .env("MANUFACTURE_VARIANT", variant)
+            .current_dir(self.folder.path())
+            .output()
+            .unwrap()
+    }
+
+    /// The numbers that a program prints.
+    fn numbers(&self, command: &[String], variant: &str) -> Vec<f64> {
+        let output = self.run(command, variant);
+        assert!(output.status.success(), "{variant}: {output:?}");
+        let text = String::from_utf8(output.stdout).unwrap();
+        let words = text.split_whitespace();
+        words.map(|word| word.parse().unwrap()).collect()
+    }
+}
+
+/// Whether a language can be tried on this machine, by a command that succeeds then.
+fn is_here(language: Language) -> bool {
+    let probe: &[&str] = match language {
+        Language::C => &["cc", "--version"],
+        Language::Fortran => &["gfortran", "--version"],
+        Language::Rust => &["rustc", "--version"],
+        Language::Python => &["python3", "-c", "import numpy"],
+        Language::Ufl => &["python3", "--version"],
+        Language::Octave => &["octave", "--version"],
+    };
+    let output = Command::new(probe[0]).args(&probe[1..]).output();
+    let is_here = output.is_ok_and(|output| output.status.success());
+    if !is_here {
+        eprintln!("skipped: no {}", probe[0]);
+    }
+    is_here
+}
+
+fn languages() -> impl Iterator<Item = Language> {
+    let all = Language::ALL.into_iter().map(|(_, language)| language);
+    all.filter(|language| is_here(*language))
+}
+
+/// Sources, data, exact values, gradients, definitions, terms and joint sources of each variant, as
+/// the library evaluates them, with the parameters of the file and with others.
+#[test]
+fn each_language_has_the_values_of_each_variant() {
+    // An interpreter takes a second for what a program does in a hundredth.
+    let compiled = [Language::C, Language::Fortran, Language::Rust];
+    let rich = languages().filter(|language| compiled.contains(language));
+    let pairs = rich.map(|language| (RICH, language));
+    for (text, language) in pairs.chain(languages().map(|language| (STILL, language))) {
+        let manufacture = read(text);
+        let variants = manufacture.variants(&few()).unwrap();
+        assert!(variants.usable.len() >= 4, "{:?}", variants.left_out);
+        let folder = TempDir::new().unwrap();
+        let findings = variants
+            .check_emitted(language, folder.path(), &few())
+            .unwrap();
+        let failures: Vec<_> = findings.iter().filter(|finding| finding.fails).collect();
+        assert!(failures.is_empty(), "{language:?}: {failures:#?}");
+    }
+}
+
+/// A slip in one branch of one function is found, and named with its variant.
+#[test]
+fn a_slip_in_a_variant_is_found() {
+    let manufacture = read(STILL);
+    let variants = manufacture.variants(&few()).unwrap();
+    let module = Module::new(STILL, Language::C);
+    let path = module.folder.path().join("still.c");
+    let text = fs::read_to_string(&path).unwrap();
+    // In flat_x_max, the third.
+    let start = text.find("double still_exact_u(").unwrap();
+    let branch = start + text[start..].find("case 3: {").unwrap();
+    let end = branch + text[branch..].find("return ").unwrap();
+    let slip = format!("{}return 1.001*{}", &text[..end], &text[end + 7..]);
+    fs::write(&path, slip).unwrap();
+    let findings = variants
+        .check_built(Language::C, module.folder.path(), &few())
+        .unwrap();
+    let texts: Vec<&str> = findings
+        .iter()
+        .map(|finding| finding.text.as_str())
+        .collect();
+    assert_eq!(texts.len(), 1, "{texts:?}");
+    assert!(
+        texts[0].starts_with("flat_x_max: exact_u differs by"),
+        "{texts:?}"
+    );
+}
+
+const NAMES: &str = "constant_x flat_x_min flat_x_max flat_x";
+
+/// A program that prints a value at a point.
+fn still_program(language: Language) -> &'static str {
+    match language {
+        Language::C => {
+            "#include <stdio.h>\n#include \"still.h\"\n\
+             int main(void) { const double x[] = {0.3}; printf(\"%.17g\\n\", still_source_u(x)); return 0; }\n"
+        }
+        Language::Fortran => {
+            "program driver\nuse still\nimplicit none\ncall choose_variant()\n\
+             print '(es25.16)', source_u([0.3d0])\nend program driver\n"
+        }
+        Language::Rust => {
+            "#[path = \"still.rs\"]\nmod still;\nfn main() { println!(\"{:?}\", still::source_u(&[0.3])); }\n"
+        }
+        Language::Python => "import still\nprint(repr(float(still.source_u([0.3]))))\n",
+        Language::Ufl => UFL,
+        Language::Octave => "p = still();\nprintf('%.17g\\n', p.source_u(0.3));\n",
+    }
+}
+
+/// UFL is not here: numbers take the place of its forms.
+const UFL: &str = r#"
+import math, sys, types
+ufl = types.ModuleType("ufl")
+for name in ["sin", "cos", "exp"]:
+    setattr(ufl, name, getattr(math, name))
+ufl.as_ufl = float
+sys.modules["ufl"] = ufl
+import still_ufl
+print(repr(still_ufl.source_u([0.3])))
+"#;
+
+/// Without the variable the source is that of the file, with it that of the variant: the same in
+/// all languages. Another name is refused, with those that there are.
+#[test]
+fn the_environment_chooses_a_variant_and_an_unknown_one_is_refused() {
+    // u'' of exp(x) sin(2x), and of its value at 0.4 for all x.
+    let x: f64 = 0.3;
+    let file = -x.exp() * (4.0 * (2.0 * x).cos() - 3.0 * (2.0 * x).sin());
+    let mut of_first: Option<Vec<f64>> = None;
+    for language in languages() {
+        let module = Module::new(STILL, language);
+        assert_eq!(module.variants.join(" "), NAMES);
+        let command = module.built(language, still_program(language));
+        let values: Vec<f64> = std::iter::once("")
+            .chain(NAMES.split(' '))
+            .map(|variant| module.numbers(&command, variant)[0])
+            .collect();
+        assert!((values[0] - file).abs() < 1e-13, "{language:?}: {values:?}");
+        assert_eq!(values[1], 0.0, "{language:?}");
+        let first = of_first.get_or_insert_with(|| values.clone());
+        for (place, (value, first)) in values.iter().zip(first).enumerate() {
+            assert!((value - *first).abs() < 1e-11, "{language:?}: {values:?}");
+            let is_that_of_another = values[..place]
+                .iter()
+                .any(|other| (other - value).abs() < 1e-6);
+            assert!(!is_that_of_another, "{language:?}: {values:?}");
+        }
+        let output = module.run(&command, "flat_y_max");
+        assert!(!output.status.success(), "{language:?}: {output:?}");
+        let expected =
+            format!("MANUFACTURE_VARIANT: unknown variant `flat_y_max`; expected one of {NAMES}");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(message.contains(&expected), "{language:?}: {message}");
+        assert_eq!(String::from_utf8_lossy(&output.stdout), "", "{language:?}");
+    }
+}
+
+/// Fortran's functions are pure, and cannot read the environment: without the call nothing is
+/// computed, with the variable or without it.
+#[test]
+fn a_fortran_program_that_does_not_choose_ends_and_says_what_it_has_to_call() {
+    if !is_here(Language::Fortran) {
+        return;
+    }
+    let module = Module::new(RICH, Language::Fortran);
+    for (call, status) in [
+        ("print '(es25.16)', source_u([0.3d0, 1.0d0], 0.5d0)", None),
+        (
+            "print '(es25.16)', normal_x_max([0.3d0, 1.0d0], 0.5d0)",
+            None,
+        ),
+        (
+            "print '(es25.16)', average_u([0.0d0, 0.5d0], [1.0d0, 1.0d0], 0.5d0)",
+            None,
+        ),
+        ("call set_parameter('a', 1.0d0)", None),
+        ("call choose_variant()", Some(0)),
+    ] {
+        let program =
+            format!("program driver\nuse rich\nimplicit none\n{call}\nend program driver\n");
+        let command = module.built(Language::Fortran, &program);
+        for variant in ["", "zero_b"] {
+            let output = module.run(&command, variant);
+            let message = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(
+                output.status.code() == Some(0),
+                status == Some(0),
+                "{call}: {message}"
+            );
+            let is_named = message.contains("call_choose_variant_first");
+            assert_eq!(is_named, status.is_none(), "{call}: {message}");
+            assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "", "{call}");
+        }
+    }
+}
+
+/// A program that prints b, k, and both where b is set to 2.
+fn parameters_program(language: Language) -> &'static str {
+    match language {
+        Language::C => {
+            "#include <stdio.h>\n#include \"rich.h\"\nint main(void)\n{\n\
+             printf(\"%.17g %.17g \", rich_get_parameter(\"b\"), rich_get_parameter(\"k\"));\n\
+             rich_set_parameter(\"b\", 2.0);\n\
+             printf(\"%.17g %.17g\\n\", rich_get_parameter(\"b\"), rich_get_parameter(\"k\"));\nreturn 0;\n}\n"
+        }
+        Language::Fortran => {
+            "program driver\nuse rich\nimplicit none\ncall choose_variant()\n\
+             print '(2es25.16)', parameter_b, parameter_k\ncall set_parameter('b', 2.0d0)\n\
+             print '(2es25.16)', parameter_b, parameter_k\nend program driver\n"
+        }
+        Language::Rust => {
+            "#[path = \"rich.rs\"]\nmod rich;\nfn main() {\n\
+             let print = || println!(\"{:?} {:?}\", rich::get_parameter(\"b\").unwrap(), rich::get_parameter(\"k\").unwrap());\n\
+             print();\nrich::set_parameter(\"b\", 2.0).unwrap();\nprint();\n}\n"
+        }
+        Language::Octave => {
+            "p = rich();\nprintf('%.17g ', p.get_parameter('b'), p.get_parameter('k'));\n\
+             p.set_parameter('b', 2);\nprintf('%.17g ', p.get_parameter('b'), p.get_parameter('k'));\n"
+        }
+        Language::Python => {
+            "import rich\nprint(rich.parameter_b, rich.parameter_k)\nrich.set_parameter('b', 2.0)\n\
+             print(rich.parameter_b, rich.parameter_k)\n"
+        }
+        Language::Ufl => {
+            "import sys, types\nsys.modules['ufl'] = types.ModuleType('ufl')\nimport rich_ufl as rich\n\
+             print(rich.parameter_b, rich.parameter_k)\nrich.set_parameter('b', 2.0)\n\
+             print(rich.parameter_b, rich.parameter_k)\n"
+        }
+    }
+}
+
+/// A program that takes its parameters from the module has those of the variant; one that it sets
+/// replaces that of the variant, and those that depend on it follow.
+#[test]
+fn a_program_reads_the_parameters_of_the_variant() {
+    for language in languages() {
+        let module = Module::new(RICH, language);
+        let command = module.built(language, parameters_program(language));
+        for (variant, expected) in [
+            ("", [0.4, 1.2, 2.0, 2.0]),
+            ("constant_x", [0.4, 1.2, 2.0, 2.0]),
+            ("zero_b", [0.0, 1.0, 2.0, 2.0]),
+        ] {
+            let values = module.numbers(&command, variant);
+            assert_eq!(values, expected, "{language:?}: {variant}");
+        }
+    }
+}
+
+/// Initial data, normals, averages and errors follow the variant as well.
+#[test]
+fn functions_that_no_answering_program_calls_follow_the_variant() {
+    let mut of_first: Option<Vec<Vec<f64>>> = None;
+    for language in languages().filter(|language| *language != Language::Ufl) {
+        let program = match language {
+            Language::C => functions::C.to_owned(),
+            Language::Rust => functions::RUST.to_owned(),
+            Language::Python => functions::PYTHON.to_owned(),
+            Language::Octave => functions::OCTAVE.to_owned(),
+            _ => functions::FORTRAN
+                .replace("    lo = 0\n", "    lo = 0\n    call choose_variant()\n"),
+        };
+        let module = Module::new(functions::FILE, language);
+        let command = module.built(language, &program);
+        let variants = ["", "constant_x", "flat_initial", "flat_x_max"];
+        for variant in &variants[1..] {
+            assert!(
+                module.variants.iter().any(|name| name == variant),
+                "{:?}",
+                module.variants
+            );
+        }
+        let all = variants.map(|variant| module.numbers(&command, variant));
+        for (place, [value, expected]) in pairs(&all[0], &functions::EXPECTED).enumerate() {
+            let is_same =
+                (value - expected).abs() <= 1e-14 || (value.is_nan() && expected.is_nan());
+            assert!(
+                is_same,
+                "{language:?}: value {place}: {value}, not {expected}"
+            );
+        }
+        // The average of T; errors are of differences from the exact values, whatever these are.
+        assert!((all[1][12] - all[0][12]).abs() > 0.05, "{language:?}");
+        assert!(all[2][9].abs() < 1e-12 && all[0][9] > 1.0, "{language:?}");
+        let first = of_first.get_or_insert_with(|| all.to_vec());
+        for (values, first) in all.iter().zip(first.iter()) {
+            for [value, first] in pairs(values, first) {
+                let is_same = (value - first).abs() <= 1e-12 || (value.is_nan() && first.is_nan());
+                assert!(is_same, "{language:?}: {values:?}");
+            }
+            for [error, expected] in pairs(&values[15..], &functions::EXPECTED[15..]) {
+                let is_same = (error - expected).abs() <= 1e-12 || error.is_nan();
+                assert!(is_same, "{language:?}: {values:?}");
+            }
+        }
+    }
+}
+
+fn pairs<'v>(one: &'v [f64], other: &'v [f64]) -> impl Iterator<Item = [f64; 2]> + 'v {
+    assert_eq!(one.len(), other.len());
+    one.iter().zip(other).map(|(one, other)| [*one, *other])
+}
+
+/// A project that builds with warnings as errors can take modules with variants as they are.
+#[test]
+fn modules_with_variants_compile_without_a_warning() {
+    for text in [RICH, STILL] {
+        let manufacture = read(text);
+        let variants = manufacture.variants(&few()).unwrap();
+        for (_, language) in Language::ALL {
+            compiles_without_a_warning(language, manufacture.name(), variants.emit(language));
+        }
+    }
+}

@@ -215,8 +215,11 @@ impl Copy {
             .args(["verify", "--time-limit", TIME_LIMIT, "--out"])
             .arg(&out)
             .current_dir(self.tree());
+        let mut results = out.join("results.json");
         if let Some(study) = full {
             verify.args(["--tier", "full", study]);
+            // The report of a selection is never that of a tier.
+            results = out.join("local/partial/results.json");
         }
         verify
             .env_remove("CARGO_MANIFEST_DIR")
@@ -234,7 +237,7 @@ impl Copy {
         }
         let lines = output.stdout.iter().filter(|byte| **byte == b'\n').count();
         let mut record = if is_judged {
-            Record::read(&out.join("results.json"))?
+            Record::read(&results)?
         } else {
             // With a mistake in a reader `verify` may refuse the studies; the test decides.
             Record::new("quick", "verify", Verdict::Fail, None, vec![])

@@ -295,8 +295,8 @@ fn page(table: &Table, sentence: &str, ended: &str) -> String {
     format!(
         "# Mistakes of meaning\n\n\
          Written by `cargo xtask dev regressions --write`. Each mistake of `{}` is planted by itself; the \
-         quick tier of `verify` must notice it, and the study named for it must name what is wrong; or \
-         the test named for it must fail. {ended}\n\n{sentence}.\n\n{}",
+         quick tier of `verify` must notice it, or the study of the full tier that is named for it, and that \
+         study must name what is wrong; or the test named for it must fail. {ended}\n\n{sentence}.\n\n{}",
         list::FILE,
         report::markdown(table)
     )

@@ -19,6 +19,9 @@ use crate::{judge, wrong};
 /// Numbers of levels, equally often.
 const LEVELS: [usize; 4] = [4, 5, 6, 8];
 
+/// Steps of neighbouring levels.
+const RATIO: f64 = 2.0;
+
 /// Largest exponent that a fit with a free limit tries, and the number of exponents.
 const EXPONENTS: (f64, usize) = (8.0, 400);
 
@@ -55,13 +58,15 @@ impl Practice {
     }
 
     /// The numbers that must be in the band around the order.
-    fn numbers(self, levels: &[Level]) -> Vec<f64> {
+    ///
+    /// * `weightings`: for this number of levels.
+    fn numbers(self, levels: &[Level], weightings: &[Weighting; 2]) -> Vec<f64> {
         let rates = pairwise_rates(levels);
         match self {
             Self::LastPair => rates[rates.len() - 1..].to_vec(),
             Self::LastThreeSlopes => rates[rates.len() - 3..].to_vec(),
             Self::LeastSquares => vec![fit_line(levels).map_or(f64::NAN, |line| line.slope)],
-            Self::EcaHoekstra => vec![exponent_with_limit(levels)],
+            Self::EcaHoekstra => vec![exponent_with_limit(levels, weightings)],
             Self::Richardson => vec![of_differences(levels)],
         }
     }
@@ -85,52 +90,117 @@ fn of_differences(levels: &[Level]) -> f64 {
     ((coarse.error - middle.error) / (middle.error - fine.error)).log2()
 }
 
-/// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
-fn exponent_with_limit(levels: &[Level]) -> f64 {
-    let mut best = (f64::INFINITY, f64::NAN);
-    for is_weighted in [false, true] {
+/// The powers of all steps for one exponent.
+struct Powers {
+    exponent: f64,
+    /// Without their weighted mean.
+    centred: Vec<f64>,
+    /// The weighted sum of their squares.
+    square: f64,
+}
+
+/// Levels with weights whose mean is 1, and what of a fit is the same for all tables with their
+/// steps.
+struct Weighting {
+    weights: Vec<f64>,
+    /// For each exponent that is tried.
+    powers: Vec<Powers>,
+}
+
+impl Weighting {
+    /// Unweighted and weighted by 1/h, for steps halved from 1, as all tables have them.
+    fn both(levels: usize) -> [Self; 2] {
+        let steps: Vec<f64> = (0..levels).map(|k| RATIO.powi(-(k as i32))).collect();
+        [false, true].map(|is_weighted| Self::new(&steps, is_weighted))
+    }
+
+    fn new(steps: &[f64], is_weighted: bool) -> Self {
         let mut weights = vec![];
-        for level in levels {
-            weights.push(if is_weighted { 1.0 / level.step } else { 1.0 });
+        for step in steps {
+            weights.push(if is_weighted { 1.0 / step } else { 1.0 });
         }
         let total: f64 = weights.iter().sum();
         for weight in &mut weights {
-            *weight *= levels.len() as f64 / total;
+            *weight *= steps.len() as f64 / total;
         }
         let (largest, count) = EXPONENTS;
+        let mut powers = vec![];
         for k in 1..=count {
             let exponent = largest * k as f64 / count as f64;
-            let deviation = deviation(levels, &weights, exponent);
-            if deviation < best.0 {
-                best = (deviation, exponent);
+            let values = steps.iter().map(|step| step.powf(exponent));
+            let centred = without_mean(values.collect(), &weights);
+            powers.push(Powers {
+                exponent,
+                square: product(&centred, &centred, &weights),
+                centred,
+            });
+        }
+        Self { weights, powers }
+    }
+
+    /// The exponent of `limit + c h^p` that leaves the least weighted sum of squares.
+    fn best(&self, levels: &[Level]) -> Deviation {
+        let errors = levels.iter().map(|level| level.error).collect();
+        let errors = without_mean(errors, &self.weights);
+        let square_of_errors = product(&errors, &errors, &self.weights);
+        let mut best = Deviation::NONE;
+        for powers in &self.powers {
+            let along = product(&powers.centred, &errors, &self.weights);
+            let square = square_of_errors - along * along / powers.square;
+            if square < best.square {
+                best = Deviation {
+                    square,
+                    exponent: powers.exponent,
+                };
             }
         }
+        best
     }
-    best.1
 }
 
-/// Weighted sum of squares that `limit + c h^exponent` leaves; the weights have the mean 1.
-fn deviation(levels: &[Level], weights: &[f64], exponent: f64) -> f64 {
-    let mut powers = vec![];
-    let mut errors = vec![];
-    for level in levels {
-        powers.push(level.step.powf(exponent));
-        errors.push(level.error);
+/// What an exponent leaves.
+#[derive(Clone, Copy)]
+struct Deviation {
+    square: f64,
+    exponent: f64,
+}
+
+impl Deviation {
+    const NONE: Self = Self {
+        square: f64::INFINITY,
+        exponent: f64::NAN,
+    };
+}
+
+/// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
+fn exponent_with_limit(levels: &[Level], weightings: &[Weighting; 2]) -> f64 {
+    let [unweighted, weighted] = weightings.each_ref().map(|one| one.best(levels));
+    if weighted.square < unweighted.square {
+        weighted.exponent
+    } else {
+        unweighted.exponent
     }
-    let x = without_mean(&powers, weights);
-    let y = without_mean(&errors, weights);
-    let along = product(&x, &y, weights);
-    product(&y, &y, weights) - along * along / product(&x, &x, weights)
 }
 
-fn without_mean(values: &[f64], weights: &[f64]) -> Vec<f64> {
-    let mean = product(values, &vec![1.0; values.len()], weights) / values.len() as f64;
-    values.iter().map(|value| value - mean).collect()
+fn without_mean(mut values: Vec<f64>, weights: &[f64]) -> Vec<f64> {
+    let weighted = values
+        .iter()
+        .zip(weights)
+        .map(|(value, weight)| value * weight);
+    let mean = weighted.sum::<f64>() / values.len() as f64;
+    for value in &mut values {
+        *value -= mean;
+    }
+    values
 }
 
+/// `Σ a b w`; a plain loop, since it runs some million times in a build with little optimisation.
 fn product(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
-    let factors = a.iter().zip(b).zip(weights);
-    factors.map(|((a, b), weight)| a * b * weight).sum()
+    let mut sum = 0.0;
+    for i in 0..weights.len() {
+        sum += a[i] * b[i] * weights[i];
+    }
+    sum
 }
 
 /// Distances of one practice from the claims of all tables.
@@ -180,12 +250,15 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibrat
     let judge = judge(DEFAULT_TOLERANCE)?;
     let [mut wrong_pass, mut true_pass, mut shown_pass] = [Share::default(); 3];
     let mut wrong_passes = 0;
+    let weightings = LEVELS.map(Weighting::both);
     let mut all = vec![Distances::default(); Practice::ALL.len()];
     for law in &FRESH {
         for k in 0..tables {
-            let table = law.draw(LEVELS[k % LEVELS.len()], 2.0, draw.next()?);
+            let place = k % LEVELS.len();
+            let table = law.draw(LEVELS[place], RATIO, draw.next()?);
             let reading = judge.read(&table.levels);
-            let numbers = Practice::ALL.map(|practice| practice.numbers(&table.levels));
+            let numbers =
+                Practice::ALL.map(|practice| practice.numbers(&table.levels, &weightings[place]));
             for claim in wrong(&table, 2.0 * DEFAULT_TOLERANCE) {
                 let passes = judge.decide(&reading, claim).is_pass();
                 wrong_pass.count(passes);
@@ -244,8 +317,9 @@ mod tests {
                 error: step * step,
             })
             .collect();
+        let weightings = Weighting::both(levels.len());
         for practice in Practice::ALL {
-            let away = distance(&practice.numbers(&levels), 2.0);
+            let away = distance(&practice.numbers(&levels, &weightings), 2.0);
             assert!(away < 1e-9, "{practice:?}: {away}");
         }
         // A constant error leaves the free limit as it is, and spoils the others.
@@ -258,7 +332,7 @@ mod tests {
             .collect();
         for practice in Practice::ALL {
             let is_blind = matches!(practice, Practice::EcaHoekstra | Practice::Richardson);
-            let away = distance(&practice.numbers(&shifted), 2.0);
+            let away = distance(&practice.numbers(&shifted, &weightings), 2.0);
             assert_eq!(away < 1e-9, is_blind, "{practice:?}: {away}");
         }
         assert_eq!(distance(&[f64::NAN], 2.0), f64::INFINITY);

@@ -81,9 +81,9 @@ impl Question {
             columns: self.columns.clone(),
             values: self.values.clone(),
             names: self.names.clone(),
-            claimed: vec![],
             dim: self.dim,
             ratio: self.ratio,
+            ..Choice::default()
         }
     }
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Claim, ErrorsOverLevels, Floor, Header,
+    Axis, Claim, ErrorsOverLevels, Finished, Floor, Header,
     internal::study::{
         NamedErrors, STEPS,
         header::is_name,
@@ -15,7 +15,6 @@ use convergence_study::{
 };
 use pyo3::prelude::*;
 
-use crate::studied::Study;
 use crate::values::floor_of;
 
 /// What is said about a study in addition to its levels.
@@ -164,8 +163,8 @@ impl Results {
         until_decided::next_by_time(&looks, seconds, self.options.budget)
     }
 
-    /// The judged study.
-    pub(crate) fn judged(self) -> Study {
+    /// The study, run and judged.
+    pub(crate) fn finished(&self) -> Finished {
         let mut finished = self.study().run();
         if self.options.floor.value() > 0.0 {
             let checks = std::mem::take(&mut finished.outcome.checks);
@@ -181,10 +180,7 @@ impl Results {
                 "s",
             );
         }
-        Study {
-            results: self,
-            finished,
-        }
+        finished
     }
 }
 

@@ -38,6 +38,12 @@ pub(crate) struct Study {
 }
 
 impl Study {
+    /// The study with these results, judged.
+    pub(crate) fn judged(results: Results) -> Self {
+        let finished = results.finished();
+        Self { results, finished }
+    }
+
     pub(crate) fn allows_inconclusive(&self) -> bool {
         self.results.options.allow_inconclusive
     }
@@ -95,7 +101,7 @@ impl Study {
     #[new]
     #[pyo3(signature = (results, located=None))]
     fn new(results: Results, located: Option<&str>) -> PyResult<Self> {
-        let study = results.judged();
+        let study = Study::judged(results);
         match located {
             Some(located) => Ok(study.with_place(serde_json::from_str(located).map_err(refuse)?)),
             None => Ok(study),
@@ -128,7 +134,7 @@ impl Study {
             ));
         }
         let located = where_lost::located(base, &variants, &outcomes);
-        Ok(self.results.clone().judged().with_place(located))
+        Ok(Study::judged(self.results.clone()).with_place(located))
     }
 
     #[getter]
@@ -295,7 +301,7 @@ pub(crate) fn study_of(
         seconds: None,
         options,
     };
-    py.detach(|| results.judged())
+    py.detach(|| Study::judged(results))
 }
 
 /// The errors returned by a level.
@@ -404,7 +410,7 @@ pub(crate) fn study(
     if choice.is_auto() {
         results.seconds = Some(seconds);
     }
-    Ok(py.detach(|| results.judged()))
+    Ok(py.detach(|| Study::judged(results)))
 }
 
 /// The errors of a level with its step, unless it reports one.

@@ -26,9 +26,9 @@ impl From<Chosen> for Choice {
             columns: chosen.columns,
             values: chosen.values.unwrap_or_default(),
             names: chosen.names,
-            claimed: vec![],
             dim: chosen.dim,
             ratio: chosen.ratio,
+            ..Self::default()
         }
     }
 }

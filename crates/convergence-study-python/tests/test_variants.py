@@ -1,10 +1,13 @@
 """`study(..., variants=module)`: in which part of a solver the order is lost."""
 
 import copy
+import functools
+import importlib
 import importlib.util
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -14,110 +17,73 @@ import convergence_study as cs
 
 pytest_plugins = ["pytester"]
 
-ROD = """
-[manufacture]
-name = "rod"
-coordinates = ["x"]
-time = "t"
-[domain]
-x = [0, 2]
-t = [0, 1]
-[parameters]
-k = 0.3
-[exact]
-T = "2 + sin(1.4*x + 0.3)*(1 + t^2/2) + x*exp(-t)/3"
-[equations.T]
-storage = "dt(T)"
-conduction = "-d(k*(1 + x/4)*d(T, x), x)"
-[boundary.x_min]
-value = "T"
-[boundary.x_max]
-flux = "k*(1 + x/4)*d(T, x)"
-[initial]
-T = "T"
-"""
-
-SOLVER = '''
-"""Heat in a rod by finite volumes, BDF2 in time."""
-
-import numpy as np
-
-import rod as data
-from rod import exact_T
-
-MISTAKE = ""
-
-
-def solve(n):
-    h, dt = 2 / n, 0.5 / n
-    centres, faces = (np.arange(n) + 0.5)[None, :] * h, np.arange(n + 1) * h
-    k = data.parameter_k * (1 + faces / 4)
-    matrix = np.zeros((n, n))
-    for face in range(1, n):
-        left, right, flow = face - 1, face, k[face] / h**2
-        matrix[left, left] += flow
-        matrix[left, right] -= flow
-        matrix[right, right] += flow
-        matrix[right, left] -= flow
-    # The slope at x_min through the value and two centres.
-    weights = [-1, 1, 0] if MISTAKE == "value" else [-8 / 3, 3, -1 / 3]
-    matrix[0, 0] += weights[1] * k[0] / h**2
-    matrix[0, 1] += weights[2] * k[0] / h**2
-
-    def exact(t):
-        return np.broadcast_to(exact_T(centres, t), n)
-
-    def known(t):
-        source = np.broadcast_to(data.source_T(centres, t - dt if MISTAKE == "source" else t), n).copy()
-        source[0] -= weights[0] * k[0] / h**2 * np.ravel(data.boundary_x_min_value(np.array([[0.0]]), t))[0]
-        source[-1] += np.ravel(data.boundary_x_max_flux(np.array([[2.0]]), t))[0] / h
-        return source
-
-    before, now = exact(-dt), exact(0.0)
-    for step in range(1, n + 1):
-        t = step * dt
-        before, now = now, np.linalg.solve(1.5 * np.eye(n) / dt + matrix, (4 * now - before) / (2 * dt) + known(t))
-    return {"L2": float(np.sqrt(np.mean((now - exact(0.5)) ** 2)))}
-'''
+# Programs with mistakes on request, and the files of their solutions.
+WHERE = pathlib.Path(__file__).with_name("where")
 
 NAMED = "the order is lost at the face x_min: it comes back where the solution is flat there"
 
 
+def manufactured(folder, name, *options):
+    """The text of a module."""
+    shutil.copy(WHERE / f"{name}.toml", folder)
+    words = [sys.executable, "-m", "convergence_study", "manufacture", f"{name}.toml", *options, "--language", "python", "--out", ".", "-q"]
+    subprocess.run(words, cwd=folder, check=True, capture_output=True)
+    return (folder / f"{name}.py").read_text()
+
+
 @pytest.fixture(scope="session")
 def modules(tmp_path_factory):
-    """The module of the rod with variants, and without."""
-    texts = []
-    for options in [["--variants"], []]:
-        folder = tmp_path_factory.mktemp("module")
-        (folder / "rod.toml").write_text(ROD)
-        words = [sys.executable, "-m", "convergence_study", "manufacture", "rod.toml", *options, "--language", "python", "--out", ".", "-q"]
-        subprocess.run(words, cwd=folder, check=True, capture_output=True)
-        texts.append((folder / "rod.py").read_text())
-    return texts
+    """The modules with variants, by name, and that of the rod without."""
+    folder = tmp_path_factory.mktemp("modules")
+    texts = {name: manufactured(folder, name, "--variants") for name in ("rod", "plane")}
+    return {**texts, "bare": manufactured(folder, "rod")}
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch, modules):
-    """A folder with the module of the rod and its solver, both of which can be imported."""
+    """A folder with modules and solvers that can be imported."""
     pytest.importorskip("numpy")
-    write(tmp_path, modules[0])
+    fill(tmp_path, modules)
     monkeypatch.syspath_prepend(str(tmp_path))
     yield tmp_path
-    for name in ("rod", "solver"):
+    for name in ("rod", "rod_solver", "plane", "plane_solver"):
         sys.modules.pop(name, None)
 
 
-def write(folder, module):
-    for name, text in {"rod.toml": ROD, "rod.py": module, "solver.py": SOLVER}.items():
-        (folder / name).write_text(text)
+def fill(folder, modules):
+    for name in ("rod", "plane"):
+        (folder / f"{name}.py").write_text(modules[name])
+        for file in (f"{name}.toml", f"{name}_solver.py"):
+            shutil.copy(WHERE / file, folder)
 
 
-def located(mistake, **options):
-    import rod
-    import solver
+def located(mistake, n=None, *, program="rod", **options):
+    module, solver = importlib.import_module(program), importlib.import_module(f"{program}_solver")
+    solve = functools.partial(solver.solve, mistake=mistake)
+    return cs.study(solve, n, order=options.pop("order", 2), variants=module, **options)
 
-    solver.MISTAKE = mistake
-    return cs.study(solver.solve, order=options.pop("order", 2), variants=rod, **options)
+
+def faces(*names):
+    return [{"part": "face", "name": name} for name in names]
+
+
+@pytest.mark.parametrize(
+    ("program", "mistake", "named"),
+    [
+        ("rod", "value", faces("x_min")),
+        ("rod", "flux", faces("x_max")),
+        ("rod", "both", faces("x_min", "x_max")),
+        ("rod", "coefficient", [{"part": "coordinate", "name": "x"}]),
+        ("rod", "source", [{"part": "time", "name": "t"}]),
+        ("rod", "euler", [{"part": "time", "name": "t"}]),
+        ("rod", "initial", [{"part": "initial"}]),
+        ("plane", "slope", faces("x_max")),
+        ("plane", "upwind", [{"part": "coordinate", "name": "y"}]),
+    ],
+)
+def test_each_planted_mistake_is_named(folder, program, mistake, named):
+    found = located(mistake, [8, 16, 32, 64], program=program, budget=2)
+    assert found.where["named"] == named, str(found)
 
 
 def test_the_face_with_the_mistake_is_named_and_the_failure_shows_the_table(folder):
@@ -134,15 +100,14 @@ def test_the_face_with_the_mistake_is_named_and_the_failure_shows_the_table(fold
     assert table[3].endswith("  back") and table[4].endswith("  lost")
     # The module is that of the file again.
     import rod
-    import solver
+    import rod_solver
 
-    assert "MANUFACTURE_VARIANT" not in os.environ and rod._VARIANT == "" and solver.exact_T is rod.exact_T
-    solver.MISTAKE = ""
-    assert cs.study(solver.solve, order=2).verdict == "pass"
+    assert "MANUFACTURE_VARIANT" not in os.environ and rod._VARIANT == "" and rod_solver.exact_T is rod.exact_T
+    assert cs.study(rod_solver.solve, order=2).verdict == "pass"
 
 
 def test_the_command_names_the_same_part(folder):
-    (folder / "run.py").write_text("import sys, json, solver\nsolver.MISTAKE = 'value'\nprint(json.dumps({'errors': solver.solve(int(sys.argv[1]))}))\n")
+    (folder / "run.py").write_text("import sys, json, rod_solver\nprint(json.dumps({'errors': rod_solver.solve(int(sys.argv[1]), 'value')}))\n")
     study = '[study]\nid = "rod"\nclaim = "c"\ntier = "quick"\nkind = "program"\n[program]\nmanufacture = "rod.toml"\n'
     study += f'command = [{json.dumps(sys.executable)}, "run.py", "{{n}}"]\n[refine]\nn = [8, 16, 32, 64]\n[[expect]]\nerror = "L2"\norder = 2\n'
     (folder / "study.toml").write_text(study)
@@ -153,8 +118,7 @@ def test_the_command_names_the_same_part(folder):
     assert by_command["named"] == here["named"] and by_command["conclusion"] == here["conclusion"]
 
 
-def test_time_is_named_and_nothing_without_a_mistake(folder):
-    assert located("source").where["named"] == [{"part": "time", "name": "t"}]
+def test_nothing_is_named_without_a_mistake(folder):
     # A right solver that is undecided is examined, too.
     assert located("", n=[8, 16, 32, 64]).where["named"] == []
     right = located("")
@@ -176,7 +140,7 @@ def test_copies_reports_and_dicts_keep_the_place(folder):
 
 
 def test_a_module_without_variants_is_refused_before_anything_is_run(folder, monkeypatch, modules):
-    write(folder, modules[1])
+    (folder / "rod.py").write_text(modules["bare"])
     import rod
 
     def never(n):
@@ -186,7 +150,7 @@ def test_a_module_without_variants_is_refused_before_anything_is_run(folder, mon
         cs.study(never, order=2, variants=rod)
     with pytest.raises(TypeError, match="variants: expected the module that .*, found 'rod'"):
         cs.study(never, order=2, variants="rod")
-    write(folder, modules[0])
+    fill(folder, modules)
     rod.__spec__.loader.exec_module(rod)
     monkeypatch.setenv("MANUFACTURE_VARIANT", "flat_x")
     with pytest.raises(ValueError, match="found MANUFACTURE_VARIANT=flat_x in the environment; unset it"):
@@ -232,8 +196,8 @@ def test_steps_are_refined_while_a_variant_is_undecided(folder):
 
 def test_the_fixture_shows_the_place_as_the_page_says(pytester, modules):
     pytest.importorskip("numpy")
-    write(pathlib.Path(str(pytester.path)), modules[0])
-    (pytester.path / "solver.py").write_text(SOLVER.replace('MISTAKE = ""', 'MISTAKE = "value"'))
+    fill(pytester.path, modules)
+    (pytester.path / "solver.py").write_text("import functools, rod_solver\nsolve = functools.partial(rod_solver.solve, mistake='value')\n")
     page = (pathlib.Path(__file__).parents[2] / "convergence-study/book/src/pytest.md").read_text()
     block, shown = next(part for part in zip(page.split("```")[1::2], page.split("```")[3::2]) if "variants=" in part[0])
     (pytester.path / "test_rod.py").write_text(block.removeprefix("python\n"))

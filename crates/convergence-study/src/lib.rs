@@ -136,6 +136,11 @@ pub use crate::{
     },
 };
 
+/// Variants of a study's solution, by which `--where` names the part that has lost the order.
+pub mod variants {
+    pub use crate::study::variants::{LeftOut, Part, Variant, Variants};
+}
+
 #[cfg(feature = "files")]
 #[doc(inline)]
 pub use crate::{

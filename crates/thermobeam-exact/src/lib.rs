@@ -18,6 +18,7 @@
 //! * [`quadrature`]: the rule for loads and errors.
 //! * [`formulas`]: N(u), the contact law and the formulas of the time schemes, not those of the
 //!   solver.
+//! * [`projection`]: the projections of (3.4) and (3.5), by their definition.
 //! * [`constants`]: the constants of Theorem 3.4, known before a run.
 //! * [`defect`]: deliberate mistakes in the loads.
 //!
@@ -42,6 +43,7 @@ pub mod formulas;
 pub mod function;
 pub mod interval;
 pub mod norm;
+pub mod projection;
 pub mod quadrature;
 pub mod solution;
 pub mod sources;

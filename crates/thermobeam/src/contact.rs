@@ -14,6 +14,17 @@
 use crate::parameters::Obstacles;
 use crate::scheme::ContactRule;
 
+/// A change of phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactEvent {
+    /// Time of the change.
+    pub t: f64,
+    /// The phase before.
+    pub from: Phase,
+    /// The phase from now on.
+    pub to: Phase,
+}
+
 /// The contact phase of the free end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Phase {

@@ -22,10 +22,10 @@ pub(crate) mod sums;
 
 pub use rounding::Rounding;
 
+use crate::level::Level;
 use crate::norms::{l2_squared, shear_squared, slope_squared};
 use crate::parameters::Obstacles;
 use crate::scheme::Case;
-use crate::solve::Level;
 use sums::Sums;
 
 /// The terms of the discrete energy E^n, (3.9).

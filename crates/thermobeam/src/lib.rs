@@ -92,6 +92,7 @@ pub mod error;
 pub mod kirchhoff;
 #[doc(hidden)]
 pub mod lanes;
+mod level;
 pub mod linearized;
 pub mod mesh;
 pub mod motion;

@@ -13,9 +13,9 @@
 //!
 //! /// The largest displacement of the free end up to `t_end`.
 //! fn largest(motion: &mut dyn Motion, t_end: f64) -> Result<f64, StepError> {
-//!     let mut largest = motion.tip_range()[1];
+//!     let mut largest = motion.tip_range().high;
 //!     while motion.step(t_end)?.is_some() {
-//!         largest = largest.max(motion.tip_range()[1]);
+//!         largest = largest.max(motion.tip_range().high);
 //!     }
 //!     Ok(largest)
 //! }
@@ -37,7 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::dg::ContactEvent;
+use crate::contact::ContactEvent;
 use crate::error::StepError;
 
 /// A beam at one time level, which does one step at a time.
@@ -74,13 +74,29 @@ pub trait Motion {
 
     /// Smallest and largest u(1) in the last step; for a one-step scheme, and at the start, twice
     /// its value at the current level.
-    fn tip_range(&self) -> [f64; 2];
+    fn tip_range(&self) -> TipRange;
 
     /// Whether loads act on the beam. Its energy may then rise.
     fn is_loaded(&self) -> bool;
 
     /// Whether the temperature is computed.
     fn is_heated(&self) -> bool;
+}
+
+/// Smallest and largest u(1) over some time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TipRange {
+    /// The smallest.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+}
+
+impl TipRange {
+    /// That of one instant.
+    pub fn at(u: f64) -> Self {
+        Self { low: u, high: u }
+    }
 }
 
 /// A completed step.

@@ -4,7 +4,7 @@
 use crate::energy::{Balance, Energy, Rounding};
 use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
-use crate::motion::{Motion, StepReport, Work};
+use crate::motion::{Motion, StepReport, TipRange, Work};
 use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive, check_stopping};
 use crate::scheme::{Case, Scheme};
 use crate::solve::fixed_point::FixedPoint;
@@ -240,8 +240,8 @@ impl Motion for OneStep {
         self.stepper.work()
     }
 
-    fn tip_range(&self) -> [f64; 2] {
-        [self.stepper.tip(0); 2]
+    fn tip_range(&self) -> TipRange {
+        TipRange::at(self.stepper.tip(0))
     }
 
     fn is_loaded(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use thermobeam::dg::{Dg, DgProblem, DgStepping, InitialFunctions};
 use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
+use thermobeam::motion::{Motion, TipRange};
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
@@ -72,12 +72,12 @@ fn reports_add_up_to_times_and_counts() {
         let mut length = 0.0;
         let mut iterations = 0;
         let mut contact_steps = 0;
-        let mut highest = motion.tip_range()[1];
+        let mut highest = motion.tip_range().high;
         while let Some(report) = motion.step(0.3).unwrap() {
             length += report.dt;
             iterations += report.iterations;
             contact_steps += usize::from(report.in_contact);
-            let [low, high] = motion.tip_range();
+            let TipRange { low, high } = motion.tip_range();
             assert!(low <= high && report.increment.is_finite(), "{report:?}");
             highest = highest.max(high);
         }

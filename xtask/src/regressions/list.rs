@@ -19,10 +19,12 @@ pub(super) struct Regression {
     pub(super) file: String,
     /// The changes.
     edits: Vec<Edit>,
-    /// The study of the quick tier that must notice it; empty for a mutant, which any study may
-    /// notice.
+    /// The study that must notice it; empty for a mutant, which any study may notice.
     #[serde(default)]
     pub(super) study: String,
+    /// Whether that study is of the full tier: it then runs alone, in place of the quick tier.
+    #[serde(default)]
+    pub(super) full: bool,
     /// The test that must notice it, if no study must: the arguments of `cargo test` that select it
     /// alone.
     #[serde(default)]
@@ -152,17 +154,17 @@ mod tests {
     }
 
     #[test]
-    fn every_regression_can_be_planted_and_names_a_study_of_the_quick_tier() {
+    fn every_regression_can_be_planted_and_names_a_study_of_its_tier() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let all = read(&root).unwrap_or_else(|error| panic!("{}", error.message()));
         assert!(all.len() >= 130, "{}", all.len());
         let studies = workspace::studies(&crate::PROJECT, &root)
             .unwrap_or_else(|error| panic!("{}", error.message()));
-        let quick = |id: &str| {
+        let is_study = |id: &str, tier: Tier| {
             studies
                 .iter()
                 .map(|file| file.study.header())
-                .any(|header| header.id == id && header.tier == Tier::Quick)
+                .any(|header| header.id == id && header.tier == tier)
         };
         for regression in &all {
             let planted = regression
@@ -174,8 +176,13 @@ mod tests {
                 "{}",
                 regression.name
             );
+            let tier = match regression.full {
+                true => Tier::Full,
+                false => Tier::Quick,
+            };
             assert!(
-                regression.study.is_empty() || quick(&regression.study),
+                regression.study.is_empty() && !regression.full
+                    || is_study(&regression.study, tier),
                 "{}: {}",
                 regression.name,
                 regression.study

@@ -80,7 +80,13 @@ impl Copy {
     /// # Errors
     /// If it does not pass, since it would then seem to notice every mistake.
     pub(super) fn as_it_is(&self, recorded: bool) -> Result<Found, Unusable> {
-        let found = self.kept("as-it-is", self.hash, recorded, |key| self.verify(key, ""))?;
+        self.passing(recorded, None)
+    }
+
+    /// Results without a mistake: of the quick tier, or of a study of the full tier alone.
+    fn passing(&self, recorded: bool, full: Option<&str>) -> Result<Found, Unusable> {
+        let name = full.map_or("as-it-is".to_owned(), |study| format!("as-it-is-{study}"));
+        let found = self.kept(&name, self.hash, recorded, |key| self.verify(key, "", full))?;
         if found.record.verdict.is_pass() {
             return Ok(found);
         }
@@ -107,15 +113,19 @@ impl Copy {
         let Regression {
             name, file, test, ..
         } = regression;
+        let full = regression.full.then_some(regression.study.as_str());
         let hash = self.hash ^ content_hash(format!("{file}\n{text}\n{test}").as_bytes());
         self.kept(name, hash, recorded, |key| {
+            if full.is_some() {
+                self.passing(recorded, full)?;
+            }
             if let Some(failed) = self.failed_test(test)? {
                 return Err(Unusable::because(&format!("without the mistake: {failed}")));
             }
             let path = self.tree().join(file);
             let honest = fs::read(&path)?;
             fs::write(&path, text)?;
-            let found = self.verify(key, test);
+            let found = self.verify(key, test, full);
             fs::write(&path, honest)?;
             found
         })
@@ -188,7 +198,8 @@ impl Copy {
         Ok(found)
     }
 
-    fn verify(&self, key: String, test: &str) -> Result<Found, Unusable> {
+    /// Builds the copy and runs the quick tier, or in its place a study of the full tier.
+    fn verify(&self, key: String, test: &str, full: Option<&str>) -> Result<Found, Unusable> {
         let [build, out] = ["build", "out"].map(|name| self.folder.join(name));
         let built = self
             .cargo("build")
@@ -204,6 +215,9 @@ impl Copy {
             .args(["verify", "--time-limit", TIME_LIMIT, "--out"])
             .arg(&out)
             .current_dir(self.tree());
+        if let Some(study) = full {
+            verify.args(["--tier", "full", study]);
+        }
         verify
             .env_remove("CARGO_MANIFEST_DIR")
             .env_remove("GITHUB_STEP_SUMMARY")

@@ -2,6 +2,7 @@
 //! are refused.
 
 mod arguments;
+mod circles;
 mod citations;
 mod independence;
 mod layers;

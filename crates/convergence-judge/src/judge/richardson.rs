@@ -43,18 +43,10 @@
 
 mod estimate;
 
-pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, Refusal, Value};
+use super::three_values::{self, NoOrder};
+pub use super::three_values::{Value, correction, growth};
+pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, Refusal};
 pub(crate) use estimate::{RATES, crossing};
-
-/// `r^p - 1`: the difference of two values over the error at the finer step.
-pub fn growth(ratio: f64, order: f64) -> f64 {
-    ratio.powf(order) - 1.0
-}
-
-/// The number to add to the value at the finer step to get the limit, for steps of this ratio.
-pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
-    (fine - coarse) / growth(ratio, order)
-}
 
 /// Factor of safety if the observed order confirms theory.
 pub const SAFETY_CONFIRMED: f64 = 1.25;
@@ -65,9 +57,6 @@ pub const SAFETY_UNCONFIRMED: f64 = 3.0;
 /// The index never uses an order lower than this: the bar of a lower one would be a multiple of the
 /// differences.
 pub const LOWEST_ORDER: f64 = 0.5;
-
-/// Upper end of the search for the observed order: no scheme has a higher one.
-const HIGHEST_ORDER: f64 = 64.0;
 
 /// Roache's index of the finest of three values: `F |q_(m-1) - q_m| / (ρ^p - 1)`.
 ///
@@ -116,54 +105,14 @@ impl Gci {
     }
 }
 
-/// The order p of the three finest values, from the equation of V&V 20 for unequal ratios,
-///
-/// ```text
-///     p = [ log(d_coarse / d_fine) + log((ρ_fine^p - 1) / (ρ_coarse^p - 1)) ] / log ρ_fine.
-/// ```
-///
-/// The iteration that the standard suggests, right side into left, diverges if the coarse ratio is
-/// much the larger (4 and 1.2 with p = 1). The equation is equivalent to
-/// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p,
-/// from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
-pub(crate) fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
+/// The [observed order](three_values::observed_order) of the three finest values.
+fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
     let [.., coarse, middle, fine] = values else {
         return Err(Refusal::TooFewValues(values.len()));
     };
-    let quotient = (coarse.value - middle.value) / (middle.value - fine.value);
-    let [wide, narrow] = [coarse.step / middle.step, middle.step / fine.step];
-    if !quotient.is_finite() {
-        return Err(Refusal::NoChange);
-    }
-    if quotient < 0.0 {
-        return Err(Refusal::Oscillating);
-    }
-    let excess = |p: f64| narrow.powf(p) * growth(wide, p) / growth(narrow, p) - quotient;
-    if quotient <= wide.ln() / narrow.ln() {
-        return Err(Refusal::Diverging);
-    }
-    let mut low = 0.0;
-    let mut high = HIGHEST_ORDER;
-    // 60 halvings of 64 reach the spacing of doubles.
-    for _ in 0..60 {
-        let p = 0.5 * (low + high);
-        if excess(p) < 0.0 { low = p } else { high = p }
-    }
-    Ok(0.5 * (low + high))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::correction;
-
-    #[test]
-    fn a_clean_sequence_gives_its_limit() {
-        for p in [1.0_f64, 1.5, 2.0] {
-            let q = |h: f64| 1.0 + 0.3 * h.powf(p);
-            for ratio in [2.0, 3.0] {
-                let limit = q(0.1) + correction(q(0.1 * ratio), q(0.1), ratio, p);
-                assert!((limit - 1.0).abs() < 1e-14, "{limit}");
-            }
-        }
-    }
+    three_values::observed_order([*coarse, *middle, *fine]).map_err(|error| match error {
+        NoOrder::NoChange => Refusal::NoChange,
+        NoOrder::Oscillating => Refusal::Oscillating,
+        NoOrder::Diverging => Refusal::Diverging,
+    })
 }

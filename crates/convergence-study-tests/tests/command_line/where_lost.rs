@@ -1,5 +1,6 @@
 //! `study --where`: in which part of a program the order is lost.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::process::Command;
 
@@ -125,6 +126,29 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
 }
 
 #[test]
+fn a_variant_that_is_left_out_has_its_reason_in_json() {
+    let root = project(PROGRAM, &["-"]);
+    let fixed = ROD.replace(
+        "[boundary.x_min]\nu = \"u\"",
+        "[boundary.x_min]\nu = { of = \"u\", is = \"1\" }",
+    );
+    assert_ne!(fixed, ROD);
+    fs::write(root.path().join("rod.toml"), fixed).unwrap();
+    let words = ["study", "study.toml", "--where", "--format", "json"];
+    let record: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let variants = record["studies"][0]["where"]["variants"]
+        .as_array()
+        .unwrap();
+    let row = |name: &str| variants.iter().find(|row| row["name"] == name).unwrap();
+    let reason = row("constant_x")["left_out"].as_str().unwrap();
+    assert!(
+        reason.starts_with("boundary.x_min.u: condition-violated: "),
+        "{reason}"
+    );
+    assert_eq!(row("constant_t").get("left_out"), None);
+}
+
+#[test]
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
     for (hidden_in, words) in [
         (
@@ -160,6 +184,12 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     let ignoring = PROGRAM.replace("scale=1.${#MANUFACTURE_VARIANT}", "scale=1");
     assert_ne!(ignoring, PROGRAM);
     let root = project(&ignoring, &[]);
+    let log = root.path().join("log");
+    let logged = format!(
+        "echo \"$MANUFACTURE_VARIANT\" >> '{}'\n{ignoring}",
+        log.display()
+    );
+    fs::write(root.path().join("run.sh"), logged).unwrap();
     let words = ["study", "study.toml", "--where", "--out", "report"];
     let (status, out, err) = run(&root, &words);
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
@@ -170,6 +200,10 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     ] {
         assert!(err.contains(part), "{err}");
     }
+    // One variant was run, not all.
+    let log = fs::read_to_string(log).unwrap();
+    let variants: BTreeSet<&str> = log.lines().collect();
+    assert_eq!(variants, BTreeSet::from(["", "flat_x"]));
     let written = fs::read_dir(root.path().join("report")).map_or(0, Iterator::count);
     assert_eq!(written, 0);
 }

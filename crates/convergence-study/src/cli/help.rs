@@ -24,9 +24,30 @@ pub struct HelpPage {
 pub fn pages<'p>() -> impl Iterator<Item = &'p HelpPage> {
     let pages = PAGES.iter();
     #[cfg(feature = "manual")]
-    let pages = pages.chain(&super::manual::PAGES);
+    let pages = pages.chain(&PAGES_OF_MANUAL);
     pages
 }
+
+/// Those of commands that only an installed program has.
+#[cfg(feature = "manual")]
+const PAGES_OF_MANUAL: [HelpPage; 2] = [
+    HelpPage {
+        command: "completions",
+        without: &[],
+        examples: &[
+            ("For bash", "PROGRAM completions bash > completions.bash"),
+            ("For fish", "PROGRAM completions fish > completions.fish"),
+        ],
+    },
+    HelpPage {
+        command: "man",
+        without: &[],
+        examples: &[
+            ("The page of the program", "PROGRAM man > program.1"),
+            ("The page of a command", "PROGRAM man rates > rates.1"),
+        ],
+    },
+];
 
 const PAGES: [HelpPage; 10] = [
     HelpPage {

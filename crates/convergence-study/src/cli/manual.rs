@@ -3,7 +3,6 @@
 use clap::Subcommand;
 use clap_complete::{Shell, generate};
 
-use super::help::HelpPage;
 use super::{exit, screen, visible_commands};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
@@ -28,26 +27,6 @@ pub enum Command {
         command: Option<String>,
     },
 }
-
-/// What their help says.
-pub(super) const PAGES: [HelpPage; 2] = [
-    HelpPage {
-        command: "completions",
-        without: &[],
-        examples: &[
-            ("For bash", "PROGRAM completions bash > completions.bash"),
-            ("For fish", "PROGRAM completions fish > completions.fish"),
-        ],
-    },
-    HelpPage {
-        command: "man",
-        without: &[],
-        examples: &[
-            ("The page of the program", "PROGRAM man > program.1"),
-            ("The page of a command", "PROGRAM man rates > rates.1"),
-        ],
-    },
-];
 
 impl Command {
     /// Runs the command; `whole` is the whole command line.

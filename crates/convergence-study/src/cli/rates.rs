@@ -157,9 +157,9 @@ impl Arguments {
                 columns: self.columns.clone(),
                 values: self.values.clone(),
                 names: self.names.clone(),
-                claimed: vec![],
                 dim: self.dim,
                 ratio: self.ratio,
+                ..Choice::default()
             },
             all: self.all,
         }

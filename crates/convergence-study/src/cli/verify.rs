@@ -23,7 +23,7 @@ use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
 use crate::verify::{Blessing, Request, Scope, Verification};
-use crate::where_lost::text_of_located;
+use crate::where_lost::{summary_of_located, text_of_located};
 use selection::{dry_run, failed, files, scope};
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
@@ -114,7 +114,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     arguments.limits.consent(project, &studies)?;
     let flags = &arguments.flags;
     let request = request(arguments, scope, root);
-    if arguments.located && studies.iter().all(|study| study.manufactured().is_none()) {
+    let mut with_variants = studies
+        .iter()
+        .filter(|study| where_lost::has_variants(study.as_ref()));
+    if arguments.located && with_variants.next().is_none() {
         return Err(where_lost::no_file("no study"));
     }
     let mut verification = watched(&studies, flags.quiet, |progress| {
@@ -238,7 +241,7 @@ fn text(
             .map(text_of_diagnosis)
             .unwrap_or_default(),
         text_of_failures(&found.record.studies, clearest),
-        located(&found.record.studies),
+        located(&found.record.studies, *verbose),
         moved_lines(&changes, *verbose) + &blessed(project, found),
         table,
     ];
@@ -250,13 +253,30 @@ fn text(
     parts.join("\n\n") + "\n"
 }
 
-/// Where the orders of studies are lost, if this was searched for.
-fn located(studies: &[Finished]) -> String {
-    let located = studies.iter().filter_map(|study| {
-        let located = text_of_located(study.located.as_ref()?);
-        Some(format!("{}\n{located}", study.header.id))
+/// Where the orders of studies are lost, if this was searched for: of several studies the parts
+/// that are named, and the conclusions; their tables if `verbose`.
+fn located(studies: &[Finished], verbose: bool) -> String {
+    let mut places = vec![];
+    let mut texts = vec![];
+    for Finished {
+        header, located, ..
+    } in studies
+    {
+        if let Some(located) = located {
+            places.push(located);
+            texts.push((header.id.as_str(), located));
+        }
+    }
+    let has_tables = verbose || texts.len() == 1;
+    let texts = texts.into_iter().map(|(id, located)| {
+        if has_tables {
+            format!("{id}\n{}", text_of_located(located))
+        } else {
+            format!("{id}: {}\n", located.conclusion)
+        }
     });
-    located.collect::<Vec<_>>().join("\n")
+    let texts: Vec<String> = texts.collect();
+    summary_of_located(&places) + &texts.join(if has_tables { "\n" } else { "" })
 }
 
 /// Whether all studies pass and the baseline has nothing of them.

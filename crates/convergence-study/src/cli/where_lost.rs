@@ -1,12 +1,14 @@
 //! `--where`: runs a study whose order is lost with the variants of its manufactured solution.
 
+use std::path::Path;
+
 use manufacture::{Manufacture, Sampling};
 
 use super::exit::Unusable;
 use super::running::watched_with;
 use crate::input::read_text;
 use crate::run::{self, Effort, Finished};
-use crate::study::variants::Variants;
+use crate::study::variants::{Part, Variant, Variants};
 use crate::study::{Outcome, Study};
 use crate::where_lost::{figure, is_unnoticed, located, lost};
 
@@ -18,12 +20,17 @@ struct Search<'s> {
     variants: Variants,
 }
 
+/// Whether a study has variants: its own, or those of a file of `manufacture`.
+pub(super) fn has_variants(study: &dyn Study) -> bool {
+    study.manufactured().is_some() || study.variants().is_some()
+}
+
 /// Refuses studies without variants, before anything is run.
 ///
 /// # Errors
-/// The first study without a file of `manufacture`.
+/// The first study without variants.
 pub(super) fn require(studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
-    let without = studies.iter().find(|study| study.manufactured().is_none());
+    let without = studies.iter().find(|study| !has_variants(study.as_ref()));
     without.map_or(Ok(()), |study| Err(no_file(&study.header().id)))
 }
 
@@ -36,8 +43,7 @@ pub(super) fn no_file(id: &str) -> Unusable {
 }
 
 /// Finds where the order of each study is lost that does not pass, as far as its variants tell.
-/// Studies without a file of `manufacture` are left as they are, and so are those with a case
-/// without a result.
+/// Studies without variants are left as they are, and so are those with a case without a result.
 ///
 /// * `finished`: what the studies found, in their order.
 ///
@@ -51,31 +57,76 @@ pub(super) fn locate(
     quiet: bool,
 ) -> Result<(), Unusable> {
     let searches = searches(studies, finished)?;
-    let mut runs = vec![];
-    for Search {
-        study, variants, ..
-    } in &searches
-    {
-        for variant in &variants.usable {
-            runs.extend(study.with_variant(&variant.name));
+    let empty = |search: &Search<'_>| vec![None; search.variants.usable.len()];
+    let mut ran: Vec<Vec<Option<Finished>>> = searches.iter().map(empty).collect();
+    // A program that ignores the variable is refused after one variant, not after all.
+    for is_probe in [true, false] {
+        run_variants(&searches, is_probe, &mut ran, effort, quiet)?;
+        for (search, ran) in searches.iter().zip(&ran) {
+            refuse(&finished[search.place], &search.variants, ran)?;
         }
     }
-    let ran = watched_with(&runs, quiet, false, |progress| {
-        run::run(&runs, effort, progress)
-    })?;
-    let mut ran = ran.into_iter();
-    for Search {
-        place, variants, ..
-    } in &searches
-    {
-        let of_search: Vec<Finished> = ran.by_ref().take(variants.usable.len()).collect();
+    for (search, ran) in searches.iter().zip(ran) {
+        let Search {
+            place, variants, ..
+        } = search;
+        let of_search: Vec<Finished> = ran.into_iter().flatten().collect();
         let base = &mut finished[*place];
-        refuse(base, variants, &of_search)?;
         let outcomes: Vec<&Outcome> = of_search.iter().map(|ran| &ran.outcome).collect();
         let located = located(&base.outcome, variants, &outcomes);
         let figure = figure(&base.header, &base.outcome, &located);
         base.outcome.figures.extend(figure);
         base.located = Some(located);
+    }
+    Ok(())
+}
+
+impl Search<'_> {
+    /// A variant whose errors are not those of the study unless the program ignores it: with a
+    /// bubble the solution is no polynomial of low degree, for which schemes are exact.
+    fn probe(&self) -> Option<usize> {
+        let has_bubble = |variant: &Variant| {
+            matches!(
+                variant.switches_off,
+                Part::BothFaces(_) | Part::AllFaces | Part::AllFacesAndInitial
+            )
+        };
+        self.variants.usable.iter().position(has_bubble)
+    }
+}
+
+/// Runs the probe of each search, or all other variants, in one pool.
+///
+/// * `ran`: for each search and each of its variants what it found, if it was run.
+fn run_variants(
+    searches: &[Search<'_>],
+    is_probe: bool,
+    ran: &mut [Vec<Option<Finished>>],
+    effort: Effort,
+    quiet: bool,
+) -> Result<(), Unusable> {
+    let mut runs = vec![];
+    let mut slots = vec![];
+    for (search, ran) in searches.iter().zip(ran) {
+        let probe = search.probe();
+        let variants = search.variants.usable.iter().zip(ran).enumerate();
+        for (place, (variant, slot)) in variants {
+            if (probe == Some(place)) == is_probe
+                && let Some(run) = search.study.with_variant(&variant.name)
+            {
+                runs.push(run);
+                slots.push(slot);
+            }
+        }
+    }
+    if runs.is_empty() {
+        return Ok(());
+    }
+    let finished = watched_with(&runs, quiet, false, |progress| {
+        run::run(&runs, effort, progress)
+    })?;
+    for (slot, finished) in slots.into_iter().zip(finished) {
+        *slot = Some(finished);
     }
     Ok(())
 }
@@ -88,39 +139,41 @@ fn searches<'s>(
     for (place, finished) in finished.iter().enumerate() {
         let mut studies = studies.iter();
         let study = studies.find(|study| study.header().id == finished.header.id);
-        let Some((study, file)) = study.and_then(|study| Some((study, study.manufactured()?)))
-        else {
+        let Some(study) = study.filter(|study| has_variants(study.as_ref())) else {
             continue;
         };
         if lost(&finished.outcome).is_empty() || !finished.failed_cases.is_empty() {
             continue;
         }
-        let name = file.display().to_string();
-        let manufacture = Manufacture::parse(&read_text(file)?, &name)?;
-        searches.push(Search {
+        let variants = match study.manufactured() {
+            Some(file) => variants_of(file)?,
+            None => study.variants(),
+        };
+        searches.extend(variants.map(|variants| Search {
             study: study.as_ref(),
             place,
-            variants: variants(&manufacture)?,
-        });
+            variants,
+        }));
     }
     Ok(searches)
 }
 
 /// Refuses variants that do not run, or that the program does not notice.
-fn refuse(base: &Finished, variants: &Variants, ran: &[Finished]) -> Result<(), Unusable> {
+fn refuse(base: &Finished, variants: &Variants, ran: &[Option<Finished>]) -> Result<(), Unusable> {
     let id = &base.header.id;
     for (variant, finished) in variants.usable.iter().zip(ran) {
-        if let Some(failed) = finished.failed_cases.first() {
+        let failed = finished.as_ref().map(|ran| ran.failed_cases.as_slice());
+        if let Some([failed, ..]) = failed {
             return Err(Unusable::because(&format!(
                 "{id}: --where: the variant {} does not run: {}: {}",
                 variant.name, failed.label, failed.reason
             )));
         }
     }
-    let outcomes: Vec<&Outcome> = ran.iter().map(|ran| &ran.outcome).collect();
+    let outcomes: Vec<&Outcome> = ran.iter().flatten().map(|ran| &ran.outcome).collect();
     if is_unnoticed(&base.outcome, &outcomes) {
         return Err(Unusable::because(&format!(
-            "{id}: --where: the errors are the same in all variants: the program does not notice \
+            "{id}: --where: the errors do not change with the variant: the program does not notice \
              the variable MANUFACTURE_VARIANT of its environment. Likely reasons: its module was \
              written without --variants; it uses or was compiled with an older module; it is \
              started by something that does not pass the environment on, as MPI on other hosts \
@@ -130,8 +183,10 @@ fn refuse(base: &Finished, variants: &Variants, ran: &[Finished]) -> Result<(), 
     Ok(())
 }
 
-/// The variants of a file, as its modules describe them to other programs.
-fn variants(manufacture: &Manufacture) -> Result<Variants, Unusable> {
+/// The variants of a file of `manufacture`, as its modules describe them to other programs.
+fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
+    let name = file.display().to_string();
+    let manufacture = Manufacture::parse(&read_text(file)?, &name)?;
     let of_file = manufacture.variants(&Sampling::default())?;
     let description = serde_json::to_value(of_file.description());
     let variants = description.and_then(serde_json::from_value);
@@ -142,7 +197,7 @@ fn variants(manufacture: &Manufacture) -> Result<Variants, Unusable> {
 mod tests {
     use manufacture::Switch;
 
-    use crate::study::variants::Part;
+    use super::Part;
 
     #[test]
     fn each_part_of_a_file_is_one_of_the_search() {

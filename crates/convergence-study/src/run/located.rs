@@ -42,6 +42,9 @@ pub struct VariantRates {
     /// The rates of the errors whose order is lost in the study; none for a variant that cannot be
     /// used.
     pub rates: Vec<VariantRate>,
+    /// Why it cannot be used.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<String>,
 }
 
 /// The rate of an error with a variant.

@@ -7,6 +7,7 @@ use super::header::{Header, Setting};
 use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
 use super::outcome::Outcome;
 use super::subject::Subject;
+use super::variants::Variants;
 
 /// A study of any kind, as the runner sees it.
 pub trait Study: Send + Sync {
@@ -27,6 +28,11 @@ pub trait Study: Send + Sync {
 
     /// As [`Kind::manufactured`].
     fn manufactured(&self) -> Option<&Path> {
+        None
+    }
+
+    /// As [`Kind::variants`].
+    fn variants(&self) -> Option<Variants> {
         None
     }
 
@@ -111,6 +117,10 @@ impl<K: Kind> Study for Described<K> {
 
     fn manufactured(&self) -> Option<&Path> {
         self.kind.manufactured()
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        self.kind.variants()
     }
 
     fn with_variant(&self, variant: &str) -> Option<Box<dyn Study + '_>> {

@@ -7,6 +7,7 @@ use super::coverage::{Coverage, NO_RESULT};
 use super::header::{self, Header, Setting};
 use super::outcome::{Check, Origin, Outcome};
 use super::subject::Subject;
+use super::variants::Variants;
 use crate::text::lists::{and_more, grouped};
 
 /// One computation of a study.
@@ -208,8 +209,12 @@ pub trait Kind: Send + Sync {
         None
     }
 
-    /// The same study with a variant of that solution, judged by itself: levels are added while it
-    /// is undecided. `None` without such a file.
+    /// The variants of the study's own solution, for `--where`.
+    fn variants(&self) -> Option<Variants> {
+        None
+    }
+
+    /// The same study with a variant of its solution, judged by itself. `None` without variants.
     fn with_variant(&self, _variant: &str) -> Option<Self>
     where
         Self: Sized,

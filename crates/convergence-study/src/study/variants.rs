@@ -50,6 +50,8 @@ pub struct LeftOut {
     pub name: String,
     /// What it would switch off.
     pub switches_off: Part,
+    /// Why it cannot be run.
+    pub why: String,
 }
 
 /// The variants of a solution.

@@ -294,7 +294,11 @@ impl Table<'_> {
         let strongest = of_all
             .iter()
             .rfind(|one| !self.fates(|part| part == *one).is_empty());
-        let is_strong = |part: &Part| *part == Part::AllFaces || Some(part) == strongest;
+        // Without one of these, both faces of the one coordinate are all faces.
+        let is_strong = |part: &Part| match part {
+            Part::BothFaces(_) => strongest.is_none(),
+            part => *part == Part::AllFaces || Some(part) == strongest,
+        };
         let both = |part: &Part| match part {
             Part::BothFaces(name) => back.contains(&Part::Coordinate(name.clone())),
             _ => false,

@@ -21,6 +21,7 @@ use decide::{Examined, decide};
 use fate::{Sized, fate};
 
 pub use figure::figure;
+pub(crate) use words::summary_of_located;
 pub use words::text_of_located;
 
 /// The errors whose rates do not pass; values without an exact solution are not compared.
@@ -73,9 +74,15 @@ pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located
             switches_off: variant.switches_off.clone(),
             order: fate,
             rates: rates.collect(),
+            left_out: None,
         });
     }
-    for LeftOut { name, switches_off } in &variants.left_out {
+    for LeftOut {
+        name,
+        switches_off,
+        why,
+    } in &variants.left_out
+    {
         let part = switches_off.clone();
         let fate = Fate::Unknown;
         examined.push(Examined { part, fate });
@@ -84,6 +91,7 @@ pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located
             switches_off: switches_off.clone(),
             order: fate,
             rates: vec![],
+            left_out: Some(why.clone()),
         });
     }
     let conclusion = decide(&examined);

@@ -51,6 +51,44 @@ pub(super) fn order(variant: &VariantRates) -> &'static str {
     }
 }
 
+/// The parts that are named in several studies, the commonest first: a line; empty for one study.
+pub(crate) fn summary_of_located(places: &[&Located]) -> String {
+    if places.len() < 2 {
+        return String::new();
+    }
+    let mut counts: Vec<(&Part, usize)> = vec![];
+    for part in places.iter().flat_map(|located| &located.named) {
+        match counts.iter_mut().find(|(known, _)| *known == part) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((part, 1)),
+        }
+    }
+    // Stable: equal counts keep the order of the studies.
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let parts = counts
+        .iter()
+        .map(|(part, count)| format!("{} in {count}", place(part)));
+    let parts: Vec<String> = parts.collect();
+    let parts = if parts.is_empty() {
+        "no part is named".to_owned()
+    } else {
+        parts.join(", ")
+    };
+    format!(
+        "of {} studies that have lost an order: {parts}\n",
+        places.len()
+    )
+}
+
+/// A part that is named.
+fn place(part: &Part) -> String {
+    match part {
+        Part::Face(name) => format!("at the face {name}"),
+        Part::Initial => "at the first time".to_owned(),
+        part => Inside::of(part).map_or_else(String::new, |words| words.place),
+    }
+}
+
 /// `2.03 ± 0.04`; the last rate without an interval.
 fn interval(rate: &RateVerdict) -> String {
     if let (Some(fitted), Some(interval)) = (rate.fitted, rate.interval) {
@@ -252,5 +290,35 @@ fn listed(mut names: Vec<String>) -> String {
         last
     } else {
         format!("{} and {last}", names.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_named_in_several_studies_are_counted() {
+        let located = |named: Vec<Part>| Located {
+            named,
+            conclusion: String::new(),
+            variants: vec![],
+        };
+        let a = || Part::Parameter("a".to_owned());
+        let places = [
+            located(vec![Part::Face("x_max".to_owned())]),
+            located(vec![Part::Field("theta".to_owned()), a()]),
+            located(vec![a()]),
+            located(vec![]),
+        ];
+        let all: Vec<&Located> = places.iter().collect();
+        assert_eq!(
+            summary_of_located(&all),
+            "of 4 studies that have lost an order: in the terms with a in 2, at the face x_max in 1, \
+             in what acts on theta in 1\n"
+        );
+        assert_eq!(summary_of_located(&all[..1]), "");
+        let none = "of 2 studies that have lost an order: no part is named\n";
+        assert_eq!(summary_of_located(&[all[3], all[3]]), none);
     }
 }

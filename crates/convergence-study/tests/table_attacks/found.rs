@@ -260,3 +260,74 @@ fn a_line_of_separators_between_some_rows_cuts() {
         }
     }
 }
+
+/// Variables in rows, as AMReX prints them, with the steps in the head or the rates of halved steps.
+#[test]
+fn variables_in_rows_are_no_steps() {
+    let with_steps = "L1 errors\n          dx=1/32     dx=1/64     dx=1/128\n\
+        density   3.9837e-03  9.9939e-04  2.5004e-04\n\
+        xmom      1.2034e-02  3.0295e-03  7.5843e-04\n";
+    let with_rates = "Variable  dx=1/32     Rate   dx=1/64     Rate   dx=1/128\n\
+        density   3.9837e-03  1.995  9.9939e-04  1.999  2.5004e-04\n\
+        xmom      1.2034e-02  1.990  3.0295e-03  1.998  7.5843e-04\n";
+    let in_markdown = "| Variable | dx=1/32 | Order | dx=1/64 | Order | dx=1/128 |\n|---|---|---|---|---|---|\n\
+        | density | 3.98e-3 | 2.0 | 9.99e-4 | 2.0 | 2.50e-4 |\n\
+        | xmom | 1.20e-2 | 2.0 | 3.03e-3 | 2.0 | 7.58e-4 |\n";
+    for text in [with_steps, with_rates, in_markdown] {
+        let answer = answer(text, &["2"]).expect("a table");
+        let table = &answer.tables[0];
+        assert!(answer.verdict.is_pass(), "{text}{}", answer.text);
+        assert_eq!(table.reading, "step: `dx`; errors: `density`, `xmom`");
+        assert_eq!(table.rows[1][0].trim(), "0.03125", "{text}");
+    }
+    let by_rates = answer(&with_rates.replace("dx=1/", "grid"), &["2"]).expect("a table");
+    let reading =
+        "step: `2^(-row)`, as the rates between the errors say; errors: `density`, `xmom`";
+    assert_eq!(by_rates.tables[0].reading, reading);
+    // Neither steps nor rates: no column may be offered as the step.
+    let alone = with_steps.replace("dx=1/", "grid");
+    let error = RateTable::parse_with(&alone, "t", &Choice::default()).unwrap_err();
+    assert!(
+        error.offers.iter().all(|offer| offer.choice.step.is_none()),
+        "{error}"
+    );
+    assert!(
+        error
+            .offers
+            .iter()
+            .any(|offer| offer.choice.ratio == Some(2.0)),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_list_of_words_alone_is_named_or_fails() {
+    for (list, words) in [
+        (r#"["lost", "lost", "lost", "lost"]"#, "T (words)"),
+        (
+            "[\n\"no result\",\n\"no result\",\n\"no result\",\n\"lost\"\n]",
+            "T (words)",
+        ),
+        (
+            r#"["diverged", "diverged", "diverged", "diverged"]"#,
+            "1 of 2",
+        ),
+        ("[nan, nan, nan, nan]", "1 of 2"),
+    ] {
+        for last in [false, true] {
+            let step = r#""h": [0.4, 0.2, 0.1, 0.05]"#;
+            let errors = r#""L2": [0.16, 0.04, 0.01, 0.0025]"#;
+            let text = if last {
+                format!("{{{step}, {errors}, \"T\": {list}}}")
+            } else {
+                format!("{{{step}, \"T\": {list}, {errors}}}")
+            };
+            let answer = answer(&text, &["2"]).expect("a table");
+            assert!(
+                answer.sentence.contains(words),
+                "{text}\n{}",
+                answer.sentence
+            );
+        }
+    }
+}

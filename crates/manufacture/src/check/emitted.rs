@@ -22,21 +22,10 @@ const SAME: f64 = 1e3 * f64::EPSILON;
 /// An emitted program that takes longer is wrong.
 const LIMIT: Duration = Duration::from_secs(600);
 
-/// The command that succeeds if the tool chain is there, and what is missing if not.
-fn probe(language: Language) -> Option<(&'static [&'static str], &'static str)> {
-    match language {
-        Language::C => Some((&["cc", "--version"], "C compiler")),
-        Language::Fortran => Some((&["gfortran", "--version"], "gfortran")),
-        Language::Python => Some((&["python3", "-c", "import numpy"], "Python with NumPy")),
-        Language::Octave => Some((&["octave", "--version"], "Octave")),
-        Language::Rust => Some((&["rustc", "--version"], "rustc")),
-        Language::Ufl => None,
-    }
-}
-
-fn succeeds(command: &[&str]) -> bool {
-    let status = Command::new(command[0])
-        .args(&command[1..])
+fn succeeds(command: &str) -> bool {
+    let mut words = command.split(' ');
+    let status = Command::new(words.next().unwrap_or_default())
+        .args(words)
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .status();
@@ -59,13 +48,13 @@ pub(crate) fn emitted(
             ..finding("emitted", name, format!("not run: {reason}"), None)
         }]
     };
-    let Some((command, missing)) = probe(language) else {
+    let Some(tools) = &language.texts().tools else {
         return Ok(not_run(
             "values need fenics-ufl and basix, which are not run here; Python has the same statements",
         ));
     };
-    if !succeeds(command) {
-        return Ok(not_run(&format!("no {missing}")));
+    if !succeeds(tools.probe) {
+        return Ok(not_run(&format!("no {}", tools.missing)));
     }
     for file in emit(model, alternatives, language) {
         let path = folder.join(&file.name);

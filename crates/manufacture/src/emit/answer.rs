@@ -1,8 +1,9 @@
 //! The program that answers questions about points in each language.
 
 use super::functions::{Function, others};
+use super::texts::{Answer, Texts};
 use super::write::prefix;
-use super::{EmittedFile, Language, fill, parameters};
+use super::{EmittedFile, Language, fill};
 use crate::derive::{Part, Role};
 use crate::model::Model;
 
@@ -76,143 +77,88 @@ pub(super) fn program(
     language: Language,
     functions: &[Function],
 ) -> Option<EmittedFile> {
-    let (template, ending) = match language {
-        Language::C => (include_str!("templates/answer.c"), "c"),
-        Language::Fortran => (include_str!("templates/answer.f90"), "f90"),
-        Language::Python => (include_str!("templates/answer.py"), "py"),
-        Language::Octave => (include_str!("templates/answer.m"), "m"),
-        Language::Rust => (include_str!("templates/answer.rs"), "rs"),
-        Language::Ufl => return None,
-    };
+    let texts = language.texts().answer.as_ref()?;
     let problem = &model.problem;
     let groups = groups(model, functions);
-    let dimension = problem.coordinates.len();
+    let dimension = problem.coordinates.len().to_string();
+    let variables = problem.intervals.len().to_string();
     let prefix = prefix(model, language);
-    let names = groups
-        .iter()
-        .map(|group| names(language, group))
-        .collect::<String>();
-    let calls = groups
-        .iter()
-        .map(|group| calls(language, group, dimension, &prefix));
-    let calls = calls.collect::<String>();
+    let mut names = String::new();
+    let mut calls = String::new();
+    for group in &groups {
+        let all = group.names(texts.separator);
+        names += &fill(texts.names, &[("FACE", group.face), ("NAMES", &all)]);
+        calls += &self::calls(language.texts(), texts, group, &prefix);
+    }
     let most = groups.iter().map(Group::count).max().unwrap_or(1);
     let has_parameters = !problem.parameters.is_empty();
+    let has_time = problem.time.is_some();
     let real = [
-        if problem.time.is_some() { ", t" } else { "" },
+        if has_time { ", t" } else { "" },
         if has_parameters { ", value" } else { "" },
     ];
-    let time = match (language, problem.time.is_some()) {
-        (Language::Fortran, true) => format!("        t = p({})\n", dimension + 1),
-        (Language::Python, true) => format!("t = points[{dimension}]\n"),
-        (Language::Octave, true) => format!("t = points({}, :);\n", dimension + 1),
-        _ => String::new(),
-    };
+    let settings = language.texts().parameters.settings;
     let text = fill(
-        template,
+        texts.template,
         &[
             ("NAME", &problem.name),
             ("NAMES", &names),
             ("CALLS", &calls),
             ("REAL", &real.concat()),
             ("WHOLE", if has_parameters { ", place, cut" } else { "" }),
-            ("TIME", &time),
-            (
-                "CHOOSE",
-                if has_alternatives {
-                    "    call choose_variant()\n"
-                } else {
-                    ""
-                },
-            ),
-            ("SETTINGS", &parameters::settings(model, language, &prefix)),
-            ("T", if problem.time.is_some() { ", t" } else { "" }),
-            ("D", &dimension.to_string()),
-            ("V", &problem.intervals.len().to_string()),
+            ("TIME", if has_time { texts.time } else { "" }),
+            ("CHOOSE", if has_alternatives { texts.choose } else { "" }),
+            ("SETTINGS", if has_parameters { settings } else { "" }),
+            ("P", &prefix),
+            ("T", if has_time { ", t" } else { "" }),
+            ("D", &dimension),
+            ("V", &variables),
             ("MOST", &most.to_string()),
         ],
     );
     Some(EmittedFile {
-        name: format!("{}_answer.{ending}", problem.name),
+        name: format!("{}_answer{}", problem.name, texts.ending),
         text,
     })
 }
 
-/// The branch that prints the names.
-fn names(language: Language, group: &Group<'_>) -> String {
-    let Group { face, .. } = group;
-    let names = group.names(match language {
-        Language::Rust => "\\\n            ",
-        Language::Fortran => "', &\n            '",
-        _ => "\"\n        \"",
-    });
-    match language {
-        Language::C => {
-            format!("    if (strcmp(face, \"{face}\") == 0) \n        names = \"{names}\";\n")
-        }
-        Language::Fortran => {
-            format!("    case ('{face}')\n        write(*, '(*(a))') '{names}'\n")
-        }
-        Language::Rust => format!("        \"{face}\" => println!(\"{names}\"),\n"),
-        _ => String::new(),
-    }
-}
-
 /// The branch that evaluates the functions of a group.
-fn calls(language: Language, group: &Group<'_>, dimension: usize, prefix: &str) -> String {
+fn calls(language: &Texts, texts: &Answer, group: &Group<'_>, prefix: &str) -> String {
     let Group { face, functions } = group;
-    let has_time = functions.iter().any(|f| f.has_time);
-    let time = match (has_time, language) {
-        (false, _) => String::new(),
-        (true, Language::C | Language::Rust) => format!(", p[{dimension}]"),
-        (true, _) => ", t".to_owned(),
-    };
     let mut place = 0;
-    let mut lines = vec![];
+    let mut calls = vec![];
     for function in functions {
-        let Function { name, shape, .. } = function;
-        let name = format!("{prefix}{name}");
-        lines.push(match (language, shape.len()) {
-            (Language::C, 0) => format!("            out[{place}] = {name}(x{time});\n"),
-            (Language::C, _) => format!("            {name}(x{time}, out + {place});\n"),
-            // An array of Fortran is printed column by column.
-            (Language::Fortran, 2) => format!("transpose({name}(x{time}))"),
-            (Language::Fortran, _) => format!("{name}(x{time})"),
-            (Language::Rust, 0) => {
-                format!("                out.push(library::{name}(&x{time}));\n")
-            }
-            (Language::Rust, _) => {
-                format!("                out.extend(library::{name}(&x{time}));\n")
-            }
-            (Language::Octave, _) => format!("p.{name}(x{time})"),
-            _ => format!("library.{name}"),
+        let shaped = match function.shape.len() {
+            0 => &language.scalar,
+            _ => &language.tensor,
+        };
+        let time = if function.has_time {
+            texts.time_argument
+        } else {
+            ""
+        };
+        let call = fill(
+            shaped.answer,
+            &[
+                ("F", &function.name),
+                ("TIME", time),
+                ("PLACE", &place.to_string()),
+                ("P", prefix),
+            ],
+        );
+        calls.push(match function.shape.len() {
+            2 => fill(texts.matrix, &[("CALL", &call)]),
+            _ => call,
         });
         place += function.roots.len();
     }
-    match language {
-        Language::C => format!(
-            "        if (strcmp(face, \"{face}\") == 0) {{\n{}            count = {place};\n        }}\n",
-            lines.concat()
-        ),
-        Language::Fortran => format!(
-            "        case ('{face}')\n            write(*, '(*(es25.16e3, 1x))') &\n                {}\n",
-            lines.join(", &\n                ")
-        ),
-        Language::Python => {
-            let lines = lines.join(",\n        ");
-            format!(
-                "    \"{face}\": (\"{}\", [\n        {lines},\n    ]),\n",
-                group.names("\"\n        \"")
-            )
-        }
-        Language::Octave => format!(
-            "  case '{face}'\n    puts([\"{}\\n\"]);\n    rows = [{}];\n",
-            group.names("\", ...\n      \""),
-            lines.join("; ...\n      ")
-        ),
-        _ => format!(
-            "            \"{face}\" => {{\n{}            }}\n",
-            lines.concat()
-        ),
-    }
+    fill(
+        texts.branch,
+        &[
+            ("FACE", *face),
+            ("NAMES", &group.names(texts.separator)),
+            ("CALLS", &calls.join(texts.between)),
+            ("COUNT", &place.to_string()),
+        ],
+    )
 }

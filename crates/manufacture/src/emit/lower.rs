@@ -168,8 +168,8 @@ fn binary(operator: Binary, left: &Text, right: &Text, language: Language) -> Te
     let symbol = match operator {
         Binary::Add => return sum(left, "+", right),
         Binary::Subtract => return sum(left, "-", right),
-        Binary::Multiply => language.times(),
-        Binary::Divide => language.over(),
+        Binary::Multiply => language.texts().arithmetic.times,
+        Binary::Divide => language.texts().arithmetic.over,
         Binary::Power => return Text::atom(language.power(&left.text, &right.text)),
     };
     Text {
@@ -193,7 +193,8 @@ fn sum(left: &Text, symbol: &str, right: &Text) -> Text {
 /// A small whole power as a product.
 fn product(base: &Text, exponent: f64, language: Language) -> Text {
     let base = base.within(Binding::Atom);
-    let factors = vec![base.as_str(); exponent.abs() as usize].join(language.times());
+    let factors =
+        vec![base.as_str(); exponent.abs() as usize].join(language.texts().arithmetic.times);
     if exponent > 0.0 {
         return Text {
             text: factors,
@@ -207,7 +208,7 @@ fn product(base: &Text, exponent: f64, language: Language) -> Text {
         format!("({factors})")
     };
     Text {
-        text: format!("{one}{}{below}", language.over()),
+        text: format!("{one}{}{below}", language.texts().arithmetic.over),
         binding: Binding::Product,
     }
 }

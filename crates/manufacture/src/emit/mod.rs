@@ -4,11 +4,13 @@ mod answer;
 mod choice;
 mod dialect;
 mod functions;
+mod languages;
 mod lower;
 mod parameters;
 mod reserved;
 mod runtime;
 mod study;
+mod texts;
 mod write;
 
 use std::path::Path;
@@ -57,68 +59,14 @@ impl Language {
     /// The commands that make the answering program of a file in a folder, the last of which runs
     /// it; none for UFL.
     pub(crate) fn commands(self, name: &str, folder: &Path) -> Vec<Vec<String>> {
-        let file = |file: String| folder.join(file).display().to_string();
-        let answer = |ending: &str| file(format!("{name}_answer.{ending}"));
-        let program = file(format!("{name}_answer_{}", self.name()));
-        let modules = folder.display().to_string();
-        match self {
-            Language::C => {
-                let library = file(format!("{name}.c"));
-                let build = [
-                    "cc",
-                    "-std=c99",
-                    "-O2",
-                    "-o",
-                    &program,
-                    &library,
-                    &answer("c"),
-                    "-lm",
-                ];
-                vec![words(&build), words(&[&program])]
-            }
-            Language::Fortran => {
-                let library = file(format!("{name}.f90"));
-                let build = [
-                    "gfortran",
-                    "-std=f2008",
-                    "-O2",
-                    "-J",
-                    &modules,
-                    "-o",
-                    &program,
-                    &library,
-                    &answer("f90"),
-                ];
-                vec![words(&build), words(&[&program])]
-            }
-            Language::Python => vec![words(&["python3", "-B", &answer("py")])],
-            Language::Octave => vec![words(&[
-                "octave",
-                "--quiet",
-                "--no-history",
-                "--path",
-                &modules,
-                &answer("m"),
-            ])],
-            Language::Rust => {
-                let build = [
-                    "rustc",
-                    "--edition",
-                    "2021",
-                    "-O",
-                    "-o",
-                    &program,
-                    &answer("rs"),
-                ];
-                vec![words(&build), words(&[&program])]
-            }
-            Language::Ufl => vec![],
-        }
+        let folder = folder.join("").display().to_string();
+        let values = [("IN", folder.as_str()), ("NAME", name)];
+        let tools = self.texts().tools.iter();
+        let commands = tools.flat_map(|tools| tools.commands);
+        commands
+            .map(|words| words.split(' ').map(|word| fill(word, &values)).collect())
+            .collect()
     }
-}
-
-fn words(words: &[&str]) -> Vec<String> {
-    words.iter().map(|word| (*word).to_owned()).collect()
 }
 
 /// A file to be written.

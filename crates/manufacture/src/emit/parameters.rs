@@ -4,8 +4,9 @@
 use std::fmt::Write;
 
 use super::lower::Lowered;
+use super::texts::Parameters;
 use super::write::{Emitted, Writer, declared};
-use super::{Language, choice, fill};
+use super::{choice, fill};
 use crate::model::Model;
 use crate::problem::mentions;
 
@@ -35,69 +36,49 @@ fn followers(model: &Model, index: usize) -> Vec<usize> {
     changed.split_off(1)
 }
 
-/// The definition of a parameter.
-fn definition(language: Language, name: &str, value: f64) -> String {
-    let number = language.number(value);
-    match language {
-        Language::C => format!("static double {name} = {number};\n"),
-        Language::Fortran => format!("real(dp), protected :: {name} = {number}\n"),
-        Language::Rust => format!(
-            "#[allow(non_upper_case_globals)]\nstatic {name}: AtomicU64 = AtomicU64::new({:#x}); // {value:?}\n",
-            value.to_bits()
-        ),
-        Language::Octave => format!("    known.{name} = {number};\n"),
-        Language::Python | Language::Ufl => format!("{name} = {number}\n"),
-    }
-}
-
 /// How functions read a parameter.
 pub(super) fn read(writer: &Writer<'_>, name: &str) -> String {
-    match writer.language {
-        Language::C if writer.changes_parameters() => format!("{}current(&{name})", writer.prefix),
-        Language::Rust => format!("current(&{name})"),
-        Language::Octave => format!("parameters().{name}"),
-        _ => name.to_owned(),
-    }
-}
-
-fn assignment(language: Language, name: &str, value: &str) -> String {
-    match language {
-        Language::C => format!("{name} = {value};"),
-        Language::Rust => format!("{name}.store(({value}).to_bits(), Relaxed);"),
-        Language::Octave => format!("store('{name}', {value});"),
-        _ => format!("{name} = {value}"),
-    }
+    let texts = &writer.texts().parameters;
+    let read = if writer.changes_parameters() {
+        texts.read_of_variant
+    } else {
+        texts.read
+    };
+    fill(read, &[("NAME", name), ("P", &writer.prefix)])
 }
 
 /// The definitions of all parameters.
 pub(super) fn definitions(writer: &Writer<'_>) -> String {
+    let texts = &writer.texts().parameters;
     let values = writer.model.graph.parameters.iter();
-    let pairs = writer.parameters.iter().zip(values);
-    let lines: String = pairs
-        .map(|(name, value)| definition(writer.language, name, *value))
-        .collect();
+    let mut lines = String::new();
+    for (name, value) in writer.parameters.iter().zip(values) {
+        lines += &fill(
+            texts.definition,
+            &[
+                ("NAME", name),
+                ("VALUE", &writer.language.number(*value)),
+                ("BITS", &format!("{:#x}", value.to_bits())),
+                ("DIGITS", &format!("{value:?}")),
+            ],
+        );
+    }
     if lines.is_empty() {
         return lines;
     }
-    match writer.language {
-        Language::Rust => format!(
-            "use std::sync::atomic::{{AtomicU64, Ordering::Relaxed}};\n\n{lines}\n\
-             fn current(parameter: &AtomicU64) -> f64 {{\n{}    f64::from_bits(parameter.load(Relaxed))\n}}\n\n",
-            if writer.changes_parameters() {
-                choice::ready(writer)
-            } else {
-                String::new()
-            }
-        ),
-        Language::Octave => format!(
-            "function values = parameters(new)\n  persistent known\n  if isempty(known)\n{lines}{}  end\n  \
-             if nargin > 0, known = new; end\n  values = known;\nend\n\n\
-             function store(name, value)\n  values = parameters();\n  values.(name) = value;\n  \
-             parameters(values);\nend\n\n",
-            choice::changes(writer)
-        ),
-        _ => lines,
-    }
+    let ready = if writer.changes_parameters() {
+        choice::ready(writer)
+    } else {
+        String::new()
+    };
+    fill(
+        texts.definitions,
+        &[
+            ("LINES", &lines),
+            ("CHANGES", &choice::changes(writer)),
+            ("READY", &ready),
+        ],
+    )
 }
 
 /// The statements that set a parameter, and those that follow it.
@@ -109,14 +90,16 @@ struct Branch<'w> {
 
 fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Branch<'w> {
     let language = writer.language;
-    let mut statements = vec![assignment(language, &writer.parameters[index], "value")];
+    let texts = &writer.texts().parameters;
+    let mut statements = vec![assignment(texts, &writer.parameters[index], "value")];
     let mut all = vec![];
     for follower in followers(emitted.model, index) {
         let node = emitted.model.parameters[follower];
         let Lowered { constants, roots } = writer.statements(emitted, &[node], "x", "t");
         // One after the other: constants are numbered anew for each, in C in a block of their own.
-        let is_block = language == Language::C && !constants.is_empty();
-        statements.extend(is_block.then(|| "{".to_owned()));
+        let block = language.texts().statements.block;
+        let block = block.filter(|_| !constants.is_empty());
+        statements.extend(block.map(|[opening, _]| opening.to_owned()));
         for [name, value] in constants {
             statements.push(language.assign(&name, &value));
             if !all.contains(&[name.clone(), String::new()]) {
@@ -124,8 +107,8 @@ fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Br
             }
         }
         let name = &writer.parameters[follower];
-        statements.push(assignment(language, name, &roots[0]));
-        statements.extend(is_block.then(|| "}".to_owned()));
+        statements.push(assignment(texts, name, &roots[0]));
+        statements.extend(block.map(|[_, closing]| closing.to_owned()));
     }
     Branch {
         name: &writer.model.problem.parameters[index].name,
@@ -134,76 +117,8 @@ fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Br
     }
 }
 
-/// How a language sets a parameter by its name, and returns it.
-struct Access {
-    setter: &'static str,
-    /// The statements around all cases.
-    body: &'static str,
-    first: &'static str,
-    later: &'static str,
-    indent: usize,
-    close: &'static str,
-    /// The function that returns one; empty where programs read the variables of the module.
-    getter: &'static str,
-    getter_case: &'static str,
-}
-
-fn texts(language: Language) -> Access {
-    match language {
-        Language::C => Access {
-            setter: include_str!("templates/setter.c"),
-            body: "@CASES@",
-            first: "    if (strcmp(name, \"@NAME@\") == 0) {\n",
-            later: "    if (strcmp(name, \"@NAME@\") == 0) {\n",
-            indent: 8,
-            close: "        return 0;\n    }\n",
-            getter: include_str!("templates/getter.c"),
-            getter_case: "    if (strcmp(name, \"@NAME@\") == 0) return @VALUE@;\n",
-        },
-        Language::Fortran => Access {
-            setter: include_str!("templates/setter.f90"),
-            body: "    select case (name)\n@CASES@    case default\n        \
-                   error stop 'unknown parameter'\n    end select\n",
-            first: "    case ('@NAME@')\n",
-            later: "    case ('@NAME@')\n",
-            indent: 8,
-            close: "",
-            getter: "",
-            getter_case: "",
-        },
-        Language::Rust => Access {
-            setter: include_str!("templates/setter.rs"),
-            body: "    match name {\n@CASES@        \
-                   _ => return Err(format!(\"unknown parameter `{name}`\")),\n    }\n",
-            first: "        \"@NAME@\" => {\n",
-            later: "        \"@NAME@\" => {\n",
-            indent: 12,
-            close: "        }\n",
-            getter: include_str!("templates/getter.rs"),
-            getter_case: "        \"@NAME@\" => Some(@VALUE@),\n",
-        },
-        Language::Octave => Access {
-            setter: include_str!("templates/setter.m"),
-            body: "  switch name\n@CASES@    otherwise\n      \
-                   error('unknown parameter %s', name);\n  end\n",
-            first: "    case '@NAME@'\n",
-            later: "    case '@NAME@'\n",
-            indent: 6,
-            close: "",
-            getter: include_str!("templates/getter.m"),
-            getter_case: "    case '@NAME@'\n      value = @VALUE@;\n",
-        },
-        Language::Python | Language::Ufl => Access {
-            setter: include_str!("templates/setter.py"),
-            body: "@CASES@    else:\n        raise ValueError(f\"unknown parameter {name}\")\n",
-            first: "    if name == \"@NAME@\":\n",
-            later: "    elif name == \"@NAME@\":\n",
-            indent: 8,
-            close: "",
-            getter: "",
-            getter_case: "",
-        },
-    }
+fn assignment(texts: &Parameters, name: &str, value: &str) -> String {
+    fill(texts.assign, &[("NAME", name), ("VALUE", value)])
 }
 
 /// The functions that set and return a parameter; empty without parameters.
@@ -211,7 +126,7 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
     if writer.parameters.is_empty() {
         return String::new();
     }
-    let texts = texts(writer.language);
+    let texts = &writer.texts().parameters;
     let mut bodies = vec![];
     let mut longest = vec![];
     for emitted in &writer.models {
@@ -222,10 +137,9 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
                 statements,
                 constants,
             } = branch(writer, emitted, index);
-            let opening = if index == 0 { texts.first } else { texts.later };
-            cases += &fill(opening, &[("NAME", name)]);
+            cases += &fill(texts.case, &[("EL", choice::el(index)), ("NAME", name)]);
             for statement in statements {
-                let _ = writeln!(cases, "{}{statement}", " ".repeat(texts.indent));
+                let _ = writeln!(cases, "{}{statement}", texts.indent);
             }
             cases += texts.close;
             if constants.len() > longest.len() {
@@ -237,7 +151,7 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
     let globals: String = writer
         .parameters
         .iter()
-        .map(|name| format!("    global {name}\n"))
+        .map(|name| fill(texts.global, &[("NAME", name)]))
         .collect();
     let setter = fill(
         texts.setter,
@@ -249,10 +163,11 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
             ("P", &writer.prefix),
         ],
     );
-    setter + &getter(writer, &texts)
+    setter + &getter(writer)
 }
 
-fn getter(writer: &Writer<'_>, texts: &Access) -> String {
+fn getter(writer: &Writer<'_>) -> String {
+    let texts = &writer.texts().parameters;
     let parameters = &writer.model.problem.parameters;
     let cases = writer.parameters.iter().zip(parameters);
     let cases: String = cases
@@ -265,34 +180,4 @@ fn getter(writer: &Writer<'_>, texts: &Access) -> String {
         })
         .collect();
     fill(texts.getter, &[("CASES", &cases), ("P", &writer.prefix)])
-}
-
-/// What the answering program does with arguments `NAME=VALUE` behind the face.
-pub(super) fn settings(model: &Model, language: Language, prefix: &str) -> String {
-    if model.problem.parameters.is_empty() {
-        return String::new();
-    }
-    match language {
-        Language::C => format!(
-            "    for (int i = 2; i < argc; ++i) {{\n        char *value = strchr(argv[i], '=');\n        \
-             if (!value) return 2;\n        *value = '\\0';\n        \
-             if ({prefix}set_parameter(argv[i], strtod(value + 1, NULL))) return 2;\n    }}\n"
-        ),
-        Language::Fortran => "    do place = 2, command_argument_count()\n        \
-             call get_command_argument(place, text)\n        \
-             cut = index(text, '=')\n        read(text(cut + 1:), *) value\n        \
-             call set_parameter(text(:cut - 1), value)\n    end do\n"
-            .to_owned(),
-        Language::Python => "for word in sys.argv[2:]:\n    name, value = word.split(\"=\")\n    \
-             library.set_parameter(name, float(value))\n"
-            .to_owned(),
-        Language::Octave => "for k = 2:numel(words)\n  parts = strsplit(words{k}, '=');\n  \
-             p.set_parameter(parts{1}, str2double(parts{2}));\nend\n"
-            .to_owned(),
-        Language::Rust => "    for word in std::env::args().skip(2) {\n        \
-             let (name, value) = word.split_once('=').expect(\"NAME=VALUE\");\n        \
-             library::set_parameter(name, value.parse().expect(\"a number\")).expect(\"a parameter\");\n    }\n"
-            .to_owned(),
-        Language::Ufl => String::new(),
-    }
 }

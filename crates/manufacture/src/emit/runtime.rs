@@ -1,8 +1,7 @@
 //! What surrounds the statements: signatures, tables of points, averages and norms.
 
-use std::fmt::Write;
-
 use super::functions::Function;
+use super::texts::{Norm as NormTexts, Norms, Shaped, Time};
 use super::write::Writer;
 use super::{Language, choice, fill};
 use crate::arithmetic::quadrature::POINTS;
@@ -12,61 +11,19 @@ use crate::derive::Role;
 use crate::model::Model;
 use crate::problem::Norm;
 
-pub(super) fn indent(language: Language) -> &'static str {
-    if language == Language::Octave {
-        "  "
-    } else {
-        "    "
-    }
-}
+/// Points of the rule for averages, in each coordinate.
+const AVERAGE_POINTS: usize = 8;
 
-/// The templates of a language.
-struct Templates {
-    integral: &'static str,
-    average: &'static str,
-    error: &'static str,
-}
-
-macro_rules! templates {
-    ($ending:literal) => {
-        Templates {
-            integral: include_str!(concat!("templates/integral.", $ending)),
-            average: include_str!(concat!("templates/average.", $ending)),
-            error: include_str!(concat!("templates/error.", $ending)),
-        }
+/// Time in a list of arguments, and its declaration; empty without time.
+pub(super) fn time(language: Language, has_time: bool) -> &'static Time {
+    const NO_TIME: Time = Time {
+        argument: "",
+        declaration: "",
     };
-}
-
-fn templates(language: Language) -> Templates {
-    match language {
-        Language::C => templates!("c"),
-        Language::Fortran => templates!("f90"),
-        Language::Python | Language::Ufl => templates!("py"),
-        Language::Octave => templates!("m"),
-        Language::Rust => templates!("rs"),
-    }
-}
-
-/// The helper for an integral, with the arguments of time filled in.
-pub(super) fn integral(language: Language, has_time: bool) -> String {
-    let [declared, extra] = time(language, has_time);
-    let points = POINTS.to_string();
-    let values = [
-        ("T", declared),
-        ("TIME", extra),
-        ("POINTS", points.as_str()),
-    ];
-    fill(templates(language).integral, &values)
-}
-
-/// Time in a list of arguments, and in Fortran its declaration.
-fn time(language: Language, has_time: bool) -> [&'static str; 2] {
-    match (language, has_time) {
-        (_, false) => ["", ""],
-        (Language::C, _) => [", double t", ""],
-        (Language::Rust, _) => [", t: f64", ""],
-        (Language::Fortran, _) => [", t", ", t"],
-        _ => [", t", ""],
+    if has_time {
+        &language.texts().time
+    } else {
+        &NO_TIME
     }
 }
 
@@ -76,177 +33,107 @@ fn call_time(has_time: bool) -> &'static str {
 
 /// What stands before the parameters.
 pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
-    let name = &writer.model.problem.name;
-    match writer.language {
-        Language::C => {
-            let headers = if writer.has_alternatives() {
-                "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n"
-            } else if writer.parameters.is_empty() {
-                ""
-            } else {
-                "#include <string.h>\n"
-            };
-            format!("\n#include <math.h>\n{headers}#include \"{name}.h\"\n\n")
-        }
-        Language::Fortran => format!(
-            "module {name}\nimplicit none\npublic\ninteger, parameter, private :: dp = kind(1.0d0)\n"
-        ),
-        Language::Python => "\nimport numpy as np\n\n".to_owned(),
-        Language::Ufl => "\nimport ufl\n\n".to_owned(),
-        Language::Rust => {
-            "#![allow(dead_code, unused_variables, unused_parens, non_snake_case)]\n\n".to_owned()
-        }
-        Language::Octave => {
-            let mut names: Vec<String> = functions.iter().map(|f| f.name.clone()).collect();
-            for [field, norm, _] in errors(writer, functions) {
-                names.push(format!("error_{field}_{norm}"));
-            }
-            let exact = functions.iter().filter(|f| f.role == Role::Exact);
-            names.extend(exact.map(|f| format!("average_{}", suffix(f))));
-            if !writer.parameters.is_empty() {
-                names.extend(["set_parameter", "get_parameter"].map(str::to_owned));
-            }
-            // An unknown variant is refused at once.
-            let variant = if writer.has_alternatives() {
-                "  variant();\n"
-            } else {
-                ""
-            };
-            let mut text = format!("\nfunction p = {name}()\n{variant}");
-            for name in names {
-                let _ = writeln!(text, "  p.{name} = @{name};");
-            }
-            text + "end\n\n"
-        }
+    let texts = &writer.texts().library;
+    let headers = if writer.has_alternatives() {
+        texts.for_variants
+    } else if writer.parameters.is_empty() {
+        ""
+    } else {
+        texts.for_parameters
+    };
+    let mut names: Vec<String> = functions.iter().map(|f| f.name.clone()).collect();
+    for error in errors(writer, functions) {
+        names.push(format!(
+            "error_{}_{}",
+            suffix(error.function),
+            error.norm.name()
+        ));
     }
+    let exact = functions.iter().filter(|f| f.role == Role::Exact);
+    names.extend(exact.map(|f| format!("average_{}", suffix(f))));
+    if !writer.parameters.is_empty() {
+        names.extend(["set_parameter", "get_parameter"].map(str::to_owned));
+    }
+    let entries = names.iter().map(|name| fill(texts.entry, &[("F", name)]));
+    fill(
+        texts.opening,
+        &[
+            ("NAME", &writer.model.problem.name),
+            ("HEADERS", headers),
+            ("ENTRIES", &entries.collect::<String>()),
+        ],
+    )
 }
 
 pub(super) fn closing(writer: &Writer<'_>) -> String {
-    match writer.language {
-        Language::Fortran => format!("end module {}\n", writer.model.problem.name),
-        _ => String::new(),
-    }
+    let name = &writer.model.problem.name;
+    fill(writer.texts().library.closing, &[("NAME", name)])
 }
 
 /// Tables of points and weights, and what else the statements call.
 pub(super) fn helpers(writer: &Writer<'_>) -> String {
     let mut text = String::new();
     if writer.has_integrals() {
-        text += &table(writer, "rule", writer.integral_rule(), POINTS);
+        text += &table(writer, "rule", POINTS);
     }
-    if writer.language != Language::Ufl {
-        text += &table(writer, "gauss", writer.rule(8), 8);
+    if writer.texts().norms.is_some() {
+        text += &table(writer, "gauss", AVERAGE_POINTS);
     }
-    match writer.language {
-        Language::Fortran => text += "contains\n\n",
-        Language::Octave => {
-            text += "function out = pick(condition, a, b)\n  \
-                     % a where the condition holds, b elsewhere; neither is multiplied, so that NaN stays where it is.\n  \
-                     out = b + zeros(size(condition));\n  a = a + zeros(size(condition));\n  \
-                     condition = condition & true(size(out));\n  \
-                     if isscalar(a), a = a*ones(size(out)); end\n  \
-                     if isscalar(out), out = out*ones(size(a)); end\n  \
-                     out(condition) = a(condition);\nend\n\n";
-        }
-        _ => text.push('\n'),
-    }
-    text
+    text + writer.texts().library.helpers
 }
 
-fn table(writer: &Writer<'_>, name: &str, [points, weights]: [String; 2], count: usize) -> String {
-    let prefix = &writer.prefix;
-    let upper = name.to_uppercase();
-    let both = [("x", &points), ("w", &weights)];
-    let one = |(part, numbers): (&str, &String)| match writer.language {
-        Language::C => {
-            format!("static const double {prefix}{name}_{part}[{count}] = {{\n    {numbers}\n}};\n")
-        }
-        Language::Fortran => {
-            format!(
-                "real(dp), parameter, private :: {name}_{part}({count}) = [ &\n    {numbers}]\n"
-            )
-        }
-        Language::Rust => {
-            let upper_part = part.to_uppercase();
-            format!("const {upper}_{upper_part}: [f64; {count}] = [\n    {numbers},\n];\n")
-        }
-        Language::Octave => String::new(),
-        Language::Python | Language::Ufl => {
-            format!("{upper}_{} = [\n    {numbers},\n]\n", part.to_uppercase())
-        }
-    };
-    if writer.language == Language::Octave {
-        let [points, weights] = [points, weights].map(|numbers| numbers.replace(",\n", ", ...\n"));
-        return format!(
-            "function [points, weights] = {name}()\n  points = [ ...\n    {points}];\n  weights = [ ...\n    {weights}];\nend\n\n"
-        );
-    }
-    both.map(one).concat()
+fn table(writer: &Writer<'_>, name: &str, count: usize) -> String {
+    let [points, weights] = writer.rule(count);
+    fill(
+        writer.texts().library.table,
+        &[
+            ("RULE", name),
+            ("RULE1", &name.to_uppercase()),
+            ("K", &count.to_string()),
+            ("X", &points),
+            ("W", &weights),
+            ("P", &writer.prefix),
+        ],
+    )
 }
 
-/// The signature in C, without what follows it.
-fn prototype(writer: &Writer<'_>, function: &Function) -> String {
-    let [time, _] = time(Language::C, function.has_time);
-    let name = format!("{}{}", writer.prefix, function.name);
+/// The texts that depend on whether a function is a scalar.
+fn shaped(writer: &Writer<'_>, function: &Function) -> &'static Shaped {
     if function.shape.is_empty() {
-        format!("double {name}(const double x[]{time})")
+        &writer.texts().scalar
     } else {
-        format!("void {name}(const double x[]{time}, double out[])")
+        &writer.texts().tensor
     }
 }
 
 /// A function around its statements.
 pub(super) fn framed(writer: &Writer<'_>, place: usize, declared: &str, body: &str) -> String {
     let function = &writer.models[0].functions[place];
-    let Function { name, shape, .. } = function;
     let all = writer.models.iter();
     let all: Vec<(&Model, &[NodeId])> = all
         .map(|emitted| (emitted.model, emitted.functions[place].roots.as_slice()))
         .collect();
-    let [time_declared, time_extra] = time(writer.language, function.has_time);
-    let dimension = writer.model.problem.coordinates.len();
-    let count = function.roots.len();
-    match writer.language {
-        Language::C => {
-            let unused = unused(writer, &all, function.has_time);
-            format!("{}\n{{\n{unused}{body}}}\n\n", prototype(writer, function))
-        }
-        Language::Fortran => {
-            let shape = fortran_shape(shape);
-            let unused = unused(writer, &all, function.has_time);
-            let ready = choice::ready(writer);
-            format!(
-                "pure function {name}(x{time_declared}) result(out)\n    real(dp), intent(in) :: x(:){time_extra}\n    \
-                 real(dp) :: out{shape}\n{declared}{unused}{ready}{body}end function {name}\n\n"
-            )
-        }
-        Language::Python => {
-            let result = if shape.is_empty() { "out[0]" } else { "out" };
-            format!(
-                "def {name}(x{time_declared}):\n    x = np.asarray(x, dtype=float)\n    \
-                 out = np.empty(({count},) + x.shape[1:])\n{body}    return {result}\n\n\n"
-            )
-        }
-        Language::Ufl => {
-            format!(
-                "def {name}(x{time_declared}):\n{body}    return {}\n\n\n",
-                ufl_result(shape)
-            )
-        }
-        Language::Octave => format!(
-            "function out = {name}(x{time_declared})\n  out = zeros({count}, size(x, 2));\n{body}end\n\n"
-        ),
-        Language::Rust => {
-            let arguments = format!("x: &[f64; {dimension}]{time_declared}");
-            if shape.is_empty() {
-                format!("pub fn {name}({arguments}) -> f64 {{\n{body}}}\n\n")
-            } else {
-                format!(
-                    "pub fn {name}({arguments}) -> [f64; {count}] {{\n    let mut out = [0.0; {count}];\n{body}    out\n}}\n\n"
-                )
-            }
-        }
-    }
+    let Time {
+        argument,
+        declaration,
+    } = time(writer.language, function.has_time);
+    fill(
+        shaped(writer, function).function,
+        &[
+            ("F", &function.name),
+            ("T", argument),
+            ("TIME", declaration),
+            ("D", &writer.model.problem.coordinates.len().to_string()),
+            ("N", &function.roots.len().to_string()),
+            ("SHAPE", &sides(&function.shape)),
+            ("RESULT", &nested(&function.shape)),
+            ("DECLARED", declared),
+            ("UNUSED", &unused(writer, &all, function.has_time)),
+            ("READY", &choice::ready(writer)),
+            ("BODY", body),
+            ("P", &writer.prefix),
+        ],
+    )
 }
 
 /// Statements for the arguments that the nodes below roots of some models do not use: a compiler
@@ -275,15 +162,12 @@ pub(super) fn unused(
     if has_time && !uses(true) {
         unused.push("t");
     }
-    let statement = |name: &&str| match writer.language {
-        Language::C => format!("    (void){name};\n"),
-        Language::Fortran => format!("    associate (unused => {name})\n    end associate\n"),
-        _ => String::new(),
-    };
+    let statement = |name: &&str| fill(writer.texts().statements.unused, &[("X", *name)]);
     unused.iter().map(statement).collect()
 }
 
-fn fortran_shape(shape: &[usize]) -> String {
+/// The shape of an array of Fortran.
+fn sides(shape: &[usize]) -> String {
     let sides: Vec<String> = shape.iter().map(usize::to_string).collect();
     // Ranks above two are stored row by row.
     match sides.len() {
@@ -293,7 +177,8 @@ fn fortran_shape(shape: &[usize]) -> String {
     }
 }
 
-fn ufl_result(shape: &[usize]) -> String {
+/// The components of a result of UFL.
+fn nested(shape: &[usize]) -> String {
     let names = |range: std::ops::Range<usize>| {
         let names: Vec<String> = range.map(|place| format!("r{place}")).collect();
         names.join(", ")
@@ -314,8 +199,14 @@ fn suffix(function: &Function) -> &str {
     function.name.split_once('_').map_or("", |parts| parts.1)
 }
 
-/// Field, norm, and the function that the values are compared with.
-fn errors(writer: &Writer<'_>, functions: &[Function]) -> Vec<[String; 3]> {
+/// A norm of the difference from a function.
+struct ErrorNorm<'f> {
+    norm: Norm,
+    function: &'f Function,
+}
+
+/// The norms that the file names.
+fn errors<'f>(writer: &Writer<'_>, functions: &'f [Function]) -> Vec<ErrorNorm<'f>> {
     let mut errors = vec![];
     for (field, norms) in &writer.model.problem.norms {
         for norm in norms {
@@ -326,10 +217,10 @@ fn errors(writer: &Writer<'_>, functions: &[Function]) -> Vec<[String; 3]> {
             };
             let mut functions = functions.iter();
             let function = functions.find(|f| f.role == role && f.quantity == *field);
-            if let Some(function) = function {
-                let name = norm.name().to_owned();
-                errors.push([suffix(function).to_owned(), name, function.name.clone()]);
-            }
+            errors.extend(function.map(|function| ErrorNorm {
+                norm: *norm,
+                function,
+            }));
         }
     }
     errors
@@ -338,175 +229,122 @@ fn errors(writer: &Writer<'_>, functions: &[Function]) -> Vec<[String; 3]> {
 /// Averages of the exact fields, and the norms that the file names.
 pub(super) fn norms(writer: &Writer<'_>, functions: &[Function]) -> String {
     let mut text = String::new();
-    if writer.language == Language::Ufl {
+    let Some(texts) = &writer.texts().norms else {
         return text;
-    }
+    };
     for function in functions.iter().filter(|f| f.role == Role::Exact) {
-        text += &average(writer, function);
+        text += &average(writer, texts, function);
     }
-    for [field, norm, exact] in errors(writer, functions) {
-        if let Some(function) = functions.iter().find(|f| f.name == exact) {
-            text += &error(writer, function, &field, &norm);
-        }
+    for error in errors(writer, functions) {
+        text += &self::error(writer, texts, &error);
     }
     text
 }
 
 /// The values of a function at a point, as an array.
 fn array_call(writer: &Writer<'_>, function: &Function, point: &str) -> String {
-    let Function { name, .. } = function;
-    let time = call_time(function.has_time);
-    let prefix = &writer.prefix;
-    match (writer.language, function.shape.is_empty()) {
-        (Language::C, true) => format!("value[0] = {prefix}{name}({point}{time});"),
-        (Language::C, false) => format!("{prefix}{name}({point}{time}, value);"),
-        (_, true) => format!("[{name}({point}{time})]"),
-        (_, false) => format!("{name}({point}{time})"),
-    }
-}
-
-fn average(writer: &Writer<'_>, function: &Function) -> String {
-    let dimension = writer.model.problem.coordinates.len();
-    let count = function.roots.len();
-    let is_scalar = function.shape.is_empty();
-    let [time_declared, time_extra] = time(writer.language, function.has_time);
-    let is_c = writer.language == Language::C;
-    let kind = match (is_c, is_scalar) {
-        (true, true) => "double".to_owned(),
-        (true, false) => "void".to_owned(),
-        (false, true) => "f64".to_owned(),
-        (false, false) => format!("[f64; {count}]"),
-    };
-    let result = match (is_c, is_scalar) {
-        (true, true) => "return sum[0];".to_owned(),
-        (true, false) => format!("for (int j = 0; j < {count}; ++j) out[j] = sum[j];"),
-        (false, true) => "sum[0]".to_owned(),
-        (false, false) => "sum".to_owned(),
-    };
-    let point = if is_c { "x" } else { "&x" };
     fill(
-        templates(writer.language).average,
+        shaped(writer, function).values,
         &[
-            ("TYPE", &kind),
-            ("F", suffix(function)),
+            ("F", &function.name),
+            ("AT", point),
+            ("TIME", call_time(function.has_time)),
             ("P", &writer.prefix),
-            ("T", time_declared),
-            ("TIME", time_extra),
-            ("OUT", if is_scalar { "" } else { ", double out[]" }),
-            ("N", &count.to_string()),
-            ("D", &dimension.to_string()),
-            ("CELLS", &8_usize.pow(dimension as u32).to_string()),
-            ("SHAPE", &fortran_shape(&function.shape)),
-            ("CALL", &array_call(writer, function, point)),
-            ("RETURN", &result),
         ],
     )
 }
 
-/// What is summed, and what is done with the sum.
-fn summed(language: Language, norm: &str) -> [&'static str; 2] {
-    match (language, norm) {
-        (Language::C | Language::Rust, "L1") => ["sum += weights[k]*difference;", "sum"],
-        // NaN stays: no comparison holds with it; `max` of Fortran and Octave may lose it.
-        (Language::C, "Linf") => [
-            "if (!(difference <= sum)) sum = difference + 0.0*sum;",
-            "sum",
+fn average(writer: &Writer<'_>, texts: &Norms, function: &Function) -> String {
+    let dimension = writer.model.problem.coordinates.len();
+    let count = function.roots.len().to_string();
+    let Time {
+        argument,
+        declaration,
+    } = time(writer.language, function.has_time);
+    let shaped = shaped(writer, function);
+    fill(
+        texts.average,
+        &[
+            ("TYPE", shaped.kind),
+            ("RETURN", shaped.result),
+            ("OUT", shaped.out),
+            ("F", suffix(function)),
+            ("P", &writer.prefix),
+            ("T", argument),
+            ("TIME", declaration),
+            ("N", &count),
+            ("D", &dimension.to_string()),
+            ("CELLS", &AVERAGE_POINTS.pow(dimension as u32).to_string()),
+            ("SHAPE", &sides(&function.shape)),
+            ("CALL", &array_call(writer, function, texts.point)),
         ],
-        (Language::Rust, "Linf") => [
-            "if !(difference <= sum) { sum = difference + 0.0 * sum; }",
-            "sum",
-        ],
-        (Language::C, _) => ["sum += weights[k]*difference*difference;", "sqrt(sum)"],
-        (Language::Rust, _) => [
-            "sum += weights[k] * difference * difference;",
-            "f64::sqrt(sum)",
-        ],
-        (Language::Python, "L1") => ["", "np.sum(weights*difference)"],
-        (Language::Python, "Linf") => ["", "np.max(difference)"],
-        (Language::Python, _) => ["", "np.sqrt(np.sum(weights*difference**2))"],
-        (Language::Octave, "L1") => ["", "sum(sum(weights(:).'.*difference))"],
-        (Language::Octave, "Linf") => ["", "max(difference(:)) + 0*sum(difference(:))"],
-        (Language::Octave, _) => ["", "sqrt(sum(sum(weights(:).'.*difference.^2)))"],
-        (Language::Fortran, "L1") => ["out = out + weights(k)*sum(difference)", "out"],
-        (Language::Fortran, "Linf") => [
-            "if (.not. all(difference <= out)) out = maxval(difference) + 0.0_dp*(out + sum(difference))",
-            "out",
-        ],
-        (Language::Fortran, _) => ["out = out + weights(k)*sum(difference**2)", "sqrt(out)"],
-        (Language::Ufl, _) => ["", ""],
-    }
+    )
 }
 
-fn error(writer: &Writer<'_>, function: &Function, field: &str, norm: &str) -> String {
-    let dimension = writer.model.problem.coordinates.len();
-    let [time_declared, time_extra] = time(writer.language, function.has_time);
-    let [add, root] = summed(writer.language, norm);
-    let point = match writer.language {
-        Language::C => format!("x + {dimension}*k"),
-        _ => "&x[k]".to_owned(),
+fn error(writer: &Writer<'_>, texts: &Norms, error: &ErrorNorm<'_>) -> String {
+    let ErrorNorm { norm, function } = error;
+    let dimension = writer.model.problem.coordinates.len().to_string();
+    let Time {
+        argument,
+        declaration,
+    } = time(writer.language, function.has_time);
+    let NormTexts { add, root } = match norm {
+        Norm::L1 => &texts.l1,
+        Norm::Linf => &texts.linf,
+        Norm::L2 | Norm::H1 => &texts.l2,
     };
+    let unused = if *norm == Norm::Linf {
+        texts.without_weights
+    } else {
+        ""
+    };
+    let point = fill(texts.points, &[("D", &dimension)]);
     fill(
-        templates(writer.language).error,
+        texts.error,
         &[
-            ("F", field),
-            ("NORM", norm),
+            ("F", suffix(function)),
+            ("NORM", norm.name()),
             ("P", &writer.prefix),
-            ("T", time_declared),
-            ("TIME", time_extra),
+            ("T", argument),
+            ("TIME", declaration),
             ("N", &function.roots.len().to_string()),
-            ("D", &dimension.to_string()),
+            ("D", &dimension),
             ("CALL", &array_call(writer, function, &point)),
             ("COLONS", &":, ".repeat(function.shape.len().min(2))),
             ("EXACT", &function.name),
-            (
-                "UNUSED",
-                if norm == "Linf" {
-                    "    (void)weights;\n"
-                } else {
-                    ""
-                },
-            ),
+            ("UNUSED", unused),
             ("ADD", add),
             ("ROOT", root),
         ],
     )
 }
 
-/// The header of C.
-pub(super) fn header(writer: &Writer<'_>, functions: &[Function], head: &str) -> String {
-    let name = &writer.model.problem.name;
-    let guard = format!("{}_H", name.to_uppercase());
-    let mut text = format!(
-        "{head}\n#ifndef {guard}\n#define {guard}\n\n#include <stddef.h>\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n"
-    );
-    for function in functions {
-        let _ = writeln!(text, "{};", prototype(writer, function));
-    }
-    // What stands before the bodies.
-    let norms = norms(writer, functions);
-    for definition in norms
-        .split("\n}\n")
-        .filter_map(|text| text.split_once("\n{"))
-    {
-        let _ = writeln!(text, "{};", definition.0.trim_start());
-    }
-    if writer.has_alternatives() {
-        text += "/* The number of the variant that MANUFACTURE_VARIANT names; 0 without it. */\n";
-        let _ = writeln!(text, "int {}variant(void);", writer.prefix);
-    }
-    if !writer.parameters.is_empty() {
-        text += "/* 0, or 1 if no parameter has the name; those that depend on it follow. */\n";
-        let _ = writeln!(
-            text,
-            "int {}set_parameter(const char *name, double value);",
-            writer.prefix
-        );
-        text += "/* NaN if no parameter has the name. */\n";
-        let _ = writeln!(
-            text,
-            "double {}get_parameter(const char *name);",
-            writer.prefix
-        );
-    }
-    text + "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n"
+/// The header of C: what stands before the bodies of these definitions.
+pub(super) fn header(writer: &Writer<'_>, definitions: &str, head: &str) -> Option<String> {
+    let texts = writer.texts().header.as_ref()?;
+    let values = [("P", writer.prefix.as_str())];
+    let definitions = definitions.split("\n}\n");
+    let prototypes = definitions.filter_map(|text| text.split_once("\n{"));
+    let prototypes = prototypes.map(|(prototype, _)| format!("{};\n", prototype.trim_start()));
+    let variant = if writer.has_alternatives() {
+        fill(texts.variant, &values)
+    } else {
+        String::new()
+    };
+    let parameters = if writer.parameters.is_empty() {
+        String::new()
+    } else {
+        fill(texts.parameters, &values)
+    };
+    let guard = format!("{}_H", writer.model.problem.name.to_uppercase());
+    Some(fill(
+        texts.template,
+        &[
+            ("HEAD", head),
+            ("GUARD", &guard),
+            ("PROTOTYPES", &prototypes.collect::<String>()),
+            ("VARIANT", &variant),
+            ("PARAMETERS", &parameters),
+        ],
+    ))
 }

@@ -6,11 +6,15 @@ use std::fmt::Write;
 use super::choice::Alternative;
 use super::functions::{Function, functions};
 use super::lower::{Lowered, Names, lower};
+use super::texts::Texts;
 use super::{EmittedFile, Language, choice, fill, parameters, runtime};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::model::Model;
+
+/// The coordinates in an integral.
+const INTEGRAND: &str = "y";
 
 /// Columns of a line.
 const WIDTH: usize = 100;
@@ -53,21 +57,13 @@ pub(super) fn library(
     for (place, helper) in writer.integrals.iter().enumerate() {
         body += &fill(helper, &[("NAME", &writer.name_of_integral(place))]);
     }
-    for place in 0..functions.len() {
-        body += &writer.function(place);
-    }
-    body += &runtime::norms(&writer, functions);
+    let places = 0..functions.len();
+    let mut public: String = places.map(|place| writer.function(place)).collect();
+    public += &runtime::norms(&writer, functions);
+    body += &public;
     body += &parameters::functions(&writer);
     let opening = runtime::opening(&writer, functions);
     let closing = runtime::closing(&writer);
-    let ending = match language {
-        Language::C => ".c",
-        Language::Fortran => ".f90",
-        Language::Python => ".py",
-        Language::Ufl => "_ufl.py",
-        Language::Octave => ".m",
-        Language::Rust => ".rs",
-    };
     let text = format!(
         "{head}{opening}{}{}{}{body}{closing}",
         parameters::definitions(&writer),
@@ -75,25 +71,21 @@ pub(super) fn library(
         runtime::helpers(&writer)
     );
     let mut files = vec![EmittedFile {
-        name: format!("{name}{ending}"),
+        name: format!("{name}{}", writer.texts().ending),
         text,
     }];
-    if language == Language::C {
-        files.push(EmittedFile {
-            name: format!("{name}.h"),
-            text: runtime::header(&writer, functions, &head),
-        });
-    }
+    let header = runtime::header(&writer, &public, &head);
+    let texts = writer.texts().header.as_ref();
+    files.extend(texts.zip(header).map(|(texts, text)| EmittedFile {
+        name: format!("{name}{}", texts.ending),
+        text,
+    }));
     files
 }
 
 /// What stands before the name of a function.
 pub(super) fn prefix(model: &Model, language: Language) -> String {
-    if language == Language::C {
-        format!("{}_", model.problem.name)
-    } else {
-        String::new()
-    }
+    fill(language.texts().prefix, &[("NAME", &model.problem.name)])
 }
 
 /// The integrals below the functions, the inner before the outer.
@@ -162,6 +154,10 @@ impl<'m> Writer<'m> {
         }
     }
 
+    pub(super) fn texts(&self) -> &'static Texts {
+        self.language.texts()
+    }
+
     pub(super) fn has_alternatives(&self) -> bool {
         self.models.len() > 1
     }
@@ -196,15 +192,9 @@ impl<'m> Writer<'m> {
             .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
                 (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
             });
-        let build = match self.language {
-            Language::C => "cc -O2 -o answer NAME.c NAME_answer.c -lm",
-            Language::Fortran => "gfortran -O2 -o answer NAME.f90 NAME_answer.f90",
-            Language::Python => "python3 NAME_answer.py",
-            Language::Octave => "octave --quiet NAME_answer.m",
-            Language::Rust => "rustc --edition 2021 -O -o answer NAME_answer.rs",
-            Language::Ufl => "import NAME_ufl",
-        };
-        let comment = self.language.comment();
+        let texts = self.texts();
+        let build = fill(texts.build, &[("NAME", &problem.name)]);
+        let comment = texts.comment;
         let mut head = String::new();
         let version = env!("CARGO_PKG_VERSION");
         let lines = format!(
@@ -214,7 +204,7 @@ impl<'m> Writer<'m> {
             problem.name,
             choice::head(self),
             self.renamed(functions),
-            build.replace("NAME", &problem.name)
+            build
         );
         for line in lines.lines() {
             for part in wrapped(line, WIDTH - comment.len() - 1) {
@@ -251,8 +241,8 @@ impl<'m> Writer<'m> {
         array: &str,
         time: &str,
     ) -> Lowered {
-        let array_argument = if self.language == Language::Rust && array == "y" {
-            "&y"
+        let array_argument = if array == INTEGRAND {
+            self.texts().statements.integrand
         } else {
             array
         };
@@ -279,7 +269,7 @@ impl<'m> Writer<'m> {
         } else {
             first.as_deref().unwrap_or("t")
         };
-        let indent = runtime::indent(self.language);
+        let indent = self.texts().statements.indent;
         let mut bodies = vec![];
         let mut longest = vec![];
         for emitted in &self.models {
@@ -312,26 +302,17 @@ impl<'m> Writer<'m> {
         else {
             return String::new();
         };
-        let Lowered { constants, roots } = self.statements(emitted, &[*body], "y", "t");
-        let indent = runtime::indent(self.language).repeat(2);
-        let deeper = if self.language == Language::Fortran {
-            "    "
-        } else {
-            ""
-        };
+        let Lowered { constants, roots } = self.statements(emitted, &[*body], INTEGRAND, "t");
+        let indent = self.texts().statements.integrand_indent;
         let mut statements = String::new();
         for [name, value] in &constants {
-            let _ = writeln!(
-                statements,
-                "{indent}{deeper}{}",
-                self.language.assign(name, value)
-            );
+            let _ = writeln!(statements, "{indent}{}", self.language.assign(name, value));
         }
         let has_time = self.model.problem.time.is_some();
         let [low, high] = self.model.graph.intervals[*variable];
         let width = (high - low) / *panels as f64;
         fill(
-            &runtime::integral(self.language, has_time),
+            self.texts().integral,
             &[
                 ("DECLARED", &declared(self.language, &constants)),
                 (
@@ -339,6 +320,9 @@ impl<'m> Writer<'m> {
                     &runtime::unused(self, &[(emitted.model, &[*body])], has_time),
                 ),
                 ("BODY", &statements),
+                ("T", runtime::time(self.language, has_time).argument),
+                ("TIME", runtime::time(self.language, has_time).declaration),
+                ("POINTS", &POINTS.to_string()),
                 ("VALUE", &format!("({})", roots[0])),
                 ("LOW", &self.language.number(low)),
                 ("WIDTH", &self.language.number(width)),
@@ -359,36 +343,25 @@ impl<'m> Writer<'m> {
                 .iter()
                 .map(|pair| self.language.number(pair[part]))
                 .collect();
-            let separator = if self.language == Language::Fortran {
-                ", &\n    "
-            } else {
-                ",\n    "
-            };
-            numbers.join(separator)
+            numbers.join(self.texts().library.separator)
         })
     }
 
     pub(super) fn has_integrals(&self) -> bool {
         !self.integrals.is_empty()
     }
-
-    pub(super) fn integral_rule(&self) -> [String; 2] {
-        self.rule(POINTS)
-    }
 }
 
-/// The declarations that Fortran needs.
+/// The declarations of constants, in Fortran.
 pub(super) fn declared(language: Language, constants: &[[String; 2]]) -> String {
-    if language != Language::Fortran {
-        return String::new();
-    }
+    let declare = language.texts().statements.declare;
     let names: Vec<&str> = constants
         .iter()
         .map(|constant| constant[0].as_str())
         .collect();
     names
         .chunks(12)
-        .map(|names| format!("    real(dp) :: {}\n", names.join(", ")))
+        .map(|names| fill(declare, &[("NAMES", &names.join(", "))]))
         .collect()
 }
 

@@ -29,6 +29,9 @@ pub struct DescribedVariant {
     /// The size of its solution; absent if it cannot be used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
+    /// Why it cannot be used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
 }
 
 impl Description {
@@ -42,11 +45,12 @@ impl Description {
 }
 
 impl DescribedVariant {
-    fn new(switch: &Switch, size: Option<f64>) -> Self {
+    fn new(switch: &Switch, size: Option<f64>, why: Option<String>) -> Self {
         Self {
             name: switch.variant(),
             switches_off: switch.clone(),
             size,
+            why,
         }
     }
 }
@@ -67,10 +71,10 @@ impl Variants<'_> {
         Description {
             size: self.size,
             usable: usable
-                .map(|one| DescribedVariant::new(&one.switch, Some(one.size)))
+                .map(|one| DescribedVariant::new(&one.switch, Some(one.size), None))
                 .collect(),
             left_out: left_out
-                .map(|one| DescribedVariant::new(&one.switch, None))
+                .map(|one| DescribedVariant::new(&one.switch, None, Some(one.why.clone())))
                 .collect(),
             data: data.collect(),
         }

@@ -21,8 +21,7 @@
 //! least G² times that: it grows like (g + D)²/(2s) for s → 0, and the number of states is finite
 //! unless g = -D.
 
-use super::law::{Law, Support};
-use super::proof::free_pole;
+use super::law::{Law, Support, free_pole};
 use super::{BUCKLING_VALUES, laws};
 use crate::interval::Interval;
 use thermobeam::contact::Phase;

@@ -1,6 +1,7 @@
 //! The static problem for given N: linear, with one law for each state of contact.
 
 use super::shape::{Shape, tanh_ratio};
+use crate::interval::Interval;
 use std::f64::consts::PI;
 use thermobeam::bracket::bisect;
 
@@ -35,6 +36,17 @@ pub(super) struct Support {
 pub(super) fn free_buckling(k: usize) -> f64 {
     let kappa = (k as f64 - 0.5) * PI;
     1.0 / (1.0 + kappa * kappa)
+}
+
+/// An enclosure of [`free_buckling`].
+pub(super) fn free_pole(k: usize) -> Interval {
+    let kappa = free_kappa(k);
+    Interval::from(1.0) / (kappa.square() + 1.0)
+}
+
+/// An enclosure of κ = (k - 1/2)π.
+pub(super) fn free_kappa(k: usize) -> Interval {
+    Interval::pi() * (k as f64 - 0.5)
 }
 
 /// Number of [`free_buckling`] values strictly above s > 0.

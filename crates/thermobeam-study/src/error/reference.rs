@@ -8,6 +8,7 @@
 use convergence_judge::text::number::max_or_nan;
 use convergence_study::CaseFailure;
 use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::motion::TipRange;
 use thermobeam::solve::Level;
 
 use crate::exact::norm::TheoremSquares;
@@ -40,7 +41,7 @@ pub struct Traced {
     /// Energies (3.9) at the same times; for a run of any order those of the polynomials.
     pub energies: Vec<f64>,
     /// Smallest and largest u(1) over all time levels.
-    pub tip_range: [f64; 2],
+    pub tip_range: TipRange,
     /// Largest defect of the energy balance in a step of a fixed number of iterations; 0 for solved
     /// steps, whose defect is round-off.
     pub energy_defect: f64,
@@ -65,7 +66,10 @@ impl Traced {
             levels.push(motion.snapshot().on(&mesh));
             energies.push(motion.sample().energy);
         })?;
-        let tip_range = [run.extremes.u_tip_min, run.extremes.u_tip_max];
+        let tip_range = TipRange {
+            low: run.extremes.u_tip_min,
+            high: run.extremes.u_tip_max,
+        };
         let is_solved = scene.method.stopping().tolerance().is_some();
         let energy_defect = if is_solved {
             0.0

@@ -26,12 +26,13 @@ use orders::Source;
 use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;
 use orders::manufactured::Convergence;
+use orders::projection::Projection;
 use orders::self_convergence::SelfConvergence;
 use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 19] = [
+pub const KINDS: [KindRow; 20] = [
     Convergence::ROW,
     AnyOrder::ROW,
     detects::ROW,
@@ -40,6 +41,7 @@ pub const KINDS: [KindRow; 19] = [
     solvers::ROW,
     Vibration::ROW,
     Frequencies::ROW,
+    Projection::ROW,
     SelfConvergence::ROW,
     runs::experiment::ROW,
     runs::exact_experiments::ROW,

@@ -28,7 +28,7 @@ pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 pub(crate) use thermobeam::error::{StepError, StepFailure};
 pub(crate) use thermobeam::kirchhoff::BUCKLING;
 pub(crate) use thermobeam::mesh::{Mesh, MeshError};
-pub(crate) use thermobeam::motion::Motion;
+pub(crate) use thermobeam::motion::{Motion, TipRange};
 pub(crate) use thermobeam::one_step::{InitialValues, Problem, Stepping};
 pub(crate) use thermobeam::parameters::{Beam, Obstacles};
 pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};

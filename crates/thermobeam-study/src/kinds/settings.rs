@@ -27,6 +27,9 @@ pub(crate) const CONTACT: &str = "experiments with contact";
 /// The topic of studies of the energy.
 pub(crate) const ENERGY: &str = "the energy's laws";
 
+/// The topic of studies of initial data.
+pub(crate) const INITIAL_DATA: &str = "initial data";
+
 /// The topic of studies of manufactured solutions.
 pub(crate) const MANUFACTURED: &str = "manufactured solutions";
 
@@ -34,7 +37,7 @@ pub(crate) const MANUFACTURED: &str = "manufactured solutions";
 pub(crate) const FREE_VIBRATIONS: &str = "free vibrations";
 
 /// Where to look for the cause, by the name of a setting or by the field that changed first.
-pub const PLACES: [(&str, &str); 18] = [
+pub const PLACES: [(&str, &str); 19] = [
     ("one-step schemes", "crates/thermobeam/src/solve"),
     (
         "any order",
@@ -77,6 +80,7 @@ pub const PLACES: [(&str, &str); 18] = [
         "listed nodes",
         "the lengths of elements: crates/thermobeam/src/mesh.rs",
     ),
+    (INITIAL_DATA, "crates/thermobeam-study/src/run/simulate.rs"),
     (
         "whole scenes",
         "crates/thermobeam-study/src/scene, crates/thermobeam-study/src/run",

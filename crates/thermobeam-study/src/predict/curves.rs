@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use convergence_judge::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::{self, Dg, DgLevel, DgStepping, Field};
 use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
+use thermobeam::motion::{Motion, TipRange};
 use thermobeam::solve::Level;
 
 use super::{Cost, Reason, Work};
@@ -207,13 +207,13 @@ pub(super) struct Curves {
     /// One row for each time.
     pub(super) values: Vec<f64>,
     /// Smallest and largest u(1, t); for dG also between these times.
-    pub(super) range: [f64; 2],
+    pub(super) range: TipRange,
     /// The cost of the run.
     pub(super) cost: Cost,
 }
 
 impl Curves {
-    fn new(rows: &Rows, u_tip: [f64; 2]) -> Self {
+    fn new(rows: &Rows, u_tip: TipRange) -> Self {
         Self {
             width: rows.width(),
             range: u_tip,
@@ -236,11 +236,11 @@ impl Curves {
             .collect()
     }
 
-    fn include(&mut self, [low, high]: [f64; 2]) {
-        self.range = [
-            min_or_nan(self.range[0], low),
-            max_or_nan(self.range[1], high),
-        ];
+    fn include(&mut self, tip: TipRange) {
+        self.range = TipRange {
+            low: min_or_nan(self.range.low, tip.low),
+            high: max_or_nan(self.range.high, tip.high),
+        };
     }
 }
 
@@ -381,12 +381,12 @@ fn by_one_step(
     let (elements, steps) = (scene.mesh.elements(), scene.steps());
     let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];
-    let mut curves = Curves::new(rows, [tip; 2]);
+    let mut curves = Curves::new(rows, TipRange::at(tip));
     let mut read = |driver: &mut Driver<'_>| {
         let simulation = driver.simulation();
         let new = driver.level();
         let n = driver.work().steps;
-        curves.include([new.u[elements]; 2]);
+        curves.include(TipRange::at(new.u[elements]));
         let t = simulation.t();
         let is_read = match times {
             None => n.is_multiple_of(every) || n == steps,

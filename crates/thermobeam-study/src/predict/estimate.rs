@@ -128,8 +128,8 @@ impl Observable {
                     difference: distance_of_curves(&curve, &truth),
                 };
             }
-            Kind::Largest => (own.range[1], exact.range[1]),
-            Kind::Smallest => (own.range[0], exact.range[0]),
+            Kind::Largest => (own.range.high, exact.range.high),
+            Kind::Smallest => (own.range.low, exact.range.low),
             Kind::End => (last(&curve), last(&truth)),
         };
         Comparison {

@@ -188,7 +188,10 @@ impl Family {
     /// The problem on this mesh, whatever the grading of the scene's.
     pub(crate) fn on_nodes(&self, mesh: Mesh) -> OnMesh<'_> {
         let (initial, sources) = match &self.start {
-            Start::Scene(scene) => (simulate::initial(scene, &mesh), None),
+            Start::Scene(scene) => (
+                simulate::initial(&scene.initial, scene.beam.theta_a, &mesh),
+                None,
+            ),
             Start::Exact(exact) => {
                 let mut factors = Factors::default();
                 factors.at(exact, 0.0);

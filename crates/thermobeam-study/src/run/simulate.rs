@@ -34,7 +34,7 @@ use super::history::RunHistory;
 pub use super::tally::{Contact, Run};
 use super::{AnyMotion, Report, RunError, Watch, Work, run};
 use crate::expression::Expression;
-use crate::scene::{Method, Scene};
+use crate::scene::{Initial, Method, Scene};
 
 /// What to record in addition to the summary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,7 +59,7 @@ pub fn problem(scene: &Scene) -> Problem {
         beam: scene.beam,
         obstacles: scene.obstacles,
         mesh: scene.mesh.clone(),
-        initial: initial(scene, &scene.mesh),
+        initial: initial(&scene.initial, scene.beam.theta_a, &scene.mesh),
     }
 }
 
@@ -82,11 +82,10 @@ pub fn motion(scene: &Scene) -> Result<Box<AnyMotion>, RunError> {
     })
 }
 
-/// A scene's initial data on any mesh, with boundary values set as in [`problem`].
-pub(crate) fn initial(scene: &Scene, mesh: &Mesh) -> one_step::InitialValues {
+/// The initial data of a scene on any mesh, with boundary values set as in [`problem`].
+pub(crate) fn initial(initial: &Initial, theta_a: f64, mesh: &Mesh) -> one_step::InitialValues {
     let nodes = mesh.nodes();
-    let initial = &scene.initial;
-    let mut theta = nodal_values(nodes, &initial.theta, scene.beam.theta_a);
+    let mut theta = nodal_values(nodes, &initial.theta, theta_a);
     theta[nodes.len() - 1] = 0.0;
     one_step::InitialValues {
         u: nodal_values(nodes, &initial.u, 0.0),

@@ -7,6 +7,7 @@ use convergence_judge::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;
+use thermobeam::motion::TipRange;
 use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
@@ -177,14 +178,14 @@ impl Run {
         &mut self,
         report: &Report,
         balance: &Balance,
-        [low, high]: [f64; 2],
+        tip: TipRange,
         now: impl FnOnce() -> EnergySize,
     ) -> Result<(), Unsound> {
         self.iterations.total += report.iterations;
         self.iterations.max = self.iterations.max.max(report.iterations);
         self.contact_steps += usize::from(report.in_contact);
-        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, high);
-        self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, low);
+        self.extremes.u_tip_max = max_or_nan(self.extremes.u_tip_max, tip.high);
+        self.extremes.u_tip_min = min_or_nan(self.extremes.u_tip_min, tip.low);
         // Not the difference of two totals, which would lose the digits that separate a small fall
         // from a small rise.
         let change = balance.change;

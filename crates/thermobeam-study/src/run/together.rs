@@ -8,6 +8,7 @@ use convergence_judge::time_limit::{Patience, TimeUp};
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::SetupError;
+use thermobeam::motion::TipRange;
 use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::scheme::Scheme;
 use thermobeam::solve::{Level, Settings, Solver};
@@ -125,7 +126,7 @@ impl<'s> LaneRun<'s> {
             .map_err(RunError::from)
             .and_then(|solve| {
                 let report = Report::new(solve, None);
-                let tip = [ensemble.tip(k); 2];
+                let tip = TipRange::at(ensemble.tip(k));
                 let outcome = self.run.add(&report, balance, tip, || {
                     ensemble.observe(k, level);
                     let case = &ensemble.cases()[k];

@@ -50,6 +50,7 @@ use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
 
 pub use method::{DG, Method};
+pub(crate) use sections::INITIAL;
 pub use sections::KEYS;
 pub use tables::Coefficients;
 
@@ -139,7 +140,7 @@ impl Scene {
         let (method, t_end) = method::read(root, &beam, obstacles.as_ref())?;
         let mesh = sections::mesh(root, method.default_elements())?;
         let degree = method.degree(root, &mesh)?;
-        let initial = sections::initial(root, &beam, &mesh)?;
+        let initial = Initial::read(root, &beam, &mesh)?;
         let is_listed = root
             .section("mesh")?
             .is_some_and(|section| section.get("nodes").is_some());

@@ -12,12 +12,7 @@ use crate::expression::{Expression, NotFinite, Variable};
 pub const KEYS: [Key; 5] = [
     tables::BEAM,
     tables::OBSTACLES,
-    Key::new(
-        "initial",
-        Form::Table(&[&[&INITIAL]]),
-        "the initial data, functions of x",
-    )
-    .or("all 0"),
+    INITIAL,
     Key::new("mesh", Form::Table(&[&[&UNIFORM], &[&LISTED]]), "the mesh")
         .or("its keys have defaults"),
     Key::new(
@@ -30,7 +25,15 @@ pub const KEYS: [Key; 5] = [
     ),
 ];
 
-const INITIAL: [Key; 5] = [
+/// The table `[initial]`.
+pub(crate) const INITIAL: Key = Key::new(
+    "initial",
+    Form::Table(&[&[&INITIAL_KEYS]]),
+    "the initial data, functions of x",
+)
+.or("all 0");
+
+const INITIAL_KEYS: [Key; 5] = [
     Key::new("u", Form::Text, "displacement; 0 at x = 0").or("\"0\""),
     Key::new("u_t", Form::Text, "velocity; 0 at x = 0").or("\"0\""),
     Key::new("phi", Form::Text, "rotation; 0 at x = 0").or("\"0\""),
@@ -112,41 +115,43 @@ fn listed_nodes(field: &Field<'_>) -> Result<Mesh, InputError> {
     })
 }
 
-/// The table `[initial]`.
-pub(super) fn initial(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Initial, InputError> {
-    let section = root.section("initial")?;
-    let function =
-        |key: &str, conditions: &[(f64, f64)]| -> Result<Option<Expression>, InputError> {
-            let Some(field) = section.as_ref().and_then(|section| section.get(key)) else {
-                return Ok(None);
+impl Initial {
+    /// The table `[initial]`, whose functions must be finite at the nodes of `mesh`.
+    pub(crate) fn read(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Self, InputError> {
+        let section = root.section("initial")?;
+        let function =
+            |key: &str, conditions: &[(f64, f64)]| -> Result<Option<Expression>, InputError> {
+                let Some(field) = section.as_ref().and_then(|section| section.get(key)) else {
+                    return Ok(None);
+                };
+                let function = tables::function(&field, Variable::X, 1.0, 0)?;
+                finite_at_nodes(&field, &function, mesh)?;
+                for &(at, expected) in conditions {
+                    meets(&field, &function, key, at, expected)?;
+                }
+                Ok(Some(function))
             };
-            let function = tables::function(&field, Variable::X, 1.0, 0)?;
-            finite_at_nodes(&field, &function, mesh)?;
-            for &(at, expected) in conditions {
-                meets(&field, &function, key, at, expected)?;
-            }
-            Ok(Some(function))
+        let clamped = [(0.0, 0.0)];
+        let initial = Initial {
+            u: function("u", &clamped)?,
+            u_t: function("u_t", &clamped)?,
+            phi: function("phi", &clamped)?,
+            phi_t: function("phi_t", &clamped)?,
+            theta: function("theta", &[(0.0, beam.theta_a), (1.0, 0.0)])?,
         };
-    let clamped = [(0.0, 0.0)];
-    let initial = Initial {
-        u: function("u", &clamped)?,
-        u_t: function("u_t", &clamped)?,
-        phi: function("phi", &clamped)?,
-        phi_t: function("phi_t", &clamped)?,
-        theta: function("theta", &[(0.0, beam.theta_a), (1.0, 0.0)])?,
-    };
-    if initial.theta.is_none() && beam.theta_a != 0.0 {
-        let found = "nothing, which means 0 everywhere";
-        let allowed = format!(
-            "a function with theta(0) = {:?}, which is beam.theta_a, and theta(1) = 0",
-            beam.theta_a
-        );
-        return Err(match &section {
-            Some(section) => section.refuse("theta", found, allowed),
-            None => root.refuse("initial.theta", found, allowed),
-        });
+        if initial.theta.is_none() && beam.theta_a != 0.0 {
+            let found = "nothing, which means 0 everywhere";
+            let allowed = format!(
+                "a function with theta(0) = {:?}, which is beam.theta_a, and theta(1) = 0",
+                beam.theta_a
+            );
+            return Err(match &section {
+                Some(section) => section.refuse("theta", found, allowed),
+                None => root.refuse("initial.theta", found, allowed),
+            });
+        }
+        Ok(initial)
     }
-    Ok(initial)
 }
 
 /// Initial data are interpolated, so every node is checked, not only the samples.

@@ -1,3 +1,4 @@
+use convergence_judge::interval::Interval;
 use convergence_study::{FromFile, Kind, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::bifurcation::{AtRest, Bifurcation, Diagram, Found, ROW};
@@ -47,23 +48,23 @@ fn each_claim_can_fail() {
         ),
         (
             "branches, θ_A = 0",
-            diagram(|diagram| diagram.event[0] = -0.7),
+            diagram(|diagram| diagram.event.low = -0.7),
         ),
         (
             "branches, θ_A = 0",
-            diagram(|diagram| diagram.event[1] = -0.72),
+            diagram(|diagram| diagram.event.high = -0.72),
         ),
         (
             "branches, θ_A = 0",
-            diagram(|diagram| diagram.event[1] = f64::NAN),
+            diagram(|diagram| diagram.event.high = f64::NAN),
         ),
         (
             "branches, θ_A = 20",
-            diagram(|diagram| diagram.event[0] = 0.0),
+            diagram(|diagram| diagram.event.low = 0.0),
         ),
         (
             "branches, θ_A = 20",
-            diagram(|diagram| diagram.event = [f64::NAN; 2]),
+            diagram(|diagram| diagram.event = Interval::around(f64::NAN, 0.0)),
         ),
         (
             "branches, θ_A = 20",
@@ -75,11 +76,11 @@ fn each_claim_can_fail() {
         ),
         (
             "branches, θ_A = 0",
-            diagram(|diagram| diagram.proved = [f64::NAN; 2]),
+            diagram(|diagram| diagram.proved = Interval::around(f64::NAN, 0.0)),
         ),
         (
             "branches, θ_A = 20",
-            diagram(|diagram| diagram.proved = [0.2, 0.2]),
+            diagram(|diagram| diagram.proved = Interval::around(0.2, 0.0)),
         ),
         ("buckling force, n = 64", force(0.7116)),
         ("buckling force, n = 128", force(0.711606)),

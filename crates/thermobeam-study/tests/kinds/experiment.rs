@@ -376,17 +376,17 @@ fn files_with_errors_are_refused() {
     }
 }
 
-/// Completion is no statement, the refuted one is named, and a list that may lack states gives a
+/// Completion is no statement, the threshold that is not sharp is named, and a list that may lack states gives a
 /// least number.
 #[test]
 fn the_headline_counts_statements_by_whose_they_are() {
     let study = study("section-5.toml");
     let sound = passes_but_not_without_each_case(&study);
     let outcome = study.judge(&sound);
-    let refuted = "1 is refuted: several steady states for β < -1/2, where there are several only for β < -0.7116";
+    let threshold = "1 has a threshold that is not sharp: several steady states for β < -1/2, where it is -B = -π²/4 / (1 + π²/4) = -0.7116 for θ_A = 0";
     assert_eq!(
         outcome.headline,
-        format!("the paper's 12 statements: 11 hold as printed, {refuted}; 4 of 4 of ours hold")
+        format!("the paper's 12 statements: 11 hold as printed, {threshold}; 4 of 4 of ours hold")
     );
     let origins = |origin: Origin| {
         outcome

@@ -13,6 +13,7 @@ mod exact_experiments;
 mod experiment;
 mod frequencies;
 mod planted;
+mod projection;
 mod random_errors;
 mod refused;
 mod rigid;
@@ -22,6 +23,7 @@ mod solutions;
 mod solvers;
 mod typed;
 mod untested;
+mod variants;
 mod vibration;
 mod work_precision;
 

@@ -5,6 +5,7 @@ use convergence_study::{
     internal::study::{Described, run_cases_here},
     run_one,
 };
+use thermobeam::motion::TipRange;
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::self_convergence::{self, Traced};
@@ -166,7 +167,8 @@ fn the_functions_themselves_can_fail() {
 fn a_tip_that_stays_free_is_no_study_of_contact() {
     let study = parse("reference-time.toml", |text| text);
     let sound = run_cases_here(&study);
-    for range in [[-0.009, 0.09], [f64::NAN; 2]] {
+    for [low, high] in [[-0.009, 0.09], [f64::NAN; 2]] {
+        let range = TipRange { low, high };
         let free = changed::<SelfConvergence>(&sound, |_, found| found.tip_range = range);
         let outcome = study.judge(&free);
         assert_eq!(outcome.verdict, Verdict::Fail, "{}", report(&outcome));
@@ -249,7 +251,7 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
     let study = parse("reference-space.toml", |text| text);
     let sound = run_cases_here(&study);
     let planted = changed::<SelfConvergence>(&sound, |case, found| {
-        found.tip_range[1] += 0.1 * case as f64;
+        found.tip_range.high += 0.1 * case as f64;
     });
     assert_eq!(study.judge(&planted).verdict, Verdict::Pass);
 }

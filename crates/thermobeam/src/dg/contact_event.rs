@@ -10,17 +10,6 @@ use crate::bracket::bisect;
 use crate::contact::Phase;
 use crate::parameters::Obstacles;
 
-/// A change of phase.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactEvent {
-    /// Time of the change.
-    pub t: f64,
-    /// The phase before.
-    pub from: Phase,
-    /// The phase from now on.
-    pub to: Phase,
-}
-
 /// A polynomial of degree q + 1 <= 6 on [0, 1] by its Legendre coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Polynomial {

@@ -67,8 +67,8 @@ mod space;
 mod stages;
 mod time;
 
+pub use crate::contact::ContactEvent;
 pub use crate::contact::Phase;
-pub use contact_event::ContactEvent;
 pub use element::MAX_DEGREE;
 pub use problem::{DgProblem, DgStepping, InitialFunctions};
 pub use simulation::Dg;

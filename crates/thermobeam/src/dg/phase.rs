@@ -1,9 +1,9 @@
 //! The phase of the free end in a step of a [`Dg`]: where the step leaves it, and whether
 //! the contact force agrees.
 
-use super::contact_event::{ContactEvent, Fall, Polynomial, bounds};
+use super::contact_event::{Fall, Polynomial, bounds};
 use super::simulation::{Crowd, Dg};
-use crate::contact::Phase;
+use crate::contact::{ContactEvent, Phase};
 use crate::error::{StepError, StepFailure};
 
 /// Rounding errors of the free end's position, relative to the numbers from which it is computed.

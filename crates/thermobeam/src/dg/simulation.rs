@@ -1,16 +1,15 @@
 //! [`Dg`], which holds one level and does steps of the right lengths.
 
 use super::DgLevel;
-use super::contact_event::ContactEvent;
 use super::lengths::Lengths;
 use super::problem::{DgProblem, DgStepping, check_problem, initial_level};
 use super::residual::Equations;
 use super::space::{Field, Space};
 use super::stages::{Stages, stepper};
 use super::time::Load;
-use crate::contact::Phase;
+use crate::contact::{ContactEvent, Phase};
 use crate::error::{SetupError, StepError, StepFailure};
-use crate::motion::{Motion, StepReport, Work};
+use crate::motion::{Motion, StepReport, TipRange, Work};
 use crate::norms::max_or_nan;
 use crate::parameters::{Beam, Obstacles};
 
@@ -374,10 +373,10 @@ impl Motion for Dg {
     }
 
     /// Extrema inside the last step count.
-    fn tip_range(&self) -> [f64; 2] {
+    fn tip_range(&self) -> TipRange {
         let u = self.level.places[self.space.tip()][0];
         if self.last_dt == 0.0 {
-            return [u, u];
+            return TipRange::at(u);
         }
         let tip = self.stages.coefficient(Field::U, self.space.tip(), 0);
         let (extrema, count) = tip.derivative().sign_changes();
@@ -385,8 +384,9 @@ impl Motion for Dg {
             .iter()
             .map(|&s| tip.at(s))
             .chain([tip.at(0.0)]);
-        values.fold([u, u], |[low, high], value| {
-            [-max_or_nan(-low, -value), max_or_nan(high, value)]
+        values.fold(TipRange::at(u), |TipRange { low, high }, value| TipRange {
+            low: -max_or_nan(-low, -value),
+            high: max_or_nan(high, value),
         })
     }
 

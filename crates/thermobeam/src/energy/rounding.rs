@@ -29,10 +29,10 @@
 //! energy it does not: a conserved energy may appear to rise by as much.
 
 use crate::energy::Energy;
+use crate::level::Level;
 use crate::norms::slope_squared;
 use crate::parameters::Obstacles;
 use crate::scheme::Case;
-use crate::solve::Level;
 
 /// The constant c of the module documentation: some ten terms per equation, each of a few
 /// operations, and the same number in the balance; the elimination multiplies by inverted blocks,

@@ -6,8 +6,8 @@
 //! Both give the same bits for a case.
 
 use crate::lanes::{Lane, Lanes};
+use crate::level::Level;
 use crate::norms::element_product;
-use crate::solve::Level;
 
 /// Number of partial sums: the numbers in a vector register.
 const WIDTH: usize = 4;

@@ -5,7 +5,7 @@ use super::scenes::{advanced, close, experiment, larger, simulate, tip};
 use std::f64::consts::FRAC_PI_2;
 use thermobeam::dg::{ContactEvent, Dg, DgProblem, DgStepping, Field, InitialFunctions, Phase};
 use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
+use thermobeam::motion::{Motion, TipRange};
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
@@ -256,10 +256,11 @@ fn the_range_of_the_tip_has_its_extrema_inside_steps() {
     };
     let mut simulation = simulate(experiment(0.0, 0.0, 8), long);
     let start = tip(&simulation, Field::U);
-    assert_eq!(simulation.tip_range(), [start, start]);
+    let TipRange { low, high } = simulation.tip_range();
+    assert_eq!([low, high], [start, start]);
     let mut inside = 0;
     while simulation.step(1.0).unwrap().is_some() {
-        let [low, high] = simulation.tip_range();
+        let TipRange { low, high } = simulation.tip_range();
         let (from, to) = (simulation.old_level().t, simulation.t());
         let at = |k: usize| {
             simulation

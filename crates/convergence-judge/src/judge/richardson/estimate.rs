@@ -4,7 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use thiserror::Error;
 
-use super::{Gci, growth, observed_order};
+use super::{Gci, Value, growth, observed_order};
 use crate::interval::Interval;
 use crate::judge::fit::{FLOOR_MARGIN, Level};
 use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
@@ -25,15 +25,6 @@ pub(crate) const RATES: Interval = Interval {
     low: 1e-2,
     high: 64.0,
 };
-
-/// A value at a step; NaN if there is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Value {
-    /// Step size, h or dt; positive, and smaller from level to level.
-    pub step: f64,
-    /// The value computed.
-    pub value: f64,
-}
 
 /// Why there is no error bar.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]

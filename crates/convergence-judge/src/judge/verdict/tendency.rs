@@ -2,7 +2,7 @@
 //! of the verdict.
 
 use crate::judge::fit::{Level, pairwise_rates};
-use crate::judge::richardson::{Value, observed_order};
+use crate::judge::three_values::{Value, correction, observed_order};
 use crate::text::number::{error_text, plain_text};
 
 /// Rates below this are those of errors that have stopped falling.
@@ -141,10 +141,8 @@ fn constant(levels: &[Level]) -> Option<Tendency> {
             step: level.step,
             value: level.error,
         };
-        let values = [coarse, middle, fine].map(value);
-        let order = observed_order(&values).ok()?;
-        let ratio = (middle.step / fine.step).powf(order);
-        fine.error - (middle.error - fine.error) / (ratio - 1.0)
+        let order = observed_order([coarse, middle, fine].map(value)).ok()?;
+        fine.error + correction(middle.error, fine.error, middle.step / fine.step, order)
     };
     let share = limit / fine.error;
     let is_constant = share > LEAST_LIMIT && share < 1.0 / LEAST_LIMIT;

@@ -4,9 +4,9 @@
 use super::NotError;
 use super::columns::{Cells, Derived, Holdings, Trend};
 use super::names::{self, Word};
-use super::reader::{NEIGHBOURS, TableReader};
+use super::reader::TableReader;
 use super::roles::reasons;
-use super::stated::DIMENSIONS;
+use super::stated::{DIMENSIONS, Derivation};
 use super::step::Step;
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
@@ -304,16 +304,9 @@ impl TableReader<'_> {
             })
         });
         let mut all_steps = [steps.to_vec()].into_iter().chain(over_counts);
-        let (error, derived) = all_steps.find_map(|steps: Vec<f64>| {
-            // Errors before it, the nearest first, and those after it.
-            let near = (k.saturating_sub(NEIGHBOURS)..k)
-                .rev()
-                .chain(k + 1..(k + NEIGHBOURS).min(self.columns.len()));
-            let mut near = near
-                .filter(|near| *near != step)
-                .map(|near| &self.columns[near]);
-            near.find_map(|error| Some((error, column.derived_from(error, &steps)?)))
-        })?;
+        let Derivation { error, derived } =
+            all_steps.find_map(|steps: Vec<f64>| self.derivation(k, step, &steps))?;
+        let error = &self.columns[error];
         Some(match derived {
             // Errors that are halved have the rate 1 and the factor 2.
             Derived::Factors if column.word == Word::Rate => Content::checked(format!(

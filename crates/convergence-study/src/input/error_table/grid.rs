@@ -2,6 +2,7 @@
 
 use super::NotError;
 use super::names::{self, Word};
+use super::turned::Turned;
 
 /// A table as written. Names and cells are slices of the text, which give their places.
 #[derive(Debug, Clone, Default)]
@@ -13,6 +14,8 @@ pub(super) struct RawTable<'t> {
     pub(super) groups: Vec<&'t str>,
     /// Whether a comma in a cell is a decimal comma.
     pub(super) decimal_comma: bool,
+    /// Whether the columns stand as rows in the text.
+    pub(super) turned: Option<Turned>,
     /// What is not a column of the table.
     pub(super) left_out: Vec<NotError>,
     /// The first of these that may be an error.

@@ -72,6 +72,8 @@ pub(super) struct Scan<'t> {
     pub(super) rows: Vec<&'t str>,
     /// Names with a word in place of a number, as often as they occur.
     worded: Vec<&'t str>,
+    /// Names of lists that begin with a word.
+    lists_of_words: Vec<&'t str>,
     /// Whether more numbers have a name and a mark than lines have none.
     pub(super) is_log: bool,
 }
@@ -109,6 +111,7 @@ impl<'t> Scan<'t> {
         let mut known: HashSet<&str> = HashSet::new();
         let mut rows = vec![];
         let mut worded = vec![];
+        let mut lists_of_words = vec![];
         let mut is_row = false;
         let mut depth = 0_usize;
         let mut label = 0;
@@ -127,6 +130,7 @@ impl<'t> Scan<'t> {
             };
             let Some(Value { before, word }) = gap.value(start - label, &known) else {
                 worded.extend(gap.name_of_word(start - label));
+                lists_of_words.extend(gap.name_of_list(start - label));
                 continue;
             };
             let marks = &before[before.trim_end_matches(is_mark).len()..];
@@ -156,12 +160,18 @@ impl<'t> Scan<'t> {
             }
             label = position;
         }
-        let marked = pairs.iter().filter(|pair| pair.is_marked).count();
+        let (marked, others): (Vec<&Pair<'_>>, Vec<&Pair<'_>>) =
+            pairs.iter().partition(|pair| pair.is_marked);
+        // Steps in a row of names, as `dx=1/32 dx=1/64`, above rows with a name in front.
+        let is_head = marked.iter().all(|pair| pair.name == marked[0].name)
+            && others.iter().any(|pair| pair.values.len() > 1);
+        let are_most = marked.len() >= 2 && marked.len() > rows.len();
         Self {
-            is_log: marked >= 2 && marked > rows.len() && !has_rows_of_latex(text),
+            is_log: are_most && !is_head && !has_rows_of_latex(text),
             pairs,
             rows,
             worded,
+            lists_of_words,
         }
     }
 
@@ -199,11 +209,15 @@ impl<'t> Scan<'t> {
     pub(super) fn table(&self) -> Option<RawTable<'t>> {
         let longest = self.pairs.iter().map(|pair| pair.values.len()).max()?;
         if self.has_columns() {
-            return Some(lists(&self.pairs, longest));
+            let mut table = lists(&self.pairs, longest);
+            table.left_out.extend(words(&self.lists_of_words, 1));
+            return Some(table);
         }
         let mut table = records(&self.pairs);
         let levels = table.rows.len();
-        table.left_out.extend(words(&self.worded, levels));
+        if levels > 1 {
+            table.left_out.extend(words(&self.worded, levels));
+        }
         Some(table)
     }
 }
@@ -306,7 +320,7 @@ fn words(worded: &[&str], levels: usize) -> Vec<NotError> {
     for name in worded {
         let count = counts.entry(name).or_default();
         *count += 1;
-        if levels > 1 && *count == levels {
+        if *count == levels {
             left_out.push(NotError {
                 is_checked: names::is_group(name),
                 ..not_error(name, "words".to_owned())

@@ -7,6 +7,7 @@ use super::grid::{ColumnName, RawTable};
 use super::names::{self, Word};
 use super::number::{Number, common_unit, has_percent, in_percent, number};
 use super::original::Original;
+use super::turned::Turned;
 use super::{Choice, NotError, Offer};
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
@@ -19,11 +20,18 @@ const LISTED: usize = 12;
 /// Rates are searched for among this many columns on either side.
 pub(super) const NEIGHBOURS: usize = 40;
 
+/// When an offer to number the rows is right.
+pub(super) const HALVED_ROWS: &str = "if each row halves the step";
+
 /// A table and the choices of the user.
 pub(super) struct TableReader<'t> {
     pub(super) original: Original<'t>,
     pub(super) choice: &'t Choice,
     pub(super) columns: Vec<Cells<'t>>,
+    /// Whether its columns stand as rows in the text.
+    pub(super) turned: Option<Turned>,
+    /// The ratio of the steps of consecutive levels, as chosen or as the rates between errors say.
+    pub(super) ratio: Option<f64>,
     /// The column that the reader has added: the numbers of the rows.
     pub(super) rows: Option<usize>,
     /// What is not an error.
@@ -50,11 +58,9 @@ impl Choice {
         Offer { choice, comment }
     }
 
-    /// The choice that each row halves the step.
-    pub(super) fn with_halved_rows(&self) -> Offer {
-        self.offer("if each row halves the step", |choice| {
-            choice.ratio = Some(2.0);
-        })
+    /// The choice that the step is halved, with the comment when.
+    pub(super) fn halved(&self, comment: &'static str) -> Offer {
+        self.offer(comment, |choice| choice.ratio = Some(2.0))
     }
 }
 
@@ -99,7 +105,7 @@ pub(super) fn columns<'t>(
     if width < 2 && choice.ratio.is_none() {
         let found = "one column: write the table as CSV";
         let expected = "a column of steps and at least one of errors";
-        let halved = columns[0].is_steep().then(|| choice.with_halved_rows());
+        let halved = columns[0].is_steep().then(|| choice.halved(HALVED_ROWS));
         let refusal = original.error(heads[0], None, expected, found);
         return Err(refusal.offering(halved));
     }
@@ -167,20 +173,27 @@ impl<'t> TableReader<'t> {
         original: Original<'t>,
         choice: &'t Choice,
         columns: Vec<Cells<'t>>,
-        left_out: Vec<NotError>,
+        table: &RawTable<'t>,
     ) -> Self {
         let rows = columns[0].texts.len();
+        let Choice {
+            step, dim, ratio, ..
+        } = choice;
+        let is_halved = table.turned == Some(Turned::Halved);
+        let stated = (is_halved && step.is_none() && dim.is_none()).then_some(2.0);
         let mut reader = Self {
             original,
             choice,
             columns,
+            turned: table.turned,
+            ratio: ratio.or(stated),
             rows: None,
-            left_out,
+            left_out: table.left_out.clone(),
             is_solved: vec![true; rows],
             is_shuffled: false,
         };
         let has_levels = reader.columns.iter().any(|column| column.is_index);
-        if choice.ratio.is_some() && choice.step.is_none() && !has_levels {
+        if reader.ratio.is_some() && step.is_none() && !has_levels {
             reader.rows = Some(reader.columns.len());
             reader.columns.push(numbers_of_rows(rows));
         }

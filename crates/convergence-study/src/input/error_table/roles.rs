@@ -157,8 +157,7 @@ fn attempt_grid(
     for Group { heading, columns } in groups::below_each_other(group, choice) {
         let all = [part.heading.as_str(), &heading].join(", ");
         let parameters = parameters::of_table(&all, &columns);
-        let left_out = side.table.left_out.clone();
-        let reader = TableReader::new(original, choice, columns, left_out);
+        let reader = TableReader::new(original, choice, columns, &side.table);
         let table = RateTable {
             parameters,
             ..attempt(reader, side.table.uneven.as_ref())?

@@ -76,21 +76,35 @@ impl TableReader<'_> {
 
     /// The columns that are rates over these steps, which fall from row to row.
     fn columns_of_rates(&self, of: usize, steps: &[f64]) -> Vec<RatesOf> {
-        let near = || (0..self.columns.len().min(NEIGHBOURS)).filter(|k| *k != of);
-        let mut rates = vec![];
-        if !steps.windows(2).all(|two| two[1] < two[0]) {
-            return rates;
-        }
-        for column in near() {
-            let is_of = |error: &usize| {
-                let derived = self.columns[column].derived_from(&self.columns[*error], steps);
-                derived == Some(Derived::Rates)
-            };
-            let error = near().find(is_of);
-            rates.extend(error.map(|error| RatesOf { column, error }));
-        }
-        rates
+        let falls = steps.windows(2).all(|two| two[1] < two[0]);
+        let columns = (0..self.columns.len().min(NEIGHBOURS)).filter(|k| falls && *k != of);
+        columns
+            .filter_map(|column| {
+                let Derivation { error, derived } = self.derivation(column, of, steps)?;
+                (derived == Derived::Rates).then_some(RatesOf { column, error })
+            })
+            .collect()
     }
+
+    /// The error of which a column has the rates or factors: one before it, the nearest first, or
+    /// one after it.
+    ///
+    /// * `of`: the column of the steps.
+    pub(super) fn derivation(&self, column: usize, of: usize, steps: &[f64]) -> Option<Derivation> {
+        let before = (column.saturating_sub(NEIGHBOURS)..column).rev();
+        let behind = column + 1..(column + NEIGHBOURS).min(self.columns.len());
+        let mut errors = before.chain(behind).filter(|error| *error != of);
+        errors.find_map(|error| {
+            let derived = self.columns[column].derived_from(&self.columns[error], steps)?;
+            Some(Derivation { error, derived })
+        })
+    }
+}
+
+/// What a column is computed from.
+pub(super) struct Derivation {
+    pub(super) error: usize,
+    pub(super) derived: Derived,
 }
 
 /// A column with the rates of another.

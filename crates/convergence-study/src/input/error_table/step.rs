@@ -3,7 +3,8 @@
 use super::Offer;
 use super::columns::Cells;
 use super::names::{self, Word, reciprocal};
-use super::reader::{NEIGHBOURS, TableReader, listed};
+use super::reader::{HALVED_ROWS, NEIGHBOURS, TableReader, listed};
+use super::stated::{DIMENSIONS, Stated};
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;
@@ -67,17 +68,39 @@ struct RegularColumn {
     ratio: f64,
 }
 
+/// What the column of the step holds, and how that was found if no option says so.
+struct Measured {
+    measure: Measure,
+    how: String,
+}
+
+impl Measured {
+    fn by_option(measure: Measure) -> Self {
+        Self {
+            measure,
+            how: String::new(),
+        }
+    }
+
+    fn by_rates(measure: Measure, error: &str) -> Self {
+        Self {
+            measure,
+            how: format!(", as the rates of `{error}` say"),
+        }
+    }
+}
+
 impl TableReader<'_> {
     /// The step: the column chosen for it, the levels, or the column that its name or its numbers
     /// identify.
     pub(super) fn step(&self) -> Result<Step, InputError> {
         let StepColumn { column, how } = match &self.choice.step {
             Some(wanted) => StepColumn::certain(self.find(wanted, Argument::Step)?),
-            None if self.choice.ratio.is_some() => StepColumn::certain(self.levels()?),
+            None if self.ratio.is_some() => StepColumn::certain(self.levels()?),
             None => self.natural_step()?,
         };
-        let (measure, by_rates) = self.measure(column)?;
-        let how = how + &by_rates + &self.adaptive(column, measure);
+        let Measured { measure, how: more } = self.measure(column)?;
+        let how = how + &more + &self.adaptive(column, measure);
         let name = &self.columns[column].name;
         let label = match measure {
             Measure::Step => name.to_owned(),
@@ -127,27 +150,23 @@ impl TableReader<'_> {
     /// The column that numbers the levels: one named so rather than any that counts the rows, or the
     /// rows themselves where no column is a step.
     fn levels(&self) -> Result<usize, InputError> {
-        if let Some(rows) = self.rows
-            && (self.columns.len() == 2 || self.natural_step().is_err())
-        {
+        let Some(rows) = self.rows else {
+            let named = self.columns.iter().position(is_named_level);
+            let index = self.columns.iter().position(|column| column.is_index);
+            return Ok(named.or(index).unwrap_or(0));
+        };
+        let is_turned = self.turned.is_some();
+        if self.columns.len() == 2 || is_turned || self.natural_step().is_err() {
             return Ok(rows);
         }
-        let indices: Vec<usize> = (0..self.columns.len())
-            .filter(|k| self.columns[*k].is_index)
-            .collect();
-        let named = indices
-            .iter()
-            .find(|k| self.columns[**k].word == Word::Cost);
-        named.or(indices.first()).copied().ok_or_else(|| {
-            let printed = self.columns[..self.rows.unwrap_or(self.columns.len())].iter();
-            let names = listed(printed.map(|column| format!("`{}`", column.name)));
-            let expected = Text::from("a column of levels 0, 1, 2, ... for ")
-                + Argument::Ratio.alone()
-                + ", or "
-                + Argument::Step.with_placeholder();
-            self.refuse(expected, &names)
-                .offering([self.choice.offer("", |choice| choice.ratio = None)])
-        })
+        let printed = self.columns[..rows].iter();
+        let names = listed(printed.map(|column| format!("`{}`", column.name)));
+        let expected = Text::from("a column of levels 0, 1, 2, ... for ")
+            + Argument::Ratio.alone()
+            + ", or "
+            + Argument::Step.with_placeholder();
+        let without_ratio = self.choice.offer("", |choice| choice.ratio = None);
+        Err(self.refuse(expected, &names).offering([without_ratio]))
     }
 
     /// The columns that may be the step, of those that `accepts` selects by number and name.
@@ -191,23 +210,20 @@ impl TableReader<'_> {
             });
         }
         let counts = self.candidates(|_, word| matches!(word, Word::Count(_)));
-        match counts.into_iter().min_by_key(|k| self.rank(*k)) {
-            Some(count) if self.choice.dim.is_none() && self.falls_like_a_step(count) => {
-                let name = &self.columns[count].name;
-                let found =
-                    format!("`{name}`, which has the name of a count and falls with the errors");
-                let expected = Argument::Step.with_placeholder()
-                    + ", or "
-                    + Argument::Dim.with_placeholder()
-                    + format!(" for h = {name}^(-1/D)");
-                let edge = self.choice.offer("", |choice| choice.dim = Some(1.0));
-                Err(self
-                    .refuse(expected, &found)
-                    .offering([self.with_step(count), edge]))
-            }
-            Some(count) => Ok(StepColumn::certain(count)),
-            None => self.regular_step(),
+        let Some(count) = counts.into_iter().min_by_key(|k| self.rank(*k)) else {
+            return self.regular_step();
+        };
+        if self.choice.dim.is_some() || !self.falls_like_a_step(count) {
+            return Ok(StepColumn::certain(count));
         }
+        let name = &self.columns[count].name;
+        let found = format!("`{name}`, which has the name of a count and falls with the errors");
+        let expected = Argument::Step.with_placeholder()
+            + ", or "
+            + Argument::Dim.with_placeholder()
+            + format!(" for h = {name}^(-1/D)");
+        let offers = [self.with_step(count), self.with_dim(1.0, "")];
+        Err(self.refuse(expected, &found).offering(offers))
     }
 
     /// The rank of a column of counts among those that may give the step.
@@ -247,27 +263,36 @@ impl TableReader<'_> {
         if let Some(level) = self.level_with_rates() {
             return Ok(StepColumn::certain(level));
         }
-        let with_first = first
-            .filter(|k| unknown.contains(k))
-            .map(|k| self.with_step(k));
-        let has_levels = self.columns.iter().any(is_named_level);
-        let with_levels = has_levels.then(|| {
-            self.choice
-                .offer("if each level halves the step", |choice| {
-                    choice.ratio = Some(2.0);
-                })
-        });
-        let offers_rows = with_first.is_none()
-            && !has_levels
-            && self.columns.iter().any(is_steep_error)
-            && !self.columns.iter().any(has_power_of_step)
-            && !self.columns.iter().any(counts_orders);
-        let with_rows = offers_rows.then(|| self.choice.with_halved_rows());
         let names = listed(self.columns.iter().map(name_with_reason));
         let expected =
             Text::from("a column of steps: add `h`, or name it with ") + Argument::Step.alone();
-        let offers = with_first.into_iter().chain(with_levels).chain(with_rows);
-        Err(self.refuse(expected, &names).offering(offers))
+        // The columns of a turned table are variables, of which none is a step.
+        let first = first.filter(|k| unknown.contains(k) && self.turned.is_none());
+        let offer = match first {
+            _ if self.columns.iter().any(is_named_level) => {
+                let first = first.map(|k| self.with_step(k));
+                let levels = self.choice.halved("if each level halves the step");
+                return Err(self
+                    .refuse(expected, &names)
+                    .offering(first.into_iter().chain([levels])));
+            }
+            Some(first) => Some(self.with_step(first)),
+            None => self
+                .may_halve_rows()
+                .then(|| self.choice.halved(HALVED_ROWS)),
+        };
+        Err(self.refuse(expected, &names).offering(offer))
+    }
+
+    /// Whether each row may halve a step that the table does not have: errors fall, and no column
+    /// has other steps or orders.
+    fn may_halve_rows(&self) -> bool {
+        let falls = |column: &Cells<'_>| {
+            (column.word == Word::Error || self.turned.is_some()) && column.is_steep()
+        };
+        self.columns.iter().any(falls)
+            && !self.columns.iter().any(has_power_of_step)
+            && !self.columns.iter().any(counts_orders)
     }
 
     /// The command with a column as the step.
@@ -281,55 +306,66 @@ impl TableReader<'_> {
             .offer("", |choice| (choice.step, choice.dim) = (Some(name), dim))
     }
 
-    /// What the column of the step holds, and the rates that say so where no option does.
-    fn measure(&self, step: usize) -> Result<(Measure, String), InputError> {
+    /// The choice of this dimension.
+    fn with_dim(&self, dim: f64, comment: &'static str) -> Offer {
+        self.choice.offer(comment, |choice| choice.dim = Some(dim))
+    }
+
+    /// What the column of the step holds.
+    fn measure(&self, step: usize) -> Result<Measured, InputError> {
         let Cells { name, word, .. } = &self.columns[step];
         let is_edge =
             reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
         let is_count = self.is_count(step);
+        let quoted = format!("`{name}`");
         if *word == Word::Logarithm {
-            let refusal = self.refuse("the values, not their logarithms", &format!("`{name}`"));
-            return Err(refusal.offering([self.choice.offer("", |choice| choice.dim = None)]));
+            return Err(self.without_dim("the values, not their logarithms", &quoted));
         }
-        let (expected, found) = match (self.choice.dim, self.choice.ratio) {
+        match (self.choice.dim, self.ratio) {
             (Some(_), Some(_)) => {
                 let both = Argument::Dim.alone() + " and " + Argument::Ratio.alone();
-                (Text::from("one of ") + both, "both".to_owned())
+                Err(self.without_dim(Text::from("one of ") + both, "both"))
             }
-            (None, Some(ratio)) => return Ok((Measure::Level(ratio), String::new())),
-            (Some(dim), None) if is_count && is_edge && dim != 1.0 => (
-                Text::from("no ") + Argument::Dim.alone() + " but 1",
-                format!("`{name}`, which is known to be of one dimension"),
-            ),
-            (Some(_), None) if !is_count && *word != Word::Unknown => (
-                Text::from("no ") + Argument::Dim.alone() + ", which is for counts such as `cells`",
-                format!("the step `{name}`"),
-            ),
+            (None, Some(ratio)) => Ok(Measured {
+                how: match self.choice.ratio {
+                    Some(_) => String::new(),
+                    None => ", as the rates between the errors say".to_owned(),
+                },
+                measure: Measure::Level(ratio),
+            }),
+            (Some(dim), None) if is_count && is_edge && dim != 1.0 => {
+                let expected = Text::from("no ") + Argument::Dim.alone() + " but 1";
+                let found = format!("{quoted}, which is known to be of one dimension");
+                Err(self.without_dim(expected, &found))
+            }
+            (Some(_), None) if !is_count && *word != Word::Unknown => {
+                let which = ", which is for counts such as `cells`";
+                let expected = Text::from("no ") + Argument::Dim.alone() + which;
+                Err(self.without_dim(expected, &format!("the step {quoted}")))
+            }
+            (Some(dim), None) => Ok(Measured::by_option(Measure::Count(dim))),
             (None, None) if is_count && is_edge && matches!(word, Word::Count(_)) => {
-                return Ok((Measure::Count(1.0), String::new()));
+                Ok(Measured::by_option(Measure::Count(1.0)))
             }
-            (None, None) if is_count => {
-                let stated = self
-                    .stated_dimension(step)
-                    .ok_or_else(|| self.without_dimension(step))?;
-                let how = format!(", as the rates of `{}` say", stated.error);
-                return Ok((Measure::Count(stated.number), how));
-            }
-            (None, None) if self.level_with_rates() == Some(step) => {
-                let stated = self
-                    .stated_ratio(step)
-                    .ok_or_else(|| self.without_dimension(step))?;
-                let how = format!(", as the rates of `{}` say", stated.error);
-                return Ok((Measure::Level(stated.number), how));
-            }
-            (dim, None) => {
-                let measure = dim.map_or(Measure::Step, Measure::Count);
-                return Ok((measure, String::new()));
-            }
-        };
-        Err(self
-            .refuse(expected, &found)
-            .offering([self.choice.offer("", |choice| choice.dim = None)]))
+            (None, None) if is_count => match self.stated_dimension(step) {
+                Some(Stated { number, error }) => {
+                    Ok(Measured::by_rates(Measure::Count(number), error))
+                }
+                None => Err(self.without_dimension(step)),
+            },
+            (None, None) => Ok(match self.stated_ratio(step) {
+                Some(Stated { number, error }) if is_named_level(&self.columns[step]) => {
+                    Measured::by_rates(Measure::Level(number), error)
+                }
+                _ => Measured::by_option(Measure::Step),
+            }),
+        }
+    }
+
+    /// A refusal that offers the choice without a dimension.
+    fn without_dim(&self, expected: impl Into<Text>, found: &str) -> InputError {
+        let offer = self.choice.offer("", |choice| choice.dim = None);
+        self.refuse(expected, found).offering([offer])
     }
 
     /// The refusal of a count without its dimension: regular columns, which may be the step, are
@@ -345,9 +381,8 @@ impl TableReader<'_> {
         } else {
             &["along an edge", "all, in the plane", "all, in space"]
         };
-        let dims = comments.iter().zip([1.0, 2.0, 3.0]);
-        let dims =
-            dims.map(|(comment, dim)| self.choice.offer(comment, |choice| choice.dim = Some(dim)));
+        let dims = comments.iter().zip(DIMENSIONS);
+        let dims = dims.map(|(comment, dim)| self.with_dim(dim, comment));
         let expected = Argument::Dim.with_placeholder()
             + format!(" for h = {name}^(-1/D), with D = 1 for cells along an edge, or ")
             + Argument::Step.with_placeholder();
@@ -366,28 +401,8 @@ impl TableReader<'_> {
         if !cells.is_whole() || cells.values.iter().all(|value| *value == 1.0) {
             return false;
         }
-        let surplus = self.surplus_of_falling(column);
-        if cells.word == Word::Step {
-            surplus < 1.0
-        } else {
-            surplus <= 1.0
-        }
-    }
-
-    /// The number of columns that fall with a column, minus those that grow or, like it, are
-    /// undecided.
-    fn surplus_of_falling(&self, column: usize) -> f64 {
-        let cells = &self.columns[column];
-        self.near(column)
-            .filter(|other| other.has_all_numbers())
-            .map(|other| {
-                if other.is_whole() || other.values.iter().any(|value| !(*value > 0.0)) {
-                    -1.0
-                } else {
-                    cells.together(other).signum()
-                }
-            })
-            .sum()
+        let with_errors = self.with_errors(column);
+        with_errors < 1.0 || cells.word != Word::Step && with_errors == 1.0
     }
 
     /// Whether a column has the name of a count and numbers of a step: they fall with the errors,
@@ -408,45 +423,30 @@ impl TableReader<'_> {
         matches!(cells.word, Word::Count(_)) && cells.is_whole() && self.with_errors(column) > 0.0
     }
 
-    /// The number of columns of errors, by name or else of unknown name, that fall with a column,
-    /// minus those that do not.
+    /// The number of columns of positive errors, by name or else of unknown name, that fall with a
+    /// column, minus those that grow.
     fn with_errors(&self, column: usize) -> f64 {
-        let by_name = self.signs(column, Word::Error);
-        let signs = if by_name.is_empty() {
-            self.signs(column, Word::Unknown)
-        } else {
-            by_name
-        };
-        signs.iter().sum()
-    }
-
-    /// For each column of positive errors with such a name: 1 if it falls with a column, -1 if it
-    /// grows.
-    fn signs(&self, column: usize, word: Word) -> Vec<f64> {
         let cells = &self.columns[column];
-        self.near(column)
-            .filter(|other| other.word == word && !other.is_whole())
-            .filter(|other| other.values.iter().all(|value| *value > 0.0))
-            .map(|other| cells.together(other).signum())
-            .collect()
-    }
-
-    /// The columns that are searched for errors of a step, without the step.
-    fn near(&self, column: usize) -> impl Iterator<Item = &Cells<'_>> {
         let near = self.columns.iter().take(NEIGHBOURS).enumerate();
-        near.filter(move |(k, _)| *k != column)
-            .map(|(_, cells)| cells)
+        let others = near.filter(|(k, other)| *k != column && !other.is_whole());
+        let others: Vec<&Cells<'_>> = others
+            .filter(|(_, other)| other.values.iter().all(|value| *value > 0.0))
+            .map(|(_, other)| other)
+            .collect();
+        let has_errors = others.iter().any(|other| other.word == Word::Error);
+        let word = if has_errors {
+            Word::Error
+        } else {
+            Word::Unknown
+        };
+        let errors = others.iter().filter(|other| other.word == word);
+        errors.map(|other| cells.together(other).signum()).sum()
     }
 }
 
 /// Whether a column numbers the rows and has the name of a level.
 fn is_named_level(column: &Cells<'_>) -> bool {
     column.is_index && column.word == Word::Cost
-}
-
-/// Whether a column has the name of an error and falls like one.
-fn is_steep_error(column: &Cells<'_>) -> bool {
-    column.word == Word::Error && column.is_steep()
 }
 
 /// Whether a column is named after a power of the step: `h^2`.

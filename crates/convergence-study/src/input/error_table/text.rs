@@ -20,12 +20,12 @@ const FULL: usize = 4;
 /// * `scan`: the names and numbers of the text.
 /// * `earlier`: the names of the table above it in the same text, which it may share.
 pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> RawTable<'t> {
+    if let Some(table) = turned::with_rates_between(text) {
+        return table;
+    }
     if scan.is_log
         && let Some(table) = scan.table()
     {
-        return table;
-    }
-    if let Some(table) = turned::with_rates_between(text) {
         return table;
     }
     let Lines {
@@ -49,6 +49,9 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
     }
     let rows: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
     let width = rows.iter().map(Vec::len).max().unwrap_or(0);
+    if turned::has_steps_in_head(&rows, &heads) {
+        return turned::transpose(&rows, &heads);
+    }
     let table = RawTable {
         decimal_comma: separator != Some(','),
         ..RawTable::default()
@@ -68,7 +71,10 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
         .or_else(|| heads::find(&heads, &rows, &spans, separator))
         .or_else(|| heads::shared(earlier, &heads, separator, width).map(with_names))
     {
-        None if turned::is_turned(&rows) => turned::transpose(&rows, width, table),
+        None if turned::is_turned(&rows) => RawTable {
+            decimal_comma: table.decimal_comma,
+            ..turned::transpose(&rows, &heads)
+        },
         names => {
             // If the number of words is not that of the columns, it says how many columns there
             // should be.

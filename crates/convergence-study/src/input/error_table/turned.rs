@@ -1,13 +1,71 @@
 //! Tables whose columns stand as rows.
 
+use std::f64::consts::LN_2;
+
 use super::grid::RawTable;
-use super::number::number;
+use super::number::{Number, halves, number};
 use super::original::offset;
+use super::pairs::{Pair, Scan};
+use super::text::is_rule;
 
 /// Least numbers of a row with rates between its errors: three errors and two rates.
 const LEAST: usize = 5;
-/// Largest difference between a printed rate and that of the errors.
-const NEAR: f64 = 6e-3;
+
+/// A table whose columns stand as rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Turned {
+    /// Without steps in its head.
+    Plain,
+    /// With the rates of halved steps between the errors.
+    Halved,
+}
+
+/// A column of steps.
+struct Steps<'t> {
+    name: &'t str,
+    cells: Vec<&'t str>,
+}
+
+/// The steps in the head of a turned table: `dx=1/32  dx=1/64`.
+fn steps<'t>(heads: &[&'t str], levels: usize) -> Option<Steps<'t>> {
+    heads.iter().find_map(|head| {
+        let pairs = Scan::of(head).pairs;
+        let name = last_word(pairs.first()?);
+        let is_step = |pair: &Pair<'_>| last_word(pair) == name && pair.values.len() == 1;
+        let cells = pairs.iter().map(|pair| pair.values[0]).collect();
+        let are_steps = pairs.len() == levels && pairs.iter().all(is_step);
+        are_steps.then_some(Steps { name, cells })
+    })
+}
+
+/// The name of a pair without the names of other columns before it.
+fn last_word<'t>(pair: &Pair<'t>) -> &'t str {
+    pair.name.split_whitespace().next_back().unwrap_or_default()
+}
+
+/// A table of these columns; the steps may stand in the lines above.
+fn table<'t>(
+    mut names: Vec<&'t str>,
+    mut columns: Vec<Vec<&'t str>>,
+    heads: &[&'t str],
+    turned: Option<Turned>,
+) -> RawTable<'t> {
+    let levels = columns.first().map_or(0, Vec::len);
+    let steps = steps(heads, levels);
+    let turned = turned.filter(|_| steps.is_none());
+    if let Some(Steps { name, cells }) = steps {
+        names.insert(0, name);
+        columns.insert(0, cells);
+    }
+    let row = |k: usize| columns.iter().map(|column| column[k]).collect();
+    RawTable {
+        names,
+        rows: (0..levels).map(row).collect(),
+        decimal_comma: true,
+        turned,
+        ..RawTable::default()
+    }
+}
 
 /// A text in which each line is a variable, with the rates of its errors between them, as
 /// `name error rate error rate error`, perhaps below a line of names; `None` if a rate of some line
@@ -15,12 +73,12 @@ const NEAR: f64 = 6e-3;
 pub(super) fn with_rates_between(text: &str) -> Option<RawTable<'_>> {
     let mut names = vec![];
     let mut columns: Vec<Vec<&str>> = vec![];
-    let mut lines = text
-        .lines()
-        .filter(|line| !line.trim().is_empty())
-        .peekable();
-    lines.next_if(|head| Variable::of_line(head).is_none());
-    for line in lines {
+    let lines = text.lines().filter(|line| !line.trim().is_empty());
+    let lines = lines.filter(|line| !is_rule(line) && !line.trim_start().starts_with('\\'));
+    let lines: Vec<&str> = lines.collect();
+    let is_head = |line: &&str| Variable::of_line(line).is_none();
+    let heads = lines.iter().take_while(|line| is_head(line)).count();
+    for line in &lines[heads..] {
         let Variable { name, errors } = Variable::of_line(line)?;
         if columns
             .first()
@@ -31,14 +89,8 @@ pub(super) fn with_rates_between(text: &str) -> Option<RawTable<'_>> {
         names.push(name);
         columns.push(errors);
     }
-    let levels = columns.first()?.len();
-    let row = |k: usize| columns.iter().map(|column| column[k]).collect();
-    Some(RawTable {
-        names,
-        rows: (0..levels).map(row).collect(),
-        decimal_comma: true,
-        ..RawTable::default()
-    })
+    let is_table = !columns.is_empty();
+    is_table.then(|| table(names, columns, &lines[..heads], Some(Turned::Halved)))
 }
 
 /// A line of such a text.
@@ -50,7 +102,8 @@ struct Variable<'t> {
 impl<'t> Variable<'t> {
     /// The words before the last numbers of a line, and the errors among these.
     fn of_line(line: &'t str) -> Option<Self> {
-        let words: Vec<&str> = line.split_whitespace().collect();
+        let words = line.split(|c: char| c.is_whitespace() || "|&".contains(c));
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let behind = words
             .iter()
             .rev()
@@ -60,39 +113,46 @@ impl<'t> Variable<'t> {
         if behind < LEAST || behind.is_multiple_of(2) || behind == words.len() {
             return None;
         }
-        let values: Vec<f64> = numbers
-            .iter()
-            .filter_map(|word| Some(number(word, false)?.value))
-            .collect();
-        let is_rate = |three: &[f64]| (three[1] - (three[0] / three[2]).log2()).abs() < NEAR;
-        let are_rates = values.windows(3).step_by(2).all(is_rate);
+        let numbers_of_words: Vec<Option<Number>> =
+            numbers.iter().map(|word| number(word, false)).collect();
+        let mut threes = numbers_of_words.windows(3).step_by(2);
+        let are_rates = threes.all(is_rate_between);
         let end = offset(line, numbers[0]);
         are_rates.then(|| Self {
-            name: line[..end].trim(),
+            name: line[..end].trim_matches(|c: char| c.is_whitespace() || "|&".contains(c)),
             errors: numbers.iter().step_by(2).copied().collect(),
         })
     }
 }
 
-/// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
-pub(super) fn transpose<'t>(
-    rows: &[Vec<&'t str>],
-    width: usize,
-    table: RawTable<'t>,
-) -> RawTable<'t> {
-    let mut columns: Vec<Vec<&str>> = (0..width)
-        .map(|k| rows.iter().map(|row| row[k]).collect())
-        .collect();
-    let names = if number(rows[0][0], true).is_none() {
-        columns.remove(0)
-    } else {
-        vec![&rows[0][0][..0]; rows.len()]
+/// Whether the middle one of three numbers is the rate of the others over halved steps, to their
+/// digits.
+fn is_rate_between(three: &[Option<Number>]) -> bool {
+    let [Some(coarse), Some(rate), Some(fine)] = three[..] else {
+        return false;
     };
-    RawTable {
-        names,
-        rows: columns,
-        ..table
-    }
+    let half = |number: Number| halves(&[Some(number)])[0];
+    let doubt = (half(coarse) / coarse.value + half(fine) / fine.value) / LN_2;
+    (rate.value - (coarse.value / fine.value).log2()).abs() <= half(rate) + doubt + 1e-3
+}
+
+/// A table whose rows are the columns of `rows`, each with its name in front, if it has one.
+pub(super) fn transpose<'t>(rows: &[Vec<&'t str>], heads: &[&'t str]) -> RawTable<'t> {
+    let has_names = number(rows[0][0], true).is_none();
+    let first = usize::from(has_names);
+    let names = rows
+        .iter()
+        .map(|row| if has_names { row[0] } else { &row[0][..0] });
+    let columns = rows.iter().map(|row| row[first..].to_vec());
+    let turned = has_names.then_some(Turned::Plain);
+    table(names.collect(), columns.collect(), heads, turned)
+}
+
+/// Whether the steps stand above rows that have the names of variables in front.
+pub(super) fn has_steps_in_head(rows: &[Vec<&str>], heads: &[&str]) -> bool {
+    let width = rows[0].len();
+    let is_variable = |row: &Vec<&str>| row.len() == width && number(row[0], true).is_none();
+    width > 2 && rows.iter().all(is_variable) && steps(heads, width - 1).is_some()
 }
 
 /// Whether numbers have a constant ratio, as those of a step do.

@@ -38,6 +38,13 @@ fn settings() -> Vec<Setting> {
             has_time: true,
             others: others(),
         },
+        // At rest.
+        Setting {
+            coordinates: &["x"],
+            faces: &["x_min", "x_max"],
+            has_time: false,
+            others: others(),
+        },
         Setting {
             coordinates: &["x"],
             faces: &[],
@@ -454,4 +461,23 @@ fn a_contradiction_or_a_gap_names_nothing() {
             "{variant}: {conclusion:?}"
         );
     }
+}
+
+#[test]
+fn at_rest_a_term_is_named_only_if_the_order_is_lost_where_both_faces_are_flat() {
+    let parameter = Part::Parameter("p".to_owned());
+    let fates = |of_both| {
+        let faces = ["x_min", "x_max"].map(|face| (Part::Face(face.to_owned()), Fate::Unknown));
+        let both = (Part::BothFaces("x".to_owned()), of_both);
+        let examined = faces
+            .into_iter()
+            .chain([both, (parameter.clone(), Fate::Back)]);
+        let examined = examined.map(|(part, fate)| Examined { part, fate });
+        decide(&examined.collect::<Vec<_>>())
+    };
+    assert_eq!(
+        fates(Fate::Lost),
+        Conclusion::Inside(vec![parameter.clone()])
+    );
+    assert!(matches!(fates(Fate::Back), Conclusion::Open(_)));
 }

@@ -4,11 +4,11 @@ _VARIANTS = [
     "",
     @LIST@,
 ]
-_NAME = os.environ.get("MANUFACTURE_VARIANT", "")
-if _NAME not in _VARIANTS:
+_VARIANT = os.environ.get("MANUFACTURE_VARIANT", "")
+if _VARIANT not in _VARIANTS:
     raise ValueError(
-        f"MANUFACTURE_VARIANT: unknown variant `{_NAME}`; expected one of{' '.join(_VARIANTS)}"
+        f"MANUFACTURE_VARIANT: unknown variant `{_VARIANT}`; expected one of{' '.join(_VARIANTS)}"
     )
-_VARIANT = _VARIANTS.index(_NAME)
+_NUMBER = _VARIANTS.index(_VARIANT)
 @CHANGES@
 

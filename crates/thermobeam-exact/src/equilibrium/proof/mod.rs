@@ -18,12 +18,11 @@ mod law;
 mod roots;
 mod undecided;
 
-use super::law::{Law, Support};
+use super::law::{Law, Support, free_kappa, free_pole};
 use super::{BUCKLING_VALUES, Completeness, Equilibrium, completeness, laws};
 use crate::interval::Interval;
 use law::IntervalLaw;
-pub(super) use roots::free_pole;
-use roots::{free_kappa, poles_above, supported_pole};
+use roots::{poles_above, supported_pole};
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 pub use undecided::{Reason, Undecided};

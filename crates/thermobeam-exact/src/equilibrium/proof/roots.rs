@@ -3,7 +3,7 @@
 
 use super::law::{IntervalLaw, pole_function};
 use super::{Reason, Undecided};
-use crate::equilibrium::law::free_buckling;
+use crate::equilibrium::law::{free_buckling, free_pole};
 use crate::interval::Interval;
 
 /// Halvings towards an end at which f → -∞, and of a bracket.
@@ -17,17 +17,6 @@ const POLE_GAPS: i32 = 20;
 
 /// What is known of an interval.
 pub(super) type Roots = Result<Vec<Interval>, Undecided>;
-
-/// `1 + N_k` without a support.
-pub(in crate::equilibrium) fn free_pole(k: usize) -> Interval {
-    let kappa = free_kappa(k);
-    Interval::from(1.0) / (kappa.square() + 1.0)
-}
-
-/// κ = (k - 1/2)π.
-pub(super) fn free_kappa(k: usize) -> Interval {
-    Interval::pi() * (k as f64 - 0.5)
-}
 
 /// Encloses the zero of h near `guess`: h falls through 0 there, and by the interlacing of the
 /// values nowhere else between the same two free values.

@@ -9,12 +9,12 @@
 //! defects = ["half of rho in N"]               # optional: mistakes in the loads, in the words of the report
 //! ```
 
-use super::fault::{Fault, Planted, RELATIVE, relative};
 use super::matrix::{Detects, Needed};
-use super::plantable::Plantable;
 use super::{RELATIVE_KEY, STUDIES};
 use crate::exact::defect::Defect;
 use crate::kinds::orders::any_order::{AnyOrder, Errors, Resolution};
+use crate::kinds::orders::planted::fault::{Fault, Planted, RELATIVE, relative};
+use crate::kinds::orders::planted::plantable::Plantable;
 use crate::kinds::orders::{Orders, Source};
 use crate::kinds::prelude::*;
 

@@ -1,11 +1,11 @@
 //! Faults in studies of manufactured solutions, by one-step schemes.
 
-use super::fault::{Fault, Planted, RELATIVE, relative};
 use super::matrix::{Detects, Needed};
-use super::plantable::Plantable;
 use super::{ELEMENTS, RELATIVE_KEY, STUDIES};
 use crate::kinds::orders::Orders;
 use crate::kinds::orders::manufactured::{Convergence, Prepared};
+use crate::kinds::orders::planted::fault::{Fault, Planted, RELATIVE, relative};
+use crate::kinds::orders::planted::plantable::Plantable;
 use crate::kinds::prelude::*;
 
 impl Plantable for Convergence {

@@ -1,7 +1,7 @@
 //! Every study under every fault: runs, verdicts, and the rule that judges them.
 
-use super::fault::Fault;
-use super::plantable::{Plantable, verdict};
+use crate::kinds::orders::planted::fault::Fault;
+use crate::kinds::orders::planted::plantable::{Plantable, verdict};
 use crate::kinds::orders::{Orders, Source};
 use crate::kinds::prelude::*;
 

@@ -25,16 +25,13 @@
 //! ```
 
 mod any_order;
-mod fault;
 mod manufactured;
 mod matrix;
-mod plantable;
 mod smallest;
-pub(super) mod untested;
 
-pub use fault::{Fault, Planted};
+pub use super::orders::planted::fault::{Fault, Planted};
+pub use super::orders::planted::plantable::Plantable;
 pub use matrix::{Detects, RunOf, UnderFaults};
-pub use plantable::Plantable;
 pub use smallest::Sensitivity;
 
 use super::orders::any_order::AnyOrder;

@@ -8,12 +8,12 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use super::fault::{RELATIVE, relative};
 use super::manufactured::named_studies;
-use super::plantable::Detector;
 use super::{ELEMENTS, STUDIES};
 use crate::kinds::orders::Orders;
 use crate::kinds::orders::manufactured::Convergence;
+use crate::kinds::orders::planted::fault::{RELATIVE, relative};
+use crate::kinds::orders::planted::plantable::Detector;
 use crate::kinds::prelude::*;
 
 /// Bisections of the logarithm: seven decades to within 4 percent.

@@ -9,6 +9,8 @@ pub mod any_order;
 pub mod frequencies;
 pub mod manufactured;
 mod one_step;
+pub(in crate::kinds) mod planted;
+pub mod projection;
 pub mod self_convergence;
 pub mod vibration;
 
@@ -20,6 +22,7 @@ use convergence_study::{
         over_levels::rate_table,
         until_decided::{self, Looks, Next},
     },
+    variants::Variants,
 };
 
 use super::prelude::*;
@@ -73,6 +76,16 @@ pub trait Source: Send + Sync + Sized + 'static {
     /// As [`Kind::untested`].
     fn untested(&self) -> Vec<Untested> {
         vec![]
+    }
+
+    /// As [`Kind::variants`].
+    fn variants(&self) -> Option<Variants> {
+        None
+    }
+
+    /// As [`Kind::with_variant`].
+    fn with_variant(&self, _variant: &str) -> Option<Self> {
+        None
     }
 }
 
@@ -249,6 +262,14 @@ impl<S: Source> Kind for Orders<S> {
 
     fn untested(&self) -> Vec<Untested> {
         self.0.untested()
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        self.0.variants()
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.0.with_variant(variant).map(Self)
     }
 }
 

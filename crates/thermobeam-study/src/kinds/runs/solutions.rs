@@ -410,15 +410,19 @@ fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let share = 0.5 * (5.0_f64.sqrt() - 1.0);
     let mut left = high - share * (high - low);
     let mut right = low + share * (high - low);
+    let mut at_left = function(left);
+    let mut at_right = function(right);
     for _ in 0..SEARCH {
-        if function(left) < function(right) {
+        if at_left < at_right {
             high = right;
-            right = left;
+            (right, at_right) = (left, at_left);
             left = high - share * (high - low);
+            at_left = function(left);
         } else {
             low = left;
-            left = right;
+            (left, at_left) = (right, at_right);
             right = low + share * (high - low);
+            at_right = function(right);
         }
     }
     0.5 * (low + high)

@@ -60,6 +60,14 @@ impl<'t> Gap<'t> {
         is_missing.then_some(Value { before, word })
     }
 
+    /// The name of a list that begins with a word: `"T": ["lost", "lost"]`.
+    pub(super) fn name_of_list(&self, start: usize) -> Option<&'t str> {
+        let before = &self.text[..start];
+        let marks = &before[before.trim_end_matches(is_mark).len()..];
+        let name = (marks.contains('[') && ends_with_mark(before)).then(|| name_before(before))?;
+        name.contains(char::is_alphabetic).then_some(name)
+    }
+
     /// The name before the only word behind it: `T = lost`.
     pub(super) fn name_of_word(&self, start: usize) -> Option<&'t str> {
         let (before, word) = self.text.split_at(start);

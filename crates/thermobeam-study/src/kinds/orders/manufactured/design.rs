@@ -149,7 +149,7 @@ impl<'a> Prepared<'a> {
 }
 
 /// Smallest and largest u(1, t) of the exact solution over the time levels of the finest run.
-pub(super) fn range_of_the_tip(study: &Convergence) -> [f64; 2] {
+pub(super) fn range_of_the_tip(study: &Convergence) -> TipRange {
     let steps = study.refine.steps.iter().copied().max().unwrap_or(1);
     let mut low = f64::INFINITY;
     let mut high = f64::NEG_INFINITY;
@@ -158,5 +158,5 @@ pub(super) fn range_of_the_tip(study: &Convergence) -> [f64; 2] {
         low = low.min(u);
         high = high.max(u);
     }
-    [low, high]
+    TipRange { low, high }
 }

@@ -35,14 +35,15 @@
 
 mod constant;
 pub(in crate::kinds) mod design;
+mod variants;
 
-use convergence_study::{Grid, GridColumn, SpaceTime};
+use convergence_study::{Grid, GridColumn, SpaceTime, variants::Variants};
 
 use super::one_step::{levels, not_finite_norms};
 use super::{Finer, Measured, Orders, Runs, Series, Source};
 pub use crate::exact::defect::Defect;
 use crate::exact::formulas::SchemeFormulas;
-use crate::kinds::detects::untested::untested;
+use crate::kinds::orders::planted::untested::untested;
 use crate::kinds::prelude::*;
 use crate::kinds::tables::{
     CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, mean_width,
@@ -130,6 +131,14 @@ impl Source for Convergence {
         let theory = &self.theory;
         let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
         self.refine.exercise(MANUFACTURED, terms)
+    }
+
+    fn variants(&self) -> Option<Variants> {
+        Some(self.own_variants())
+    }
+
+    fn with_variant(&self, variant: &str) -> Option<Self> {
+        self.varied(variant)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

@@ -188,8 +188,9 @@ impl SelfConvergence {
     /// Where contact is claimed: does the tip meet an obstacle?
     pub(super) fn meets_obstacle(&self, runs: &Runs<Self>) -> Option<Check> {
         let obstacles = self.scene.obstacles.filter(|_| self.contact)?;
-        let [low, high] =
-            found(runs, &self.levels.len()).map_or([f64::NAN; 2], |found| found.tip_range);
+        let reference = found(runs, &self.levels.len());
+        let low = reference.map_or(f64::NAN, |found| found.tip_range.low);
+        let high = reference.map_or(f64::NAN, |found| found.tip_range.high);
         let evidence = format!(
             "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
             obstacles.g1, obstacles.g2
@@ -233,7 +234,7 @@ impl SelfConvergence {
             (format!("energy {samples}"), energy.unwrap_or(f64::NAN)),
             (
                 "tip max".to_owned(),
-                traced.map_or(f64::NAN, |traced| traced.tip_range[1]),
+                traced.map_or(f64::NAN, |traced| traced.tip_range.high),
             ),
         ];
         let guarded = values.map(|(name, value)| {

@@ -242,7 +242,7 @@ impl Source for SelfConvergence {
 
     fn not_finite(&self, found: &Traced) -> Vec<String> {
         let mut broken = vec![];
-        if found.tip_range.iter().any(|tip| !tip.is_finite()) {
+        if !(found.tip_range.low.is_finite() && found.tip_range.high.is_finite()) {
             broken.push("the range of u(1)".to_owned());
         }
         let mut samples = found.levels.iter().zip(&found.energies);

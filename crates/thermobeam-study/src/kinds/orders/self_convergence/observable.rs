@@ -40,7 +40,7 @@ static OBSERVABLES: [Observable; 7] = [
         name: "tip-max",
         symbol: "max u(1, t)",
         in_space: 2.0,
-        distance: |a, b| (a.tip_range[1] - b.tip_range[1]).abs(),
+        distance: |a, b| (a.tip_range.high - b.tip_range.high).abs(),
     },
     // The largest defect of the energy balance in a step; of a fixed number of iterations it has an
     // order of its own.

@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use convergence_judge::interval::Interval;
 use thermobeam_exact::equilibrium::{EquilibriumError, Proof, enclose_change};
 
 use crate::kinds::prelude::*;
@@ -12,6 +13,12 @@ pub(super) const CLOSE: f64 = 0.025;
 
 /// Width to which an event is bracketed.
 pub(super) const BRACKET: f64 = 1e-9;
+
+/// The bracket of an event that is not there, or not once.
+const UNKNOWN: Interval = Interval {
+    low: f64::NAN,
+    high: f64::NAN,
+};
 
 /// Points of the close-up of a fork.
 const FORK_POINTS: usize = 80;
@@ -167,9 +174,9 @@ pub struct Diagram {
     pub ambiguous: usize,
     /// Bracket of the β at which the beam buckles or lifts off; NaN if it does neither, or more
     /// than once.
-    pub event: [f64; 2],
+    pub event: Interval,
     /// Bounds between which the event is proved to be; NaN if it is not proved.
-    pub proved: [f64; 2],
+    pub proved: Interval,
 }
 
 impl Diagram {
@@ -180,10 +187,10 @@ impl Diagram {
     pub(super) fn of(scene: &Scene, betas: &[f64]) -> Result<Self, CaseFailure> {
         let event = bracket(scene, &sample(scene, betas, 0)?)?;
         let mut grid = betas.to_vec();
-        if buckles(scene) && !event[0].is_nan() {
+        if buckles(scene) && !event.low.is_nan() {
             // Additional points around a fork for its close-up.
             for k in 0..=FORK_POINTS {
-                grid.push(event[0] + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0));
+                grid.push(event.low + CLOSE * (2.0 * k as f64 / FORK_POINTS as f64 - 1.0));
             }
             grid.sort_by(f64::total_cmp);
         }
@@ -193,13 +200,13 @@ impl Diagram {
     }
 
     /// Traces all branches.
-    fn trace(samples: &[StatesAt], event: [f64; 2]) -> Self {
+    fn trace(samples: &[StatesAt], event: Interval) -> Self {
         let mut diagram = Self {
             branches: vec![],
             counts: vec![],
             ambiguous: 0,
             event,
-            proved: [f64::NAN; 2],
+            proved: UNKNOWN,
         };
         let mut open: Vec<SteadyBranch> = vec![];
         for StatesAt { beta, states } in samples {
@@ -238,14 +245,14 @@ pub(super) fn buckles(scene: &Scene) -> bool {
 ///
 /// # Errors
 /// β at which the steady states cannot be found.
-fn bracket(scene: &Scene, samples: &[StatesAt]) -> Result<[f64; 2], CaseFailure> {
+fn bracket(scene: &Scene, samples: &[StatesAt]) -> Result<Interval, CaseFailure> {
     let changes: Vec<&[StatesAt]> = samples
         .windows(2)
         .filter(|pair| pair[0].is_before(scene) != pair[1].is_before(scene))
         .collect();
     let [mut low, mut high] = match changes[..] {
         [[last, first]] if last.is_before(scene) => [last.beta, first.beta],
-        _ => return Ok([f64::NAN; 2]),
+        _ => return Ok(UNKNOWN),
     };
     while high - low > BRACKET {
         let middle = StatesAt::at(scene, 0.5 * (low + high))?;
@@ -255,7 +262,7 @@ fn bracket(scene: &Scene, samples: &[StatesAt]) -> Result<[f64; 2], CaseFailure>
             high = middle.beta;
         }
     }
-    Ok([low, high])
+    Ok(Interval { low, high })
 }
 
 /// Half the width in which the event is enclosed: the answers at its ends are proved.
@@ -265,7 +272,7 @@ const AROUND: f64 = 1e-6;
 ///
 /// # Errors
 /// A coefficient out of range.
-fn proved(scene: &Scene, [low, high]: [f64; 2]) -> Result<[f64; 2], CaseFailure> {
+fn proved(scene: &Scene, event: Interval) -> Result<Interval, CaseFailure> {
     let is_before = |proof: &Proof| {
         let count = proof.count()?;
         Some(if buckles(scene) {
@@ -275,11 +282,14 @@ fn proved(scene: &Scene, [low, high]: [f64; 2]) -> Result<[f64; 2], CaseFailure>
             contacts.any(|contact| contact == Phase::Upper)
         })
     };
-    if low.is_nan() {
-        return Ok([f64::NAN; 2]);
+    if event.low.is_nan() {
+        return Ok(UNKNOWN);
     }
-    let ends = [low - AROUND, high + AROUND];
+    let ends = [event.low - AROUND, event.high + AROUND];
     let change = enclose_change(&scene.beam, scene.obstacles.as_ref(), ends, is_before)
         .map_err(EquilibriumError::from)?;
-    Ok(change.map_or([f64::NAN; 2], |change| [change.lo, change.hi]))
+    Ok(change.map_or(UNKNOWN, |change| Interval {
+        low: change.lo,
+        high: change.hi,
+    }))
 }

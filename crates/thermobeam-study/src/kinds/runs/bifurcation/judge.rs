@@ -1,6 +1,10 @@
 //! The claims: where the beam buckles and lifts off, and that moving beams come to rest on stable
 //! branches; tables, figures and guarded numbers.
 
+use std::ops::RangeInclusive;
+
+use convergence_judge::interval::Interval;
+
 use super::branches::{BRACKET, CLOSE, Diagram, buckles};
 use super::{AtRest, Bifurcation, DiagramTask, Found};
 use crate::kinds::prelude::*;
@@ -59,7 +63,7 @@ impl<'r> OfScene<'r> {
 
     /// The lower end of the bracket of buckling or lift-off; NaN if the case failed.
     fn event(&self) -> f64 {
-        self.diagram.map_or(f64::NAN, |diagram| diagram.event[0])
+        self.diagram.map_or(f64::NAN, |diagram| diagram.event.low)
     }
 
     fn guarded_event(&self) -> Quantity {
@@ -146,7 +150,7 @@ impl<'r> OfScene<'r> {
 
     /// Counting gives the ends of the bracket, analysis gives the number.
     fn buckles(&self, diagram: &Diagram) -> Check {
-        let [low, high] = diagram.event;
+        let Interval { low, high } = diagram.event;
         let holds =
             low <= -BUCKLING + BRACKET && -BUCKLING <= high + BRACKET && high - low <= BRACKET;
         Check::that(
@@ -162,9 +166,9 @@ impl<'r> OfScene<'r> {
 
     /// Proofs on both sides enclose the event that counting brackets.
     fn is_proved(&self, diagram: &Diagram) -> Check {
-        let [low, high] = diagram.proved;
-        let [from, to] = diagram.event;
-        let holds = high - low <= PROVED && low <= to && from <= high;
+        let Interval { low, high } = diagram.proved;
+        let event = diagram.event;
+        let holds = high - low <= PROVED && low <= event.high && event.low <= high;
         Check::that(
             holds,
             "the β at which the steady states change is enclosed, by proofs on both sides",
@@ -203,19 +207,19 @@ impl<'r> OfScene<'r> {
             "Steady states over β for θ_A = {theta_a}: solid where stable, dashed where not; \
              open markers: where moving beams come to rest."
         );
-        let fork = diagram.event[0];
+        let fork = diagram.event.low;
         // A minus sign, not a hyphen.
         let event = format!("{fork:.4}").replace('-', "−");
         if !buckles(self.scene) {
             let title = format!("One steady state for every β; it lifts off at β = {event}");
-            let svg = self.drawing(diagram, title, [f64::NEG_INFINITY, f64::INFINITY]);
+            let svg = self.drawing(diagram, title, f64::NEG_INFINITY..=f64::INFINITY);
             return vec![Figure::new(&file, caption, svg)];
         }
         let title = format!("Several steady states below β = {event}, one above");
         // Above the fork there is the straight beam alone.
-        let whole = self.drawing(diagram, title, [f64::NEG_INFINITY, fork + 2.0 * CLOSE]);
+        let whole = self.drawing(diagram, title, f64::NEG_INFINITY..=fork + 2.0 * CLOSE);
         let title = "The beam bends until its free end meets an obstacle".to_owned();
-        let close = self.drawing(diagram, title, [fork - CLOSE, fork + CLOSE]);
+        let close = self.drawing(diagram, title, fork - CLOSE..=fork + CLOSE);
         let caption_of_close = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
         vec![
             Figure::new(&file, caption, whole),
@@ -223,8 +227,7 @@ impl<'r> OfScene<'r> {
         ]
     }
 
-    fn drawing(&self, diagram: &Diagram, title: String, [low, high]: [f64; 2]) -> String {
-        let range = low..=high;
+    fn drawing(&self, diagram: &Diagram, title: String, range: RangeInclusive<f64>) -> String {
         let mut sorted: Vec<_> = diagram.branches.iter().collect();
         sorted.sort_by_key(|branch| (branch.key.place(), !branch.key.stable));
         let mut branches: Vec<figures::Branch> = vec![];
@@ -345,7 +348,7 @@ fn discrete_limit(limit: f64) -> Check {
 }
 
 fn lifts_off(diagram: &Diagram) -> Check {
-    let [low, high] = diagram.event;
+    let Interval { low, high } = diagram.event;
     let evidence = format!("between {low:.9} and {high:.9}");
     all(
         "the heated beam leaves the upper obstacle at one β, and is free above",

@@ -163,8 +163,8 @@ impl Runs for Bifurcation {
     fn numbers(&self, _: &DiagramTask, found: &Found) -> Vec<Reading> {
         match found {
             Found::Diagram(diagram) => vec![
-                Reading::new("event, below", diagram.event[0]),
-                Reading::new("event, above", diagram.event[1]),
+                Reading::new("event, below", diagram.event.low),
+                Reading::new("event, above", diagram.event.high),
             ],
             Found::Force(force) => vec![Reading::new("force", *force)],
             Found::Rest(rest) => vec![

@@ -29,11 +29,10 @@
 //!
 //! # Where the paper's text goes too far
 //!
-//! From the experiment at β = -0.8 it concludes that several steady states exist for β < -1/2. But
-//! between -0.7116 and -1/2 it is wrong: without heating the straight beam is the only steady state
-//! there (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of all
-//! exact steady states, and by
-//! where moving beams come to rest.
+//! It takes the experiment at β = -0.8 as evidence of several steady states for β < -1/2. That
+//! threshold is not sharp: without heating the straight beam is the only steady state down to
+//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of all
+//! exact steady states, and by where moving beams come to rest.
 
 mod group;
 mod judge;

@@ -64,17 +64,16 @@ fn headline(checks: &[Check]) -> String {
     let printed = Tally::of(checks, Origin::Source);
     let corrected = Tally::of(checks, Origin::Correction);
     let own = Tally::of(checks, Origin::Own);
-    let refuted = corrected.holding;
-    let refutation = if refuted == 0 {
+    let of_the_last = if corrected.holding == 0 {
         "the last is not decided".to_owned()
     } else {
         format!(
-            "{refuted} is refuted: several steady states for β < -1/2, where there are several only for β < {:.4}",
-            -BUCKLING
+            "{} has a threshold that is not sharp: several steady states for β < -1/2, where it is -B = -π²/4 / (1 + π²/4) = {:.4} for θ_A = 0",
+            corrected.holding, -BUCKLING
         )
     };
     format!(
-        "the paper's {} statements: {} hold as printed, {refutation}; {} of {} of ours hold",
+        "the paper's {} statements: {} hold as printed, {of_the_last}; {} of {} of ours hold",
         printed.count + corrected.count,
         printed.holding,
         own.holding,

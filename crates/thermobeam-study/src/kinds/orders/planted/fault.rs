@@ -25,7 +25,7 @@ pub struct Planted {
 
 impl Fault {
     /// No fault at all, then each coefficient and each defect.
-    pub(super) fn all() -> Vec<Self> {
+    pub(in crate::kinds) fn all() -> Vec<Self> {
         let defects = Defect::ALL.map(|(defect, _)| Fault::Defect(defect));
         [Fault::None]
             .into_iter()
@@ -35,7 +35,7 @@ impl Fault {
     }
 
     /// In words.
-    pub(super) fn name(self) -> &'static str {
+    pub(in crate::kinds) fn name(self) -> &'static str {
         match self {
             Fault::None => "none",
             Fault::Coefficient(key) => key,
@@ -47,7 +47,7 @@ impl Fault {
     ///
     /// * `theory`: coefficients from which the sources are derived.
     /// * `relative`: relative error of a coefficient.
-    pub(super) fn plant(self, theory: Coefficients, relative: f64) -> Option<Planted> {
+    pub(in crate::kinds) fn plant(self, theory: Coefficients, relative: f64) -> Option<Planted> {
         let solver = match self {
             Fault::Coefficient(key) => theory.off(key, relative)?,
             Fault::None | Fault::Defect(_) => theory,
@@ -64,9 +64,9 @@ impl Fault {
 }
 
 /// In words, what a relative error is.
-pub(super) const RELATIVE: &str = "a number between 0 and 1";
+pub(in crate::kinds) const RELATIVE: &str = "a number between 0 and 1";
 
 /// A relative error of a coefficient.
-pub(super) fn relative(field: &Field<'_>) -> Result<f64, InputError> {
+pub(in crate::kinds) fn relative(field: &Field<'_>) -> Result<f64, InputError> {
     field.number_where(RELATIVE, |r| r > 0.0 && r < 1.0)
 }

@@ -17,7 +17,7 @@ const ROUND_OFF: f64 = 1e-12;
 /// * Returns nothing if the study fails.
 pub(in crate::kinds) fn untested<S: Plantable>(
     study: &S,
-    range_of_the_tip: impl Fn() -> [f64; 2],
+    range_of_the_tip: impl Fn() -> TipRange,
 ) -> Vec<Untested> {
     let Ok(mut detector) = Detector::new(study) else {
         return vec![];
@@ -67,7 +67,8 @@ fn without_error<S: Plantable>(ran: &[Ran<S::Data, S::Found>]) -> Vec<Untested> 
 }
 
 /// Why an obstacle has no effect; `None` for other coefficients, and if the free end touches it.
-fn contact(obstacles: Option<Obstacles>, key: &str, [low, high]: [f64; 2]) -> Option<String> {
+fn contact(obstacles: Option<Obstacles>, key: &str, tip: TipRange) -> Option<String> {
+    let TipRange { low, high } = tip;
     let Obstacles { g1, g2, .. } = obstacles?;
     match key {
         "g1" if low >= g1 => Some(format!("the free end stays above it: u(1) >= {low:.4}")),

@@ -35,7 +35,7 @@ pub trait Plantable: Source<Found: Clone> {
 }
 
 /// The verdict of a study on the results of its cases.
-pub(super) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
+pub(in crate::kinds) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
     for run in runs {
         match run.ok() {
             Some(found) if source.not_finite(found).is_empty() => (),
@@ -55,7 +55,7 @@ struct Prepared<'a, S: Plantable + 'a> {
 }
 
 /// All cases of a study, prepared once for runs with many faults.
-pub(super) struct Detector<'a, S: Plantable> {
+pub(in crate::kinds) struct Detector<'a, S: Plantable> {
     study: &'a S,
     cases: Vec<Prepared<'a, S>>,
 }
@@ -63,7 +63,7 @@ pub(super) struct Detector<'a, S: Plantable> {
 impl<'a, S: Plantable> Detector<'a, S> {
     /// # Errors
     /// [`CaseFailure`]: a case cannot be set up.
-    pub(super) fn new(study: &'a S) -> Result<Self, CaseFailure> {
+    pub(in crate::kinds) fn new(study: &'a S) -> Result<Self, CaseFailure> {
         let mut cases = vec![];
         for case in study.cases() {
             let shared = study.share(&case.data)?;
@@ -73,7 +73,7 @@ impl<'a, S: Plantable> Detector<'a, S> {
     }
 
     /// The results of all cases without a fault.
-    pub(super) fn without_a_fault(&mut self) -> Vec<Ran<S::Data, S::Found>> {
+    pub(in crate::kinds) fn without_a_fault(&mut self) -> Vec<Ran<S::Data, S::Found>> {
         self.run(Planted {
             solver: self.study.theory(),
             defect: None,
@@ -94,7 +94,7 @@ impl<'a, S: Plantable> Detector<'a, S> {
 
     /// Whether the study fails with a relative error in a coefficient; a run that breaks down is a
     /// failure. `None` if the study lacks the coefficient, or it is zero.
-    pub(super) fn detects(&mut self, key: &'static str, relative: f64) -> Option<bool> {
+    pub(in crate::kinds) fn detects(&mut self, key: &'static str, relative: f64) -> Option<bool> {
         let planted = Fault::Coefficient(key).plant(self.study.theory(), relative)?;
         let ran = self.run(planted);
         Some(verdict(self.study, &ran) == Verdict::Fail)

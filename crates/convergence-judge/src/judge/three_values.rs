@@ -1,0 +1,83 @@
+//! The order of three values at three steps, and the limit that it gives.
+
+/// A value at a step; NaN if there is none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Value {
+    /// Step size, h or dt; positive, and smaller from level to level.
+    pub step: f64,
+    /// The value computed.
+    pub value: f64,
+}
+
+/// Why three values have no order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoOrder {
+    /// A difference is zero.
+    NoChange,
+    /// The differences change sign.
+    Oscillating,
+    /// The differences do not fall.
+    Diverging,
+}
+
+/// Upper end of the search for the observed order: no scheme has a higher one.
+const HIGHEST_ORDER: f64 = 64.0;
+
+/// `r^p - 1`: the difference of two values over the error at the finer step.
+pub fn growth(ratio: f64, order: f64) -> f64 {
+    ratio.powf(order) - 1.0
+}
+
+/// The number to add to the value at the finer step to get the limit, for steps of this ratio.
+pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
+    (fine - coarse) / growth(ratio, order)
+}
+
+/// The order p of three values, coarse to fine, from the equation of ASME V&V 20 for unequal ratios,
+///
+/// ```text
+///     p = [ log(d_coarse / d_fine) + log((ρ_fine^p - 1) / (ρ_coarse^p - 1)) ] / log ρ_fine.
+/// ```
+///
+/// The iteration that the standard suggests, right side into left, diverges if the coarse ratio is
+/// much the larger (4 and 1.2 with p = 1). The equation is equivalent to
+/// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p,
+/// from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
+pub(crate) fn observed_order([coarse, middle, fine]: [Value; 3]) -> Result<f64, NoOrder> {
+    let quotient = (coarse.value - middle.value) / (middle.value - fine.value);
+    let [wide, narrow] = [coarse.step / middle.step, middle.step / fine.step];
+    if !quotient.is_finite() {
+        return Err(NoOrder::NoChange);
+    }
+    if quotient < 0.0 {
+        return Err(NoOrder::Oscillating);
+    }
+    let excess = |p: f64| narrow.powf(p) * growth(wide, p) / growth(narrow, p) - quotient;
+    if quotient <= wide.ln() / narrow.ln() {
+        return Err(NoOrder::Diverging);
+    }
+    let mut low = 0.0;
+    let mut high = HIGHEST_ORDER;
+    // 60 halvings of 64 reach the spacing of doubles.
+    for _ in 0..60 {
+        let p = 0.5 * (low + high);
+        if excess(p) < 0.0 { low = p } else { high = p }
+    }
+    Ok(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::correction;
+
+    #[test]
+    fn a_clean_sequence_gives_its_limit() {
+        for p in [1.0_f64, 1.5, 2.0] {
+            let q = |h: f64| 1.0 + 0.3 * h.powf(p);
+            for ratio in [2.0, 3.0] {
+                let limit = q(0.1) + correction(q(0.1 * ratio), q(0.1), ratio, p);
+                assert!((limit - 1.0).abs() < 1e-14, "{limit}");
+            }
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! Variants of the exact solution of a study, for `--where`: loads, initial data and errors follow,
+//! because all of them are made of the exact solution.
+//!
+//! Flat are products with weights that vanish at an end of the beam, or at the first time, with
+//! their first three derivatives, one more than the largest order: x⁴ at x = 0, (1 - x)⁴ at x = 1,
+//! (4x(1 - x))⁴ at both, (t/T)⁴ at t = 0. The boundary conditions remain: u and φ are 0 at x = 0, and
+//! where the weight takes θ = θ_A from there, a lifting l brings it back, θ = w θ + θ_A l: it falls
+//! from 1 to 0 and is as flat as the solution, 1 - x⁴, or 1 - 35x⁴ + 84x⁵ - 70x⁶ + 20x⁷ at both. At
+//! the first time θ = θ_A (1 - x). Where u is flat at x = 1 the tip touches no obstacle.
+
+use convergence_study::variants::{Part, Variant, Variants};
+
+use super::Convergence;
+use crate::exact::function::Factor;
+use crate::kinds::prelude::*;
+
+/// Where the solution is held in time: this share of the time of a study, no time of symmetry.
+const MIDDLE: f64 = 0.4;
+
+/// Claims of a variant may be this far off: what has lost half an order is lost.
+const TOLERANCE: f64 = 0.25;
+
+/// Points in x, and in t, at which the size of a solution is taken.
+const POINTS: u32 = 16;
+
+/// A function of x and its first two derivatives.
+type Weight = fn(f64) -> [f64; 3];
+
+/// How fields become flat.
+struct Flat {
+    weight: Weight,
+    /// What is added to the temperature, in units of θ_A.
+    lifting: Option<Weight>,
+}
+
+const AT_ZERO: Flat = Flat {
+    weight: at_zero,
+    lifting: Some(falls_to_one),
+};
+const AT_ONE: Flat = Flat {
+    weight: at_one,
+    lifting: None,
+};
+const AT_BOTH: Flat = Flat {
+    weight: at_both,
+    lifting: Some(falls_between),
+};
+
+fn at_zero(x: f64) -> [f64; 3] {
+    [x.powi(4), 4.0 * x.powi(3), 12.0 * x.powi(2)]
+}
+
+fn at_one(x: f64) -> [f64; 3] {
+    let [value, first, second] = at_zero(1.0 - x);
+    [value, -first, second]
+}
+
+fn at_both(x: f64) -> [f64; 3] {
+    // s⁴ of s = 4x(1 - x).
+    let [s, slope] = [4.0 * x * (1.0 - x), 4.0 - 8.0 * x];
+    let [value, first, second] = at_zero(s);
+    [value, first * slope, second * slope * slope - 8.0 * first]
+}
+
+fn falls_to_one(x: f64) -> [f64; 3] {
+    let [value, first, second] = at_zero(x);
+    [1.0 - value, -first, -second]
+}
+
+fn falls_between(x: f64) -> [f64; 3] {
+    let y = 1.0 - x;
+    [
+        // The smoothest of degree 7: its slope is -140 x³ (1 - x)³.
+        1.0 - x.powi(4) * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x))),
+        -140.0 * (x * y).powi(3),
+        -420.0 * (x * y).powi(2) * (y - x),
+    ]
+}
+
+/// What a variant does to a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Change {
+    HeldInTime,
+    FlatAtZero,
+    FlatAtOne,
+    FlatAtBoth,
+    FlatAtStart,
+    FlatEverywhere,
+    NoRotation,
+    NoTemperature,
+    NoCoupling,
+    NoStretching,
+    NoContact,
+}
+
+impl Change {
+    const ALL: [Self; 11] = [
+        Self::HeldInTime,
+        Self::FlatAtZero,
+        Self::FlatAtOne,
+        Self::FlatAtBoth,
+        Self::FlatAtStart,
+        Self::FlatEverywhere,
+        Self::NoRotation,
+        Self::NoTemperature,
+        Self::NoCoupling,
+        Self::NoStretching,
+        Self::NoContact,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::HeldInTime => "constant_t",
+            Self::FlatAtZero => "flat_x_min",
+            Self::FlatAtOne => "flat_x_max",
+            Self::FlatAtBoth => "flat_x",
+            Self::FlatAtStart => "flat_initial",
+            Self::FlatEverywhere => "flat_everywhere",
+            Self::NoRotation => "no_phi",
+            Self::NoTemperature => "no_theta",
+            Self::NoCoupling => "zero_a",
+            Self::NoStretching => "zero_rho",
+            Self::NoContact => "no_contact",
+        }
+    }
+
+    fn switches_off(self) -> Part {
+        match self {
+            Self::HeldInTime => Part::Time("t".to_owned()),
+            Self::FlatAtZero => Part::Face("x_min".to_owned()),
+            Self::FlatAtOne => Part::Face("x_max".to_owned()),
+            Self::FlatAtBoth => Part::BothFaces("x".to_owned()),
+            Self::FlatAtStart => Part::Initial,
+            Self::FlatEverywhere => Part::AllFacesAndInitial,
+            Self::NoRotation => Part::Field("phi".to_owned()),
+            Self::NoTemperature => Part::Field("theta".to_owned()),
+            Self::NoCoupling => Part::Parameter("a".to_owned()),
+            Self::NoStretching => Part::Parameter("rho".to_owned()),
+            // Without obstacles the force (u - g)/epsilon is not there.
+            Self::NoContact => Part::Parameter("1/epsilon".to_owned()),
+        }
+    }
+
+    /// Whether the study has what is switched off. Where the error in time is exactly zero or the
+    /// only one, a solution that is held shows nothing: all of it is round-off.
+    fn applies(self, study: &Convergence) -> bool {
+        let Coefficients { beam, obstacles } = study.theory;
+        match self {
+            Self::HeldInTime => study.refine.axis != Axis::Time,
+            Self::NoRotation => !study.exact.phi.is_empty(),
+            Self::NoTemperature => !study.exact.theta.is_empty() && beam.theta_a == 0.0,
+            Self::NoCoupling => beam.a != 0.0,
+            Self::NoStretching => beam.rho != 0.0,
+            Self::NoContact => obstacles.is_some(),
+            Self::FlatAtZero
+            | Self::FlatAtOne
+            | Self::FlatAtBoth
+            | Self::FlatAtStart
+            | Self::FlatEverywhere => true,
+        }
+    }
+}
+
+impl Convergence {
+    /// The variants of the exact solution.
+    pub(super) fn own_variants(&self) -> Variants {
+        let usable = Change::ALL
+            .into_iter()
+            .filter(|change| change.applies(self));
+        let usable = usable.map(|change| Variant {
+            name: change.name().to_owned(),
+            switches_off: change.switches_off(),
+            size: self.changed(change).size(),
+        });
+        let data = [
+            ("x_min", "u, phi, theta"),
+            ("x_max", "moment, shear force with contact, theta"),
+        ];
+        let data = data.map(|(face, names)| {
+            let names = names.split(", ").map(str::to_owned).collect();
+            (face.to_owned(), names)
+        });
+        Variants {
+            size: self.size(),
+            usable: usable.collect(),
+            left_out: vec![],
+            data: data.into(),
+        }
+    }
+
+    /// The study with a variant; `None` for an unknown name.
+    pub(super) fn varied(&self, name: &str) -> Option<Self> {
+        let mut changes = Change::ALL.into_iter();
+        let mut study = self.changed(changes.find(|change| change.name() == name)?);
+        study.constant = None;
+        for (_, claim) in &mut study.expect {
+            let tolerance = claim.tolerance.max(TOLERANCE);
+            *claim = Claim {
+                at_least: claim.at_least,
+                ..Claim::new(claim.order, tolerance)
+            };
+        }
+        Some(study)
+    }
+
+    fn changed(&self, change: Change) -> Self {
+        let mut study = self.clone();
+        let exact = &mut study.exact;
+        let theta_a = self.theory.beam.theta_a;
+        match change {
+            Change::HeldInTime => held(exact, MIDDLE * self.refine.t_end),
+            Change::FlatAtZero => flatten(exact, &AT_ZERO, theta_a),
+            Change::FlatAtOne => flatten(exact, &AT_ONE, theta_a),
+            Change::FlatAtBoth => flatten(exact, &AT_BOTH, theta_a),
+            Change::FlatAtStart => begin_flat(exact, self.refine.t_end, theta_a),
+            Change::FlatEverywhere => {
+                flatten(exact, &AT_BOTH, theta_a);
+                begin_flat(exact, self.refine.t_end, theta_a);
+            }
+            Change::NoRotation => exact.phi.clear(),
+            Change::NoTemperature => exact.theta.clear(),
+            Change::NoCoupling => study.each(|coefficients| coefficients.beam.a = 0.0),
+            Change::NoStretching => study.each(|coefficients| coefficients.beam.rho = 0.0),
+            Change::NoContact => study.each(|coefficients| coefficients.obstacles = None),
+        }
+        study
+    }
+
+    /// Changes the coefficients of theory and solver alike.
+    fn each(&mut self, change: impl Fn(&mut Coefficients)) {
+        change(&mut self.theory);
+        change(&mut self.solver);
+    }
+
+    /// The root mean square of the three fields together, over [0, 1] and the time of the study.
+    fn size(&self) -> f64 {
+        let middles =
+            |end: f64| (0..POINTS).map(move |k| (f64::from(k) + 0.5) * end / f64::from(POINTS));
+        let mut sum = 0.0;
+        for x in middles(1.0) {
+            for t in middles(self.refine.t_end) {
+                for field in [&self.exact.u, &self.exact.phi, &self.exact.theta] {
+                    let products = field.iter().map(|one| one.x.eval(x) * one.t.eval(t));
+                    sum += products.sum::<f64>().powi(2);
+                }
+            }
+        }
+        (sum / f64::from(POINTS * POINTS)).sqrt()
+    }
+}
+
+fn fields(exact: &mut Manufactured) -> [&mut Vec<Product>; 3] {
+    [&mut exact.u, &mut exact.phi, &mut exact.theta]
+}
+
+/// The solution at one time.
+fn held(exact: &mut Manufactured, time: f64) {
+    for product in fields(exact).into_iter().flatten() {
+        let value = product.t.eval(time);
+        product.t = Factor::new(move |_| [value, 0.0, 0.0]);
+    }
+}
+
+/// All fields times a weight in x.
+fn flatten(exact: &mut Manufactured, flat: &Flat, theta_a: f64) {
+    for product in fields(exact).into_iter().flatten() {
+        product.x = weighted(&product.x, flat.weight);
+    }
+    if let Some(lifting) = flat.lifting.filter(|_| theta_a != 0.0) {
+        exact.theta.push(Product {
+            x: Factor::new(move |x| lifting(x).map(|part| theta_a * part)),
+            t: Factor::new(|_| [1.0, 0.0, 0.0]),
+        });
+    }
+}
+
+/// All fields times (t/T)⁴; the temperature about θ_A (1 - x).
+fn begin_flat(exact: &mut Manufactured, t_end: f64, theta_a: f64) {
+    let weight = move |t: f64| {
+        let [value, first, second] = at_zero(t / t_end);
+        [value, first / t_end, second / t_end.powi(2)]
+    };
+    for product in fields(exact).into_iter().flatten() {
+        product.t = weighted(&product.t, weight);
+    }
+    if theta_a != 0.0 {
+        exact.theta.push(Product {
+            x: Factor::new(move |x| [theta_a * (1.0 - x), -theta_a, 0.0]),
+            t: Factor::new(move |t| {
+                let [value, first, second] = weight(t);
+                [1.0 - value, -first, -second]
+            }),
+        });
+    }
+}
+
+/// The product of a factor and a weight.
+fn weighted(factor: &Factor, weight: impl Fn(f64) -> [f64; 3] + Send + Sync + 'static) -> Factor {
+    let factor = factor.clone();
+    Factor::new(move |at| {
+        let [f, f1, f2] = factor.derivatives(at);
+        let [w, w1, w2] = weight(at);
+        [f * w, f1 * w + f * w1, f2 * w + 2.0 * f1 * w1 + f * w2]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_and_liftings_have_their_derivatives_and_are_flat_where_they_must_be() {
+        for (flat, is_flat) in [
+            (AT_ZERO, [true, false]),
+            (AT_ONE, [false, true]),
+            (AT_BOTH, [true; 2]),
+        ] {
+            for function in [Some(flat.weight), flat.lifting].into_iter().flatten() {
+                let step = 1e-5;
+                for x in [0.1, 0.37, 0.5, 0.9] {
+                    let [value, first, second] = function(x);
+                    let [before, after] = [function(x - step), function(x + step)];
+                    let difference = |k: usize| (after[k] - before[k]) / (2.0 * step);
+                    assert!((difference(0) - first).abs() < 1e-7, "{x}: {value}");
+                    assert!((difference(1) - second).abs() < 1e-6, "{x}: {value}");
+                }
+                for (end, inner) in [(0.0, step), (1.0, 1.0 - step)] {
+                    if is_flat[usize::from(end == 1.0)] {
+                        let [_, first, second] = function(end);
+                        assert_eq!([first, second], [0.0; 2]);
+                        // The second derivative grows as x², at most as that of (4x)⁴.
+                        let second = function(inner)[2].abs();
+                        assert!(second < 3073.0 * step * step, "{end}: {second}");
+                    }
+                }
+            }
+            if let Some(lifting) = flat.lifting {
+                assert_eq!([lifting(0.0)[0], lifting(1.0)[0]], [1.0, 0.0]);
+            }
+        }
+        assert_eq!([at_one(0.0)[0], at_zero(1.0)[0]], [1.0; 2]);
+    }
+}

@@ -1,0 +1,100 @@
+//! Variants of exact solutions: loads, initial data and errors follow; a coefficient that is wrong
+//! in the solver is named by them, and nothing else is.
+
+use convergence_study::internal::where_lost::located;
+use convergence_study::variants::{Part, Variants};
+use convergence_study::{FromFile, Kind, NamedRate, Outcome, Reason, Verdict, run_one};
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::Convergence;
+
+use super::{file, text};
+
+/// A study of the repository on coarse levels, with more in its file.
+fn study(name: &str, more: &str) -> Orders<Convergence> {
+    let text = text(name);
+    // Along h = dt the levels of the file are used.
+    let is_one_axis = !text.contains("axis = \"both\"");
+    let mut lines = vec![];
+    for line in text.lines() {
+        let key = line.split([' ', '=']).next().unwrap_or_default();
+        lines.push(match key {
+            "elements" if is_one_axis && line.contains(',') => "elements = [16, 32, 64, 128, 256]",
+            "steps" if is_one_axis && line.contains(',') => "steps = [256, 512, 1024, 2048, 4096]",
+            // Not that of Newton's method.
+            "tolerance" if !line.contains("e-") => "tolerance = 0.1",
+            "[constant]" | "within" => "",
+            _ => line,
+        });
+    }
+    let text = lines.join("\n") + more;
+    Orders::parse(&text, &file(name)).unwrap()
+}
+
+/// The outcome with each variant, in their order.
+fn outcomes(study: &Orders<Convergence>, variants: &Variants) -> Vec<Outcome> {
+    let outcome = |name: &str| run_one(&study.with_variant(name).unwrap());
+    variants
+        .usable
+        .iter()
+        .map(|variant| outcome(&variant.name))
+        .collect()
+}
+
+#[test]
+fn each_variant_of_a_right_solver_has_the_orders_of_its_study() {
+    for name in [
+        "theorem-3.4-space.toml",
+        "theorem-3.4-time.toml",
+        "theorem-3.4-coupled.toml",
+        "theta-a-20-space.toml",
+        "contact-throughout-space.toml",
+    ] {
+        let study = study(name, "");
+        let variants = study.variants().unwrap();
+        for (variant, outcome) in variants.usable.iter().zip(outcomes(&study, &variants)) {
+            for NamedRate {
+                name: norm, rate, ..
+            } in &outcome.rates
+            {
+                // Without a field the curvature may be superclose; a rate may be undecided.
+                let is_reached = rate.verdict != Verdict::Fail || rate.kind == Reason::TooHigh;
+                assert!(
+                    is_reached,
+                    "{name}, {}: {norm}: {}",
+                    variant.name, rate.reason
+                );
+            }
+            assert!(variant.size > 0.0, "{name}, {}", variant.name);
+        }
+    }
+}
+
+#[test]
+fn a_wrong_coefficient_is_named_and_no_other_part() {
+    let parameter = |name: &str| vec![Part::Parameter(name.to_owned())];
+    for (name, control, named) in [
+        ("theorem-3.4-space.toml", "a = 0.6", parameter("a")),
+        ("theorem-3.4-space.toml", "rho = 2.3", parameter("rho")),
+        ("theorem-3.4-time.toml", "rho = 2.3", parameter("rho")),
+        // Viscosity acts on what changes in time.
+        (
+            "theorem-3.4-space.toml",
+            "zeta = 0.12",
+            vec![Part::Time("t".to_owned())],
+        ),
+        (
+            "contact-throughout-space.toml",
+            "epsilon = 0.012",
+            vec![Part::Face("x_max".to_owned())],
+        ),
+    ] {
+        let study = study(name, &format!("\n[control]\n{control}\n"));
+        let base = run_one(&study);
+        assert_eq!(base.verdict, Verdict::Fail, "{name}, {control}");
+        let variants = study.variants().unwrap();
+        let ran = outcomes(&study, &variants);
+        let located = located(&base, &variants, &ran.iter().collect::<Vec<_>>());
+        let text = convergence_study::internal::where_lost::text_of_located(&located);
+        assert_eq!(located.named, named, "{name}, {control}: {text}");
+    }
+}

@@ -21,7 +21,6 @@
 //! tolerance = 0.005
 //! ```
 
-use crate::kinds::settings::INITIAL_DATA;
 use thermobeam_exact::projection::{Projected, SMOOTH_BOUND, Target, VALUE_BOUND};
 
 use super::{Measured, Orders, Runs, Series, Source};

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::arithmetic::graph::NodeId;
+use crate::arithmetic::NodeId;
 use crate::arithmetic::jet::{Jet, Jets, Monomials};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::{Measured, Tape};
@@ -27,6 +27,17 @@ pub(crate) struct Model {
 }
 
 impl Model {
+    /// A point in words: `x = 0.25, t = 1`.
+    pub(crate) fn place_in_words(&self, point: &[f64]) -> String {
+        let names = self.problem.variables();
+        let entries: Vec<String> = names
+            .iter()
+            .zip(point)
+            .map(|(name, value)| format!("{name} = {value:.6}"))
+            .collect();
+        entries.join(", ")
+    }
+
     pub(crate) fn new(problem: Problem) -> Result<Self, InputError> {
         let parameters = problem.parameter_values(&[])?;
         let graph = Graph::new(problem.intervals.clone(), parameters);

@@ -272,6 +272,24 @@ fn a_guard_makes_the_domain_free() {
     }
 }
 
+/// Where the solution is zero on a part of the domain, a power of it is zero with its derivatives.
+#[test]
+fn the_front_of_a_porous_medium_passes() {
+    for power in ["u^2.5", "u^m", "u^(m - 1)*u"] {
+        let text = unit_box(
+            &["x", "y"],
+            "where(1.3 - x - y > 0, (1.3 - x - y)^2.5, 0)",
+            &format!("-div({power}*grad(u)) + y"),
+        );
+        let text = text.replace("[exact]", "[parameters]\nm = 2.5\n[exact]");
+        let check = check(&text);
+        assert_eq!(check.verdict, "pass", "{power}: {check:#?}");
+        for code in ["second-way", "pole", "undecided"] {
+            assert!(found(&check, code).is_empty(), "{power}: {check:#?}");
+        }
+    }
+}
+
 /// A guard that lets the wrong points pass, or another use without a guard, is no guard.
 #[test]
 fn what_a_guard_does_not_exclude_is_refused() {

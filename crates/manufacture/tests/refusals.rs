@@ -28,6 +28,25 @@ fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
 }
 
 #[test]
+fn a_missing_table_and_a_norm_in_place_of_a_field_are_explained() {
+    let file = |rest: &str| {
+        format!(
+            "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\n{rest}[exact]\np = \"sin(x)\"\n\
+             [equations]\na = \"d(p, x)\"\n"
+        )
+    };
+    let message = refusal(&file(""));
+    let expected =
+        "expected the key `domain` (the interval of each coordinate and of time, as two numbers";
+    assert!(message.contains(expected), "{message}");
+    let message = refusal(&(file("[domain]\nx = [0, 1]\n") + "[norms]\nL2 = [\"p\"]\n"));
+    assert_eq!(
+        message,
+        "test.toml:11: norms.L2: expected a field and its norms, `p = [\"L2\"]`; found a norm as a key"
+    );
+}
+
+#[test]
 fn names_and_keys_are_checked_before_what_follows_from_them() {
     refused(
         "[equations.heat]",
@@ -62,7 +81,7 @@ fn names_and_keys_are_checked_before_what_follows_from_them() {
     refused(
         "x = [0, 1]",
         "x = [1, 0]",
-        &["expected an interval, found [1, 0]", "domain.x"],
+        &["the first is the smaller; found [1, 0]", "domain.x"],
     );
     refused(
         "x = [0, 1]",

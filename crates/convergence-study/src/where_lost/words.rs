@@ -307,7 +307,7 @@ mod tests {
         let a = || Part::Parameter("a".to_owned());
         let places = [
             located(vec![Part::Face("x_max".to_owned())]),
-            located(vec![Part::Field("theta".to_owned()), a()]),
+            located(vec![Part::Field("heat".to_owned()), a()]),
             located(vec![a()]),
             located(vec![]),
         ];
@@ -315,7 +315,7 @@ mod tests {
         assert_eq!(
             summary_of_located(&all),
             "of 4 studies that have lost an order: in the terms with a in 2, at the face x_max in 1, \
-             in what acts on theta in 1\n"
+             in what acts on heat in 1\n"
         );
         assert_eq!(summary_of_located(&all[..1]), "");
         let none = "of 2 studies that have lost an order: no part is named\n";

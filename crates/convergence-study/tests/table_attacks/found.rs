@@ -280,23 +280,33 @@ fn variables_in_rows_are_no_steps() {
         assert_eq!(table.reading, "step: `dx`; errors: `density`, `xmom`");
         assert_eq!(table.rows[1][0].trim(), "0.03125", "{text}");
     }
-    let by_rates = answer(&with_rates.replace("dx=1/", "grid"), &["2"]).expect("a table");
+    let by_rates = answer(&with_rates.replace("dx=1/", "run"), &["2"]).expect("a table");
     let reading =
         "step: `2^(-row)`, as the rates between the errors say; errors: `density`, `xmom`";
     assert_eq!(by_rates.tables[0].reading, reading);
-    // Neither steps nor rates: no column may be offered as the step.
-    let alone = with_steps.replace("dx=1/", "grid");
-    let error = RateTable::parse_with(&alone, "t", &Choice::default()).unwrap_err();
+    // Neither steps nor rates: no variable is the step, or offered as one, and none is skipped.
+    let alone = "flux      3.0e-01  1.5e-01  7.5e-02\n\
+        density   3.9837e-03  9.9939e-04  2.5004e-04\n";
+    let error = RateTable::parse_with(alone, "t", &Choice::default()).unwrap_err();
+    let offers = &error.offers;
     assert!(
-        error.offers.iter().all(|offer| offer.choice.step.is_none()),
+        offers.iter().all(|offer| offer.choice.step.is_none()),
         "{error}"
     );
     assert!(
-        error
-            .offers
-            .iter()
-            .any(|offer| offer.choice.ratio == Some(2.0)),
+        offers.iter().any(|offer| offer.choice.ratio == Some(2.0)),
         "{error}"
+    );
+    let flux = "flux      3.0e-01     1.5e-01     7.5e-02\ndensity ";
+    assert!(!passes(&with_steps.replace("density ", flux)));
+    let zero = "flux      0.0  0.0  0.0  0.0  0.0\ndensity ";
+    assert!(!passes(&with_rates.replace("density ", zero)));
+    let body = with_rates.split_once('\n').expect("a head").1;
+    let text = format!("flux  0.0  -  0.0  -  0.0\n{body}");
+    let sentence = answer(&text, &["2"]).expect("a table").sentence;
+    assert!(
+        sentence.contains("1 line of numbers, from line 1"),
+        "{sentence}"
     );
 }
 

@@ -166,7 +166,7 @@ fn without_rounding(values: &[Vec<Measured>], component: usize) -> Column {
     let values = values.iter().map(|values| values[component]);
     values
         .map(|v| {
-            if v.value.abs() <= crate::check::SAME * v.size {
+            if v.value.abs() <= crate::arithmetic::SAME * v.size {
                 0.0
             } else {
                 v.value

@@ -10,7 +10,6 @@ use super::right::{Place, Right};
 use super::search::{Explained, Search, place_of};
 use super::text::{self, of_whole};
 use super::whole::Component;
-use crate::check::place;
 use crate::problem::{Expression, Problem};
 
 /// A value explains another within this many spreads of the file's own two evaluations, or within
@@ -142,7 +141,7 @@ fn where_it_differs(right: &Right<'_>, differences: &[f64]) -> String {
     let smallest = differences().min_by(|a, b| a.0.total_cmp(b.0));
     let [largest, smallest] = [largest, smallest].map(|entry| {
         entry.map_or(String::new(), |(difference, point)| {
-            format!("{difference:.3e} at {}", place(right.model, point))
+            format!("{difference:.3e} at {}", right.model.place_in_words(point))
         })
     });
     format!("your values differ by {largest} and by {smallest}")

@@ -1,8 +1,9 @@
 //! What operations need of their arguments to have a value.
 
-use super::graph::{Graph, Node, NodeId};
+use super::graph::Graph;
 use super::guards::Signs;
 use super::interval::Interval;
+use super::node::{Node, NodeId, operate};
 use crate::language::names::Function;
 use crate::language::tree::Binary;
 
@@ -112,10 +113,14 @@ pub(super) fn conditions_of(graph: &Graph, id: NodeId) -> Vec<Condition> {
     }
 }
 
-/// The value of a number or a parameter.
+/// The value of an exponent: of a number, a parameter, or sums and products of these.
 fn value(graph: &Graph, id: NodeId) -> Option<f64> {
-    match graph.node(id) {
-        Node::Parameter(index) => Some(graph.parameters[*index]),
+    match *graph.node(id) {
+        Node::Parameter(index) => Some(graph.parameters[index]),
+        Node::Negate(inner) => value(graph, inner).map(|value| -value),
+        Node::Binary(operator, [left, right]) => {
+            Some(operate(operator, value(graph, left)?, value(graph, right)?))
+        }
         _ => graph.constant(id),
     }
 }

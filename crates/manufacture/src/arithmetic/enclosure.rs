@@ -8,9 +8,10 @@
 use std::collections::HashMap;
 
 use super::conditions::{Condition, Need, conditions_of, needs_of};
-use super::graph::{Graph, Node, NodeId};
+use super::graph::Graph;
 use super::guards::{Branches, Facts};
 use super::interval::Interval;
+use super::node::{Node, NodeId};
 use super::tape::nodes_below;
 use crate::language::names::Function;
 use crate::language::tree::{Binary, Comparison};

@@ -4,52 +4,14 @@
 mod substitution;
 
 use std::collections::HashMap;
+use std::ops::Deref;
 
 use super::Algebra;
+use super::node::{Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
 use super::tape::Tape;
 use crate::language::names::Function;
 use crate::language::tree::{Binary, Comparison};
-
-/// A node's place in its graph. Operands come before what is made of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) struct NodeId(pub(crate) u32);
-
-/// An operation on nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Node {
-    /// By its bits, so that equal numbers are one node.
-    Number(u64),
-    Variable(usize),
-    Parameter(usize),
-    Negate(NodeId),
-    Binary(Binary, [NodeId; 2]),
-    Call(Function, NodeId),
-    /// The comparison of the first two; where it holds the third, else the fourth.
-    Choose(Comparison, [NodeId; 4]),
-    /// Over the interval of a variable, cut into panels.
-    Integral {
-        body: NodeId,
-        variable: usize,
-        panels: usize,
-    },
-    /// A value that derivatives take for a constant: the search for mistakes makes it.
-    Held(NodeId),
-}
-
-impl Node {
-    /// The nodes that its value is made of at the same point.
-    pub(crate) fn operands(&self) -> &[NodeId] {
-        match self {
-            Node::Negate(operand) | Node::Call(_, operand) | Node::Held(operand) => {
-                std::slice::from_ref(operand)
-            }
-            Node::Binary(_, operands) => operands,
-            Node::Choose(_, operands) => operands,
-            _ => &[],
-        }
-    }
-}
 
 /// A node is made of parameters, so its value is not known before they are.
 const PARAMETERS: u8 = 1 << 7;
@@ -64,34 +26,34 @@ pub(crate) struct Mark {
 /// All expressions of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
-    nodes: Vec<Node>,
+    nodes: Nodes,
     places: HashMap<Node, NodeId>,
     derivatives: HashMap<(NodeId, usize), NodeId>,
     /// The keys of `derivatives`, in the order in which they were added.
     derived: Vec<(NodeId, usize)>,
     /// A bit for each variable that a node depends on, and [`PARAMETERS`].
     depends: Vec<u8>,
-    /// The interval of each variable.
-    pub(crate) intervals: Vec<[f64; 2]>,
-    /// The values of the parameters in the file.
-    pub(crate) parameters: Vec<f64>,
+}
+
+impl Deref for Graph {
+    type Target = Nodes;
+
+    fn deref(&self) -> &Nodes {
+        &self.nodes
+    }
 }
 
 impl Graph {
     pub(crate) fn new(intervals: Vec<[f64; 2]>, parameters: Vec<f64>) -> Self {
-        Self {
+        let nodes = Nodes {
             intervals,
             parameters,
+            ..Nodes::default()
+        };
+        Self {
+            nodes,
             ..Self::default()
         }
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.nodes.len()
-    }
-
-    pub(crate) fn node(&self, id: NodeId) -> &Node {
-        &self.nodes[id.0 as usize]
     }
 
     /// Whether it changes with the variable.
@@ -99,18 +61,10 @@ impl Graph {
         self.depends[id.0 as usize] & (1 << variable) != 0
     }
 
-    /// Its value, if it is a number.
-    pub(crate) fn constant(&self, id: NodeId) -> Option<f64> {
-        match self.node(id) {
-            Node::Number(bits) => Some(f64::from_bits(*bits)),
-            _ => None,
-        }
-    }
-
     /// How much it holds now.
     pub(crate) fn mark(&self) -> Mark {
         Mark {
-            nodes: self.nodes.len(),
+            nodes: self.len(),
             derived: self.derived.len(),
         }
     }
@@ -120,7 +74,7 @@ impl Graph {
         for key in self.derived.drain(mark.derived..) {
             self.derivatives.remove(&key);
         }
-        for node in self.nodes.drain(mark.nodes..) {
+        for node in self.nodes.list.drain(mark.nodes..) {
             self.places.remove(&node);
         }
         self.depends.truncate(mark.nodes);
@@ -141,8 +95,8 @@ impl Graph {
                 .iter()
                 .fold(0, |all, id| all | self.depends[id.0 as usize]),
         };
-        let place = NodeId(self.nodes.len() as u32);
-        self.nodes.push(node);
+        let place = NodeId(self.len() as u32);
+        self.nodes.list.push(node);
         self.depends.push(depends);
         self.places.insert(node, place);
         place
@@ -326,36 +280,6 @@ impl Graph {
                 self.binary(Binary::Divide, &half, &of)
             }
         }
-    }
-}
-
-/// The value of a binary operation.
-pub(crate) fn operate(operator: Binary, left: f64, right: f64) -> f64 {
-    match operator {
-        Binary::Add => left + right,
-        Binary::Subtract => left - right,
-        Binary::Multiply => left * right,
-        Binary::Divide => left / right,
-        Binary::Power => left.powf(right),
-    }
-}
-
-/// The value of a smooth function.
-pub(crate) fn apply(function: Function, x: f64) -> f64 {
-    match function {
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::Tan => x.tan(),
-        Function::Asin => x.asin(),
-        Function::Acos => x.acos(),
-        Function::Atan => x.atan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Exp => x.exp(),
-        Function::Ln => x.ln(),
-        Function::Log10 => x.log10(),
-        Function::Sqrt => x.sqrt(),
     }
 }
 

@@ -8,8 +8,8 @@
 //! Signs of other nodes follow by the rules of signs, as theorems about real numbers.
 
 use super::enclosure::Over;
-use super::graph::{Node, NodeId};
 use super::interval::Interval;
+use super::node::{Node, NodeId};
 use crate::language::names::Function;
 use crate::language::tree::{Binary, Comparison};
 

@@ -2,22 +2,28 @@
 //! a point, and the number of derivatives that a jet needs.
 
 pub(crate) mod conditions;
-#[cfg(test)]
-mod containment;
 mod depth;
 pub(crate) mod enclosure;
 pub(crate) mod graph;
 mod guards;
 pub(crate) mod interval;
 pub(crate) mod jet;
+mod node;
 pub(crate) mod quadrature;
 pub(crate) mod tape;
+#[cfg(test)]
+mod tests;
 
 use crate::language::names::Function;
 use crate::language::tree::{Binary, Comparison};
 
 pub(crate) use depth::Depth;
-pub(crate) use graph::{Graph, Node, NodeId};
+pub(crate) use graph::Graph;
+pub(crate) use node::{Node, NodeId, apply, operate};
+
+/// Values that should be equal may differ by this times their size: derivatives of high order lose
+/// digits by rounding.
+pub(crate) const SAME: f64 = 1e4 * f64::EPSILON;
 
 /// Numbers that have derivatives. The rules for indices are generic in it.
 pub(crate) trait Algebra {

@@ -1,6 +1,6 @@
 //! Evaluation of nodes of a graph at points.
 
-use super::graph::{Graph, Node, NodeId, apply, operate};
+use super::node::{Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
 use crate::language::names::Function;
 use crate::language::tree::Binary;
@@ -26,7 +26,7 @@ struct Inner<'g> {
 /// The nodes that some roots are made of, in the order of evaluation.
 #[derive(Debug)]
 pub(crate) struct Tape<'g> {
-    graph: &'g Graph,
+    graph: &'g Nodes,
     steps: Vec<NodeId>,
     /// For each node of the graph its place among the steps.
     places: Vec<u32>,
@@ -45,7 +45,7 @@ pub(crate) struct Evaluated {
 }
 
 impl<'g> Tape<'g> {
-    pub(crate) fn new(graph: &'g Graph, roots: &[NodeId]) -> Self {
+    pub(crate) fn new(graph: &'g Nodes, roots: &[NodeId]) -> Self {
         let steps = nodes_below(graph, roots);
         let mut places = vec![u32::MAX; steps.last().map_or(0, |last| last.0 as usize + 1)];
         for (place, id) in steps.iter().enumerate() {
@@ -170,7 +170,7 @@ impl<'g> Tape<'g> {
 }
 
 /// The nodes below the roots, in increasing order.
-pub(crate) fn nodes_below(graph: &Graph, roots: &[NodeId]) -> Vec<NodeId> {
+pub(crate) fn nodes_below(graph: &Nodes, roots: &[NodeId]) -> Vec<NodeId> {
     let last = roots.iter().max().map_or(0, |last| last.0 as usize + 1);
     let mut is_needed = vec![false; last];
     for root in roots {

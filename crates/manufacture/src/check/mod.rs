@@ -13,15 +13,12 @@ mod unseen;
 use serde::Serialize;
 
 use crate::arithmetic::NodeId;
+use crate::arithmetic::SAME;
 use crate::arithmetic::tape::Measured;
 use crate::derive::{Part, Quantity, Role, components};
 use crate::model::{Model, Rows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
-
-/// Values that should be equal may differ by this times their size: derivatives of high order lose
-/// digits by rounding.
-pub(crate) const SAME: f64 = 1e4 * f64::EPSILON;
 
 /// A condition may be missed by this times the size.
 const CONDITION: f64 = 1e-12;
@@ -156,17 +153,6 @@ pub(crate) fn check(
     Ok(check)
 }
 
-/// A point in words: `x = 0.25, t = 1`.
-pub(crate) fn place(model: &Model, point: &[f64]) -> String {
-    let names = model.problem.variables();
-    let entries: Vec<String> = names
-        .iter()
-        .zip(point)
-        .map(|(name, value)| format!("{name} = {value:.6}"))
-        .collect();
-    entries.join(", ")
-}
-
 pub(crate) fn finding(code: &'static str, key: &str, text: String, value: Option<f64>) -> Finding {
     let fails = matches!(
         code,
@@ -193,7 +179,7 @@ fn singular(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
                 continue;
             };
             let what = role_words(quantity.role);
-            let at = place(model, point);
+            let at = model.place_in_words(point);
             let text = format!("{what} {name} is {} at {at}", value.value);
             findings.push(finding("singular", &quantity.key, text, None));
         }
@@ -238,7 +224,7 @@ fn conditions(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
             }
         }
         if let Some((difference, point)) = worst {
-            let at = place(model, point);
+            let at = model.place_in_words(point);
             let text = format!("differs from its `is` by {difference:.3e} at {at}");
             findings.push(finding(
                 "condition-violated",
@@ -262,7 +248,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
             && let Some((point, values)) = entries.find(|entry| !is_zero(entry.1))
         {
             let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
-            let at = place(model, point);
+            let at = model.place_in_words(point);
             let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
             findings.push(finding("not-zero", &quantity.key, text, Some(value)));
         }
@@ -274,7 +260,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
             let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
             let Lowest { value, point } = descend(model, sampler, &rows, point);
             if !(value > 0.0) {
-                let at = place(model, &point);
+                let at = model.place_in_words(&point);
                 let text = format!(
                     "`{name}` is {value:.3e} at {at}; required to be positive (on {samples} samples)"
                 );

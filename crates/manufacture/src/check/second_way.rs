@@ -1,6 +1,8 @@
 //! The same quantities by Taylor jets on the expressions as written.
 
-use super::{Finding, SAME, Sampled, finding, place, role_words};
+use crate::arithmetic::SAME;
+
+use super::{Finding, Sampled, finding, role_words};
 use crate::derive::components;
 use crate::model::Model;
 use crate::problem::InputError;
@@ -26,7 +28,7 @@ pub(super) fn compare(model: &Model, sampled: &Sampled<'_>) -> Result<Vec<Findin
                         role_words(quantity.role),
                         first.value,
                         second.value(),
-                        place(model, point)
+                        model.place_in_words(point)
                     );
                     findings.push(finding("second-way", &quantity.key, text, Some(difference)));
                 }

@@ -4,8 +4,8 @@ use super::elaborate::{Elaborated, Elaborator};
 use super::tensor::{Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
+use crate::problem::{Bubble, Step};
 use crate::problem::{InputError, Value};
-use crate::variants::{Bubble, Step};
 
 impl<A: Algebra> Elaborator<'_, A> {
     /// The value of an exact field. A variant is made of the fields of the file: fields that occur

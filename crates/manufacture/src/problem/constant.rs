@@ -1,7 +1,7 @@
 //! Expressions of numbers and parameters: their values without any graph.
 
 use super::{Expression, InputError};
-use crate::arithmetic::graph::{apply, operate};
+use crate::arithmetic::{apply, operate};
 use crate::language::names::{CONSTANTS, Callee, Piecewise, did_you_mean};
 use crate::language::tree::{Kind, Tree};
 

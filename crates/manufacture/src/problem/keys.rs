@@ -94,6 +94,20 @@ const FILE: [Key; 12] = [
     .or("no study is written"),
 ];
 
+/// What a key of the file, of `[manufacture]` or of `[study]` means.
+///
+/// * `table`: its path; empty for the file.
+pub(super) fn meaning(table: &str, name: &str) -> Option<&'static str> {
+    let keys: &[Key] = match table {
+        "" => &FILE,
+        "manufacture" => &HEAD,
+        "study" => &STUDY,
+        _ => &[],
+    };
+    let key = keys.iter().find(|key| key.name == name)?;
+    Some(key.meaning)
+}
+
 /// `[manufacture]`.
 pub(super) const HEAD: [Key; 4] = [
     Key::new(

@@ -6,17 +6,18 @@ mod error;
 mod keys;
 mod reader;
 mod sections;
+mod variation;
 
 use std::collections::BTreeMap;
 
 use crate::language::names::name_in;
 use crate::language::tree::Tree;
-use crate::variants::Variation;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
 pub(crate) use error::{LineColumn, Place};
 pub use keys::FILE_KEYS;
+pub(crate) use variation::{Bubble, Step, Variation};
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,6 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::keys;
 use super::{Expression, InputError, LineColumn, Place, Value};
 use crate::language::names::did_you_mean;
 use crate::language::parse;
@@ -139,8 +140,10 @@ impl<'t> Section<'t> {
 
     pub(super) fn require(&self, name: &str) -> Result<Field<'t>, InputError> {
         self.field(name).ok_or_else(|| {
-            self.place()
-                .error(format!("expected the key `{name}`, found none"))
+            let meaning = keys::meaning(&self.path, name);
+            let meaning = meaning.map_or(String::new(), |meaning| format!(" ({meaning})"));
+            let problem = format!("expected the key `{name}`{meaning}, found none");
+            self.place().error(problem)
         })
     }
 

@@ -170,7 +170,9 @@ impl Problem {
             let low = constant(&low.expression()?, &known)?;
             let high = constant(&high.expression()?, &known)?;
             if !(low < high) {
-                let problem = format!("expected an interval, found [{low}, {high}]");
+                let problem = format!(
+                    "expected an interval, two numbers of which the first is the smaller; found [{low}, {high}]"
+                );
                 return Err(field.place.error(problem));
             }
             self.intervals.push([low, high]);
@@ -269,8 +271,17 @@ impl Problem {
         if let Some(norms) = whole.section("norms")? {
             let exact = self.definitions.iter().filter(|entry| entry.1.is_exact);
             let fields: Vec<&str> = exact.map(|entry| entry.0.as_str()).collect();
-            norms.allow(&fields)?;
             let known = Norm::ALL.map(|norm| norm.0);
+            let mut entries = norms.fields().into_iter();
+            if let Some(turned) = entries.find(|entry| known.contains(&entry.name.as_str())) {
+                let field = fields.first().copied().unwrap_or("u");
+                let problem = format!(
+                    "expected a field and its norms, `{field} = [\"{0}\"]`; found a norm as a key",
+                    turned.name
+                );
+                return Err(turned.place.error(problem));
+            }
+            norms.allow(&fields)?;
             for entry in norms.fields() {
                 let items = entry.list()?;
                 let chosen = items.iter().map(|item| one_of(item, &Norm::ALL, &known));

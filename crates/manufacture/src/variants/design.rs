@@ -1,7 +1,8 @@
 //! Which variants a file has.
 
-use super::{Bubble, Step, Switch, Variation};
+use super::Switch;
 use crate::language::tree::{Kind, Tree};
+use crate::problem::{Bubble, Step, Variation};
 use crate::problem::{Problem, Surface};
 
 /// A variable that is held takes the value at this share of its interval: no place of symmetry.

@@ -11,7 +11,6 @@
 mod described;
 mod design;
 mod switch;
-mod variation;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,14 +21,13 @@ use crate::check::Check;
 use crate::derive::{Part, Role};
 use crate::emit::{self, Alternative, EmittedFile, Language};
 use crate::model::{Model, Rows};
-use crate::problem::{InputError, Problem};
+use crate::problem::{InputError, Problem, Variation};
 use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
 pub use described::{DescribedVariant, Description};
 use design::{Design, MIDDLE, Side, designs, sides};
 pub use switch::Switch;
-pub(crate) use variation::{Bubble, Step, Variation};
 
 /// A variant that is right by the check of the file.
 #[derive(Debug)]

@@ -13,7 +13,6 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{MIDPOINT, Scheme};
 use thermobeam::solve::Solver;
 
-use super::tables::Layout;
 use crate::exact::norm::Norm;
 use crate::run::family::is_uniform;
 use crate::scene::{Method, Scene};
@@ -306,17 +305,6 @@ pub(crate) enum Nodes {
 }
 
 impl Nodes {
-    pub(crate) fn of_layout(layout: &Layout) -> Self {
-        match layout {
-            Layout { map: Some(_), .. } => Self::Graded,
-            Layout {
-                perturbation: Some(_),
-                ..
-            } => Self::Perturbed,
-            _ => Self::Uniform,
-        }
-    }
-
     pub(crate) fn of_mesh(mesh: &Mesh) -> Self {
         if is_uniform(mesh) {
             Self::Uniform

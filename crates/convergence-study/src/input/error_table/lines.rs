@@ -48,7 +48,7 @@ pub(super) fn outside(text: &str, parts: &[Part<'_>]) -> Outside {
 }
 
 /// Whether half of the words are numbers without names, as in `finest 6e-4` or `# 0.01 6e-4`.
-fn looks_like_row(line: &str) -> bool {
+pub(super) fn looks_like_row(line: &str) -> bool {
     let words = line.split_whitespace();
     let words = words.map(|word| word.trim_matches(|c| ",;|&#%*~()<>".contains(c)));
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();

@@ -14,10 +14,10 @@
 //! wrong, for a lost order looks just like that. Reading has three stages, of which none knows the
 //! next:
 //!
-//! 1. Grids: rows of cells below names (`text`, `heads`), or names with their numbers
-//!    (`pairs`), in a text without markup (`cleaned`, `markup`, `forms`).
-//! 2. Parts: a text is cut where another table may begin (`parts`), a grid by columns of groups and
-//!    where a step returns (`groups`).
+//! 1. Grids: rows of cells below names (`text`, `heads`), names with their numbers (`pairs`), or a
+//!    row for each variable (`turned`), in a text without markup (`cleaned`, `markup`, `forms`).
+//! 2. Parts: a text is cut where another table may begin (`parts`), a grid in columns (`columns`) by
+//!    those of groups and where a step returns (`groups`).
 //! 3. Columns: which one is the step (`step`), and what the others hold (`contents`).
 //!
 //! [`RateTable::reading`] says in a line how a table was read, [`RateTable::doubts`] why none of it

@@ -35,6 +35,12 @@ struct Key<'t> {
 }
 
 impl<'t> Pair<'t> {
+    /// Its name without the names of other columns before it.
+    pub(super) fn last_word(&self) -> &'t str {
+        let mut words = self.name.split_whitespace();
+        words.next_back().unwrap_or_default()
+    }
+
     /// A key for each of its numbers.
     fn keys(&self) -> impl Iterator<Item = Key<'t>> + use<'t> {
         let name = self.name;
@@ -76,6 +82,18 @@ pub(super) struct Scan<'t> {
     lists_of_words: Vec<&'t str>,
     /// Whether more numbers have a name and a mark than lines have none.
     pub(super) is_log: bool,
+}
+
+/// Whether more numbers have a name and a mark than lines have none. Steps in a row of names, as
+/// `dx=1/32 dx=1/64`, are no log.
+fn is_log(pairs: &[Pair<'_>], rows: usize) -> bool {
+    let (marked, others): (Vec<&Pair<'_>>, Vec<&Pair<'_>>) =
+        pairs.iter().partition(|pair| pair.is_marked);
+    let has_one_name = marked
+        .windows(2)
+        .all(|two| two[0].last_word() == two[1].last_word());
+    let is_head = has_one_name && others.iter().any(|pair| pair.values.len() > 1);
+    marked.len() >= 2 && marked.len() > rows && !is_head
 }
 
 /// Whether a text has rows of LaTeX, whose names may be `k=1`.
@@ -160,14 +178,8 @@ impl<'t> Scan<'t> {
             }
             label = position;
         }
-        let (marked, others): (Vec<&Pair<'_>>, Vec<&Pair<'_>>) =
-            pairs.iter().partition(|pair| pair.is_marked);
-        // Steps in a row of names, as `dx=1/32 dx=1/64`, above rows with a name in front.
-        let is_head = marked.iter().all(|pair| pair.name == marked[0].name)
-            && others.iter().any(|pair| pair.values.len() > 1);
-        let are_most = marked.len() >= 2 && marked.len() > rows.len();
         Self {
-            is_log: are_most && !is_head && !has_rows_of_latex(text),
+            is_log: is_log(&pairs, rows.len()) && !has_rows_of_latex(text),
             pairs,
             rows,
             worded,

@@ -9,11 +9,13 @@
 use std::collections::{HashMap, HashSet};
 
 use super::grid::RawTable;
+use super::lines::looks_like_row;
 use super::names::{self, Word};
 use super::number::number;
 use super::original::offset;
 use super::pairs::{self, NamedPlace, Naming, Pair, Scan};
 use super::text::{self, begins_with_number, is_closing, is_rule};
+use super::turned::Turned;
 
 /// A table of a text.
 pub(super) struct Part<'t> {
@@ -232,8 +234,10 @@ struct Place<'t> {
 /// What stands between the rows of a table, in a log with the names of its numbers.
 fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
     let mut places: Vec<Place<'_>> = vec![];
+    // Between steps in the head and the first row stands a ruler at most.
+    let head = usize::from(table.turned == Some(Turned::Stepped));
     for (row, cells) in table.rows.iter().enumerate() {
-        let cells = cells.iter().enumerate();
+        let cells = cells.iter().enumerate().skip(head);
         places.extend(cells.filter(|(_, cell)| !cell.is_empty()).map(|(k, cell)| {
             let start = offset(text, cell);
             Place {
@@ -427,6 +431,13 @@ fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
     &section[..first.min(section.len())]
 }
 
+/// Whether a line has no more numbers than a heading may have.
+fn has_few_numbers(line: &str) -> bool {
+    const FEW: usize = 2;
+    let words = line.split_whitespace();
+    words.filter(|word| number(word, false).is_some()).count() <= FEW
+}
+
 /// The first line of words above the rows, if there is another, which has the names, or if names
 /// stand beside the numbers.
 fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
@@ -444,6 +455,7 @@ fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
             && !line.trim().starts_with('\\')
             && !is_closing(line)
             && !is_name(line)
+            && (has_few_numbers(line) || !looks_like_row(line))
     });
     let words = lines.next()?;
     let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));

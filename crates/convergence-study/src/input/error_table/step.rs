@@ -5,6 +5,7 @@ use super::columns::Cells;
 use super::names::{self, Word, reciprocal};
 use super::reader::{HALVED_ROWS, NEIGHBOURS, TableReader, listed};
 use super::stated::{DIMENSIONS, Stated};
+use super::turned::Turned;
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;
@@ -188,6 +189,9 @@ impl TableReader<'_> {
     /// The step by its name, else the count closest to it, else the column that falls by regular
     /// ratios.
     fn natural_step(&self) -> Result<StepColumn, InputError> {
+        if self.turned == Some(Turned::Stepped) {
+            return Ok(StepColumn::certain(0));
+        }
         let steps = self.candidates(|k, word| word == Word::Step || self.is_misnamed(k));
         if let [first, others @ ..] = &steps[..] {
             if let Some(other) = others
@@ -238,7 +242,10 @@ impl TableReader<'_> {
     /// another has a smaller ratio.
     fn regular_step(&self) -> Result<StepColumn, InputError> {
         let first = self.columns.iter().position(|column| !column.is_index);
-        let unknown = self.candidates(|k, word| word == Word::Unknown && !self.columns[k].is_index);
+        // The columns of a turned table are variables, of which none is a step.
+        let unknown = self.candidates(|k, word| {
+            word == Word::Unknown && !self.columns[k].is_index && self.turned.is_none()
+        });
         let regular: Vec<RegularColumn> = unknown
             .iter()
             .filter_map(|k| {
@@ -266,8 +273,7 @@ impl TableReader<'_> {
         let names = listed(self.columns.iter().map(name_with_reason));
         let expected =
             Text::from("a column of steps: add `h`, or name it with ") + Argument::Step.alone();
-        // The columns of a turned table are variables, of which none is a step.
-        let first = first.filter(|k| unknown.contains(k) && self.turned.is_none());
+        let first = first.filter(|k| unknown.contains(k));
         let offer = match first {
             _ if self.columns.iter().any(is_named_level) => {
                 let first = first.map(|k| self.with_step(k));

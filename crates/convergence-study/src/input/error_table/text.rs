@@ -56,12 +56,7 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
         decimal_comma: separator != Some(','),
         ..RawTable::default()
     };
-    let quoted_names = quoted_names.and_then(|names| match width.checked_sub(names.len())? {
-        0 => Some(names),
-        // R writes no name above the names of rows.
-        1 => Some([&[&text[..0]], names.as_slice()].concat()),
-        _ => None,
-    });
+    let quoted_names = quoted_names.and_then(|names| fitting(names, width, text));
     let with_names = |names| Names {
         names,
         groups: vec![],
@@ -76,14 +71,8 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
             ..turned::transpose(&rows, &heads)
         },
         names => {
-            // If the number of words is not that of the columns, it says how many columns there
-            // should be.
-            let words = heads
-                .iter()
-                .map(|head| split(head, separator).len())
-                .rfind(|words| *words > 1);
             let Names { names, groups } =
-                names.unwrap_or_else(|| with_names(vec![&text[..0]; words.unwrap_or(width)]));
+                names.unwrap_or_else(|| with_names(nameless(text, &heads, separator, width)));
             RawTable {
                 names,
                 groups,
@@ -92,6 +81,30 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
             }
         }
     }
+}
+
+/// Names for so many columns; R writes none above the names of rows.
+fn fitting<'t>(names: Vec<&'t str>, width: usize, text: &'t str) -> Option<Vec<&'t str>> {
+    match width.checked_sub(names.len())? {
+        0 => Some(names),
+        1 => Some([&[&text[..0]], names.as_slice()].concat()),
+        _ => None,
+    }
+}
+
+/// No names: if the number of words above is not that of the columns, it says how many columns
+/// there should be.
+fn nameless<'t>(
+    text: &'t str,
+    heads: &[&str],
+    separator: Option<char>,
+    width: usize,
+) -> Vec<&'t str> {
+    let words = heads
+        .iter()
+        .map(|head| split(head, separator).len())
+        .rfind(|words| *words > 1);
+    vec![&text[..0]; words.unwrap_or(width)]
 }
 
 /// The lines of a text by what they hold.

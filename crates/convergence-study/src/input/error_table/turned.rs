@@ -14,6 +14,8 @@ const LEAST: usize = 5;
 /// A table whose columns stand as rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Turned {
+    /// With the steps in its head, which are the first column.
+    Stepped,
     /// Without steps in its head.
     Plain,
     /// With the rates of halved steps between the errors.
@@ -30,17 +32,12 @@ struct Steps<'t> {
 fn steps<'t>(heads: &[&'t str], levels: usize) -> Option<Steps<'t>> {
     heads.iter().find_map(|head| {
         let pairs = Scan::of(head).pairs;
-        let name = last_word(pairs.first()?);
-        let is_step = |pair: &Pair<'_>| last_word(pair) == name && pair.values.len() == 1;
+        let name = pairs.first()?.last_word();
+        let is_step = |pair: &Pair<'_>| pair.last_word() == name && pair.values.len() == 1;
         let cells = pairs.iter().map(|pair| pair.values[0]).collect();
         let are_steps = pairs.len() == levels && pairs.iter().all(is_step);
         are_steps.then_some(Steps { name, cells })
     })
-}
-
-/// The name of a pair without the names of other columns before it.
-fn last_word<'t>(pair: &Pair<'t>) -> &'t str {
-    pair.name.split_whitespace().next_back().unwrap_or_default()
 }
 
 /// A table of these columns; the steps may stand in the lines above.
@@ -52,7 +49,10 @@ fn table<'t>(
 ) -> RawTable<'t> {
     let levels = columns.first().map_or(0, Vec::len);
     let steps = steps(heads, levels);
-    let turned = turned.filter(|_| steps.is_none());
+    let turned = match steps {
+        Some(_) => Some(Turned::Stepped),
+        None => turned,
+    };
     if let Some(Steps { name, cells }) = steps {
         names.insert(0, name);
         columns.insert(0, cells);
@@ -78,6 +78,16 @@ pub(super) fn with_rates_between(text: &str) -> Option<RawTable<'_>> {
     let lines: Vec<&str> = lines.collect();
     let is_head = |line: &&str| Variable::of_line(line).is_none();
     let heads = lines.iter().take_while(|line| is_head(line)).count();
+    // A variable whose numbers are no errors and rates is none to be skipped.
+    let has_numbers = |head: &&str| {
+        let words = head
+            .split(separates)
+            .filter(|word| number(word, false).is_some());
+        words.count() >= LEAST
+    };
+    if lines[..heads].iter().any(has_numbers) {
+        return None;
+    }
     for line in &lines[heads..] {
         let Variable { name, errors } = Variable::of_line(line)?;
         if columns
@@ -93,6 +103,10 @@ pub(super) fn with_rates_between(text: &str) -> Option<RawTable<'_>> {
     is_table.then(|| table(names, columns, &lines[..heads], Some(Turned::Halved)))
 }
 
+fn separates(c: char) -> bool {
+    c.is_whitespace() || "|&".contains(c)
+}
+
 /// A line of such a text.
 struct Variable<'t> {
     name: &'t str,
@@ -102,7 +116,7 @@ struct Variable<'t> {
 impl<'t> Variable<'t> {
     /// The words before the last numbers of a line, and the errors among these.
     fn of_line(line: &'t str) -> Option<Self> {
-        let words = line.split(|c: char| c.is_whitespace() || "|&".contains(c));
+        let words = line.split(separates);
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let behind = words
             .iter()
@@ -119,7 +133,7 @@ impl<'t> Variable<'t> {
         let are_rates = threes.all(is_rate_between);
         let end = offset(line, numbers[0]);
         are_rates.then(|| Self {
-            name: line[..end].trim_matches(|c: char| c.is_whitespace() || "|&".contains(c)),
+            name: line[..end].trim_matches(separates),
             errors: numbers.iter().step_by(2).copied().collect(),
         })
     }

@@ -6,6 +6,7 @@
 
 mod probe;
 mod search;
+mod sides;
 mod words;
 
 use super::spot::{self, Spot};

@@ -1,7 +1,7 @@
 //! Floating-point values at the points of a smallest box.
 
 use super::Kind;
-use super::search::{middle, snapped};
+use super::sides::{middle, snapped};
 use crate::arithmetic::Node;
 use crate::arithmetic::conditions::{Condition, Need};
 use crate::arithmetic::enclosure::Over;

@@ -1,5 +1,6 @@
 //! The search for places where a condition fails, by halving the box.
 
+use super::sides::{middle, snapped};
 use super::{Kind, Trouble, probe};
 use crate::arithmetic::conditions::{Condition, Need};
 use crate::arithmetic::enclosure::{Enclosure, Over};
@@ -299,24 +300,6 @@ fn integrands(model: &Model) -> Vec<NodeId> {
         _ => None,
     });
     bodies.collect()
-}
-
-pub(super) fn middle(sides: &[Interval]) -> Vec<f64> {
-    sides.iter().map(|side| side.midpoint()).collect()
-}
-
-/// A side that is so short has been halved until it is a number.
-const NUMBER: f64 = 1e-9;
-
-/// The middle, but zero in place of a number next to it.
-pub(super) fn snapped(sides: &[Interval]) -> Vec<f64> {
-    let sides = sides.iter();
-    sides
-        .map(|side| {
-            let is_zero = side.contains_zero() && side.width() <= NUMBER;
-            if is_zero { 0.0 } else { side.midpoint() }
-        })
-        .collect()
 }
 
 fn points(point: &[f64]) -> Vec<Interval> {

@@ -3,7 +3,6 @@
 use super::{Kind, Trouble};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::conditions::{Condition, Need};
-use crate::check::place;
 use crate::check::spot::Spot;
 use crate::derive::Part;
 use crate::model::Model;
@@ -63,7 +62,7 @@ pub(super) fn words(
 
 /// A point by the variables that a node changes with.
 pub(super) fn place_of(model: &Model, node: NodeId, point: &[f64]) -> String {
-    let whole = place(model, point);
+    let whole = model.place_in_words(point);
     let parts = whole.split(", ").enumerate();
     let parts = parts.filter(|part| model.graph.depends_on(node, part.0));
     let parts: Vec<&str> = parts.map(|part| part.1).collect();

@@ -123,8 +123,7 @@ impl Source for Frequencies {
 
     fn exercise(&self) -> Exercise {
         let linear = Terms::default();
-        Exercise::new(FREE_VIBRATIONS, Integration::Exact, linear)
-            .on(Nodes::of_layout(&self.layout))
+        Exercise::new(FREE_VIBRATIONS, Integration::Exact, linear).on(self.layout.nodes())
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

@@ -249,7 +249,7 @@ impl Source for Projection {
 
     fn exercise(&self) -> Exercise {
         let terms = Terms::of(&self.beam, None);
-        Exercise::new(INITIAL_DATA, Integration::Exact, terms).on(Nodes::of_layout(&self.layout))
+        Exercise::new(INITIAL_DATA, Integration::Exact, terms).on(self.layout.nodes())
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

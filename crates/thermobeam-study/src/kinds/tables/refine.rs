@@ -43,6 +43,18 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// What the meshes are like.
+    pub(crate) fn nodes(&self) -> Nodes {
+        match self {
+            Self { map: Some(_), .. } => Nodes::Graded,
+            Self {
+                perturbation: Some(_),
+                ..
+            } => Nodes::Perturbed,
+            _ => Nodes::Uniform,
+        }
+    }
+
     /// The key `map`, checked on every mesh.
     pub(crate) fn read(
         section: &Section<'_>,
@@ -121,7 +133,7 @@ impl Refine {
             terms,
         )
         .refined_in(axis_in_words(self.axis))
-        .on(Nodes::of_layout(&self.layout))
+        .on(self.layout.nodes())
     }
 
     /// The runs as (elements, steps), coarse to fine.

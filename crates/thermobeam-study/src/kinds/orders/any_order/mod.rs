@@ -167,7 +167,7 @@ impl Source for AnyOrder {
         };
         Exercise::new(topic, Integration::AnyOrder, terms)
             .refined_in(self.over.in_words())
-            .on(Nodes::of_layout(&self.layout))
+            .on(self.layout.nodes())
     }
 
     fn cases(&self) -> Vec<Case<Resolution>> {

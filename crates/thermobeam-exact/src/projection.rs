@@ -1,8 +1,9 @@
 //! The projections P_h* and P_h0 of (3.4) and (3.5), by their definition and by their errors.
 //!
-//! `P_h η` is the piecewise linear function with `((P_h η - η)_x, χ_x) = 0` for all piecewise linear
-//! χ that vanish at 0, and for P_h0 also at 1. A program takes the values at the nodes instead. Here
-//! the definition itself is evaluated by quadrature, which needs no value of η at a node.
+//! `P_h η` is the piecewise linear function with `((P_h η - η)_x, χ_x) = 0` for all piecewise
+//! linear χ that vanish at 0, and for P_h0 also at 1. A program takes the values at the nodes
+//! instead. Here the definition itself is evaluated by quadrature, which needs no value of η at a
+//! node.
 //!
 //! Derivation of orders and constants: THEORY.md, "The projection".
 
@@ -38,7 +39,7 @@ pub struct Projected {
     pub value: f64,
     /// `‖(P_h η - η)_x‖`.
     pub slope: f64,
-    /// `max_i |((P_h η - η)_x, N_i')|` over the hat functions of the space, zero for the projection.
+    /// `max_i |((P_h η - η)_x, N_i')|` over the hat functions of the space; 0 for the projection.
     pub residual: f64,
     /// `‖η_x‖`.
     pub function_slope: f64,
@@ -117,8 +118,8 @@ impl Projected {
 impl OnElement {
     /// Integrates over `x = start + h s`, 0 <= s <= 1.
     ///
-    /// On the first element it is `x = h s⁴`: powers such as x^(3/4), which are in H¹ and not in H²,
-    /// become polynomials.
+    /// On the first element it is `x = h s⁴`: powers such as x^(3/4), which are in H¹ and not in
+    /// H², become polynomials.
     fn integrate(function: &dyn Function, start: f64, h: f64, nodal: &[f64]) -> Self {
         let mut sums = Self::default();
         let mean_slope = (nodal[1] - nodal[0]) / h;

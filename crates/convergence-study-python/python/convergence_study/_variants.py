@@ -16,9 +16,9 @@ def described(module):
     if not isinstance(description, dict) or module.__spec__ is None:
         found = f"found {module.__name__}, which has none; write it again with --variants"
         raise ValueError(f"variants: expected a module with the variants of a solution, as `{COMMAND}` writes it; {found}")
-    chosen_before = os.environ.get(VARIABLE) or module._VARIANT
-    if chosen_before:
-        raise ValueError(f"variants: expected the solution of the file, found {VARIABLE}={chosen_before} in the environment; unset it")
+    before = os.environ.get(VARIABLE)
+    if before or module._VARIANT:
+        raise ValueError(f"variants: expected the solution of the file, found {VARIABLE}={before or ''} in the environment; unset it")
     return description
 
 

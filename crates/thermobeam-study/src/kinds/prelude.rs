@@ -2,55 +2,14 @@
 
 pub(crate) use std::path::Path;
 
-pub(crate) use convergence_judge::{
-    judge::{random::SplitMix, richardson, verdict::Judge},
-    text::number::{counted, decimals, max_or_nan, min_or_nan, plain_text, short_text},
-    time_limit::Patience,
-};
+pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
 pub(crate) use convergence_study::{
-    Axis, Case, CaseFailure, Check, Claim, Coverage, Field, Figure, Floor, Form, FromFile, Header,
-    InputError, Key, Keys, Kind, KindRow, NamedRate, Origin, Outcome, Quantity, Ran, Reading,
-    Refinement, Section, Sort, Study, Subject, Table, Untested, Verdict, completion_check,
-    internal::{
-        input::POSITIVE,
-        plots::{self, xy::Xy},
-        study::{
-            Described, allow_only,
-            coverage::NO_RESULT,
-            header::Setting,
-            over_levels::{ErrorColumn, Levels, summary},
-            readings,
-        },
-    },
-    read_claim, read_study,
+    Axis, Case, CaseFailure, Check, Claim, Field, Figure, Form, FromFile, Header, InputError, Key,
+    Keys, Kind, KindRow, NamedRate, Outcome, Quantity, Ran, Reading, Section, Subject, Table,
+    Verdict, completion_check, read_claim, read_study,
 };
-pub(crate) use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
-pub(crate) use thermobeam::error::{StepError, StepFailure};
-pub(crate) use thermobeam::kirchhoff::BUCKLING;
-pub(crate) use thermobeam::mesh::{Mesh, MeshError};
-pub(crate) use thermobeam::motion::{Motion, TipRange};
-pub(crate) use thermobeam::one_step::{InitialValues, Problem, Stepping};
-pub(crate) use thermobeam::parameters::{Beam, Obstacles};
-pub(crate) use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
-pub(crate) use thermobeam::solve::{Level, Settings, Solver, Stopping};
-pub(crate) use thermobeam_exact::equilibrium::{Completeness, Equilibrium, Phase, completeness};
-pub(crate) use thermobeam_exact::vibration::Mode;
 
-pub(crate) use super::settings::{
-    CONTACT, ENERGY, Exercise, FREE_VIBRATIONS, Integration, ItemMethod, MANUFACTURED, Nodes,
-    Terms, axis_in_words,
-};
-pub(crate) use crate::error::{ErrorMeasure, free_vibration};
-pub(crate) use crate::exact::errors::ErrorMeter;
-pub(crate) use crate::exact::norm::{Norm, Norms};
-pub(crate) use crate::exact::solution::{Factors, Manufactured, Product};
-pub(crate) use crate::expression::{Expression, Variable};
-pub(crate) use crate::figures::{self, looks};
-pub(crate) use crate::run::driver::Driver;
-pub(crate) use crate::run::family::{Family, OnMesh};
-pub(crate) use crate::run::simulate::{self, Recording, Run, Simulator};
-pub(crate) use crate::run::{AnyMotion, ObservableMotion, Report, RunError, Sample, run, run_to};
-pub(crate) use crate::scene::{Coefficients, Method, Scene, limits, resampled, tables};
+use thermobeam::solve::Level;
 
 /// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect
 /// result.

@@ -9,14 +9,24 @@
 //! defects = ["half of rho in N"]               # optional: mistakes in the loads, in the words of the report
 //! ```
 
-use super::matrix::{Detects, Needed};
-use super::{RELATIVE_KEY, STUDIES};
-use crate::exact::defect::Defect;
-use crate::kinds::orders::any_order::{AnyOrder, Errors, Resolution};
-use crate::kinds::orders::planted::fault::{Fault, Planted, RELATIVE, relative};
-use crate::kinds::orders::planted::plantable::Plantable;
-use crate::kinds::orders::{Orders, Source};
+use super::{
+    RELATIVE_KEY, STUDIES,
+    matrix::{Detects, Needed},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    exact::defect::Defect,
+    kinds::orders::{
+        Orders, Source,
+        any_order::{AnyOrder, Errors, Resolution},
+        planted::{
+            fault::{Fault, Planted, RELATIVE, relative},
+            plantable::Plantable,
+        },
+    },
+    scene::Coefficients,
+};
+use convergence_study::internal::study::Described;
 
 impl Plantable for AnyOrder {
     type Shared<'a> = &'a AnyOrder;

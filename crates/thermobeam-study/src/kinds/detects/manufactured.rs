@@ -1,12 +1,23 @@
 //! Faults in studies of manufactured solutions, by one-step schemes.
 
-use super::matrix::{Detects, Needed};
-use super::{ELEMENTS, RELATIVE_KEY, STUDIES};
-use crate::kinds::orders::Orders;
-use crate::kinds::orders::manufactured::{Convergence, Prepared};
-use crate::kinds::orders::planted::fault::{Fault, Planted, RELATIVE, relative};
-use crate::kinds::orders::planted::plantable::Plantable;
+use super::{
+    ELEMENTS, RELATIVE_KEY, STUDIES,
+    matrix::{Detects, Needed},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    exact::norm::Norms,
+    kinds::orders::{
+        Orders,
+        manufactured::{Convergence, Prepared},
+        planted::{
+            fault::{Fault, Planted, RELATIVE, relative},
+            plantable::Plantable,
+        },
+    },
+    scene::{Coefficients, tables},
+};
+use convergence_study::internal::study::Described;
 
 impl Plantable for Convergence {
     /// The space vectors of a mesh.

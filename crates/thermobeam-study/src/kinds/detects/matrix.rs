@@ -1,9 +1,17 @@
 //! Every study under every fault: runs, verdicts, and the rule that judges them.
 
-use crate::kinds::orders::planted::fault::Fault;
-use crate::kinds::orders::planted::plantable::{Plantable, verdict};
-use crate::kinds::orders::{Orders, Source};
+use crate::kinds::orders::{
+    Orders, Source,
+    planted::{
+        fault::Fault,
+        plantable::{Plantable, verdict},
+    },
+};
 use crate::kinds::prelude::*;
+use convergence_study::{
+    Coverage,
+    internal::study::{Described, coverage::NO_RESULT, header::Setting},
+};
 
 /// Relative change of an error that the baseline tolerates.
 const TOLERANCE: f64 = 1e-3;

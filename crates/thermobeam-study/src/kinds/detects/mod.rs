@@ -34,10 +34,10 @@ pub use super::orders::planted::plantable::Plantable;
 pub use matrix::{Detects, RunOf, UnderFaults};
 pub use smallest::Sensitivity;
 
-use super::orders::any_order::AnyOrder;
-use super::orders::manufactured::Convergence;
-use super::orders::{Orders, Source};
+use super::orders::{Orders, Source, any_order::AnyOrder, manufactured::Convergence};
 use super::prelude::*;
+use crate::kinds::settings::{Exercise, Integration, MANUFACTURED, Terms};
+use convergence_study::{Study, internal::study::Described};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

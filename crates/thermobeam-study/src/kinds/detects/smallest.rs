@@ -8,13 +8,24 @@
 //! at_most = 1e-4                          # what some study must detect of every coefficient
 //! ```
 
-use super::manufactured::named_studies;
-use super::{ELEMENTS, STUDIES};
-use crate::kinds::orders::Orders;
-use crate::kinds::orders::manufactured::Convergence;
-use crate::kinds::orders::planted::fault::{RELATIVE, relative};
-use crate::kinds::orders::planted::plantable::Detector;
+use super::{ELEMENTS, STUDIES, manufactured::named_studies};
 use crate::kinds::prelude::*;
+use crate::{
+    kinds::orders::{
+        Orders,
+        manufactured::Convergence,
+        planted::{
+            fault::{RELATIVE, relative},
+            plantable::Detector,
+        },
+    },
+    scene::Coefficients,
+};
+use convergence_judge::text::number::min_or_nan;
+use convergence_study::{
+    Coverage,
+    internal::study::{Described, coverage::NO_RESULT, header::Setting},
+};
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
 const BISECTIONS: usize = 9;

@@ -14,12 +14,23 @@
 //! tolerance = 0.1
 //! ```
 
-use convergence_study::Interval;
+use convergence_study::{
+    Interval, Refinement,
+    internal::study::over_levels::{ErrorColumn, Levels},
+};
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, MAP, increasing, mean_width, tolerance};
+use crate::{
+    kinds::{
+        settings::{Exercise, FREE_VIBRATIONS, Integration, Terms},
+        tables::{Layout, MAP, increasing, mean_width, tolerance},
+    },
+    scene::{limits, tables},
+};
+use convergence_judge::{text::number::min_or_nan, time_limit::Patience};
+use thermobeam::dg::MAX_DEGREE;
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///

@@ -17,15 +17,18 @@ pub mod vibration;
 use std::ops::{Deref, DerefMut};
 
 use convergence_study::{
-    Grid, LevelErrors,
+    Grid, LevelErrors, Untested,
     internal::study::{
-        over_levels::rate_table,
+        allow_only,
+        header::Setting,
+        over_levels::{Levels, rate_table, summary},
         until_decided::{self, Looks, Next},
     },
     variants::Variants,
 };
 
 use super::prelude::*;
+use crate::kinds::settings::Exercise;
 
 /// Where the errors of a study come from.
 pub trait Source: Send + Sync + Sized + 'static {

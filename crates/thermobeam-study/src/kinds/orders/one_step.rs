@@ -1,9 +1,16 @@
 //! Errors of one-step schemes in every norm, which manufactured solutions and vibrations measure.
 
-use super::Levels;
-use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Refine;
+use crate::{
+    exact::{
+        formulas::SchemeFormulas,
+        norm::{Norm, Norms},
+    },
+    kinds::tables::Refine,
+    run::{RunError, driver::Driver, run_to},
+};
+use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
+use thermobeam::scheme::Scheme;
 
 /// Errors in each norm over the levels of a refinement: a column for each norm, with the expected
 /// order.

@@ -25,9 +25,20 @@ use thermobeam_exact::projection::{Projected, SMOOTH_BOUND, Target, VALUE_BOUND}
 
 use super::{Measured, Orders, Runs, Series, Source};
 use crate::kinds::prelude::*;
-use crate::kinds::settings::INITIAL_DATA;
-use crate::kinds::tables::{CLAIM_KEYS, Layout, MAP, claims, increasing, mean_width};
-use crate::scene::{INITIAL, Initial};
+use crate::{
+    expression::Expression,
+    kinds::{
+        settings::{Exercise, INITIAL_DATA, Integration, ItemMethod, Terms},
+        tables::{CLAIM_KEYS, Layout, MAP, claims, increasing, mean_width},
+    },
+    run::simulate,
+    scene::{Coefficients, INITIAL, Initial, tables},
+};
+use convergence_study::{
+    Refinement,
+    internal::study::over_levels::{ErrorColumn, Levels},
+};
+use thermobeam::{one_step::InitialValues, parameters::Beam};
 
 /// Allowed size of `|((P_h η - η)_x, N_i')|`, relative to ‖η_x‖: the quadrature on the first of 16
 /// elements leaves 1e-9.

@@ -1,11 +1,14 @@
 //! The scenes: random ones, those that are rough, and the discretisations to which the runs of a
 //! search are compared.
 
-use thermobeam::dg::DgStepping;
-use thermobeam::one_step::Stepping;
+use thermobeam::{
+    dg::DgStepping, mesh::Mesh, one_step::Stepping, scheme::MIDPOINT, solve::Settings,
+};
 
 use super::{Drawn, RandomErrors};
 use crate::kinds::prelude::*;
+use crate::scene::{Method, Scene};
+use convergence_judge::judge::random::SplitMix;
 
 /// Elements of the coarsest linear mesh, and its steps per unit of time.
 const COARSEST: [usize; 2] = [80, 2500];

@@ -1,8 +1,15 @@
 //! What is claimed of all scenes: the checks, and the figure.
 
-use super::measure::{Found, Refusal};
-use super::{Drawn, RandomErrors};
+use super::{
+    Drawn, RandomErrors,
+    measure::{Found, Refusal},
+};
 use crate::kinds::prelude::*;
+use convergence_judge::text::number::min_or_nan;
+use convergence_study::internal::{
+    plots::{self, xy::Xy},
+    study::readings,
+};
 
 /// An error may be this many times its estimate.
 const EXCEEDED: f64 = 1.3;

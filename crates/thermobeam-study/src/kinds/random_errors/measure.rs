@@ -1,11 +1,18 @@
 //! The searches of one scene, and their errors against runs that no search tries.
 
-use super::truth::{Point, Trace, Truth, points};
-use super::{Drawn, RandomErrors};
+use super::{
+    Drawn, RandomErrors,
+    truth::{Point, Trace, Truth, points},
+};
 use crate::kinds::prelude::*;
-use crate::predict::choice::{self, choose};
-use crate::predict::estimate::{Estimate, estimate};
-use crate::predict::{MOST_WORK, Unreachable, Work};
+use crate::{
+    predict::{
+        MOST_WORK, Unreachable, Work,
+        choice::{self, choose},
+        estimate::{Estimate, estimate},
+    },
+    scene::Scene,
+};
 
 /// Why a search was abandoned.
 #[derive(Debug, Clone, PartialEq)]

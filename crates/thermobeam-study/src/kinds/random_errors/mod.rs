@@ -28,7 +28,14 @@ pub use self::measure::{Found, Refusal};
 use self::judge::worst;
 use super::prelude::*;
 use super::runs::cases::named_cases;
-use crate::scene;
+use crate::{
+    kinds::settings::{CONTACT, Exercise, Integration, Terms},
+    scene::{self, Scene},
+};
+use convergence_study::{
+    Coverage,
+    internal::study::{coverage::NO_RESULT, header::Setting, readings},
+};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

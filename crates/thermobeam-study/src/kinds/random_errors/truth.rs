@@ -4,12 +4,18 @@
 //! Nothing here comes from the searches, so a mistake in their times, their norm or their extremes
 //! shows.
 
-use thermobeam::dg::{self, Field};
-use thermobeam::motion::Motion;
+use thermobeam::{
+    dg::{self, Field},
+    mesh::Mesh,
+    motion::Motion,
+};
 
 use crate::kinds::prelude::*;
-use crate::predict::estimate::{Estimate, Kind as Value};
-use crate::run::dg::DgMotion;
+use crate::{
+    predict::estimate::{Estimate, Kind as Value},
+    run::{ObservableMotion, Sample, dg::DgMotion, run_to, simulate},
+    scene::{Method, Scene},
+};
 
 /// Times in a step of dG at which it is read, in units of its length.
 const PARTS: [f64; 5] = [0.04, 0.2, 0.5, 0.85, 1.0];

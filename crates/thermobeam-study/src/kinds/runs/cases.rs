@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::kinds::prelude::*;
+use crate::{run::RunError, scene::Scene};
+use thermobeam::error::{StepError, StepFailure};
 
 /// A scene of a table `[[case]]`.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,10 +5,18 @@
 //! norm of (3.14) at several times, before and after contacts. There they stay below a bound by
 //! Lipschitz constants along the run: THEORY.md, "Continuous dependence".
 
-use super::checks::{Condition, all, at_most};
-use super::{Findings, Listing, Results, RunStudy, Runs};
-use crate::error::reference::{Traced, distance};
+use super::{
+    Findings, Listing, Results, RunStudy, Runs,
+    checks::{Condition, all, at_most},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    error::reference::{Traced, distance},
+    expression::{Expression, Variable},
+    kinds::settings::{CONTACT, Exercise, Integration},
+    scene::{Method, Scene, tables},
+};
+use thermobeam::{kirchhoff::BUCKLING, mesh::Mesh, parameters::Beam};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

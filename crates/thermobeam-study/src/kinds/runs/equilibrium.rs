@@ -5,15 +5,30 @@
 //! dG(q) it nearly vanishes. A straight steady state has no such error: the beam is only checked to
 //! end straight, up to the remaining motion.
 
-use super::checks::{Condition, all, at_most, within};
 pub use super::steady::{AtRest, Nearest};
-use super::steady::{
-    cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
+use super::{
+    Findings, Listing, Results, RunStudy, Runs,
+    checks::{Condition, all, at_most, within},
+    steady::{
+        self, cost_to_rest, listed_scenes, meshes, name_of, settle, steps_to_rest, tolerance,
+    },
 };
-use super::{Findings, Listing, Results, RunStudy, Runs, steady};
-use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{DISCRETISATION_KEYS, Discretisation, mean_width};
+use crate::{
+    error::reference::Traced,
+    kinds::{
+        settings::{Exercise, Integration, ItemMethod},
+        tables::{DISCRETISATION_KEYS, Discretisation, mean_width},
+    },
+    scene::Scene,
+};
+use convergence_judge::{judge::richardson, text::number::decimals};
+use convergence_study::{
+    Coverage, Floor, Refinement,
+    internal::study::over_levels::{ErrorColumn, Levels},
+};
+use thermobeam::mesh::Mesh;
+use thermobeam_exact::equilibrium::Equilibrium;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

@@ -20,7 +20,11 @@ pub(crate) mod steady;
 pub(crate) mod watch;
 
 use super::prelude::*;
-use convergence_study::LevelErrors;
+use crate::kinds::settings::Exercise;
+use convergence_study::{
+    Coverage, LevelErrors,
+    internal::study::{coverage::NO_RESULT, header::Setting, over_levels::Levels, readings},
+};
 
 /// A list of runs, and what is claimed of them.
 pub trait Runs: Sized + Send + Sync {

@@ -4,8 +4,16 @@
 //! most η*. Newton's method solves the same equations (3.7)-(3.8) to round-off, so the distance of
 //! both is the error that η* leaves.
 
-use crate::exact::norm::TheoremSquares;
 use crate::kinds::prelude::*;
+use crate::{
+    exact::norm::TheoremSquares,
+    run::{ObservableMotion, Report, driver::Driver, run_to, simulate},
+    scene::Scene,
+};
+use thermobeam::{
+    one_step::Stepping,
+    solve::{Level, Settings, Solver, Stopping},
+};
 
 /// Tolerance of Newton's method.
 const SOLVED: f64 = 1e-14;

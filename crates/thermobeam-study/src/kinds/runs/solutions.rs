@@ -16,11 +16,22 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
-use super::checks::{Condition, all, at_most};
-use super::{Findings, Results, RunStudy, Runs};
-use crate::exact::assembly::{coupling, mass, stiffness};
+use super::{
+    Findings, Results, RunStudy, Runs,
+    checks::{Condition, all, at_most},
+};
 use crate::kinds::prelude::*;
-use thermobeam::bracket::bisect;
+use crate::{
+    exact::assembly::{coupling, mass, stiffness},
+    kinds::settings::{CONTACT, Exercise, Integration, Terms},
+    scene::{Coefficients, tables},
+};
+use thermobeam::{
+    bracket::bisect,
+    kirchhoff::BUCKLING,
+    mesh::Mesh,
+    parameters::{Beam, Obstacles},
+};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

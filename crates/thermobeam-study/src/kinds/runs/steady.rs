@@ -3,10 +3,19 @@
 
 use std::ops::ControlFlow;
 
-use thermobeam_exact::equilibrium::{EquilibriumError, equilibria};
+use thermobeam_exact::equilibrium::{
+    Completeness, Equilibrium, EquilibriumError, Phase, completeness, equilibria,
+};
 
 use crate::kinds::prelude::*;
-use crate::kinds::tables::Discretisation;
+use crate::{
+    kinds::tables::Discretisation,
+    run::{ObservableMotion, Report, RunError, run, simulate},
+    scene::{Method, Scene, limits, resampled, tables},
+};
+use convergence_judge::judge::verdict::Judge;
+use convergence_study::internal::input::POSITIVE;
+use thermobeam::{mesh::Mesh, solve::Level};
 
 /// Reads the scenes of a list of file names, which are relative to the folder of the study file.
 pub(crate) fn listed_scenes(

@@ -2,10 +2,17 @@
 
 use std::ops::ControlFlow;
 
-use thermobeam::energy::{Balance, Rounding};
+use thermobeam::{
+    energy::{Balance, Rounding},
+    error::StepError,
+    one_step::Problem,
+    scheme::Scheme,
+    solve::{Level, Settings, Stopping},
+};
 
 use crate::kinds::prelude::*;
 use crate::run::together::EnsembleDriver;
+use convergence_judge::text::number::short_text;
 
 /// Increment at which a step counts as solved: only the exact solution of a step satisfies the
 /// balance.

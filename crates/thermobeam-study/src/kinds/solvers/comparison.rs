@@ -1,12 +1,25 @@
 //! The difference between the fixed point and Newton's method on a scene, against the fixed point's
 //! tolerance.
 
-use convergence_study::internal::plots::{Phases, Series};
+use convergence_study::internal::{
+    plots::{self, Phases, Series, xy::Xy},
+    study::readings,
+};
 
 use super::{Found, SolverTask, positive_numbers, results};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::agree;
-use crate::kinds::runs::side_by_side::{SideBySide, SolverComparison, StepOfBoth};
+use crate::{
+    kinds::{
+        runs::{
+            checks::agree,
+            side_by_side::{SideBySide, SolverComparison, StepOfBoth},
+        },
+        settings::{ItemMethod, Terms},
+    },
+    run::ObservableMotion,
+    scene::{Scene, limits, tables},
+};
+use thermobeam::mesh::Mesh;
 
 /// The table `[comparison]`.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,12 +2,30 @@
 
 use std::fmt;
 
-use convergence_study::internal::plots::Series;
+use convergence_study::{
+    Coverage,
+    internal::{plots::Series, study::readings},
+};
 
-use super::spectrum::spectral_radius;
-use super::step::{by_fixed_point, factors};
-use super::{Found, SolverTask, positive_numbers, results};
+use super::{
+    Found, SolverTask, positive_numbers, results,
+    spectrum::spectral_radius,
+    step::{by_fixed_point, factors},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    figures,
+    kinds::settings::{ItemMethod, Terms},
+    run::{driver::Driver, run_to},
+    scene::{limits, tables},
+};
+use thermobeam::{
+    mesh::{Mesh, MeshError},
+    one_step::{InitialValues, Problem, Stepping},
+    parameters::{Beam, Obstacles},
+    scheme::EULER_CRANK_NICOLSON,
+    solve::Stopping,
+};
 
 /// Smallest and largest number of iterations between the start and the last increment but one of a
 /// measurement.

@@ -18,11 +18,26 @@
 //! Newton's method needs a definite operator: `B (ζ + dt/2) + m dt/2 > 0` is sufficient, with the
 //! buckling force B and the mean axial force m >= β.
 
-use super::SolverTask;
-use super::step::{FixedPointStep, factors};
-use crate::kinds::interval::Interval;
+use super::{
+    SolverTask,
+    step::{FixedPointStep, factors},
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::watch::{Watched, Worst, watched};
+use crate::{
+    kinds::{
+        interval::Interval,
+        runs::watch::{Watched, Worst, watched},
+        settings::Terms,
+    },
+    scene::{limits, tables},
+};
+use convergence_judge::text::number::plain_text;
+use thermobeam::{
+    mesh::{Mesh, MeshError},
+    one_step::{InitialValues, Problem},
+    parameters::{Beam, Obstacles},
+    scheme::EULER_CRANK_NICOLSON,
+};
 
 /// The obstacles, close enough that the heat presses the beam against them for every β on the maps.
 const GAP: f64 = 0.01;

@@ -1,11 +1,14 @@
 //! The maps as figures: what each solver does at every point, and the boundaries.
 
-use convergence_study::internal::plots::{Axis, Series, Surface};
+use convergence_study::internal::plots::{self, Axis, Series, Surface};
 
-use super::map::{NewtonSteps, Parameter, Point};
-use super::map_judge::MapResults;
+use super::{
+    map::{NewtonSteps, Parameter, Point},
+    map_judge::MapResults,
+};
 use crate::kinds::interval::Interval;
 use crate::kinds::prelude::*;
+use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
 /// Smaller contractions are shown as this value: after a few iterations the ratio is no longer
 /// meaningful.

@@ -1,11 +1,18 @@
 //! The maps: claims, the table of boundaries, and guarded numbers.
 
-use super::FixedPointStep;
-use super::map::{Boundary, Map, MapRow, NewtonSteps, Point};
-use super::{Found, SolverTask, results};
+use super::{
+    FixedPointStep, Found, SolverTask,
+    map::{Boundary, Map, MapRow, NewtonSteps, Point},
+    results,
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::energy_and_balance;
-use crate::kinds::runs::watch::Worst;
+use crate::kinds::{
+    runs::{checks::energy_and_balance, watch::Worst},
+    settings::ItemMethod,
+};
+use convergence_judge::text::number::{min_or_nan, plain_text};
+use convergence_study::{Coverage, internal::study::readings};
+use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
 /// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
 /// known in advance.

@@ -40,8 +40,10 @@ mod spectrum;
 mod step;
 
 use super::prelude::*;
+use crate::kinds::settings::{Exercise, Integration, Terms};
 use comparison::Comparison;
 use contraction::Grid;
+use convergence_study::internal::study::{header::Setting, readings};
 use map::Map;
 
 pub use super::runs::side_by_side::SolverComparison;

@@ -1,6 +1,13 @@
 //! One step by the fixed point, and the factors by which it should contract.
 
 use crate::kinds::prelude::*;
+use crate::run::{RunError, driver::Driver, run_to};
+use thermobeam::{
+    error::StepFailure,
+    one_step::{Problem, Stepping},
+    scheme::EULER_CRANK_NICOLSON,
+    solve::{Settings, Solver, Stopping},
+};
 
 /// Increment at which the iteration counts as converged: large against round-off, so that the last
 /// ratio is a contraction.

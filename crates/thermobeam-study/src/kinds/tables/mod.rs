@@ -4,11 +4,22 @@
 mod refine;
 
 use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
-use convergence_study::Term;
-use thermobeam::dg::DgStepping;
+use convergence_study::{Term, internal::input::POSITIVE};
+use thermobeam::{
+    dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE},
+    parameters::Beam,
+};
 
 use super::prelude::*;
-use crate::exact::function::Factor;
+use crate::{
+    exact::{
+        function::Factor,
+        norm::Norm,
+        solution::{Manufactured, Product},
+    },
+    expression::Variable,
+    scene::{Coefficients, Method, Scene, limits, resampled, tables},
+};
 
 pub use refine::{Layout, Perturbation, Refine};
 pub(crate) use refine::{MAP, REFINE, increasing, mean_width, nested, refine};

@@ -1,8 +1,20 @@
 //! The table `[refine]`: the meshes and time steps of a study.
 
-use convergence_study::internal::study::until_decided;
+use convergence_study::{Refinement, internal::study::until_decided};
 
 use crate::kinds::prelude::*;
+use crate::{
+    expression::{Expression, Variable},
+    kinds::settings::{Exercise, Integration, Nodes, Terms, axis_in_words},
+    scene::{limits, tables},
+};
+use convergence_judge::judge::random::SplitMix;
+use thermobeam::{
+    mesh::{Mesh, MeshError},
+    one_step::Stepping,
+    scheme::Scheme,
+    solve::Settings,
+};
 
 /// A random displacement of the interior nodes, the same on every machine.
 #[derive(Debug, Clone, Copy, PartialEq)]

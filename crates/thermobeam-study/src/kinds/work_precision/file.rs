@@ -4,11 +4,18 @@ use std::sync::OnceLock;
 
 use convergence_study::Tier;
 
-use super::method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial};
-use super::{ROW, Target, WorkPrecision};
-use crate::kinds::orders::Orders;
-use crate::kinds::orders::manufactured::Convergence;
+use super::{
+    ROW, Target, WorkPrecision,
+    method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    error::{ErrorMeasure, free_vibration},
+    kinds::orders::{Orders, manufactured::Convergence},
+    run::family::Family,
+    scene::Scene,
+};
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
 /// The keys of the problem, which is a solution, a scene or a vibration.
 const PROBLEM: &[Keys] = &[

@@ -1,9 +1,14 @@
 //! From the runs of all methods to checks, tables and figures.
 
-use super::compared::{Costed, cheapest, figure};
-use super::method::{METHODS, Measurement, Trial};
-use super::{Target, WorkPrecision};
+use super::{
+    Target, WorkPrecision,
+    compared::{Costed, cheapest, figure},
+    method::{METHODS, Measurement, Trial},
+};
+use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
+use convergence_judge::text::number::min_or_nan;
+use convergence_study::internal::study::readings;
 
 /// Allowed relative change of a ratio of work.
 const RATIO_TOLERANCE: f64 = 0.05;

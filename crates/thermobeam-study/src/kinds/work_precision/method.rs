@@ -6,14 +6,24 @@
 //! unknowns per block, each of which costs (q + 1)² as much; its factorisation counts as 3 (q + 1)
 //! solves.
 
-use thermobeam::dg::{self, Dg, DgLevel, DgStepping};
+use thermobeam::{
+    dg::{self, Dg, DgLevel, DgStepping},
+    mesh::{Mesh, MeshError},
+    motion::Motion,
+    scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme},
+    solve::{Settings, Solver, Stopping},
+};
 
-use crate::error::polynomials::Polynomials;
-use crate::error::reference::combine;
-use crate::error::{AnyOrderEvaluator, Errors, Evaluator};
 use crate::kinds::prelude::*;
-use crate::run::family::Spent;
-use crate::run::snapshot::equidistant_time;
+use crate::{
+    error::{AnyOrderEvaluator, Errors, Evaluator, polynomials::Polynomials, reference::combine},
+    run::{
+        ObservableMotion,
+        family::{Family, OnMesh, Spent},
+        run_to,
+        snapshot::equidistant_time,
+    },
+};
 
 /// A method of solution.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -44,10 +44,15 @@ mod neighbours;
 
 use std::sync::OnceLock;
 
-use crate::error::polynomials::Polynomials;
-use crate::error::{Errors, Evaluator};
 use crate::kinds::prelude::*;
+use crate::{
+    error::{ErrorMeasure, Errors, Evaluator, polynomials::Polynomials},
+    kinds::settings::{Exercise, Integration, Nodes, Terms},
+    run::family::Family,
+};
+use convergence_study::internal::study::header::Setting;
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
+use thermobeam::solve::Solver;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

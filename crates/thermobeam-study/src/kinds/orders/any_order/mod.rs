@@ -28,14 +28,27 @@
 mod runs;
 
 use convergence_judge::judge::fit::FLOOR_MARGIN;
-use thermobeam::dg::DgStepping;
+use thermobeam::{dg::DgStepping, motion::Motion};
 
 use super::{Measured, Orders, Runs, Series, Source};
-use crate::exact::any_order::ErrorMeter;
-use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{EXACT, Layout, control, manufactured, mean_width};
-use crate::run::dg::DgMotion;
+use crate::{
+    error::free_vibration,
+    exact::{any_order::ErrorMeter, defect::Defect, solution::Manufactured},
+    kinds::{
+        settings::{Exercise, FREE_VIBRATIONS, Integration, MANUFACTURED, Terms},
+        tables::{EXACT, Layout, control, manufactured, mean_width},
+    },
+    run::{dg::DgMotion, run_to},
+    scene::{Coefficients, limits, tables},
+};
+use convergence_study::{
+    Floor, Refinement, Sort,
+    internal::{
+        plots::{self, xy::Xy},
+        study::over_levels::{ErrorColumn, Levels},
+    },
+};
 pub use runs::Resolution;
 use runs::{Over, RUN, RUNS, RunsOfDegree, series};
 

@@ -1,7 +1,11 @@
 //! The runs of a study of any order: what is refined, and how a file lists it.
 
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{CONTROL, MAP, increasing};
+use crate::{
+    kinds::tables::{CONTROL, MAP, increasing},
+    scene::tables,
+};
+use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
 /// Steps of a run: at high degree a few hundred reach round-off.
 const MOST_STEPS: usize = 100_000;

@@ -1,9 +1,18 @@
 //! The constant of Theorem 3.4, computed before any run and held against the finest error.
 
 use super::Convergence;
-use crate::exact::constants;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Layout, Refine};
+use crate::{
+    exact::{
+        constants,
+        norm::{Norm, Norms},
+    },
+    kinds::{
+        settings::ItemMethod,
+        tables::{Layout, Refine},
+    },
+};
+use thermobeam::{mesh::MeshError, scheme::EULER_CRANK_NICOLSON};
 
 /// The table `[constant]`.
 pub(super) const CONSTANT: Key = Key::new(

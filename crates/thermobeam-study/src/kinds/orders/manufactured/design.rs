@@ -13,10 +13,24 @@
 use std::cell::RefCell;
 
 use super::Convergence;
-use crate::exact::defect::Defect;
-use crate::exact::sources::{Nodal, Sources};
-use crate::kinds::orders::one_step::{formulas_of, largest_errors};
 use crate::kinds::prelude::*;
+use crate::{
+    exact::{
+        defect::Defect,
+        errors::ErrorMeter,
+        norm::Norms,
+        solution::Factors,
+        sources::{Nodal, Sources},
+    },
+    kinds::orders::one_step::{formulas_of, largest_errors},
+    run::driver::Driver,
+    scene::Coefficients,
+};
+use thermobeam::{
+    mesh::{Mesh, MeshError},
+    motion::TipRange,
+    one_step::Problem,
+};
 
 /// Space vectors and error meter of one mesh, shared by several runs.
 pub struct Prepared<'a> {

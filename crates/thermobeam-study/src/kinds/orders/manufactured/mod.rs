@@ -37,17 +37,29 @@ mod constant;
 pub(in crate::kinds) mod design;
 mod variants;
 
-use convergence_study::{Grid, GridColumn, SpaceTime, variants::Variants};
+use convergence_study::{Grid, GridColumn, SpaceTime, Untested, variants::Variants};
 
-use super::one_step::{levels, not_finite_norms};
-use super::{Finer, Measured, Orders, Runs, Series, Source};
+use super::{
+    Finer, Measured, Orders, Runs, Series, Source,
+    one_step::{levels, not_finite_norms},
+};
 pub use crate::exact::defect::Defect;
-use crate::exact::formulas::SchemeFormulas;
-use crate::kinds::orders::planted::untested::untested;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{
-    CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured, mean_width,
-    refine,
+use crate::{
+    exact::{
+        formulas::SchemeFormulas,
+        norm::{Norm, Norms},
+        solution::Manufactured,
+    },
+    kinds::{
+        orders::planted::untested::untested,
+        settings::{Exercise, MANUFACTURED, Terms},
+        tables::{
+            CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured,
+            mean_width, refine,
+        },
+    },
+    scene::{Coefficients, tables},
 };
 pub use design::Prepared;
 

@@ -11,8 +11,14 @@
 use convergence_study::variants::{Part, Variant, Variants};
 
 use super::Convergence;
-use crate::exact::function::Factor;
 use crate::kinds::prelude::*;
+use crate::{
+    exact::{
+        function::Factor,
+        solution::{Manufactured, Product},
+    },
+    scene::Coefficients,
+};
 
 /// Where the solution is held in time: this share of the time of a study, no time of symmetry.
 const MIDDLE: f64 = 0.4;

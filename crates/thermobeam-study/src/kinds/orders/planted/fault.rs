@@ -1,7 +1,7 @@
 //! The planted faults, and what each changes.
 
-use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
+use crate::{exact::defect::Defect, scene::Coefficients};
 
 /// The fault of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,11 @@
 //! Studies into which faults can be planted, and the runs of such a study with a fault.
 
 use super::fault::{Fault, Planted};
-use crate::kinds::orders::{Runs, Series, Source};
 use crate::kinds::prelude::*;
+use crate::{
+    kinds::orders::{Runs, Series, Source},
+    scene::Coefficients,
+};
 
 /// A study of orders whose solver or sources can be wrong on purpose.
 pub trait Plantable: Source<Found: Clone> {

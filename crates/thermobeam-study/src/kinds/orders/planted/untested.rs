@@ -2,6 +2,9 @@
 
 use super::plantable::{Detector, Plantable, verdict};
 use crate::kinds::prelude::*;
+use crate::scene::{Coefficients, tables};
+use convergence_study::Untested;
+use thermobeam::{motion::TipRange, parameters::Obstacles};
 
 /// Relative error of a coefficient that a study testing it must notice.
 const OFF: f64 = 1e-4;

@@ -1,9 +1,19 @@
 //! Differences of runs, and what is checked and shown beside their rates.
 
-use super::observable::{Observable, TIP, last};
-use super::{Runs, SelfConvergence};
+use super::{
+    Runs, SelfConvergence,
+    observable::{Observable, TIP, last},
+};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{Refine, mean_width};
+use crate::{
+    exact::norm::Norm,
+    kinds::tables::{Refine, mean_width},
+};
+use convergence_judge::judge::richardson;
+use convergence_study::internal::{
+    plots,
+    study::over_levels::{ErrorColumn, Levels},
+};
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.
 const SHOWN_TOLERANCE: f64 = 0.1;

@@ -52,12 +52,22 @@ mod observable;
 
 use super::{Measured, Orders, Runs, Series, Source};
 pub use crate::error::reference::Traced;
-use crate::error::reference::fine_mesh;
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{
-    CLAIM_KEYS, DISCRETISATIONS, Discretisation, Refine, claims, discretisations, nested,
+use crate::{
+    error::reference::fine_mesh,
+    kinds::{
+        settings::{CONTACT, Exercise, Integration, axis_in_words},
+        tables::{
+            CLAIM_KEYS, DISCRETISATIONS, Discretisation, Refine, claims, discretisations, nested,
+        },
+    },
+    scene::{Method, Scene, limits, resampled, tables},
 };
 use observable::Observable;
+use thermobeam::{
+    mesh::{Mesh, MeshError},
+    one_step::Stepping,
+};
 
 /// A study of rates without an exact solution.
 #[derive(Debug)]

@@ -1,8 +1,9 @@
 //! What two runs of a study without an exact solution are compared in.
 
 use super::Traced;
-use crate::error::reference::distance_of_curves;
 use crate::kinds::prelude::*;
+use crate::{error::reference::distance_of_curves, exact::norm::Norm};
+use thermobeam::solve::{Level, Stopping};
 
 /// A difference of two runs, the second on a mesh that is the first's or nested in it; each the
 /// maximum over the times compared.

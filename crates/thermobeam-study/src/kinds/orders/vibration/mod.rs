@@ -6,14 +6,29 @@
 
 mod modes;
 
-use super::one_step::{formulas_of, largest_errors, levels, not_finite_norms};
-use super::{Measured, Orders, Runs, Series, Source};
-use crate::exact::sources::Nodal;
-use crate::kinds::prelude::*;
-use crate::kinds::tables::{
-    CONTROL, EXPECT, REFINE, Refine, control, expectations, mean_width, refine,
+use super::{
+    Measured, Orders, Runs, Series, Source,
+    one_step::{formulas_of, largest_errors, levels, not_finite_norms},
 };
+use crate::kinds::prelude::*;
+use crate::{
+    exact::{
+        errors::ErrorMeter,
+        norm::{Norm, Norms},
+        solution::Factors,
+        sources::Nodal,
+    },
+    kinds::{
+        settings::{Exercise, FREE_VIBRATIONS, Terms},
+        tables::{CONTROL, EXPECT, REFINE, Refine, control, expectations, mean_width, refine},
+    },
+    run::{ObservableMotion, driver::Driver},
+    scene::{Coefficients, limits, tables},
+};
+use convergence_study::internal::plots;
 use modes::Modes;
+use thermobeam::{one_step::Problem, solve::Level};
+use thermobeam_exact::vibration::Mode;
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of
 /// the motion in the norm of Theorem 3.4. Measured values are 3e-14; a relative error of 1e-10 in a

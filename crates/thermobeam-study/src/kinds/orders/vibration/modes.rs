@@ -25,12 +25,21 @@
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
-use thermobeam_exact::assembly::{Tridiagonal, coupling, mass, stiffness};
+use thermobeam_exact::{
+    assembly::{Tridiagonal, coupling, mass, stiffness},
+    vibration::Mode,
+};
 
 use super::Vibration;
-use crate::error::free_vibration::{self, piecewise_linear};
-use crate::exact::formulas::SchemeFormulas;
 use crate::kinds::prelude::*;
+use crate::{
+    error::free_vibration::{self, piecewise_linear},
+    exact::{
+        formulas::SchemeFormulas,
+        solution::{Factors, Manufactured, Product},
+    },
+};
+use thermobeam::mesh::Mesh;
 
 /// Modes, each with the exact motion of its equation in time.
 ///
@@ -294,6 +303,7 @@ fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<Eigenpair>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use thermobeam::scheme::SCHEMES;
     use thermobeam_exact::vibration::discrete_frequencies;
 
     #[test]

@@ -2,11 +2,11 @@
 
 use std::cmp::Ordering;
 
-use convergence_judge::interval::Interval;
-use thermobeam_exact::equilibrium::{EquilibriumError, Proof, enclose_change};
+use convergence_judge::{interval::Interval, time_limit::Patience};
+use thermobeam_exact::equilibrium::{Equilibrium, EquilibriumError, Phase, Proof, enclose_change};
 
 use crate::kinds::prelude::*;
-use crate::kinds::runs::steady::exact_states;
+use crate::{kinds::runs::steady::exact_states, scene::Scene};
 
 /// Half the width of the close-up of a fork.
 pub(super) const CLOSE: f64 = 0.025;

@@ -1,8 +1,6 @@
 //! The buckling force of P1 elements.
 
-use thermobeam::tridiagonal::TridiagonalFactor;
-
-use crate::kinds::prelude::*;
+use thermobeam::{error::StepFailure, mesh::Mesh, tridiagonal::TridiagonalFactor};
 
 /// Iterations of the power method, with ratio 0.043/0.288 of the first two modes: three times as
 /// many as needed.

@@ -3,14 +3,36 @@
 
 use std::ops::RangeInclusive;
 
-use convergence_judge::interval::Interval;
+use convergence_judge::{interval::Interval, judge::richardson, text::number::decimals};
 
-use super::branches::{BRACKET, CLOSE, Diagram, buckles};
-use super::{AtRest, Bifurcation, DiagramTask, Found};
+use super::{
+    AtRest, Bifurcation, DiagramTask, Found,
+    branches::{BRACKET, CLOSE, Diagram, buckles},
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::{all, at_most, within};
-use crate::kinds::runs::{Findings, Listing, Results, Row};
-use crate::kinds::tables::mean_width;
+use crate::{
+    figures,
+    kinds::{
+        runs::{
+            Findings, Listing, Results, Row,
+            checks::{all, at_most, within},
+        },
+        settings::ItemMethod,
+        tables::mean_width,
+    },
+    scene::Scene,
+};
+use convergence_study::{
+    Coverage, Refinement,
+    internal::{
+        plots,
+        study::{
+            coverage::NO_RESULT,
+            over_levels::{ErrorColumn, Levels},
+        },
+    },
+};
+use thermobeam::kirchhoff::BUCKLING;
 
 /// A beam with a tip closer to zero than this is straight.
 const STRAIGHT: f64 = 1e-6;

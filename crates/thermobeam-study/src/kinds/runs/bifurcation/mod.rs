@@ -11,12 +11,21 @@ mod buckling;
 mod judge;
 
 pub use super::steady::AtRest;
-use super::steady::{ToRest, listed_scenes, meshes, tolerance};
-use super::{Findings, Results, RunStudy, Runs, steady};
-use crate::kinds::interval::Interval;
+use super::{
+    Findings, Results, RunStudy, Runs,
+    steady::{self, ToRest, listed_scenes, meshes, tolerance},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    kinds::{
+        interval::Interval,
+        settings::{Exercise, Integration},
+    },
+    scene::Scene,
+};
 pub use branches::Diagram;
 use buckling::discrete_buckling_force;
+use thermobeam::mesh::Mesh;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

@@ -2,7 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::kinds::prelude::*;
+use convergence_judge::judge::random::SplitMix;
+use thermobeam::{
+    mesh::{Mesh, MeshError},
+    one_step::{InitialValues, Problem},
+    parameters::{Beam, Obstacles},
+};
 
 /// Modes of the initial data.
 const MODES: usize = 4;

@@ -1,7 +1,12 @@
 //! The bound (3.12) of Corollary 3.2, and that of the losses.
 
-use thermobeam::energy::Energy;
-use thermobeam::norms::slope_squared;
+use thermobeam::{
+    energy::Energy,
+    kirchhoff::BUCKLING,
+    norms::slope_squared,
+    parameters::{Beam, Obstacles},
+    solve::Level,
+};
 
 use crate::kinds::prelude::*;
 

@@ -30,6 +30,7 @@ pub mod random;
 
 use super::{RunStudy, Runs};
 use crate::kinds::prelude::*;
+use convergence_study::Study;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

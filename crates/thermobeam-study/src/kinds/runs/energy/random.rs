@@ -18,10 +18,30 @@
 
 use super::beams::wild;
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::End;
-use crate::kinds::runs::checks::{Condition, all, at_most, energy_and_balance};
-use crate::kinds::runs::watch::{CLOSED, Watched, Worst, watched};
-use crate::kinds::runs::{Findings, Listing, Results, Runs};
+use crate::{
+    kinds::{
+        runs::{
+            Findings, Listing, Results, Runs,
+            cases::End,
+            checks::{Condition, all, at_most, energy_and_balance},
+            watch::{CLOSED, Watched, Worst, watched},
+        },
+        settings::{ENERGY, Exercise, Integration, Nodes, Terms},
+    },
+    run::RunError,
+    scene::limits,
+};
+use convergence_study::{
+    Coverage,
+    internal::{plots, study::coverage::NO_RESULT},
+};
+use thermobeam::{
+    kirchhoff::BUCKLING,
+    mesh::MeshError,
+    one_step::Problem,
+    parameters::Beam,
+    scheme::{SCHEMES, Scheme},
+};
 
 /// Scenes in the lanes of one solver, all with the same number of elements.
 const LANES: usize = 8;

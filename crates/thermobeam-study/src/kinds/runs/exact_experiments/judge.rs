@@ -2,9 +2,14 @@
 
 use super::{ExactExperiments, SceneRun, ShownStates};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::{Condition, agree, all, at_most, largest_difference};
-use crate::kinds::runs::{Results, Row};
-use crate::run::object::phase_name;
+use crate::{
+    kinds::runs::{
+        Results, Row,
+        checks::{Condition, agree, all, at_most, largest_difference},
+    },
+    run::{Sample, object::phase_name},
+    scene::Scene,
+};
 
 /// Residual of the balance that is round-off, over the initial energy.
 const CLOSED: f64 = 1e-12;

@@ -27,7 +27,22 @@ use thermobeam::dg::ContactEvent;
 
 use super::{Findings, Listing, Results, RunStudy, Runs};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{DISCRETISATIONS, Discretisation, discretisations};
+use crate::{
+    figures,
+    kinds::{
+        settings::{CONTACT, Exercise, Integration},
+        tables::{DISCRETISATIONS, Discretisation, discretisations},
+    },
+    run::{
+        Sample,
+        simulate::{Recording, Simulator},
+    },
+    scene::Scene,
+};
+use convergence_study::{
+    Coverage,
+    internal::plots::{self, xy::Xy},
+};
 use judge::{OfScene, events};
 
 /// The row of the table of kinds.

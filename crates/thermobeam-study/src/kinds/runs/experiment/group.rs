@@ -5,6 +5,7 @@ use super::{
 };
 use crate::kinds::prelude::*;
 use crate::kinds::runs::Results;
+use thermobeam::parameters::Beam;
 
 /// An experiment and its runs.
 #[derive(Debug, Clone, Copy)]

@@ -1,11 +1,23 @@
 //! The sentences of Section 5, each a check with its numbers.
 
-use super::group::{OfExperiment, OfGroup, SectionFive};
-use super::plotted::{Plotted, U_TIP, largest_difference};
-use super::{Experiments, Measured, SectionGroup, paper, rests, straight_energy};
+use super::{
+    Experiments, Measured, SectionGroup,
+    group::{OfExperiment, OfGroup, SectionFive},
+    paper,
+    plotted::{Plotted, U_TIP, largest_difference},
+    rests, straight_energy,
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::{Condition, all, at_most, increasing};
-use crate::kinds::runs::steady::name_of;
+use crate::kinds::{
+    runs::{
+        checks::{Condition, all, at_most, increasing},
+        steady::name_of,
+    },
+    settings::ItemMethod,
+};
+use convergence_study::{Origin, internal::plots};
+use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
+use thermobeam_exact::equilibrium::Phase;
 
 /// A first contact within this share of the figures' span counts as "at the beginning".
 const BEGINNING: f64 = 0.1;

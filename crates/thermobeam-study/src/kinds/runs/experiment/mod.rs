@@ -45,12 +45,24 @@ mod trace;
 
 use std::ops::ControlFlow;
 
-use super::side_by_side::SideBySide;
-use super::steady::{ToRest, compared, listed_scene};
-use super::{Findings, Results, RunStudy, Runs};
+use super::{
+    Findings, Results, RunStudy, Runs,
+    side_by_side::SideBySide,
+    steady::{ToRest, compared, listed_scene},
+};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::{DISCRETISATIONS, Discretisation, discretisations};
+use crate::{
+    figures,
+    kinds::{
+        settings::{CONTACT, Exercise, Integration},
+        tables::{DISCRETISATIONS, Discretisation, discretisations},
+    },
+    run::{AnyMotion, Report, run, simulate},
+    scene::{Scene, limits},
+};
+use convergence_study::internal::input::POSITIVE;
 use group::SectionFive;
+use thermobeam_exact::equilibrium::Phase;
 use trace::{Observed, Recorder};
 
 pub use super::side_by_side::SolverComparison;

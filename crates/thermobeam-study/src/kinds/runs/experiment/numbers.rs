@@ -1,8 +1,8 @@
 //! The numbers of each run, declared once: they give completion, tables and guarded numbers.
 
-use super::group::OfExperiment;
-use super::{AtRest, Measured, PaperRun, SectionGroup, Trace};
+use super::{AtRest, Measured, PaperRun, SectionGroup, Trace, group::OfExperiment};
 use crate::kinds::prelude::*;
+use crate::kinds::settings::ItemMethod;
 
 /// Tolerance of a number that depends smoothly on the data: far above round-off, below any change
 /// of method.

@@ -3,10 +3,19 @@
 
 use std::f64::consts::PI;
 
-use super::group::{OfExperiment, OfGroup};
-use super::{Experiment, Experiments, SectionGroup};
+use super::{
+    Experiment, Experiments, SectionGroup,
+    group::{OfExperiment, OfGroup},
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::{Condition, all};
+use crate::{
+    kinds::{
+        runs::checks::{Condition, all},
+        settings::ItemMethod,
+    },
+    scene::Coefficients,
+};
+use thermobeam::parameters::{Beam, Obstacles};
 
 /// (5.1), without β and θ_A, which differ between the experiments.
 const BEAM: Beam = Beam {

@@ -2,16 +2,18 @@
 //! algorithm on top.
 
 use convergence_study::internal::plots::{
+    self,
     inset::{Inset, Place},
     look::{Look, look},
     ruler::on_scale,
     style,
-    xy::Curve,
+    xy::{Curve, Xy},
 };
 
-use super::group::OfExperiment;
-use super::{Experiment, Trace};
+use super::{Experiment, Trace, group::OfExperiment};
 use crate::kinds::prelude::*;
+use crate::{figures, run::Sample};
+use convergence_judge::text::number::{plain_text, short_text};
 
 /// A quantity over time.
 pub(super) type Points = Vec<(f64, f64)>;

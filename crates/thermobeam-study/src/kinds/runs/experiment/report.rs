@@ -1,13 +1,23 @@
 //! Tables, figures and guarded numbers.
 
-use super::group::{OfExperiment, SectionFive};
-use super::judge;
-use super::plotted::{ENERGY, Plotted, Quantity, U_TIP};
-use super::trace::SPAN;
-use super::{Experiments, straight_energy};
+use super::{
+    Experiments,
+    group::{OfExperiment, SectionFive},
+    judge,
+    plotted::{ENERGY, Plotted, Quantity, U_TIP},
+    straight_energy,
+    trace::SPAN,
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::{Findings, Listing};
-use convergence_study::internal::plots::inset::Place;
+use crate::{
+    figures,
+    kinds::runs::{Findings, Listing},
+};
+use convergence_study::{
+    Origin,
+    internal::plots::{self, inset::Place, xy::Xy},
+};
+use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
 /// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can
 /// be followed.

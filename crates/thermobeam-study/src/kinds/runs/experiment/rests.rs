@@ -3,6 +3,8 @@
 
 use super::AtRest;
 use crate::kinds::prelude::*;
+use convergence_study::Origin;
+use thermobeam::kirchhoff::BUCKLING;
 
 /// The β below which the paper's text claims several steady states.
 const AS_PRINTED: f64 = -0.5;
@@ -124,6 +126,7 @@ impl AxialForce {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use thermobeam::parameters::{Beam, Obstacles};
     use thermobeam_exact::equilibrium::equilibria;
 
     /// The number of steady states is that of the claim, at both ends of each range and next to

@@ -1,7 +1,9 @@
 //! What the free end does: recorded step by step, by any method.
 
 use super::*;
-use crate::run::Loaded;
+use crate::run::{Loaded, Sample};
+use convergence_judge::text::number::min_or_nan;
+use thermobeam::parameters::Obstacles;
 
 /// Intervals of a curve in a figure: more than the figure has columns.
 pub(super) const POINTS: usize = 4000;

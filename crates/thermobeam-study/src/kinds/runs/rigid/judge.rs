@@ -6,8 +6,20 @@ use convergence_judge::text::number::rate_text;
 
 use super::{RigidObstacles, RunOf, ShownImpact, peak_penetration};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::checks::{Condition, all, at_most, largest_difference, within};
-use crate::kinds::runs::{Findings, Listing, Results, Row};
+use crate::kinds::{
+    runs::{
+        Findings, Listing, Results, Row,
+        checks::{Condition, all, at_most, largest_difference, within},
+    },
+    settings::ItemMethod,
+};
+use convergence_study::{
+    Coverage, Refinement,
+    internal::study::{
+        coverage::NO_RESULT,
+        over_levels::{ErrorColumn, Levels},
+    },
+};
 
 /// Contraction above which a time step averages over the whole impact, so that the penetration is
 /// of order 1.

@@ -26,9 +26,23 @@
 
 mod judge;
 
-use super::steady::{listed_scene, settle, steps_to_rest, tolerance};
-use super::{Findings, Results, RunStudy, Runs, steady};
+use super::{
+    Findings, Results, RunStudy, Runs,
+    steady::{self, listed_scene, settle, steps_to_rest, tolerance},
+};
 use crate::kinds::prelude::*;
+use crate::{
+    kinds::settings::{CONTACT, Exercise, Integration},
+    run::{
+        ObservableMotion, RunError,
+        driver::Driver,
+        run_to,
+        simulate::{self, Recording, Simulator},
+    },
+    scene::{Scene, limits, tables},
+};
+use convergence_study::internal::input::POSITIVE;
+use thermobeam::{error::StepFailure, mesh::Mesh, parameters::Obstacles, solve::Solver};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {

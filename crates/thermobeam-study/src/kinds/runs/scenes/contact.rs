@@ -2,8 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::kinds::prelude::*;
-use crate::run::{AnyMotion, Watch};
+use crate::{
+    run::{AnyMotion, Report, RunError, Watch, simulate},
+    scene::Scene,
+};
+use thermobeam::scheme::MIDPOINT;
 
 /// Counts the steps of a one-step scheme whose report of contact disagrees with the free end.
 ///

@@ -1,10 +1,14 @@
 //! The keys of a case.
 
-use super::shown::{NUMBERS, NamedNumbers, PAIRS, listed};
-use super::{Answer, Most, PREDICTED, Whole};
+use super::{
+    Answer, Most, PREDICTED, Whole,
+    shown::{NUMBERS, NamedNumbers, PAIRS, listed},
+};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{ClaimedScene, End, NAMED};
-use crate::scene;
+use crate::{
+    kinds::runs::cases::{ClaimedScene, End, NAMED},
+    scene::{self, Scene},
+};
 
 /// The keys of a case.
 pub(super) const CASE: &[Keys] = &[

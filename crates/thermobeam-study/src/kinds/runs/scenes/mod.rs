@@ -37,17 +37,31 @@ mod file;
 mod norm;
 mod shown;
 
-use super::cases::{ClaimedScene, named_cases};
-use super::checks::{Condition, all, at_most, ended};
-use super::steady::exact_states;
-use super::{Findings, Results, RunStudy, Runs};
+use super::{
+    Findings, Results, RunStudy, Runs,
+    cases::{ClaimedScene, named_cases},
+    checks::{Condition, all, at_most, ended},
+    steady::exact_states,
+};
 use crate::kinds::prelude::*;
-use crate::kinds::tables::cost_of_run;
-use crate::predict::Work;
-use crate::predict::choice::{Quantity as Accuracy, choose};
-use crate::predict::estimate::estimate;
-use crate::run::together::{Together, run_together};
+use crate::{
+    kinds::{
+        settings::{Exercise, Integration, ItemMethod},
+        tables::cost_of_run,
+    },
+    predict::{
+        Work,
+        choice::{Quantity as Accuracy, choose},
+        estimate::estimate,
+    },
+    run::{
+        simulate::{Recording, Simulator},
+        together::{Together, run_together},
+    },
+    scene::{Method, Scene},
+};
 use contact::ContactCount;
+use convergence_judge::text::number::short_text;
 use shown::{NamedNumbers, STEADY, listed, unsolved};
 
 pub use shown::{COUNTS, NUMBERS, Shown};

@@ -1,7 +1,7 @@
 //! The norm of (3.14), a second time: the solver's own stops its iterations.
 
 use crate::exact::assembly::{Tridiagonal, coupling, mass, stiffness};
-use crate::kinds::prelude::*;
+use thermobeam::{mesh::Mesh, solve::Level};
 
 /// The norm by the matrices of (3.7).
 pub(super) struct OwnNorm {

@@ -3,9 +3,21 @@
 use std::ops::ControlFlow;
 
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::End;
-use crate::kinds::runs::watch::SOLVED;
-use crate::run::tally::Extremes;
+use crate::{
+    kinds::runs::{cases::End, watch::SOLVED},
+    run::{
+        Report, RunError,
+        driver::Driver,
+        run, run_to,
+        simulate::{self, Run},
+        tally::Extremes,
+    },
+    scene::Scene,
+};
+use thermobeam::{
+    one_step::{InitialValues, Stepping},
+    solve::{Settings, Stopping},
+};
 
 use super::norm::OwnNorm;
 

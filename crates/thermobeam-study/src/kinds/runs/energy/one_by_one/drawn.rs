@@ -1,7 +1,10 @@
 //! Figures of the runs that are drawn, and the table of their largest residuals.
 
 use super::{EnergyAt, EnergyRun, EnergyRuns, Found};
+use crate::figures::looks;
 use crate::kinds::prelude::*;
+use convergence_judge::text::number::plain_text;
+use convergence_study::internal::plots::{self, xy::Xy};
 
 /// Curves of all runs drawn.
 fn curves(

@@ -2,12 +2,25 @@
 
 use super::EnergyRun;
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{ClaimedScene, ENDS, End, NAMED};
-use crate::kinds::runs::energy::beams::smooth;
-use crate::kinds::runs::energy::bound::Stability;
-use crate::kinds::runs::watch::SOLVED;
-use crate::kinds::tables::{Layout, MAP};
-use crate::scene;
+use crate::{
+    kinds::{
+        runs::{
+            cases::{ClaimedScene, ENDS, End, NAMED},
+            energy::{beams::smooth, bound::Stability},
+            watch::SOLVED,
+        },
+        settings::Nodes,
+        tables::{Layout, MAP},
+    },
+    run::simulate,
+    scene::{self, Scene, limits, tables},
+};
+use thermobeam::{
+    mesh::Mesh,
+    one_step::{Problem, Stepping},
+    scheme::SCHEMES,
+    solve::{Settings, Solver, Stopping},
+};
 
 /// The keys of `[energy]`.
 pub(super) const ENERGY: [Key; 9] = [

@@ -36,10 +36,20 @@ mod recorder;
 use recorder::Recorder;
 
 use crate::kinds::prelude::*;
-use crate::kinds::runs::cases::{End, named_cases};
-use crate::kinds::runs::checks::{Condition, all, at_most, ended};
-use crate::kinds::runs::watch::{Worst, of_allowed};
-use crate::kinds::runs::{Findings, Listing, Results, Runs};
+use crate::{
+    kinds::{
+        runs::{
+            Findings, Listing, Results, Runs,
+            cases::{End, named_cases},
+            checks::{Condition, all, at_most, ended},
+            watch::{Worst, of_allowed},
+        },
+        settings::{ENERGY, Exercise, Integration, ItemMethod, Nodes, Terms},
+    },
+    run::{ObservableMotion, driver::Driver, run_to},
+};
+use convergence_judge::text::number::plain_text;
+use thermobeam::one_step::{Problem, Stepping};
 
 /// A study of this kind.
 #[derive(Clone)]
@@ -389,6 +399,7 @@ impl EnergyRun {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{run::simulate, scene::Scene};
 
     #[test]
     fn a_beam_with_loads_is_refused() {

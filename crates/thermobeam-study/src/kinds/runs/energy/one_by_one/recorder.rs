@@ -1,11 +1,16 @@
 //! What is recorded of a run, step by step.
 
-use thermobeam::energy::Energy;
+use thermobeam::{energy::Energy, motion::Motion, one_step::Problem};
 
 use super::{EnergyAt, EnergyRun, Found};
 use crate::kinds::prelude::*;
-use crate::kinds::runs::energy::bound::{Stability, left_side};
-use crate::kinds::runs::watch::EnergyWatch;
+use crate::{
+    kinds::runs::{
+        energy::bound::{Stability, left_side},
+        watch::EnergyWatch,
+    },
+    run::driver::Driver,
+};
 
 /// Samples of a run, about.
 const SAMPLES: usize = 400;

@@ -3,6 +3,7 @@
 use super::{Compliance, LARGEST, RigidObstacles, ShownImpact, penetration};
 use crate::figures::{ContractionFactors, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
+use convergence_study::internal::plots::{self, xy::Xy};
 
 pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     let mut converging = vec![];

@@ -69,11 +69,17 @@ fn as_json(text: &str) -> Value {
 
 /// The changes that a reader refuses and a schema does not, because the reader compares values of
 /// several keys or counts tables.
-const STRICTER: [&str; 13] = [
+const STRICTER: [&str; 19] = [
     "[obstacles] is missing",
     "[beam] is missing",
     "[beam] without theta_a",
     "[exact] without theta",
+    "[initial] is missing",
+    "[initial] without phi",
+    "[initial] without phi_t",
+    "[initial] without theta",
+    "[initial] without u",
+    "[initial] without u_t",
     "[[reference]] is missing",
     "[[discretisations]] is missing",
     "[case.beam] without theta_a",

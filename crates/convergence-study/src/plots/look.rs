@@ -120,10 +120,14 @@ pub struct Look {
     pub size: f64,
 }
 
-/// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with the next
-/// marker.
+/// Markers from that of a series to that of the next one with its colour: it is of another kind,
+/// strokes for a polygon. With an odd number all pairs of colour and marker occur.
+const MARKERS_ON: usize = 5;
+
+/// Look of the k-th series. The first 64 differ: from the 9th on, colours repeat with other
+/// markers.
 pub fn look(k: usize) -> Look {
-    let marker = (k + k / COLOURS.len()) % MARKERS.len();
+    let marker = (k + MARKERS_ON * (k / COLOURS.len())) % MARKERS.len();
     Look {
         colour: COLOURS[k % COLOURS.len()],
         marker: MARKERS[marker],

@@ -123,7 +123,7 @@ pub mod study {
         pub use crate::study::coverage::NO_RESULT;
     }
     pub mod header {
-        pub use crate::study::header::{Setting, is_name, of_file, study};
+        pub use crate::study::header::{Setting, is_name, study};
     }
     pub mod kind {
         pub use crate::study::kind::{judge, run_cases_here};

@@ -123,7 +123,7 @@ pub fn study(header: &Header) -> Setting {
 /// study's file.
 ///
 /// * `subject`: what the item is about; its quantity is known.
-pub fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
+pub(crate) fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
     let is_own = |path: &str| !path.starts_with("study.") && !path.contains('[');
     let own = [

@@ -1,30 +1,18 @@
 //! Runs reduced to their curves: numbers over time, by any method, and the distance between two
 //! such runs.
 
-use std::f64::consts::PI;
+mod any_order;
+mod one_step;
+
 use std::ops::ControlFlow;
 
 use convergence_judge::text::number::{max_or_nan, min_or_nan};
-use thermobeam::dg::{self, Dg, DgLevel, DgStepping, Field};
-use thermobeam::mesh::Mesh;
-use thermobeam::motion::{Motion, TipRange};
-use thermobeam::solve::Level;
+use thermobeam::dg::Space;
+use thermobeam::motion::TipRange;
 
 use super::{Cost, Reason, Work};
-use crate::run::dg::DgMotion;
-use crate::run::driver::Driver;
-use crate::run::{ObservableMotion, Report, run, simulate};
+use crate::run::{ObservableMotion, Report, run};
 use crate::scene::{Method, Scene};
-
-/// Times of comparison in a step of dG, including its end: dense at its ends, since a layer at the
-/// start may be shorter than the step.
-const POINTS: usize = 12;
-
-/// Maximum number of compared steps of the largest length; longer runs skip steps evenly.
-const MOST_LONG_STEPS: f64 = 20_000.0;
-
-/// Maximum number of times at which a one-step scheme is read.
-const TIMES: usize = 4000;
 
 /// Maximum number of values kept from a run by a one-step scheme, or from the steps of the largest
 /// length by dG.
@@ -60,7 +48,7 @@ pub(super) struct NormPoint {
 impl Rows {
     /// The points for the norm: `count` Gauss points in each element.
     pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
-        let gauss = dg::Space::gauss(count);
+        let gauss = Space::gauss(count);
         let mut points = vec![];
         for x in nodes.windows(2) {
             let middle = 0.5 * (x[0] + x[1]);
@@ -109,80 +97,6 @@ impl Rows {
     /// Adds the entries of one point to a row, from u_x, φ, φ_x, v, w and θ there.
     fn push(row: &mut Vec<f64>, weight: f64, [u_x, phi, phi_x, v, w, theta]: [f64; 6]) {
         row.extend_from_slice(&[v, u_x - phi, w, phi_x, theta].map(|value| weight * value));
-    }
-
-    /// The points of the norm in a space.
-    fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
-        match self {
-            Self::Norm(points) => points.iter().map(|point| space.locate(point.x)).collect(),
-            _ => vec![],
-        }
-    }
-
-    fn of_dg(
-        &self,
-        simulation: &Dg,
-        t: f64,
-        located: &[dg::Point],
-        level: &mut DgLevel,
-        row: &mut Vec<f64>,
-    ) {
-        if let Self::Tip = self {
-            row.push(simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN));
-            return;
-        }
-        simulation.level_into(t, level);
-        let space = simulation.space();
-        let Self::Norm(points) = self else {
-            row.extend(
-                [Field::U, Field::Phi].map(|field| level.value_and_slope(space, field, 1.0).0),
-            );
-            return row.push(simulation.energy(level).total());
-        };
-        for (NormPoint { root_weight, .. }, point) in points.iter().zip(located) {
-            let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
-                level.values_and_slopes_at(space, point);
-            Self::push(row, *root_weight, [u_x, phi, phi_x, v, w, theta]);
-        }
-    }
-
-    fn of_one_step(
-        &self,
-        mesh: &Mesh,
-        level: &Level,
-        energy: impl FnOnce() -> f64,
-        row: &mut Vec<f64>,
-    ) {
-        let (last, nodes) = (mesh.elements(), mesh.nodes());
-        let Self::Norm(points) = self else {
-            row.push(level.u[last]);
-            if let Self::Numbers = self {
-                row.extend([level.phi[last], energy()]);
-            }
-            return;
-        };
-        let mut i = 0;
-        for &NormPoint { x, root_weight } in points {
-            while nodes[i + 1] < x {
-                i += 1;
-            }
-            let h = nodes[i + 1] - nodes[i];
-            let value = |y: &[f64]| y[i] + (y[i + 1] - y[i]) * ((x - nodes[i]) / h);
-            let slope = |y: &[f64]| (y[i + 1] - y[i]) / h;
-            let [v, w, theta] = [&level.v, &level.w, &level.theta].map(|y| value(y));
-            Self::push(
-                row,
-                root_weight,
-                [
-                    slope(&level.u),
-                    value(&level.phi),
-                    slope(&level.phi),
-                    v,
-                    w,
-                    theta,
-                ],
-            );
-        }
     }
 }
 
@@ -248,7 +162,7 @@ impl Curves {
 ///
 /// * `at`: increasing times of reading, for a one-step scheme ends of steps. `None` selects the
 ///   run's own times: by dG also inside steps, by a one-step scheme the last level and at most
-///   [`TIMES`] evenly spaced levels before.
+///   [`one_step::TIMES`] evenly spaced levels before.
 ///
 /// # Errors
 /// The scene is refused, a step fails, or the time limit or the work limit is reached.
@@ -259,8 +173,8 @@ pub(super) fn curves(
     work: &mut Work<'_>,
 ) -> Result<Curves, Reason> {
     let curves = match scene.method {
-        Method::OneStep(_) => by_one_step(scene, rows, times, work),
-        Method::Dg(stepping) => by_dg(scene, stepping, rows, times, work),
+        Method::OneStep(_) => one_step::curves(scene, rows, times, work),
+        Method::Dg(stepping) => any_order::curves(scene, stepping, rows, times, work),
     }?;
     work.ran(&curves.cost);
     Ok(curves)
@@ -286,137 +200,6 @@ fn run_within<M: ObservableMotion>(
         Some(reason) => Err(reason),
         None => outcome.map_err(Reason::of_run),
     }
-}
-
-fn by_dg(
-    scene: &Scene,
-    stepping: DgStepping,
-    rows: &Rows,
-    times: Option<&[f64]>,
-    work: &mut Work<'_>,
-) -> Result<Curves, Reason> {
-    let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
-    let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
-    let mut curves = Curves::new(rows, motion.motion().tip_range());
-    let mut level = motion.simulation().level().clone();
-    let located = rows.located(motion.simulation().space());
-    let mut passed = 0;
-    let mut long = 0_usize;
-    let mut solves = 0;
-    let early = stepping.restart_dt / (stepping.growth - 1.0);
-    let most = MOST_LONG_STEPS.min((MOST_KEPT / (POINTS * rows.width())).max(1) as f64);
-    let stride = (scene.t_end / stepping.dt / most).ceil().max(1.0) as usize;
-    let mut read = |motion: &mut DgMotion| {
-        let simulation = motion.simulation();
-        let done = simulation.work().passes;
-        work.add((unknowns * (done - solves)) as f64)?;
-        solves = done;
-        let (from, to) = (simulation.old_level().t, simulation.t());
-        curves.include(simulation.tip_range());
-        if let Some(times) = times {
-            while let Some(&t) = times.get(passed).filter(|t| **t <= to) {
-                rows.of_dg(simulation, t, &located, &mut level, &mut curves.values);
-                passed += 1;
-            }
-            return Ok(());
-        }
-        let is_long = to - from >= stepping.dt && to < scene.t_end;
-        long += usize::from(is_long);
-        if is_long && !long.is_multiple_of(stride) {
-            return Ok(());
-        }
-        for instance in instances(simulation, early) {
-            rows.of_dg(
-                simulation,
-                instance.t,
-                &located,
-                &mut level,
-                &mut curves.values,
-            );
-            curves.times.push(instance);
-        }
-        Ok(())
-    };
-    run_within(&mut motion, scene.t_end, &mut read)?;
-    curves.cost = Cost {
-        work: (unknowns * solves) as f64,
-        seconds: motion.work().wall.as_secs_f64(),
-        runs: 1,
-    };
-    Ok(curves)
-}
-
-/// Times in the last step; a step is early if it is closer than `early` to the start or an event.
-fn instances(simulation: &Dg, early: f64) -> [Instance; POINTS] {
-    let (from, to) = (simulation.old_level().t, simulation.t());
-    let event = simulation
-        .events()
-        .iter()
-        .rev()
-        .map(|event| event.t)
-        .find(|t| *t <= from)
-        .unwrap_or(0.0);
-    std::array::from_fn(|point| {
-        let s = 0.5 * (1.0 - (PI * (point + 1) as f64 / POINTS as f64).cos());
-        let t = if point + 1 == POINTS {
-            to
-        } else {
-            from + s * (to - from)
-        };
-        Instance {
-            t,
-            since: t - event,
-            early: from - event < early,
-        }
-    })
-}
-
-fn by_one_step(
-    scene: &Scene,
-    rows: &Rows,
-    times: Option<&[f64]>,
-    work: &mut Work<'_>,
-) -> Result<Curves, Reason> {
-    let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
-    let (elements, steps) = (scene.mesh.elements(), scene.steps());
-    let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
-    let tip = driver.level().u[elements];
-    let mut curves = Curves::new(rows, TipRange::at(tip));
-    let mut read = |driver: &mut Driver<'_>| {
-        let simulation = driver.simulation();
-        let new = driver.level();
-        let n = driver.work().steps;
-        curves.include(TipRange::at(new.u[elements]));
-        let t = simulation.t();
-        let is_read = match times {
-            None => n.is_multiple_of(every) || n == steps,
-            // Up to rounding, steps of half the length end there.
-            Some(times) => times
-                .get(curves.times.len())
-                .is_some_and(|time| t >= time - 0.5 * simulation.dt()),
-        };
-        if is_read {
-            curves.times.push(Instance {
-                t,
-                since: 0.0,
-                early: false,
-            });
-            rows.of_one_step(
-                &scene.mesh,
-                new,
-                || simulation.energy(new).total(),
-                &mut curves.values,
-            );
-        }
-        work.add(elements as f64)
-    };
-    run_within(&mut driver, scene.t_end, &mut read)?;
-    curves.cost = Cost {
-        work: (elements * steps) as f64,
-        seconds: driver.work().wall.as_secs_f64(),
-        runs: 1,
-    };
-    Ok(curves)
 }
 
 /// The largest differences between a run, at its own times, and another, in units of the tolerance.

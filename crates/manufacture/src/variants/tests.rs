@@ -1,0 +1,233 @@
+//! Variants by their closed forms, and those that are left out.
+
+use super::*;
+
+pub(super) const HEAT: &str = r#"
+[manufacture]
+name = "heat"
+coordinates = ["x"]
+time = "t"
+[domain]
+x = [0, 1]
+t = [0, 2]
+[exact]
+u = "sin(x)*exp(-t)"
+[equations.u]
+storage = "dt(u)"
+diffusion = "-d(u, x, x)"
+[boundary.x_min]
+u = "u"
+[boundary.x_max]
+flux = "d(u, x)"
+[initial]
+u = "u"
+"#;
+
+fn few() -> Sampling {
+    Sampling {
+        points: 40,
+        ..Sampling::default()
+    }
+}
+
+fn model(text: &str) -> Model {
+    Model::new(Problem::parse(text, "heat.toml").unwrap()).unwrap()
+}
+
+fn named<'v>(variants: &'v Variants<'_>, name: &str) -> &'v Variant {
+    let mut usable = variants.usable.iter();
+    usable
+        .find(|variant| variant.switch.variant() == name)
+        .unwrap_or_else(|| panic!("no {name}: {:?}", variants.left_out))
+}
+
+/// The exact value and the source of u.
+fn at(variant: &Variant, point: [f64; 2]) -> [f64; 2] {
+    [Role::Exact, Role::Source].map(|role| {
+        let quantity = variant.model.of_role(role).next().unwrap();
+        let tensors = std::iter::once(&quantity.tensor);
+        let rows = Rows::new(&variant.model.graph, tensors).at(&point);
+        rows.tensors[0][0].value
+    })
+}
+
+fn assert_close(found: [f64; 2], expected: [f64; 2]) {
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
+}
+
+#[test]
+fn the_variants_of_a_problem_are_those_of_its_coordinates_faces_and_time() {
+    let model = model(HEAT);
+    let variants = variants(&model, &few()).unwrap();
+    let names: Vec<String> = variants.usable.iter().map(|v| v.switch.variant()).collect();
+    let expected = [
+        "constant_x",
+        "constant_t",
+        "flat_x_min",
+        "flat_x_max",
+        "flat_x",
+        "flat_initial",
+        "flat_everywhere",
+    ];
+    assert_eq!(names, expected, "{:?}", variants.left_out);
+}
+
+#[test]
+fn variants_have_the_values_of_their_closed_forms() {
+    let model = model(HEAT);
+    let variants = variants(&model, &few()).unwrap();
+    let [x, t] = [0.7_f64, 0.9_f64];
+    // sin(x) without its Taylor polynomial of degree 3 at 0.
+    let expected = [
+        (x.sin() - x + x.powi(3) / 6.0) * (-t).exp(),
+        (-(x.sin() - x + x.powi(3) / 6.0) + x.sin() - x) * (-t).exp(),
+    ];
+    assert_close(at(named(&variants, "flat_x_min"), [x, t]), expected);
+    let held = 0.4_f64.sin();
+    let expected = [held * (-t).exp(), -held * (-t).exp()];
+    assert_close(at(named(&variants, "constant_x"), [x, t]), expected);
+    let held = (-0.8_f64).exp() * x.sin();
+    assert_close(at(named(&variants, "constant_t"), [x, t]), [held, held]);
+    let taylor = 1.0 - t + t * t / 2.0 - t.powi(3) / 6.0;
+    let slope = -1.0 + t - t * t / 2.0;
+    let expected = [
+        x.sin() * ((-t).exp() - taylor),
+        x.sin() * (-(-t).exp() - slope + (-t).exp() - taylor),
+    ];
+    assert_close(at(named(&variants, "flat_initial"), [x, t]), expected);
+}
+
+#[test]
+fn a_flat_variant_vanishes_like_a_fourth_power_at_each_of_its_faces() {
+    let model = model(HEAT);
+    let variants = variants(&model, &few()).unwrap();
+    for (name, ends) in [
+        ("flat_x_min", vec![0.0]),
+        ("flat_x_max", vec![1.0]),
+        ("flat_x", vec![0.0, 1.0]),
+    ] {
+        let variant = named(&variants, name);
+        assert!(at(variant, [0.45, 0.3])[0].abs() > 1e-4, "{name}");
+        for end in ends {
+            let near = |distance: f64| {
+                let x = if end == 0.0 { distance } else { 1.0 - distance };
+                at(variant, [x, 0.3])[0]
+            };
+            let order = (near(0.04) / near(0.02)).log2();
+            assert!((3.7..5.2).contains(&order), "{name} at {end}: {order}");
+        }
+    }
+}
+
+#[test]
+fn what_is_flat_at_both_faces_of_a_coordinate_has_the_size_of_the_solution() {
+    let model = model(HEAT);
+    let variants = variants(&model, &few()).unwrap();
+    let x = 0.7_f64;
+    let t = 0.9_f64;
+    let weight = (4.0 * x * (1.0 - x)).powi(4);
+    let slope = 4.0 * (4.0 * x * (1.0 - x)).powi(3) * (4.0 - 8.0 * x);
+    let curvature = 12.0 * (4.0 * x * (1.0 - x)).powi(2) * (4.0 - 8.0 * x).powi(2)
+        - 32.0 * (4.0 * x * (1.0 - x)).powi(3);
+    let second = curvature * x.sin() + 2.0 * slope * x.cos() - weight * x.sin();
+    let expected = [
+        weight * x.sin() * (-t).exp(),
+        (-weight * x.sin() - second) * (-t).exp(),
+    ];
+    let [value, source] = at(named(&variants, "flat_x"), [x, t]);
+    assert!((value - expected[0]).abs() < 1e-13 && (source - expected[1]).abs() < 1e-11);
+    // Both together vanish at the first time, too.
+    let everywhere = named(&variants, "flat_everywhere");
+    let order = (at(everywhere, [x, 0.04])[0] / at(everywhere, [x, 0.02])[0]).log2();
+    assert!((3.9..4.1).contains(&order), "{order}");
+    let order = (at(everywhere, [0.04, t])[0] / at(everywhere, [0.02, t])[0]).log2();
+    assert!((3.7..5.2).contains(&order), "{order}");
+}
+
+#[test]
+fn the_size_of_a_variant_is_that_of_its_solution() {
+    let model = model(HEAT);
+    let variants = variants(&model, &few()).unwrap();
+    // The mean of sin(x)^2 is 0.27, that of exp(-2t) 0.25.
+    assert!((variants.size - 0.26).abs() < 0.06, "{}", variants.size);
+    let size = named(&variants, "flat_x_min").size;
+    // sin(x) - x + x^3/6 is x^5/120, and less than 0.0081.
+    assert!((1e-4..3e-3).contains(&size), "{size}");
+}
+
+#[test]
+fn a_variant_that_breaks_a_condition_is_left_out_and_says_why() {
+    let held = HEAT.replace(
+        "u = \"u\"\n[boundary.x_max]",
+        "u = { of = \"u\", is = \"0\" }\n[boundary.x_max]",
+    );
+    assert_ne!(held, HEAT);
+    let model = model(&held);
+    let variants = variants(&model, &few()).unwrap();
+    let left_out: Vec<String> = variants
+        .left_out
+        .iter()
+        .map(|entry| entry.switch.variant())
+        .collect();
+    // Flat at x_max alone u has another value at x_min.
+    assert_eq!(left_out, ["constant_x", "flat_x_max"]);
+    assert!(variants.left_out[0].why.contains("condition-violated"));
+}
+
+#[test]
+fn a_flat_field_keeps_the_value_that_a_face_prescribes() {
+    let held = HEAT
+        .replace("sin(x)*exp(-t)", "1 + sin(x)*exp(-t)")
+        .replacen("u = \"u\"", "u = { of = \"u\", is = \"1\" }", 1);
+    let model = model(&held);
+    let variants = variants(&model, &few()).unwrap();
+    for name in ["flat_x_min", "flat_x", "flat_initial"] {
+        let variant = named(&variants, name);
+        assert!((at(variant, [0.0, 0.7])[0] - 1.0).abs() < 1e-13, "{name}");
+    }
+}
+
+#[test]
+fn a_field_that_must_be_positive_is_lifted_or_the_variant_is_left_out() {
+    let positive = format!(
+        "{}\n[require]\npositive = [\"u\"]\n",
+        HEAT.replace("sin(x)", "(2 + sin(x))")
+    );
+    let model = model(&positive);
+    let variants = variants(&model, &few()).unwrap();
+    let variant = named(&variants, "flat_x_max");
+    let lowest = (0..=20)
+        .map(|k| at(variant, [f64::from(k) / 20.0, 1.0])[0])
+        .fold(f64::INFINITY, f64::min);
+    assert!(lowest > 0.0, "{lowest}");
+}
+
+#[test]
+fn only_the_named_parameters_are_set_to_zero() {
+    let text = HEAT
+        .replace(
+            "[exact]",
+            "[parameters]\nb = 2\nc = 3\n[variants]\nparameters = [\"b\"]\n[exact]",
+        )
+        .replace(
+            "storage =",
+            "advection = \"b*d(u, x)\"\nreaction = \"c*u\"\nstorage =",
+        );
+    let model = model(&text);
+    let variants = variants(&model, &few()).unwrap();
+    let [x, t] = [0.7_f64, 0.9_f64];
+    // -u + 3 u + u, without the advection.
+    let u = x.sin() * (-t).exp();
+    assert_close(at(named(&variants, "zero_b"), [x, t]), [u, 3.0 * u]);
+    let zero = variants
+        .usable
+        .iter()
+        .filter(|variant| matches!(variant.switch, Switch::Parameter(_)));
+    assert_eq!(zero.count(), 1);
+    assert_eq!(model.part(Part::Initial).len(), 1);
+    let wrong = text.replace("[\"b\"]", "[\"d\"]");
+    let error = Problem::parse(&wrong, "heat.toml").unwrap_err().to_string();
+    assert!(error.contains("unknown parameter `d`"), "{error}");
+}

@@ -55,9 +55,6 @@ pub(crate) struct Arguments {
     /// Makes only the runs of this method, of this problem (a study), or `steps`; again for more
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Keeps the runs of an earlier piece, and makes only those that it lacks
-    #[arg(long, requires = "out")]
-    resume: bool,
     /// CPU seconds that a run may take; for all pieces the same, since a dash means that it was not
     /// enough
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
@@ -216,12 +213,7 @@ fn add(
         .map_err(|failure| unusable(problem.0, &failure))?;
     let error = reference.map_or([0.0; 2], |(_, error)| [error.norm, error.tip]);
     record.references.insert(problem.0.to_owned(), error);
-    let made = if arguments.resume {
-        record.made(problem.0, method.name)
-    } else {
-        vec![]
-    };
-    let runs = Search::new(problem, method, made, arguments.limit, cpu_seconds)
+    let runs = Search::new(problem, method, arguments.limit, cpu_seconds)
         .all()
         .map_err(|failure| unusable(problem.0, &failure))?;
     record.replace(problem.0, method.name, runs);

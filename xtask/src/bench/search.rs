@@ -87,26 +87,21 @@ fn work(grid: &Grid) -> f64 {
 
 impl<'s> Search<'s> {
     /// * `problem`: the study's name.
-    /// * `made`: runs of the method on the problem that are not made again.
     /// * `limit`: CPU seconds that a run may take.
     pub(super) fn new(
         (problem, study): (&'s str, &'s WorkPrecision),
         method: NamedMethod,
-        made: Vec<Timed>,
         limit: f64,
         clock: Clock,
     ) -> Self {
-        let known = made
-            .iter()
-            .map(|run| (run.resolution.clone(), Some(run.clone())));
         Self {
             study,
             problem,
             method,
             limit,
             clock,
-            known: known.collect(),
-            runs: made,
+            known: HashMap::new(),
+            runs: vec![],
         }
     }
 

@@ -1,12 +1,12 @@
 use convergence_judge::interval::Interval;
-use convergence_study::{FromFile, Kind, Verdict};
+use convergence_study::{FromFile, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::bifurcation::{AtRest, Bifurcation, Diagram, Found, ROW};
 
 use super::file;
 use super::planted::verdict_with;
 use super::refused::refusal;
-use super::typed::{counted, passes_but_not_without_each_case};
+use super::typed::passes_but_not_without_each_case;
 
 type BifurcationStudy = RunStudy<Bifurcation>;
 
@@ -33,8 +33,6 @@ fn each_claim_can_fail() {
     let study =
         BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
     let sound = passes_but_not_without_each_case(&study);
-    let all = counted(&study.judge(&sound), "runs to rest").clone();
-    assert!(all.is_complete() && all.asked > 10, "{all}");
     let unstable =
         |rest: &mut AtRest| rest.nearest.as_mut().expect("a steady state").state.stable = false;
     for (number, (label, plant)) in [

@@ -181,10 +181,10 @@ impl Runs for Solutions {
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
         let checks: Vec<Check> = results
-            .completed()
+            .all()
             .flat_map(|(&place, found)| self.checks(&self.steps[place], found))
             .collect();
-        let counts = results.completed().map(|(&place, found)| {
+        let counts = results.all().map(|(&place, found)| {
             format!("{} at dt = {}", found.tips.len(), self.steps[place].dt)
         });
         let summary = format!(

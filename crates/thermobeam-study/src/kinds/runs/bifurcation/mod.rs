@@ -76,6 +76,29 @@ pub enum Found {
     Rest(AtRest),
 }
 
+impl Found {
+    fn diagram(&self) -> &Diagram {
+        match self {
+            Self::Diagram(diagram) => diagram,
+            other => unreachable!("a diagram shows {other:?}"),
+        }
+    }
+
+    fn force(&self) -> f64 {
+        match self {
+            Self::Force(force) => *force,
+            other => unreachable!("a buckling force shows {other:?}"),
+        }
+    }
+
+    fn rest(&self) -> &AtRest {
+        match self {
+            Self::Rest(rest) => rest,
+            other => unreachable!("a run to rest shows {other:?}"),
+        }
+    }
+}
+
 const KEYS: [Key; 3] = [
     Key::new(
         "diagram",

@@ -31,10 +31,7 @@ use crate::{
     run::RunError,
     scene::limits,
 };
-use convergence_study::{
-    Coverage,
-    internal::{plots, study::coverage::NO_RESULT},
-};
+use convergence_study::{Coverage, internal::plots};
 use thermobeam::{
     kirchhoff::BUCKLING,
     mesh::MeshError,
@@ -142,7 +139,7 @@ impl Runs for RandomScenes {
     }
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let batches = results.completed().map(|(_, batch)| batch);
+        let batches = results.all().map(|(_, batch)| batch);
         let total = batches.fold(Batch::default(), Batch::with);
         let scenes = self.batches * BATCH;
         let listed = exceptions(results);
@@ -171,7 +168,7 @@ impl Runs for RandomScenes {
             ),
             headline: format!("{headline}; largest residual {largest}"),
             checks: total.claims(scenes, exceptions),
-            coverage: vec![self.coverage(&total)],
+            coverage: vec![total.coverage()],
             listings: vec![Listing::from(counts), Listing::from(self.table(&listed))],
             figures: vec![residuals(&total.scenes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
@@ -182,22 +179,6 @@ impl Runs for RandomScenes {
 }
 
 impl RandomScenes {
-    /// The scenes that are judged to their last step; the others are judged up to the step that
-    /// fails.
-    fn coverage(&self, total: &Batch) -> Coverage {
-        let [answers, indefinite, others] = total.ended();
-        let ended = answers + indefinite + others;
-        let missing = (self.batches * BATCH).saturating_sub(ended);
-        let mut reasons = vec![None; answers];
-        reasons.extend(vec![
-            Some("refused, the operator is not definite");
-            indefinite
-        ]);
-        reasons.extend(vec![Some("ended by another failure"); others]);
-        reasons.extend(vec![Some(NO_RESULT); missing]);
-        Coverage::of("scenes to their last step", reasons)
-    }
-
     fn scheme(&self, batch: usize) -> Scheme {
         SCHEMES[batch % SCHEMES.len()]
     }
@@ -270,7 +251,7 @@ impl RandomScenes {
 /// residual.
 fn exceptions(results: &Results<'_, RandomScenes>) -> Vec<(usize, f64)> {
     let mut above = vec![];
-    for (batch, Batch { scenes, .. }) in results.completed() {
+    for (batch, Batch { scenes, .. }) in results.all() {
         for (scene, &[.., residual]) in (batch * BATCH..).zip(scenes) {
             if !(residual <= CLOSED) {
                 above.push((scene, residual));
@@ -291,6 +272,19 @@ fn is_definite(beam: &Beam, dt: f64) -> bool {
 }
 
 impl Batch {
+    /// The scenes that are judged to their last step; the others are judged up to the step that
+    /// fails.
+    fn coverage(&self) -> Coverage {
+        let [answers, indefinite, others] = self.ended();
+        let mut reasons = vec![None; answers];
+        reasons.extend(vec![
+            Some("refused, the operator is not definite");
+            indefinite
+        ]);
+        reasons.extend(vec![Some("ended by another failure"); others]);
+        Coverage::of("scenes to their last step", reasons)
+    }
+
     /// The sum of both.
     fn with(mut self, other: &Self) -> Self {
         self.ends

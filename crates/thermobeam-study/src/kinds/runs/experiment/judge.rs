@@ -45,7 +45,6 @@ pub(super) fn checks(
     let mut checks = vec![never_rises(&runs.all)];
     checks.extend(ends_straight(&runs.first, REMAINS * study.rate));
     checks.extend(moves(&runs.first));
-    // If a run is missing, the check of completion has failed.
     for runs in &runs.all.runs {
         match runs.experiment.group {
             SectionGroup::First => {}
@@ -57,9 +56,8 @@ pub(super) fn checks(
         .into_iter()
         .map(|check| check.stated_by(Origin::Source))
         .collect();
-    let complete = runs.rests.len() == study.rest.betas.len();
-    checks.extend(rests::checks(&runs.rests, complete));
-    checks.push(paper::data(study));
+    checks.extend(rests::checks(&runs.rests));
+    checks.push(study.data());
     checks.push(paper::motion(&runs.first));
     checks.push(thin_lines(plotted));
     if study.fixed_point.is_some() {

@@ -41,14 +41,12 @@ mod paper;
 mod plotted;
 mod report;
 mod rests;
+mod tasks;
 mod trace;
-
-use std::ops::ControlFlow;
 
 use super::{
     Findings, Results, RunStudy, Runs,
-    side_by_side::SideBySide,
-    steady::{ToRest, compared, listed_scene},
+    steady::{ToRest, listed_scene},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -57,16 +55,15 @@ use crate::{
         settings::{CONTACT, Exercise, Integration},
         tables::{DISCRETISATIONS, Discretisation, discretisations},
     },
-    run::{AnyMotion, Report, run, simulate},
     scene::{Scene, limits},
 };
 use convergence_study::internal::input::POSITIVE;
 use group::SectionFive;
 use thermobeam_exact::equilibrium::Phase;
-use trace::{Observed, Recorder};
 
 pub use super::side_by_side::SolverComparison;
 pub use super::steady::{AtRest, Nearest};
+pub use tasks::{Found, Measured, PaperRun, Task};
 pub use trace::Trace;
 
 /// The row of the table of kinds.
@@ -114,57 +111,6 @@ pub struct Experiments {
     /// Fall of the energy per unit of time below which the state is steady.
     rate: f64,
     rest: ToRest,
-}
-
-/// What a case runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
-    /// An experiment by dG until it is steady.
-    AnyOrder {
-        /// Its place.
-        experiment: usize,
-        /// The place of the discretisation.
-        discretisation: usize,
-    },
-    /// The experiment at this place by the paper's algorithm, with Newton's method beside it.
-    FixedPoint(usize),
-    /// A moving beam until it rests, with the β at this place.
-    Rest(usize),
-}
-
-/// What a case finds.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Found {
-    /// Of an experiment by dG.
-    Run(Box<Measured>),
-    /// Of an experiment by the paper's algorithm.
-    FixedPoint(Box<PaperRun>),
-    /// Of a run to rest.
-    Rest(AtRest),
-}
-
-/// An experiment by dG, until it is steady.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
-    /// The motion.
-    pub trace: Trace,
-    /// The beam as soon as it is steady.
-    pub end: AtRest,
-    /// The energy then.
-    pub energy: f64,
-    /// The contact force then: positive at the upper obstacle.
-    pub contact_force: f64,
-    /// Largest absolute value of u, φ and the lifted temperature then.
-    pub largest_field: f64,
-}
-
-/// An experiment by the paper's algorithm.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PaperRun {
-    /// The motion.
-    pub trace: Trace,
-    /// Distance to Newton's solution, and iterations.
-    pub solvers: SolverComparison,
 }
 
 const KEYS: [Key; 5] = [
@@ -379,6 +325,11 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
 }
 
 impl Experiments {
+    /// Whether the scenes are the paper's experiments, which needs no run.
+    pub fn data(&self) -> Check {
+        paper::data(self)
+    }
+
     fn any_order_case(&self, experiment: usize, discretisation: usize) -> Case<Task> {
         // Steady states are reached at t = 50 to 100.
         const STEADY: f64 = 80.0;
@@ -412,93 +363,6 @@ impl Experiments {
             .filter(|experiment| experiment.group == SectionGroup::First);
         first.count() / 2
     }
-
-    /// Runs an experiment by dG until its energy is steady.
-    ///
-    /// # Errors
-    /// A step that fails, steady states that cannot be found, or a beam that still moves at
-    /// `t_max`.
-    fn run_until_steady(
-        &self,
-        experiment: usize,
-        discretisation: usize,
-    ) -> Result<Measured, CaseFailure> {
-        let original = &self.experiments[experiment].scene;
-        let scene = self.discretisations[discretisation].of(original, self.t_max)?;
-        let mut motion = simulate::motion(&scene)?;
-        let observed = Observed {
-            t_end: original.t_end,
-            t_max: self.t_max,
-            levels: trace::POINTS,
-            frames: experiment == self.animated() && discretisation == 0,
-        };
-        let mut recorder = Recorder::new(observed, &mut *motion);
-        let mut windows = 0.0;
-        while motion.work().t < self.t_max {
-            windows += 1.0;
-            let end = (windows * self.window).min(self.t_max);
-            // Summed from differences: the round-off of the total would hide a slow fall.
-            let mut fall = 0.0;
-            let mut watch = |motion: &mut AnyMotion, _: &Report| {
-                fall -= recorder.add(motion)?;
-                Ok(ControlFlow::Continue(()))
-            };
-            run(&mut *motion, end, &[], &mut [&mut watch])?;
-            if fall <= self.rate * self.window {
-                return measured(
-                    &scene,
-                    recorder.finish(&*motion, scene.obstacles),
-                    &mut *motion,
-                );
-            }
-        }
-        Err(CaseFailure::new(format!(
-            "not steady by t = {}",
-            self.t_max
-        )))
-    }
-
-    /// Runs an experiment by the paper's algorithm at its own resolution, with Newton's method
-    /// beside it.
-    ///
-    /// # Errors
-    /// A step that fails.
-    fn run_side_by_side(&self, experiment: usize) -> Result<PaperRun, CaseFailure> {
-        let scene = &self.experiments[experiment].scene;
-        let tolerance = self.fixed_point;
-        let tolerance = tolerance.ok_or_else(|| CaseFailure::new("the study has no tolerance"))?;
-        let mut both = SideBySide::new(scene, tolerance)?;
-        let observed = Observed {
-            t_end: scene.t_end,
-            t_max: scene.t_end,
-            levels: trace::LEVELS,
-            frames: false,
-        };
-        let mut recorder = Recorder::new(observed, &mut both.fixed_point);
-        for _ in 0..scene.steps() {
-            both.step()?;
-            recorder.add(&mut both.fixed_point)?;
-        }
-        Ok(PaperRun {
-            trace: recorder.finish(&both.fixed_point, scene.obstacles),
-            solvers: both.comparison,
-        })
-    }
-}
-
-/// The beam at its end.
-fn measured(scene: &Scene, trace: Trace, motion: &mut AnyMotion) -> Result<Measured, CaseFailure> {
-    let nodes = compared(scene)?;
-    let t = motion.work().t;
-    let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
-    let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
-    Ok(Measured {
-        trace,
-        largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
-        end: AtRest::of(scene, &nodes, t, &level, |_| true)?,
-        energy: last.energy,
-        contact_force: last.contact_force,
-    })
 }
 
 /// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a

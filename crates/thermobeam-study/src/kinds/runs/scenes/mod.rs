@@ -229,7 +229,7 @@ impl Runs for Scenes {
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
         let shown: Vec<(&Whole, &Shown)> = results
-            .completed()
+            .all()
             .map(|(place, shown)| (&self.scenes[*place], shown))
             .collect();
         let mut checks: Vec<Check> = shown

@@ -248,15 +248,15 @@ impl Runs for EnergyRuns {
     }
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let completed: Vec<(&EnergyRun, &Found)> = results
-            .completed()
+        let runs: Vec<(&EnergyRun, &Found)> = results
+            .all()
             .map(|(place, found)| (&self.runs[*place], found))
             .collect();
         let mut checks = vec![];
         let mut worst = Worst::default();
         let mut steps = 0;
         let mut share = 0.0;
-        for (run, found) in &completed {
+        for (run, found) in &runs {
             checks.push(run.check(found));
             steps += found.steps;
             if run.end != End::Unbalanced {
@@ -276,10 +276,7 @@ impl Runs for EnergyRuns {
         } else {
             "no step".to_owned()
         };
-        let drawn: Vec<_> = completed
-            .into_iter()
-            .filter(|(run, _)| run.is_drawn)
-            .collect();
+        let drawn: Vec<_> = runs.into_iter().filter(|(run, _)| run.is_drawn).collect();
         Findings {
             summary: format!(
                 "{holding} of {} runs hold, {steps} steps: {headline}; at most {}",

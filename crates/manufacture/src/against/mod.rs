@@ -7,13 +7,15 @@
 //! | `candidates/`, `site.rs` | all single edits of the file, by their places in its trees and its text |
 //! | `bench.rs` | what becomes of a quantity after an edit |
 //! | `solve.rs`, `trial.rs` | the factor of an edit, and whether it fits at a few points |
-//! | `search.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
+//! | `search.rs` | the components of an answer, and the edits that may explain them |
+//! | `explain.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
 //! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
 pub(crate) mod ask;
 pub(crate) mod bench;
 pub(crate) mod candidates;
 pub(crate) mod cause;
+mod explain;
 mod pairs;
 mod right;
 mod search;

@@ -6,44 +6,10 @@ use super::right::Place;
 use super::search::{Search, position};
 use super::site;
 use super::solve::{difference, simple};
-use super::trial::Trial;
+use super::trial::{Effect, Trial};
 use crate::fit::{self, Column};
 use crate::language::tree::{Kind, Tree};
 use crate::problem::Problem;
-
-/// What an edit adds to all components that are wrong, one after the other.
-#[derive(Debug, Clone)]
-pub(super) struct Effect {
-    pub(super) candidate: usize,
-    /// For one more of its factor, or for the edit itself.
-    column: Column,
-    is_free: bool,
-}
-
-impl Effect {
-    /// Of an edit without a number.
-    pub(super) fn fixed(column: Column) -> Self {
-        Self {
-            candidate: 0,
-            column,
-            is_free: false,
-        }
-    }
-
-    /// The same, of this candidate.
-    pub(super) fn of(self, candidate: usize) -> Self {
-        Self { candidate, ..self }
-    }
-
-    /// Of an edit whose values are linear in a factor.
-    pub(super) fn free(column: Column) -> Self {
-        Self {
-            candidate: 0,
-            column,
-            is_free: true,
-        }
-    }
-}
 
 /// The best edits, which are tried together with all others.
 const BEST: usize = 60;

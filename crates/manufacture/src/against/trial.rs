@@ -1,7 +1,6 @@
 //! One edit, tried at a few points.
 
 use super::candidates::{Candidate, Change};
-use super::pairs::Effect;
 use super::solve::{self, Curve, Sample, Solved, difference};
 use super::text;
 use super::whole::Component;
@@ -45,6 +44,40 @@ pub(super) struct Near {
     pub(super) candidate: usize,
     pub(super) factor: f64,
     pub(super) left: f64,
+}
+
+/// What an edit adds to all components that are wrong, one after the other.
+#[derive(Debug, Clone)]
+pub(super) struct Effect {
+    pub(super) candidate: usize,
+    /// For one more of its factor, or for the edit itself.
+    pub(super) column: Column,
+    pub(super) is_free: bool,
+}
+
+impl Effect {
+    /// Of an edit without a number.
+    fn fixed(column: Column) -> Self {
+        Self {
+            candidate: 0,
+            column,
+            is_free: false,
+        }
+    }
+
+    /// The same, of this candidate.
+    pub(super) fn of(self, candidate: usize) -> Self {
+        Self { candidate, ..self }
+    }
+
+    /// Of an edit whose values are linear in a factor.
+    fn free(column: Column) -> Self {
+        Self {
+            candidate: 0,
+            column,
+            is_free: true,
+        }
+    }
 }
 
 #[derive(Default)]

@@ -7,9 +7,9 @@
 
 use std::collections::HashMap;
 
-use super::conditions::{Condition, Need, conditions_of, needs_of};
+use super::branches::Branches;
+use super::conditions::{Condition, conditions_of, needs_of};
 use super::graph::Graph;
-use super::guards::{Branches, Facts};
 use super::interval::Interval;
 use super::node::{Node, NodeId};
 use super::tape::nodes_below;
@@ -149,7 +149,7 @@ impl Over<'_, '_> {
     }
 
     /// The result of the comparison of a choice, if it is the same all over the box.
-    fn result(&self, node: &Node) -> Option<bool> {
+    pub(super) fn result(&self, node: &Node) -> Option<bool> {
         let Node::Choose(comparison, [left, right, ..]) = node else {
             return None;
         };
@@ -160,37 +160,15 @@ impl Over<'_, '_> {
         self.enclosure.graph.node(id)
     }
 
-    /// Of conditions that stand together, the first that may fail in the box.
-    pub(crate) fn open(&self, conditions: &[Condition]) -> Option<Condition> {
-        let is_open = |condition: &&Condition| match condition.need {
-            Need::OneSide => {
-                let is_used = self.uses[self.enclosure.place(condition.operation)].is_some();
-                is_used && self.result(self.node(condition.argument)).is_none()
-            }
-            need => {
-                !need.holds(self.range(condition.argument)) && self.may_be_used_without(condition)
-            }
-        };
-        conditions.iter().find(is_open).copied()
+    /// Whether an operation takes part in a root somewhere in the box: the branches of undecided
+    /// choices that all ways to it go through.
+    pub(super) fn uses_of(&self, operation: NodeId) -> Option<Branches> {
+        self.uses[self.enclosure.place(operation)]
     }
 
-    /// Whether an operation may be used in the box where its argument lacks what it needs.
-    fn may_be_used_without(&self, condition: &Condition) -> bool {
-        let Some(branches) = self.uses[self.enclosure.place(condition.operation)] else {
-            return false;
-        };
-        if branches == Branches::NONE {
-            return true;
-        }
-        let mut facts = Facts::new(self);
-        for (number, choice) in self.comparisons.iter().take(Branches::MOST).enumerate() {
-            for is_first in [true, false] {
-                if branches.has(number, is_first) {
-                    facts.add(*choice, is_first);
-                }
-            }
-        }
-        !condition.need.holds_for(facts.signs(condition.argument))
+    /// The first choice of each comparison without one result in the box, by its number.
+    pub(super) fn comparisons(&self) -> &[NodeId] {
+        &self.comparisons
     }
 
     /// What a choice is the absolute value of.
@@ -211,7 +189,8 @@ impl Over<'_, '_> {
 
     /// Whether choices that take both branches in the box decide about the use of an operation.
     pub(crate) fn is_guarded(&self, operation: NodeId) -> bool {
-        self.uses[self.enclosure.place(operation)].is_some_and(|uses| uses != Branches::NONE)
+        self.uses_of(operation)
+            .is_some_and(|uses| uses != Branches::NONE)
     }
 
     /// Whether the slopes of a node are bounded: its values have no jump.

@@ -2,7 +2,7 @@
 
 use super::functions::{Function, others};
 use super::texts::{Answer, Texts};
-use super::write::prefix;
+use super::writer::prefix;
 use super::{EmittedFile, Language, fill};
 use crate::derive::{Part, Role};
 use crate::model::Model;

@@ -2,30 +2,16 @@
 
 use super::functions::Function;
 use super::texts::{Norm as NormTexts, Norms, Shaped, Time};
-use super::write::Writer;
-use super::{Language, choice, fill};
+use super::writer::Writer;
+use super::{choice, fill};
+use crate::arithmetic::NodeId;
 use crate::arithmetic::quadrature::POINTS;
-use crate::arithmetic::tape::nodes_below;
-use crate::arithmetic::{Node, NodeId};
 use crate::derive::Role;
 use crate::model::Model;
 use crate::problem::Norm;
 
 /// Points of the rule for averages, in each coordinate.
 const AVERAGE_POINTS: usize = 8;
-
-/// Time in a list of arguments, and its declaration; empty without time.
-pub(super) fn time(language: Language, has_time: bool) -> &'static Time {
-    const NO_TIME: Time = Time {
-        argument: "",
-        declaration: "",
-    };
-    if has_time {
-        &language.texts().time
-    } else {
-        &NO_TIME
-    }
-}
 
 fn call_time(has_time: bool) -> &'static str {
     if has_time { ", t" } else { "" }
@@ -116,7 +102,7 @@ pub(super) fn framed(writer: &Writer<'_>, place: usize, declared: &str, body: &s
     let Time {
         argument,
         declaration,
-    } = time(writer.language, function.has_time);
+    } = writer.time(function.has_time);
     fill(
         shaped(writer, function).function,
         &[
@@ -128,42 +114,12 @@ pub(super) fn framed(writer: &Writer<'_>, place: usize, declared: &str, body: &s
             ("SHAPE", &sides(&function.shape)),
             ("RESULT", &nested(&function.shape)),
             ("DECLARED", declared),
-            ("UNUSED", &unused(writer, &all, function.has_time)),
+            ("UNUSED", &writer.unused(&all, function.has_time)),
             ("READY", &choice::ready(writer)),
             ("BODY", body),
             ("P", &writer.prefix),
         ],
     )
-}
-
-/// Statements for the arguments that the nodes below roots of some models do not use: a compiler
-/// that is strict asks for a use of each.
-pub(super) fn unused(
-    writer: &Writer<'_>,
-    models: &[(&Model, &[NodeId])],
-    has_time: bool,
-) -> String {
-    let time = writer.model.problem.coordinates.len();
-    let uses = |is_time: bool| {
-        models.iter().any(|(model, roots)| {
-            let below = nodes_below(&model.graph, roots);
-            below.iter().any(|id| match model.graph.node(*id) {
-                Node::Variable(index) => (*index == time) == is_time,
-                // Its helper has both arguments.
-                Node::Integral { .. } => true,
-                _ => false,
-            })
-        })
-    };
-    let mut unused = vec![];
-    if !uses(false) {
-        unused.push("x");
-    }
-    if has_time && !uses(true) {
-        unused.push("t");
-    }
-    let statement = |name: &&str| fill(writer.texts().statements.unused, &[("X", *name)]);
-    unused.iter().map(statement).collect()
 }
 
 /// The shape of an array of Fortran.
@@ -260,7 +216,7 @@ fn average(writer: &Writer<'_>, texts: &Norms, function: &Function) -> String {
     let Time {
         argument,
         declaration,
-    } = time(writer.language, function.has_time);
+    } = writer.time(function.has_time);
     let shaped = shaped(writer, function);
     fill(
         texts.average,
@@ -287,7 +243,7 @@ fn error(writer: &Writer<'_>, texts: &Norms, error: &ErrorNorm<'_>) -> String {
     let Time {
         argument,
         declaration,
-    } = time(writer.language, function.has_time);
+    } = writer.time(function.has_time);
     let NormTexts { add, root } = match norm {
         Norm::L1 => &texts.l1,
         Norm::Linf => &texts.linf,

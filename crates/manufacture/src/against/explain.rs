@@ -1,10 +1,10 @@
 //! Which edit of the file gives the values of the other program?
 
 use super::bench::Alteration;
-use super::candidates::Change;
+use super::candidates::EditKind;
 use super::cause::{Cause, Nearest, Unexplained, place_and_text};
 use super::pairs;
-use super::search::Search;
+use super::search::EditSearch;
 use super::solve::{Curve, Sample, columns};
 use super::trial::{Effect, FAR_FETCHED, NEW_NUMBER, Near, Trial, attempt, cost, sample};
 use super::whole::Component;
@@ -68,7 +68,7 @@ fn is_same(first: &[f64], second: &[f64]) -> bool {
     pairs.all(|(a, b)| (a - b).abs() <= SAME * largest)
 }
 
-impl<'a, 'm> Search<'a, 'm> {
+impl<'a, 'm> EditSearch<'a, 'm> {
     /// Points where the values of the other program are most different, and others.
     fn trial(&self, wrong: &[&Component<'a, 'm>]) -> Vec<usize> {
         let count = self.right.points.len();
@@ -312,7 +312,7 @@ impl<'a, 'm> Search<'a, 'm> {
     fn other_term(&self, best: Option<&Match>, found: &Match) -> Option<String> {
         let best = best?;
         let [first, second] = [best, found].map(|found| &self.candidates[found.candidate]);
-        let are_terms = first.change == Change::Term && second.change == Change::Term;
+        let are_terms = first.change == EditKind::Term && second.change == EditKind::Term;
         if !are_terms {
             return None;
         }

@@ -2,13 +2,13 @@
 
 use super::bench::{Alteration, FACTORS, Rewrite};
 use super::cause::Named;
-use super::right::Place;
-use super::search::{Search, position};
+use super::right::ComponentPlace;
+use super::search::{EditSearch, position};
 use super::site;
 use super::solve::{difference, simple};
 use super::trial::{Effect, Trial};
 use crate::fit::{self, Column};
-use crate::language::tree::{Kind, Tree};
+use crate::language::tree::{Tree, TreeKind};
 use crate::problem::Problem;
 
 /// The best edits, which are tried together with all others.
@@ -23,12 +23,12 @@ const LEFT: f64 = 1e-7;
 /// The pairs that were tried, and the first that fits.
 pub(super) struct Pairs {
     pub(super) count: usize,
-    found: Vec<(Vec<Place>, Vec<Named>)>,
+    found: Vec<(Vec<ComponentPlace>, Vec<Named>)>,
 }
 
 impl Pairs {
     /// The pair that explains a component.
-    pub(super) fn fits(&self, place: Place) -> Option<Vec<Named>> {
+    pub(super) fn fits(&self, place: ComponentPlace) -> Option<Vec<Named>> {
         let mut found = self.found.iter();
         found
             .find(|entry| entry.0.contains(&place))
@@ -44,7 +44,7 @@ struct Pair<'e> {
 
 /// Tries pairs of the best edits on all components that are wrong together.
 pub(super) fn search(
-    search: &mut Search<'_, '_>,
+    search: &mut EditSearch<'_, '_>,
     quantity: usize,
     trial: &Trial,
     effects: &[Effect],
@@ -87,7 +87,11 @@ pub(super) fn search(
 }
 
 /// The edits that leave least, of those with the same effect one.
-fn best<'e>(effects: &[&'e Effect], target: &Column, search: &Search<'_, '_>) -> Vec<&'e Effect> {
+fn best<'e>(
+    effects: &[&'e Effect],
+    target: &Column,
+    search: &EditSearch<'_, '_>,
+) -> Vec<&'e Effect> {
     let mut left: Vec<(f64, &Effect)> = effects
         .iter()
         .map(|effect| (Rest::new(effect, target).length, *effect))
@@ -184,11 +188,11 @@ fn fitted<'e>(edits: [&'e Effect; 2], target: &Column) -> Option<Pair<'e>> {
 
 /// A pair that gives the values of components at all points: these, and what is said of it.
 fn confirmed(
-    search: &mut Search<'_, '_>,
+    search: &mut EditSearch<'_, '_>,
     quantity: usize,
     trial: &Trial,
     pair: &Pair<'_>,
-) -> Option<(Vec<Place>, Vec<Named>)> {
+) -> Option<(Vec<ComponentPlace>, Vec<Named>)> {
     let [first, second] = pair.edits.map(|effect| effect.candidate);
     let first_alteration = search.candidates[first].alteration.clone();
     let second_alteration = with_second_factor(&search.candidates[second].alteration);
@@ -205,7 +209,7 @@ fn confirmed(
     }
     let mut places = vec![];
     for sample in trial.wrong() {
-        let place = Place {
+        let place = ComponentPlace {
             quantity,
             component: sample.component,
         };
@@ -285,7 +289,7 @@ fn with_second_factor(alteration: &Alteration) -> Alteration {
 }
 
 fn rename(tree: &mut Tree) {
-    if let Kind::Name(name) = &mut tree.kind
+    if let TreeKind::Name(name) = &mut tree.kind
         && name == FACTORS[0]
     {
         FACTORS[1].clone_into(name);

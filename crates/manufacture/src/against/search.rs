@@ -3,7 +3,7 @@
 use super::bench::{Alteration, Bench};
 use super::candidates::{self, Candidate};
 use super::cause::Named;
-use super::right::{Place, Right};
+use super::right::{ComponentPlace, Right};
 use super::text;
 use super::trial::cost;
 use super::whole::Component;
@@ -11,7 +11,7 @@ use crate::derive::Role;
 use crate::problem;
 
 /// A search over the edits of the quantities of a question.
-pub(super) struct Search<'a, 'm> {
+pub(super) struct EditSearch<'a, 'm> {
     pub(super) right: &'a Right<'m>,
     pub(super) components: &'a [Component<'a, 'm>],
     pub(super) bench: Bench,
@@ -20,7 +20,7 @@ pub(super) struct Search<'a, 'm> {
     pub(super) fresh: Vec<Vec<f64>>,
 }
 
-impl<'a, 'm> Search<'a, 'm> {
+impl<'a, 'm> EditSearch<'a, 'm> {
     /// * `fresh`: points of the same part that nobody was asked about.
     pub(super) fn new(
         right: &'a Right<'m>,
@@ -64,7 +64,7 @@ impl<'a, 'm> Search<'a, 'm> {
     }
 
     /// Where a quantity stands in the file.
-    pub(super) fn place(&self, quantity: usize) -> problem::Place {
+    pub(super) fn place(&self, quantity: usize) -> problem::Location {
         place_of(self.right, quantity)
     }
 
@@ -88,7 +88,7 @@ impl<'a, 'm> Search<'a, 'm> {
     }
 }
 
-pub(super) fn place_of(right: &Right<'_>, quantity: usize) -> problem::Place {
+pub(super) fn place_of(right: &Right<'_>, quantity: usize) -> problem::Location {
     let quantity = right.quantities[quantity].quantity;
     let problem = &right.model.problem;
     let mut equations = problem.equations.iter();
@@ -105,6 +105,6 @@ pub(super) fn place_of(right: &Right<'_>, quantity: usize) -> problem::Place {
 }
 
 /// A component by its place among those of the answer.
-pub(super) fn position(components: &[Component<'_, '_>], place: Place) -> Option<usize> {
+pub(super) fn position(components: &[Component<'_, '_>], place: ComponentPlace) -> Option<usize> {
     components.iter().position(|c| c.place == place)
 }

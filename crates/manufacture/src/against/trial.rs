@@ -1,6 +1,6 @@
 //! One edit, tried at a few points.
 
-use super::candidates::{Candidate, Change};
+use super::candidates::{Candidate, EditKind};
 use super::solve::{self, Curve, Sample, Solved, difference};
 use super::text;
 use super::whole::Component;
@@ -159,22 +159,22 @@ pub(super) fn cost(candidate: &Candidate, factor: f64) -> usize {
     let is_lost = factor == -1.0 || factor == 0.0;
     let is_simple = solve::complexity(factor) < 1000.0;
     match candidate.change {
-        Change::Term | Change::Summand if is_lost => 10,
-        Change::LostFactor | Change::LostDivisor | Change::LostOperator => 10,
-        Change::Normal => 5,
-        Change::TransposedGradient | Change::MissingTranspose | Change::Held => 11,
-        Change::Exponent if text::has_simple_number(candidate, factor) => 11,
-        Change::TimesForOver | Change::Order | Change::Operator | Change::Function => 12,
-        Change::Derivative | Change::Index | Change::Branch | Change::LostBracket => 13,
-        Change::Name => 16,
-        Change::Term | Change::Summand | Change::Part
+        EditKind::Term | EditKind::Summand if is_lost => 10,
+        EditKind::LostFactor | EditKind::LostDivisor | EditKind::LostOperator => 10,
+        EditKind::Normal => 5,
+        EditKind::TransposedGradient | EditKind::MissingTranspose | EditKind::Held => 11,
+        EditKind::Exponent if text::has_simple_number(candidate, factor) => 11,
+        EditKind::TimesForOver | EditKind::Order | EditKind::Operator | EditKind::Function => 12,
+        EditKind::Derivative | EditKind::Index | EditKind::Branch | EditKind::LostBracket => 13,
+        EditKind::Name => 16,
+        EditKind::Term | EditKind::Summand | EditKind::Part
             if text::has_simple_number(candidate, factor) =>
         {
             12
         }
-        Change::Exchange | Change::Parameters | Change::Basis => 13,
-        Change::Part if is_lost => 14,
-        Change::OneDifferentiated | Change::TakenBelow | Change::Square => 15,
+        EditKind::Exchange | EditKind::Parameters | EditKind::Basis => 13,
+        EditKind::Part if is_lost => 14,
+        EditKind::OneDifferentiated | EditKind::TakenBelow | EditKind::Square => 15,
         _ if candidate.has_factor() && is_simple => NEW_NUMBER,
         _ => FAR_FETCHED,
     }

@@ -14,7 +14,7 @@ use super::interval::Interval;
 use super::node::{Node, NodeId};
 use super::tape::nodes_below;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// Coordinates and time.
 pub(crate) const MOST_VARIABLES: usize = 4;
@@ -174,7 +174,7 @@ impl Over<'_, '_> {
     /// What a choice is the absolute value of.
     pub(super) fn absolute_of(&self, choice: NodeId) -> Option<NodeId> {
         match *self.node(choice) {
-            Node::Choose(Comparison::Less, operands) => {
+            Node::Choose(Relation::Less, operands) => {
                 is_opposite(self.enclosure.graph, operands).then_some(operands[0])
             }
             _ => None,
@@ -285,7 +285,7 @@ impl Over<'_, '_> {
         }
     }
 
-    fn choice(&self, comparison: Comparison, operands: [NodeId; 4]) -> Enclosed {
+    fn choice(&self, comparison: Relation, operands: [NodeId; 4]) -> Enclosed {
         let [left, right, then, otherwise] = operands.map(|id| *self.of(id));
         let difference = left.range - right.range;
         if let Some(holds) = result(comparison, difference) {
@@ -300,11 +300,11 @@ impl Over<'_, '_> {
         let graph = self.enclosure.graph;
         let is_left = operands[2] == operands[0] || operands[3] == operands[0];
         let kept = match comparison {
-            Comparison::Less if is_left && is_opposite(graph, operands) => Some(left.range.abs()),
-            Comparison::LessOrEqual if operands[..2] == operands[2..] => {
+            Relation::Less if is_left && is_opposite(graph, operands) => Some(left.range.abs()),
+            Relation::LessOrEqual if operands[..2] == operands[2..] => {
                 Some(left.range.min(right.range))
             }
-            Comparison::GreaterOrEqual if operands[..2] == operands[2..] => {
+            Relation::GreaterOrEqual if operands[..2] == operands[2..] => {
                 Some(left.range.max(right.range))
             }
             _ => None,
@@ -323,7 +323,7 @@ impl Over<'_, '_> {
 }
 
 /// What a choice compares.
-fn compared(node: &Node) -> Option<(Comparison, [NodeId; 2])> {
+fn compared(node: &Node) -> Option<(Relation, [NodeId; 2])> {
     match *node {
         Node::Choose(comparison, [left, right, ..]) => Some((comparison, [left, right])),
         _ => None,
@@ -338,17 +338,17 @@ fn is_opposite(graph: &Graph, [left, right, then, otherwise]: [NodeId; 4]) -> bo
 }
 
 /// The result of a comparison of a difference with zero, if it has one.
-fn result(comparison: Comparison, difference: Interval) -> Option<bool> {
+fn result(comparison: Relation, difference: Interval) -> Option<bool> {
     let Interval { lo, hi } = difference;
     match comparison {
-        Comparison::Less if hi < 0.0 => Some(true),
-        Comparison::Less if lo >= 0.0 => Some(false),
-        Comparison::LessOrEqual if hi <= 0.0 => Some(true),
-        Comparison::LessOrEqual if lo > 0.0 => Some(false),
-        Comparison::Greater if lo > 0.0 => Some(true),
-        Comparison::Greater if hi <= 0.0 => Some(false),
-        Comparison::GreaterOrEqual if lo >= 0.0 => Some(true),
-        Comparison::GreaterOrEqual if hi < 0.0 => Some(false),
+        Relation::Less if hi < 0.0 => Some(true),
+        Relation::Less if lo >= 0.0 => Some(false),
+        Relation::LessOrEqual if hi <= 0.0 => Some(true),
+        Relation::LessOrEqual if lo > 0.0 => Some(false),
+        Relation::Greater if lo > 0.0 => Some(true),
+        Relation::Greater if hi <= 0.0 => Some(false),
+        Relation::GreaterOrEqual if lo >= 0.0 => Some(true),
+        Relation::GreaterOrEqual if hi < 0.0 => Some(false),
         _ => None,
     }
 }

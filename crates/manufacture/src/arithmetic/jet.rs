@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use super::Algebra;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// Largest number of variables: three coordinates and time.
 const VARIABLES: usize = 4;
@@ -210,7 +210,7 @@ impl Algebra for Jets {
 
     fn choose(
         &mut self,
-        comparison: Comparison,
+        comparison: Relation,
         compared: [&Jet; 2],
         then: &Jet,
         otherwise: &Jet,

@@ -17,7 +17,7 @@ pub(crate) mod tape;
 mod tests;
 
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 pub(crate) use depth::Depth;
 pub(crate) use graph::Graph;
@@ -47,7 +47,7 @@ pub(crate) trait Algebra {
     /// `then` where the comparison holds.
     fn choose(
         &mut self,
-        comparison: Comparison,
+        comparison: Relation,
         compared: [&Self::Number; 2],
         then: &Self::Number,
         otherwise: &Self::Number,

@@ -1,7 +1,7 @@
 //! The rules of signs, as theorems about real numbers.
 
 use super::interval::Interval;
-use crate::language::tree::Comparison;
+use crate::language::tree::Relation;
 
 /// The signs that a number may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,12 +72,12 @@ impl Signs {
     }
 
     /// Of left - right, where their comparison has this result.
-    pub(super) fn of_difference(comparison: Comparison, holds: bool) -> Self {
+    pub(super) fn of_difference(comparison: Relation, holds: bool) -> Self {
         let signs = match comparison {
-            Comparison::Less => Self::of([true, false, false]),
-            Comparison::LessOrEqual => Self::of([true, true, false]),
-            Comparison::Greater => Self::POSITIVE,
-            Comparison::GreaterOrEqual => Self::NOT_NEGATIVE,
+            Relation::Less => Self::of([true, false, false]),
+            Relation::LessOrEqual => Self::of([true, true, false]),
+            Relation::Greater => Self::POSITIVE,
+            Relation::GreaterOrEqual => Self::NOT_NEGATIVE,
         };
         if holds {
             signs

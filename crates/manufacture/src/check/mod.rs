@@ -14,8 +14,8 @@ use serde::Serialize;
 
 use crate::arithmetic::NodeId;
 use crate::arithmetic::SAME;
-use crate::arithmetic::tape::Measured;
-use crate::derive::{Part, Quantity, Role, components};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::model::{Model, Rows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
@@ -76,10 +76,10 @@ impl Check {
 /// The quantities of a part at its points.
 pub(crate) struct Sampled<'m> {
     pub(crate) part: Part,
-    pub(crate) quantities: &'m [Quantity<NodeId>],
+    pub(crate) quantities: &'m [DerivedQuantity<NodeId>],
     pub(crate) points: Vec<Vec<f64>>,
     /// For each point, for each quantity, its components.
-    pub(crate) values: Vec<Vec<Vec<Measured>>>,
+    pub(crate) values: Vec<Vec<Vec<SizedValue>>>,
 }
 
 impl<'m> Sampled<'m> {
@@ -95,19 +95,19 @@ impl<'m> Sampled<'m> {
     }
 
     /// The values of a quantity over the points.
-    pub(crate) fn over(&self, index: usize) -> impl Iterator<Item = (&[f64], &[Measured])> {
+    pub(crate) fn over(&self, index: usize) -> impl Iterator<Item = (&[f64], &[SizedValue])> {
         let points = self.points.iter().zip(&self.values);
         points.map(move |(point, values)| (point.as_slice(), values[index].as_slice()))
     }
 }
 
 /// Whether it is zero but for rounding.
-pub(crate) fn is_zero(values: &[Measured]) -> bool {
+pub(crate) fn is_zero(values: &[SizedValue]) -> bool {
     values.iter().all(|v| v.value.abs() <= SAME * v.size)
 }
 
 /// Whether two values are equal but for rounding.
-pub(crate) fn is_same(a: &Measured, b: &Measured) -> bool {
+pub(crate) fn is_same(a: &SizedValue, b: &SizedValue) -> bool {
     (a.value - b.value).abs() <= SAME * a.size.max(b.size)
 }
 

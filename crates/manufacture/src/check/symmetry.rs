@@ -3,8 +3,8 @@
 
 use super::{Finding, Sampled, finding, is_same};
 use crate::arithmetic::NodeId;
-use crate::arithmetic::tape::Measured;
-use crate::derive::{Quantity, Role};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::{DerivedQuantity, Role};
 use crate::model::{Model, Rows};
 
 /// A map of the box onto itself.
@@ -70,10 +70,10 @@ impl Map {
 }
 
 /// Whether a component is the same at all points and images, or reversed at all.
-fn is_unchanged(pairs: &[(Vec<Measured>, Vec<Measured>)], component: usize) -> bool {
+fn is_unchanged(pairs: &[(Vec<SizedValue>, Vec<SizedValue>)], component: usize) -> bool {
     [1.0, -1.0].into_iter().any(|sign| {
         pairs.iter().all(|(value, image)| {
-            let image = Measured {
+            let image = SizedValue {
                 value: sign * image[component].value,
                 ..image[component]
             };
@@ -82,7 +82,7 @@ fn is_unchanged(pairs: &[(Vec<Measured>, Vec<Measured>)], component: usize) -> b
     })
 }
 
-fn depends(model: &Model, field: &Quantity<NodeId>, axis: usize) -> bool {
+fn depends(model: &Model, field: &DerivedQuantity<NodeId>, axis: usize) -> bool {
     let mut parts = field.tensor.parts.iter();
     parts.any(|part| model.graph.depends_on(*part, axis))
 }

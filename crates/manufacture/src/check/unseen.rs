@@ -6,11 +6,11 @@ use std::collections::HashSet;
 use super::general::General;
 use super::{Finding, Sampled, finding, is_same};
 use crate::against::bench::{Alteration, Bench, Rewrite};
-use crate::against::candidates::{self, Candidate, Change};
+use crate::against::candidates::{self, Candidate, EditKind};
 use crate::against::{cause, site, text};
 use crate::derive::{Part, Role};
 use crate::language::names::{Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
 use crate::problem::Problem;
 
@@ -65,8 +65,8 @@ fn is_common(problem: &Problem, candidate: &Candidate, differential: &HashSet<&s
     };
     match candidate.change {
         _ if rewrite.home.is_exact(problem) => false,
-        Change::TransposedGradient | Change::MissingTranspose => true,
-        Change::Held => is_coefficient(problem, rewrite, differential),
+        EditKind::TransposedGradient | EditKind::MissingTranspose => true,
+        EditKind::Held => is_coefficient(problem, rewrite, differential),
         _ => false,
     }
 }
@@ -79,7 +79,9 @@ fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&
     let is_product = |tree: &Tree| {
         matches!(
             tree.kind,
-            Kind::Binary(Binary::Multiply | Binary::Divide, _) | Kind::Negate(_) | Kind::Bracket(_)
+            TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
+                | TreeKind::Negate(_)
+                | TreeKind::Bracket(_)
         )
     };
     let part = |length: usize| site::at(&expression.tree, &rewrite.route[..length]);
@@ -112,8 +114,8 @@ fn differential(problem: &Problem) -> HashSet<&str> {
 /// Whether a derivative occurs in it, or the name of a definition with one.
 fn has_derivative(tree: &Tree, differential: &HashSet<&str>) -> bool {
     let is_derivative = match &tree.kind {
-        Kind::Name(name) => differential.contains(name.as_str()),
-        Kind::Call(Callee::Operator(operator), _) => matches!(
+        TreeKind::Name(name) => differential.contains(name.as_str()),
+        TreeKind::Call(Callee::Operator(operator), _) => matches!(
             operator,
             Operator::Derivative
                 | Operator::TimeDerivative
@@ -136,7 +138,8 @@ fn is_unseen(
     equation: &str,
 ) -> bool {
     let mut sources = sampled.quantities.iter();
-    let is_source = |q: &crate::derive::Quantity<_>| q.role == Role::Source && q.name == equation;
+    let is_source =
+        |q: &crate::derive::DerivedQuantity<_>| q.role == Role::Source && q.name == equation;
     let Some(index) = sources.position(is_source) else {
         return false;
     };

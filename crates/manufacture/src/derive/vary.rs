@@ -5,12 +5,12 @@ use super::tensor::{Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
 use crate::problem::{Bubble, Step};
-use crate::problem::{InputError, Value};
+use crate::problem::{InputError, TensorValue};
 
 impl<A: Algebra> Elaborator<'_, A> {
     /// The value of an exact field. A variant is made of the fields of the file: fields that occur
     /// in the expression are those.
-    pub(super) fn exact(&mut self, name: &str, value: &Value) -> Elaborated<A> {
+    pub(super) fn exact(&mut self, name: &str, value: &TensorValue) -> Elaborated<A> {
         let variation = self.problem.variation.as_ref();
         let variation = variation.filter(|variation| !self.is_plain && variation.concerns(name));
         let Some(variation) = variation else {
@@ -32,7 +32,7 @@ impl<A: Algebra> Elaborator<'_, A> {
     }
 
     /// A function after these steps.
-    fn after(&mut self, steps: &[Step], value: &Value) -> Elaborated<A> {
+    fn after(&mut self, steps: &[Step], value: &TensorValue) -> Elaborated<A> {
         let Some((last, before)) = steps.split_last() else {
             return self.value(value);
         };
@@ -66,7 +66,7 @@ impl<A: Algebra> Elaborator<'_, A> {
         end: f64,
         degree: usize,
         before: &[Step],
-        value: &Value,
+        value: &TensorValue,
     ) -> Elaborated<A> {
         let mut rest = self.after(before, value)?;
         let traces = self.traces(before, value, variable, end, degree)?;
@@ -85,7 +85,7 @@ impl<A: Algebra> Elaborator<'_, A> {
     fn traces(
         &mut self,
         steps: &[Step],
-        value: &Value,
+        value: &TensorValue,
         variable: usize,
         at: f64,
         most: usize,

@@ -21,7 +21,7 @@ use crate::model::Model;
 use crate::problem::InputError;
 
 pub(crate) use answer::OTHERS;
-pub(crate) use functions::{Function, functions, others};
+pub(crate) use functions::{EmittedFunction, functions, others};
 pub(crate) use writer::Alternative;
 
 /// A language that functions are emitted in.

@@ -1,6 +1,6 @@
 //! What surrounds the statements: signatures, tables of points, averages and norms.
 
-use super::functions::Function;
+use super::functions::EmittedFunction;
 use super::texts::{Norm as NormTexts, Norms, Shaped, Time};
 use super::writer::Writer;
 use super::{choice, fill};
@@ -18,7 +18,7 @@ fn call_time(has_time: bool) -> &'static str {
 }
 
 /// What stands before the parameters.
-pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
+pub(super) fn opening(writer: &Writer<'_>, functions: &[EmittedFunction]) -> String {
     let texts = &writer.texts().library;
     let headers = if writer.has_alternatives() {
         texts.for_variants
@@ -84,7 +84,7 @@ fn table(writer: &Writer<'_>, name: &str, count: usize) -> String {
 }
 
 /// The texts that depend on whether a function is a scalar.
-fn shaped(writer: &Writer<'_>, function: &Function) -> &'static Shaped {
+fn shaped(writer: &Writer<'_>, function: &EmittedFunction) -> &'static Shaped {
     if function.shape.is_empty() {
         &writer.texts().scalar
     } else {
@@ -151,18 +151,18 @@ fn nested(shape: &[usize]) -> String {
 }
 
 /// The part of a function's name behind its role.
-fn suffix(function: &Function) -> &str {
+fn suffix(function: &EmittedFunction) -> &str {
     function.name.split_once('_').map_or("", |parts| parts.1)
 }
 
 /// A norm of the difference from a function.
 struct ErrorNorm<'f> {
     norm: Norm,
-    function: &'f Function,
+    function: &'f EmittedFunction,
 }
 
 /// The norms that the file names.
-fn errors<'f>(writer: &Writer<'_>, functions: &'f [Function]) -> Vec<ErrorNorm<'f>> {
+fn errors<'f>(writer: &Writer<'_>, functions: &'f [EmittedFunction]) -> Vec<ErrorNorm<'f>> {
     let mut errors = vec![];
     for (field, norms) in &writer.model.problem.norms {
         for norm in norms {
@@ -183,7 +183,7 @@ fn errors<'f>(writer: &Writer<'_>, functions: &'f [Function]) -> Vec<ErrorNorm<'
 }
 
 /// Averages of the exact fields, and the norms that the file names.
-pub(super) fn norms(writer: &Writer<'_>, functions: &[Function]) -> String {
+pub(super) fn norms(writer: &Writer<'_>, functions: &[EmittedFunction]) -> String {
     let mut text = String::new();
     let Some(texts) = &writer.texts().norms else {
         return text;
@@ -198,7 +198,7 @@ pub(super) fn norms(writer: &Writer<'_>, functions: &[Function]) -> String {
 }
 
 /// The values of a function at a point, as an array.
-fn array_call(writer: &Writer<'_>, function: &Function, point: &str) -> String {
+fn array_call(writer: &Writer<'_>, function: &EmittedFunction, point: &str) -> String {
     fill(
         shaped(writer, function).values,
         &[
@@ -210,7 +210,7 @@ fn array_call(writer: &Writer<'_>, function: &Function, point: &str) -> String {
     )
 }
 
-fn average(writer: &Writer<'_>, texts: &Norms, function: &Function) -> String {
+fn average(writer: &Writer<'_>, texts: &Norms, function: &EmittedFunction) -> String {
     let dimension = writer.model.problem.coordinates.len();
     let count = function.roots.len().to_string();
     let Time {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::functions::Function;
+use super::functions::EmittedFunction;
 use super::lower::Lowered;
 use super::writer::{Alternative, Writer};
 use super::{EmittedFile, Language, choice, fill, parameters, runtime};
@@ -16,7 +16,7 @@ pub(super) fn library(
     model: &Model,
     alternatives: &[Alternative<'_>],
     language: Language,
-    functions: &[Function],
+    functions: &[EmittedFunction],
 ) -> Vec<EmittedFile> {
     let name = &model.problem.name;
     let writer = Writer::new(model, alternatives, language);
@@ -50,7 +50,7 @@ pub(super) fn library(
 }
 
 /// The names of the file that are written with `_` behind them, as a line of the first comment.
-fn renamed(writer: &Writer<'_>, functions: &[Function]) -> String {
+fn renamed(writer: &Writer<'_>, functions: &[EmittedFunction]) -> String {
     let quantities = functions.iter().map(|f| (&f.name, &f.quantity));
     let parameters = writer.model.problem.parameters.iter();
     let parameters = writer.parameters.iter().zip(parameters.map(|p| &p.name));
@@ -64,7 +64,7 @@ fn renamed(writer: &Writer<'_>, functions: &[Function]) -> String {
 }
 
 /// The first comment: equations, conventions, version and a hash of the input.
-fn head(writer: &Writer<'_>, functions: &[Function]) -> String {
+fn head(writer: &Writer<'_>, functions: &[EmittedFunction]) -> String {
     let problem = &writer.model.problem;
     let canonical = problem.canonical();
     let hash = canonical

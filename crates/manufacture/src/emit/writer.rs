@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
-use super::functions::{Function, functions};
+use super::functions::{EmittedFunction, functions};
 use super::lower::{Lowered, Names, lower};
 use super::texts::{Texts, Time};
 use super::{Language, fill};
@@ -42,7 +42,7 @@ pub(super) struct Emitted<'m> {
     /// Empty for the model of the file.
     pub(super) name: String,
     pub(super) model: &'m Model,
-    pub(super) functions: Vec<Function>,
+    pub(super) functions: Vec<EmittedFunction>,
     /// The place of the helper of each integral.
     integrals: HashMap<NodeId, usize>,
 }
@@ -53,7 +53,7 @@ pub(super) fn prefix(model: &Model, language: Language) -> String {
 }
 
 /// The integrals below the functions, the inner before the outer.
-fn integrals(model: &Model, functions: &[Function]) -> Vec<NodeId> {
+fn integrals(model: &Model, functions: &[EmittedFunction]) -> Vec<NodeId> {
     let roots: Vec<NodeId> = functions.iter().flat_map(|f| f.roots.clone()).collect();
     let mut open = nodes_below(&model.graph, &roots);
     let mut integrals = vec![];

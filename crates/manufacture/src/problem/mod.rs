@@ -15,23 +15,23 @@ use crate::language::tree::Tree;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
-pub(crate) use error::{LineColumn, Place};
+pub(crate) use error::{LineColumn, Location};
 pub use keys::FILE_KEYS;
 pub(crate) use variation::{Bubble, Step, Variation};
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Expression {
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     pub(crate) text: String,
     pub(crate) tree: Tree,
 }
 
 /// A scalar, or a vector, or rows of a tensor.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Value {
+pub(crate) enum TensorValue {
     One(Expression),
-    List(Place, Vec<Value>),
+    List(Location, Vec<TensorValue>),
 }
 
 /// The coordinate systems.
@@ -74,7 +74,7 @@ pub(crate) struct Setting {
 /// What a name of `[exact]` or `[define]` stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Definition {
-    pub(crate) value: Value,
+    pub(crate) value: TensorValue,
     pub(crate) is_exact: bool,
 }
 
@@ -94,7 +94,7 @@ pub(crate) struct Term {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Equation {
     pub(crate) name: String,
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     pub(crate) terms: Vec<Term>,
 }
 
@@ -111,15 +111,15 @@ pub(crate) enum Surface {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Datum {
     pub(crate) name: String,
-    pub(crate) value: Value,
-    pub(crate) condition: Option<Value>,
+    pub(crate) value: TensorValue,
+    pub(crate) condition: Option<TensorValue>,
 }
 
 /// A part of the boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Face {
     pub(crate) name: String,
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     pub(crate) surface: Surface,
     pub(crate) data: Vec<Datum>,
 }
@@ -161,7 +161,7 @@ pub(crate) struct Problem {
     pub(crate) file: String,
     pub(crate) text: String,
     pub(crate) name: String,
-    pub(crate) name_place: Place,
+    pub(crate) name_place: Location,
     pub(crate) coordinates: Vec<String>,
     pub(crate) time: Option<String>,
     pub(crate) system: System,
@@ -256,7 +256,7 @@ impl Problem {
 
 /// Whether a name occurs in a tree.
 pub(crate) fn mentions(tree: &Tree, name: &str) -> bool {
-    use crate::language::tree::Kind;
-    matches!(&tree.kind, Kind::Name(known) if known == name)
+    use crate::language::tree::TreeKind;
+    matches!(&tree.kind, TreeKind::Name(known) if known == name)
         || tree.children().iter().any(|child| mentions(child, name))
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use convergence_keys::names;
 
 use super::keys::{FACE, FILE_KEYS, HEAD, HELD, REQUIRE, STUDY, VARIANTS};
-use super::reader::{Field, Reader, Section};
+use super::reader::{FileField, Reader, Section};
 use super::{
     Datum, Definition, Equation, Expression, Face, InputError, Norm, Parameter, Problem, Study,
     Surface, System, Term, constant,
@@ -129,7 +129,7 @@ impl Problem {
 
     /// Each name is an identifier, is not reserved, and has one meaning.
     fn check_names(&self, head: &Section<'_>) -> Result<(), InputError> {
-        let mut names: Vec<(&str, super::Place)> = vec![];
+        let mut names: Vec<(&str, super::Location)> = vec![];
         for variable in self.variables() {
             names.push((variable, head.place()));
         }
@@ -216,7 +216,7 @@ impl Problem {
         Ok(())
     }
 
-    fn surface(&self, field: &Field<'_>, section: &Section<'_>) -> Result<Surface, InputError> {
+    fn surface(&self, field: &FileField<'_>, section: &Section<'_>) -> Result<Surface, InputError> {
         if let Some(level) = section.field("level") {
             if let Some(face) = section.field("face") {
                 let problem = "found `face` and `level`; expected one of them";
@@ -293,14 +293,18 @@ impl Problem {
     }
 }
 
-fn twice(field: &Field<'_>) -> InputError {
+fn twice(field: &FileField<'_>) -> InputError {
     let name = &field.name;
     let problem = format!("found `{name}` twice; expected one meaning of each name");
     field.place.error(problem)
 }
 
 /// One of the known words.
-fn one_of<T: Copy>(field: &Field<'_>, all: &[(&str, T)], known: &[&str]) -> Result<T, InputError> {
+fn one_of<T: Copy>(
+    field: &FileField<'_>,
+    all: &[(&str, T)],
+    known: &[&str],
+) -> Result<T, InputError> {
     let text = field.string()?;
     match all.iter().find(|entry| entry.0 == text) {
         Some(entry) => Ok(entry.1),
@@ -313,13 +317,13 @@ fn one_of<T: Copy>(field: &Field<'_>, all: &[(&str, T)], known: &[&str]) -> Resu
     }
 }
 
-fn name(field: &Field<'_>) -> Result<String, InputError> {
+fn name(field: &FileField<'_>) -> Result<String, InputError> {
     let name = field.string()?;
     check_identifier(&name, &field.place)?;
     Ok(name)
 }
 
-fn check_identifier(name: &str, place: &super::Place) -> Result<(), InputError> {
+fn check_identifier(name: &str, place: &super::Location) -> Result<(), InputError> {
     let is_allowed = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_allowed) {
         return Ok(());
@@ -328,7 +332,7 @@ fn check_identifier(name: &str, place: &super::Place) -> Result<(), InputError> 
     Err(place.error(problem))
 }
 
-fn check_name(name: &str, place: &super::Place) -> Result<(), InputError> {
+fn check_name(name: &str, place: &super::Location) -> Result<(), InputError> {
     check_identifier(name, place)?;
     if reserved().any(|word| word == name) {
         let meaning = match name {
@@ -423,7 +427,7 @@ fn terms(expression: &Expression) -> Vec<Term> {
     terms
 }
 
-fn datum(field: &Field<'_>) -> Result<Datum, InputError> {
+fn datum(field: &FileField<'_>) -> Result<Datum, InputError> {
     check_identifier(&field.name, &field.place)?;
     let name = field.name.clone();
     if !field.is_table() {
@@ -446,7 +450,7 @@ fn expressions(section: &Section<'_>, name: &str) -> Result<Vec<Expression>, Inp
     let Some(field) = section.field(name) else {
         return Ok(vec![]);
     };
-    field.list()?.iter().map(Field::expression).collect()
+    field.list()?.iter().map(FileField::expression).collect()
 }
 
 fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
@@ -460,9 +464,9 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     Ok(Some(Study {
         command: command
             .iter()
-            .map(Field::string)
+            .map(FileField::string)
             .collect::<Result<_, _>>()?,
-        n: n.iter().map(Field::count).collect::<Result<_, _>>()?,
+        n: n.iter().map(FileField::count).collect::<Result<_, _>>()?,
         orders: orders
             .iter()
             .map(|field| Ok((field.name.clone(), field.number()?)))
@@ -470,11 +474,11 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     }))
 }
 
-impl super::Value {
-    pub(crate) fn place(&self) -> &super::Place {
+impl super::TensorValue {
+    pub(crate) fn place(&self) -> &super::Location {
         match self {
-            super::Value::One(expression) => &expression.place,
-            super::Value::List(place, _) => place,
+            super::TensorValue::One(expression) => &expression.place,
+            super::TensorValue::List(place, _) => place,
         }
     }
 }

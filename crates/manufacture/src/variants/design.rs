@@ -1,7 +1,7 @@
 //! Which variants a file has.
 
 use super::Switch;
-use crate::language::tree::{Kind, Tree};
+use crate::language::tree::{Tree, TreeKind};
 use crate::problem::{Bubble, Step, Variation};
 use crate::problem::{Problem, Surface};
 
@@ -230,7 +230,7 @@ pub(super) fn set_to_zero(problem: &mut Problem, name: &str) {
     if let Some(parameter) = parameters.find(|parameter| parameter.name == name) {
         "0".clone_into(&mut parameter.expression.text);
         parameter.expression.tree = Tree {
-            kind: Kind::Number(0.0, "0".to_owned()),
+            kind: TreeKind::Number(0.0, "0".to_owned()),
             at: 0,
         };
     }

@@ -2,7 +2,7 @@
 //! has more.
 
 use manufacture::language::names::{CONSTANTS, Callee, did_you_mean};
-use manufacture::language::tree::{Binary, Kind, Tree, callee_name};
+use manufacture::language::tree::{Binary, TreeKind, Tree, callee_name};
 use manufacture::language::{SyntaxError, parse as tree_of};
 
 use super::Variable;
@@ -22,11 +22,11 @@ struct Converter<'s> {
 impl Converter<'_> {
     fn node(&self, tree: &Tree) -> Result<Node, SyntaxError> {
         match &tree.kind {
-            Kind::Number(value, _) => Ok(Node::Constant(*value)),
-            Kind::Name(name) => self.name(name, tree),
-            Kind::Bracket(inner) => self.node(inner),
-            Kind::Negate(operand) => Ok(Node::negate(self.node(operand)?)),
-            Kind::Binary(operator, operands) => {
+            TreeKind::Number(value, _) => Ok(Node::Constant(*value)),
+            TreeKind::Name(name) => self.name(name, tree),
+            TreeKind::Bracket(inner) => self.node(inner),
+            TreeKind::Negate(operand) => Ok(Node::negate(self.node(operand)?)),
+            TreeKind::Binary(operator, operands) => {
                 let operator = match operator {
                     Binary::Add => Operator::Add,
                     Binary::Subtract => Operator::Subtract,
@@ -37,8 +37,8 @@ impl Converter<'_> {
                 let left = self.node(&operands[0])?;
                 Ok(Node::binary(operator, left, self.node(&operands[1])?))
             }
-            Kind::Call(callee, parts) => self.call(*callee, parts, tree),
-            Kind::List(_) | Kind::Index(..) | Kind::Compare(..) => {
+            TreeKind::Call(callee, parts) => self.call(*callee, parts, tree),
+            TreeKind::List(_) | TreeKind::Index(..) | TreeKind::Compare(..) => {
                 let name = self.variable.name();
                 Err(self.error(
                     tree,

@@ -13,7 +13,7 @@ use convergence_study::{
     internal::{
         run::{Item, not_passed, run},
         store::{
-            Baseline, Change,
+            Baseline, GuardedChange,
             diagnosis::{Diagnosis, diagnose},
         },
         study::{StudyFile, outcome::settle},
@@ -188,7 +188,7 @@ struct Conclusions {
     verdicts: Vec<Verdict>,
     /// The studies that did not pass, with the verdicts of their items.
     order: Vec<(String, Vec<Verdict>)>,
-    changes: Vec<Change>,
+    changes: Vec<GuardedChange>,
     diagnosis: Diagnosis,
     /// Of failing checks by quantity: the diagnosis quotes their claims, so it has no words here.
     failing_checks: Vec<usize>,

@@ -91,7 +91,7 @@ use compared::compared;
 use draw::Draw;
 use held_out::HELD_OUT;
 use intervals::intervals;
-use laws::{LAWS, Table, USUAL, WIDE};
+use laws::{LAWS, LawErrors, USUAL, WIDE};
 use noisy::noisy;
 use rules::{hidden, levels, rules};
 use sheet::Sheet;
@@ -108,7 +108,7 @@ fn judge(tolerance: f64) -> Result<Judge, JudgeError> {
 }
 
 /// The order, or the one shown if there is none, and claims that are `off` on either side of it.
-fn wrong(table: &Table, off: f64) -> [f64; 2] {
+fn wrong(table: &LawErrors, off: f64) -> [f64; 2] {
     [-off, off].map(|off| table.order.unwrap_or(table.shown) + off)
 }
 

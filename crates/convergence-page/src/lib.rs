@@ -15,7 +15,7 @@ use convergence_study::internal::{
 };
 use serde_json::{Value, json};
 
-use answer::{Judged, Read, Refused};
+use answer::{JudgedText, Read, Refused};
 use question::Question;
 
 /// The program in the commands that the page offers.
@@ -45,7 +45,7 @@ pub fn read(question: &str) -> String {
 /// * `question`: a JSON object with `text`, and the options of the command `rates` under their names.
 pub fn judge(question: &str) -> String {
     answered(question, |question| {
-        Ok(json!(Judged {
+        Ok(json!(JudgedText {
             sheet: sheet_of(question)?,
             command: question.command(),
         }))

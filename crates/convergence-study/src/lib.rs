@@ -117,7 +117,7 @@ pub use convergence_judge::Interval;
 pub use convergence_judge::judge::{
     claims::Claim,
     grid::SpaceTime,
-    richardson::{Estimator, Value},
+    richardson::{Estimator, StepValue},
     verdict::{
         Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs, observe,
     },
@@ -138,7 +138,7 @@ pub use crate::{
 
 /// Variants of a study's solution, by which `--where` names the part that has lost the order.
 pub mod variants {
-    pub use crate::study::variants::{LeftOut, Part, Variant, Variants};
+    pub use crate::study::variants::{LeftOutVariant, SolverPart, Variant, Variants};
 }
 
 #[cfg(feature = "files")]
@@ -155,8 +155,10 @@ pub use crate::{
 #[doc(inline)]
 pub use crate::{
     program::{PROJECT as PROGRAMS, ROW as PROGRAM},
-    project::{Front, Project, Template, Term},
-    verify::{Blessing, Request, Scope, Verification, VerificationError, verify, write_report},
+    project::{Front, Project, SourcePlace, Statement, Template, Term},
+    verify::{
+        Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,
+    },
 };
 
 #[cfg(feature = "command-line")]

@@ -6,7 +6,7 @@ use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::language::names::did_you_mean;
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 
 /// Points, and of each the face that it is on.
@@ -94,7 +94,7 @@ impl Columns {
         quantities: &[&DerivedQuantity<NodeId>],
         points: &[Option<Vec<f64>>],
     ) -> Self {
-        let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
         let values: Vec<_> = points
             .iter()
             .map(|point| point.as_ref().map(|point| rows.at(point).tensors))

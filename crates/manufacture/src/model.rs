@@ -143,13 +143,13 @@ impl JetsAt<'_> {
 }
 
 /// The values of tensors at a point: of each all components.
-pub(crate) struct Rows<'m> {
+pub(crate) struct TensorRows<'m> {
     tape: Tape<'m>,
     /// Where the components of each tensor begin.
     starts: Vec<usize>,
 }
 
-impl<'m> Rows<'m> {
+impl<'m> TensorRows<'m> {
     pub(crate) fn new<'t>(
         graph: &'m Graph,
         tensors: impl Iterator<Item = &'t crate::derive::Tensor<NodeId>>,
@@ -185,7 +185,7 @@ impl<'m> Rows<'m> {
     }
 }
 
-/// [`Rows`] at a point.
+/// [`TensorRows`] at a point.
 pub(crate) struct RowsAt {
     pub(crate) tensors: Vec<Vec<SizedValue>>,
     pub(crate) switches: Vec<f64>,

@@ -110,7 +110,7 @@ impl Command {
     ///
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
-    pub fn run(&self, project: &Project, program: clap::Command) -> exit::Outcome {
+    pub fn run(&self, project: &Project, program: clap::Command) -> exit::CommandOutcome {
         match self {
             Self::Harness(command) => command.run(project, program),
             Self::Run(arguments) => run::run(arguments),

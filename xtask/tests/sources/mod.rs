@@ -12,6 +12,7 @@ mod paths;
 mod tests_run;
 mod texts;
 mod theory;
+mod type_names;
 
 use std::path::{Path, PathBuf};
 

@@ -50,10 +50,10 @@ impl<E: Error> From<E> for Unusable {
 
 /// What a command with usable input returns: exit status 0 for a pass, otherwise 1; the failure has
 /// then been reported.
-pub type Outcome = Result<Verdict, Unusable>;
+pub type CommandOutcome = Result<Verdict, Unusable>;
 
 /// Reports unusable input, and turns the outcome into the exit status.
-pub(crate) fn status(outcome: Outcome) -> u8 {
+pub(crate) fn status(outcome: CommandOutcome) -> u8 {
     match outcome {
         Ok(verdict) => u8::from(!verdict.is_pass()),
         Err(Unusable(message)) => {

@@ -54,7 +54,7 @@ pub(crate) mod xy;
 
 pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestAxis, ForestRow, forest};
-pub use heat::{Surface, surface};
+pub use heat::{ColouredCells, surface};
 pub use history::{history, iterations, work_precision};
 pub use panels::panels;
 pub use space_time::{SpaceTime, space_time};

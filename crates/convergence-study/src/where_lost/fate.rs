@@ -139,7 +139,7 @@ struct Lost {
 
 /// What a lower order explains of errors.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct LowerOrderPart {
     /// The b of b h^q.
     coefficient: f64,
     /// Its share of the finest error.
@@ -148,7 +148,7 @@ struct Part {
 
 impl Lost {
     /// The part of the lower order; `None` without three levels.
-    fn part(self, levels: &[Level]) -> Option<Part> {
+    fn part(self, levels: &[Level]) -> Option<LowerOrderPart> {
         let [.., coarse, middle, fine] = levels else {
             return None;
         };
@@ -175,7 +175,7 @@ impl Lost {
         let coefficient = share * fine.error / fine.step.powf(self.lower);
         coefficient
             .is_finite()
-            .then_some(Part { coefficient, share })
+            .then_some(LowerOrderPart { coefficient, share })
     }
 }
 

@@ -6,7 +6,7 @@ use convergence_study::{
     internal::{
         run::not_passed,
         store::{
-            Baseline, Change,
+            Baseline, GuardedChange,
             diagnosis::{Diagnosis, diagnose},
         },
         study::outcome::settle,
@@ -84,7 +84,7 @@ fn failing() -> Vec<Finished> {
 struct Conclusions {
     verdicts: Vec<Verdict>,
     order: Vec<(String, Verdict)>,
-    changes: Vec<Change>,
+    changes: Vec<GuardedChange>,
     diagnosis: Diagnosis,
 }
 

@@ -36,7 +36,7 @@ use serde::Serialize;
 use crate::Sampling;
 use crate::derive::{Part, Role};
 use crate::language::names::did_you_mean;
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -153,7 +153,7 @@ pub(crate) fn questions(
     let normal = model.part(part).iter().find(|q| q.role == Role::Normal);
     if let Some(normal) = normal {
         names.extend(problem.axes().iter().map(|axis| format!("n_{axis}")));
-        let normals = Rows::new(&model.graph, std::iter::once(&normal.tensor));
+        let normals = TensorRows::new(&model.graph, std::iter::once(&normal.tensor));
         for row in &mut rows {
             let normal = normals.at(row).tensors.remove(0);
             row.extend(normal.iter().map(|v| v.value));

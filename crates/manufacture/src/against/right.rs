@@ -7,8 +7,8 @@ use crate::arithmetic::jet::Jet;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
 use crate::fit::Column;
-use crate::model::{Model, Rows};
-use crate::problem::{InputError, Setting};
+use crate::model::{Model, TensorRows};
+use crate::problem::{InputError, ParameterValue};
 
 /// Points where the file is evaluated in both ways.
 const SPREAD_POINTS: usize = 50;
@@ -150,14 +150,14 @@ impl<'m> Right<'m> {
     /// The parameters with one of them changed; those that depend on it follow.
     pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
         let problem = &self.model.problem;
-        let setting = Setting { parameter, value };
+        let setting = ParameterValue { parameter, value };
         problem.parameter_values(&[setting]).ok()
     }
 
     /// A quantity, to be evaluated at other points or with other parameters.
-    pub(crate) fn rows(&self, place: ComponentPlace) -> Rows<'m> {
+    pub(crate) fn rows(&self, place: ComponentPlace) -> TensorRows<'m> {
         let tensor = &self.quantities[place.quantity].quantity.tensor;
-        Rows::new(&self.model.graph, std::iter::once(tensor))
+        TensorRows::new(&self.model.graph, std::iter::once(tensor))
     }
 }
 
@@ -176,7 +176,7 @@ fn without_rounding(values: &[Vec<SizedValue>], component: usize) -> Column {
 }
 
 fn at(model: &Model, tensor: &Tensor<NodeId>, points: &[Vec<f64>]) -> Vec<Vec<SizedValue>> {
-    let rows = Rows::new(&model.graph, std::iter::once(tensor));
+    let rows = TensorRows::new(&model.graph, std::iter::once(tensor));
     points
         .iter()
         .map(|point| rows.at(point).tensors.remove(0))

@@ -102,7 +102,10 @@ fn rewritten(expression: &Expression, rewrite: &Rewrite, change: EditKind, facto
         EditKind::Basis => Texts {
             span: own,
             new: match &rewrite.new.kind {
-                TreeKind::Call(Callee::Operator(Operator::Altered(names::Alteration::Flat)), _) => {
+                TreeKind::Call(
+                    Callee::Operator(Operator::Altered(names::OperandAlteration::Flat)),
+                    _,
+                ) => {
                     format!("{part} as in Cartesian coordinates")
                 }
                 _ => format!("{part} without the derivatives of the basis"),
@@ -150,7 +153,7 @@ fn added(sum: &Tree, factor: f64) -> String {
 /// The one factor of a product that is not held.
 fn differentiated(tree: &Tree) -> String {
     match &tree.kind {
-        TreeKind::Call(Callee::Operator(Operator::Altered(names::Alteration::Held)), _)
+        TreeKind::Call(Callee::Operator(Operator::Altered(names::OperandAlteration::Held)), _)
         | TreeKind::Number(..) => String::new(),
         TreeKind::Name(name) => name.clone(),
         TreeKind::Binary(Binary::Multiply | Binary::Divide, _)

@@ -81,7 +81,7 @@ impl Effect {
 }
 
 #[derive(Default)]
-pub(super) struct Outcome {
+pub(super) struct TrialResult {
     /// The factors with which a component fits.
     pub(super) factors: Vec<f64>,
     pub(super) effect: Option<Effect>,
@@ -89,8 +89,8 @@ pub(super) struct Outcome {
 }
 
 /// Tries one edit on all components that are wrong.
-pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Trial) -> Outcome {
-    let mut outcome = Outcome::default();
+pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Trial) -> TrialResult {
+    let mut outcome = TrialResult::default();
     if !candidate.has_factor() {
         let columns = curve.at(1.0).to_vec();
         let mut change = vec![];

@@ -6,7 +6,7 @@ use super::right::{ComponentPlace, Right};
 use super::solve::{difference, simple};
 use crate::derive::Part;
 use crate::fit::{self, Column};
-use crate::model::Rows;
+use crate::model::TensorRows;
 
 /// A term depends on others if less than this share of it is left.
 const DEPENDENT: f64 = 1e-9;
@@ -151,7 +151,7 @@ impl Component<'_, '_> {
 
     fn column(
         &self,
-        rows: &Rows<'_>,
+        rows: &TensorRows<'_>,
         points: impl Iterator<Item = Vec<f64>>,
         parameters: &[f64],
     ) -> Column {

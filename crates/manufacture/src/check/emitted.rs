@@ -14,7 +14,7 @@ use crate::derive::{Part, Role};
 use crate::emit::{self, Alternative, EmittedFunction, Language, OTHERS, accept, emit, functions};
 use crate::language::tree::Tree;
 use crate::model::Model;
-use crate::problem::{InputError, Setting, mentions};
+use crate::problem::{InputError, ParameterValue, mentions};
 
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
@@ -230,7 +230,7 @@ fn rounds<'f>(model: &'f Model, functions: &'f [EmittedFunction]) -> Vec<Round<'
 }
 
 /// All parameters that depend on no other, a thousandth larger.
-fn settings(model: &Model) -> Vec<Setting> {
+fn settings(model: &Model) -> Vec<ParameterValue> {
     let problem = &model.problem;
     let is_free = |tree: &Tree| {
         let mut others = problem.parameters.iter();
@@ -240,7 +240,7 @@ fn settings(model: &Model) -> Vec<Setting> {
     values
         .enumerate()
         .filter(|(_, (parameter, _))| is_free(&parameter.expression.tree))
-        .map(|(parameter, (_, value))| Setting {
+        .map(|(parameter, (_, value))| ParameterValue {
             parameter,
             value: 1.001 * value,
         })
@@ -254,7 +254,7 @@ impl Round<'_> {
         &self,
         model: &Model,
         answer: &AnswerProgram<'_>,
-        settings: &[Setting],
+        settings: &[ParameterValue],
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
         let questions = questions(model, self.face, sampling.seed, sampling.points)?;
@@ -268,7 +268,7 @@ impl Round<'_> {
             .flat_map(|f| f.roots.clone())
             .collect();
         let mut arguments = vec![self.argument.clone()];
-        for Setting { parameter, value } in settings {
+        for ParameterValue { parameter, value } in settings {
             let name = &model.problem.parameters[*parameter].name;
             arguments.push(format!("{name}={value:?}"));
         }

@@ -5,7 +5,7 @@ use crate::against::bench::{Alteration, Bench};
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{Part, Role};
 use crate::language::parse;
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::{Expression, TensorValue};
 
 /// Points at which the fields are compared.
@@ -83,7 +83,7 @@ fn is_solenoidal(model: &Model, name: &str, points: &[Vec<f64>]) -> bool {
     let Some(rows) = gradient.tensor.square() else {
         return false;
     };
-    let values = Rows::new(&model.graph, std::iter::once(&gradient.tensor));
+    let values = TensorRows::new(&model.graph, std::iter::once(&gradient.tensor));
     points.iter().all(|point| {
         let parts = values.at(point).tensors.remove(0);
         let diagonal = (0..rows).map(|row| parts[row * (rows + 1)]);

@@ -16,7 +16,7 @@ use crate::arithmetic::NodeId;
 use crate::arithmetic::SAME;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -85,7 +85,7 @@ pub(crate) struct Sampled<'m> {
 impl<'m> Sampled<'m> {
     pub(crate) fn new(model: &'m Model, part: Part, points: Vec<Vec<f64>>) -> Self {
         let quantities = model.part(part);
-        let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
         Self {
             part,
             quantities,
@@ -257,7 +257,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
                 .over(index)
                 .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
             let Some((point, _)) = lowest else { continue };
-            let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
+            let rows = TensorRows::new(&model.graph, std::iter::once(&quantity.tensor));
             let Lowest { value, point } = descend(model, sampler, &rows, point);
             if !(value > 0.0) {
                 let at = model.place_in_words(&point);
@@ -278,7 +278,7 @@ struct Lowest {
 }
 
 /// The lowest value near a point, by steps along the axes that are halved when none goes down.
-fn descend(model: &Model, sampler: &Sampler<'_>, rows: &Rows<'_>, start: &[f64]) -> Lowest {
+fn descend(model: &Model, sampler: &Sampler<'_>, rows: &TensorRows<'_>, start: &[f64]) -> Lowest {
     const SMALLEST_STEP: f64 = 1e-7;
     let mut point = start.to_vec();
     let mut value = rows.at(&point).tensors[0][0].value;

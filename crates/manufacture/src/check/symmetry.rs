@@ -5,7 +5,7 @@ use super::{Finding, Sampled, finding, is_same};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Role};
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 
 /// A map of the box onto itself.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +91,7 @@ pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
     let fields = sampled.quantities.iter().enumerate();
     for (index, field) in fields.filter(|entry| entry.1.role == Role::Exact) {
-        let rows = Rows::new(&model.graph, std::iter::once(&field.tensor));
+        let rows = TensorRows::new(&model.graph, std::iter::once(&field.tensor));
         for map in Map::all(model) {
             if !map.axes().iter().all(|axis| depends(model, field, *axis)) {
                 continue;

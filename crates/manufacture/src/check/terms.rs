@@ -4,7 +4,7 @@ use super::{Finding, Sampled, Share, finding, is_zero};
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::Role;
 use crate::fit::{self, Column};
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 
 /// A term below this share of the largest term at every point would not be missed.
 const SMALL: f64 = 0.01;
@@ -25,7 +25,7 @@ pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> TermFindings
     let sources = sampled.quantities.iter().filter(|q| q.role == Role::Source);
     for source in sources {
         let labels: Vec<&str> = source.terms.iter().map(|term| term.0.as_str()).collect();
-        let rows = Rows::new(&model.graph, source.terms.iter().map(|term| &term.1));
+        let rows = TensorRows::new(&model.graph, source.terms.iter().map(|term| &term.1));
         let values: Vec<_> = sampled
             .points
             .iter()

@@ -4,7 +4,7 @@ use super::elaborate::{Elaborated, Elaborator};
 use super::tensor::{Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
-use crate::problem::{Bubble, Step};
+use crate::problem::{Bubble, VariationStep};
 use crate::problem::{InputError, TensorValue};
 
 impl<A: Algebra> Elaborator<'_, A> {
@@ -32,21 +32,21 @@ impl<A: Algebra> Elaborator<'_, A> {
     }
 
     /// A function after these steps.
-    fn after(&mut self, steps: &[Step], value: &TensorValue) -> Elaborated<A> {
+    fn after(&mut self, steps: &[VariationStep], value: &TensorValue) -> Elaborated<A> {
         let Some((last, before)) = steps.split_last() else {
             return self.value(value);
         };
         match last {
-            Step::Fix { variable, at } => {
+            VariationStep::Fix { variable, at } => {
                 let mut traces = self.traces(before, value, *variable, *at, 0)?;
                 Ok(traces.remove(0))
             }
-            Step::Flatten {
+            VariationStep::Flatten {
                 variable,
                 end,
                 degree,
             } => self.flattened(*variable, *end, *degree, before, value),
-            Step::Weigh(bubble) => {
+            VariationStep::Weigh(bubble) => {
                 let function = self.after(before, value)?;
                 let weight = self.weight(bubble);
                 Ok(scale(
@@ -65,7 +65,7 @@ impl<A: Algebra> Elaborator<'_, A> {
         variable: usize,
         end: f64,
         degree: usize,
-        before: &[Step],
+        before: &[VariationStep],
         value: &TensorValue,
     ) -> Elaborated<A> {
         let mut rest = self.after(before, value)?;
@@ -84,7 +84,7 @@ impl<A: Algebra> Elaborator<'_, A> {
     /// 0 on.
     fn traces(
         &mut self,
-        steps: &[Step],
+        steps: &[VariationStep],
         value: &TensorValue,
         variable: usize,
         at: f64,

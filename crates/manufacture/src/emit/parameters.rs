@@ -71,13 +71,13 @@ pub(super) fn definitions(writer: &Writer<'_>) -> String {
 }
 
 /// The statements that set a parameter, and those that follow it.
-struct Branch<'w> {
+struct SetterBranch<'w> {
     name: &'w str,
     statements: Vec<String>,
     constants: Vec<[String; 2]>,
 }
 
-fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Branch<'w> {
+fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> SetterBranch<'w> {
     let language = writer.language;
     let texts = &writer.texts().parameters;
     let mut statements = vec![assignment(texts, &writer.parameters[index], "value")];
@@ -99,7 +99,7 @@ fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Br
         statements.push(assignment(texts, name, &roots[0]));
         statements.extend(block.map(|[_, closing]| closing.to_owned()));
     }
-    Branch {
+    SetterBranch {
         name: &writer.model.problem.parameters[index].name,
         statements,
         constants: all,
@@ -121,7 +121,7 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
     for emitted in &writer.models {
         let mut cases = String::new();
         for index in 0..writer.parameters.len() {
-            let Branch {
+            let SetterBranch {
                 name,
                 statements,
                 constants,

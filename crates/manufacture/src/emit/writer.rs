@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::functions::{EmittedFunction, functions};
-use super::lower::{Lowered, Names, lower};
+use super::lower::{Lowered, LoweringNames, lower};
 use super::texts::{Texts, Time};
 use super::{Language, fill};
 use crate::arithmetic::quadrature::{self, POINTS};
@@ -190,7 +190,7 @@ impl<'m> Writer<'m> {
         };
         let names = self.parameters.iter();
         let values: Vec<String> = names.map(|name| self.reading(name)).collect();
-        let names = Names {
+        let names = LoweringNames {
             language: self.language,
             array,
             coordinates: self.model.problem.coordinates.len(),

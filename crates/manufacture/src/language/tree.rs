@@ -150,9 +150,9 @@ pub fn callee_name(callee: Callee) -> &'static str {
 }
 
 /// Parts with commas between them.
-struct Listed<'t>(&'t [Tree]);
+struct CommaList<'t>(&'t [Tree]);
 
-impl fmt::Display for Listed<'_> {
+impl fmt::Display for CommaList<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, part) in self.0.iter().enumerate() {
             let comma = if number > 0 { ", " } else { "" };
@@ -184,10 +184,10 @@ impl fmt::Display for Tree {
                 write!(f, "{left} {} {right}", comparison.symbol())
             }
             TreeKind::Call(callee, parts) => {
-                write!(f, "{}({})", callee_name(*callee), Listed(parts))
+                write!(f, "{}({})", callee_name(*callee), CommaList(parts))
             }
-            TreeKind::List(parts) => write!(f, "[{}]", Listed(parts)),
-            TreeKind::Index(tensor, indices) => write!(f, "{tensor}[{}]", Listed(indices)),
+            TreeKind::List(parts) => write!(f, "[{}]", CommaList(parts)),
+            TreeKind::Index(tensor, indices) => write!(f, "{tensor}[{}]", CommaList(indices)),
             TreeKind::Bracket(inner) => write!(f, "({inner})"),
         }
     }

@@ -17,7 +17,7 @@ pub(crate) use constant::constant;
 pub use error::InputError;
 pub(crate) use error::{LineColumn, Location};
 pub use keys::FILE_KEYS;
-pub(crate) use variation::{Bubble, Step, Variation};
+pub(crate) use variation::{Bubble, Variation, VariationStep};
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +66,7 @@ pub(crate) struct Parameter {
 
 /// Another value of a parameter, by its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Setting {
+pub(crate) struct ParameterValue {
     pub(crate) parameter: usize,
     pub(crate) value: f64,
 }
@@ -80,7 +80,7 @@ pub(crate) struct Definition {
 
 /// A summand of an equation.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Term {
+pub(crate) struct EquationTerm {
     pub(crate) label: String,
     /// Its place in the file. Terms are added in another order, which does not depend on that of
     /// the keys.
@@ -95,7 +95,7 @@ pub(crate) struct Term {
 pub(crate) struct Equation {
     pub(crate) name: String,
     pub(crate) place: Location,
-    pub(crate) terms: Vec<Term>,
+    pub(crate) terms: Vec<EquationTerm>,
 }
 
 /// Where data are given.
@@ -148,7 +148,7 @@ impl Norm {
 
 /// The study that is written beside the emitted files.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Study {
+pub(crate) struct EmittedStudy {
     pub(crate) command: Vec<String>,
     pub(crate) n: Vec<u64>,
     /// Name of an error, and its order as written.
@@ -175,7 +175,7 @@ pub(crate) struct Problem {
     pub(crate) positive: Vec<Expression>,
     pub(crate) zero: Vec<Expression>,
     pub(crate) norms: Vec<(String, Vec<Norm>)>,
-    pub(crate) study: Option<Study>,
+    pub(crate) study: Option<EmittedStudy>,
     /// The parameters that variants may set to zero.
     pub(crate) switchable: Vec<String>,
     /// Of a variant: what it does to the exact fields.
@@ -203,7 +203,10 @@ impl Problem {
     }
 
     /// The values of the parameters, with some of them replaced; those that depend on them follow.
-    pub(crate) fn parameter_values(&self, replaced: &[Setting]) -> Result<Vec<f64>, InputError> {
+    pub(crate) fn parameter_values(
+        &self,
+        replaced: &[ParameterValue],
+    ) -> Result<Vec<f64>, InputError> {
         let mut values: Vec<Option<f64>> = vec![None; self.parameters.len()];
         for setting in replaced {
             values[setting.parameter] = Some(setting.value);

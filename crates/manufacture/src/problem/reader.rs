@@ -9,7 +9,7 @@ use crate::language::names::did_you_mean;
 use crate::language::parse;
 
 /// A table of the file with the path of its keys.
-pub(super) struct Section<'t> {
+pub(super) struct FileSection<'t> {
     pub(super) path: String,
     table: &'t DeTable<'t>,
     reader: &'t Reader<'t>,
@@ -72,8 +72,8 @@ impl<'t> Reader<'t> {
         })
     }
 
-    pub(super) fn whole(&'t self, table: &'t DeTable<'t>) -> Section<'t> {
-        Section {
+    pub(super) fn whole(&'t self, table: &'t DeTable<'t>) -> FileSection<'t> {
+        FileSection {
             path: String::new(),
             table,
             reader: self,
@@ -108,7 +108,7 @@ fn joined(path: &str, name: &str) -> String {
     }
 }
 
-impl<'t> Section<'t> {
+impl<'t> FileSection<'t> {
     pub(super) fn place(&self) -> Location {
         Location {
             file: self.reader.file.to_owned(),
@@ -147,7 +147,7 @@ impl<'t> Section<'t> {
         })
     }
 
-    pub(super) fn section(&self, name: &str) -> Result<Option<Section<'t>>, InputError> {
+    pub(super) fn section(&self, name: &str) -> Result<Option<FileSection<'t>>, InputError> {
         self.field(name).map(|field| field.section()).transpose()
     }
 
@@ -182,9 +182,9 @@ impl<'t> FileField<'t> {
         matches!(self.value, DeValue::Table(_))
     }
 
-    pub(super) fn section(&self) -> Result<Section<'t>, InputError> {
+    pub(super) fn section(&self) -> Result<FileSection<'t>, InputError> {
         match self.value {
-            DeValue::Table(table) => Ok(Section {
+            DeValue::Table(table) => Ok(FileSection {
                 path: self.place.key.clone(),
                 table,
                 reader: self.reader,

@@ -80,7 +80,7 @@ pub fn energy_at_rest(beam: &Beam) -> Option<f64> {
 
 /// A family of equilibria, all stable or all unstable.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Branch {
+pub struct EquilibriumBranch {
     /// Contact state; branches with the same label share a colour and a legend entry.
     pub label: String,
     /// `(parameter, tip displacement)`, along the branch.
@@ -95,7 +95,7 @@ pub struct Bifurcation {
     /// What the reader should see.
     pub title: String,
     /// Families of equilibria.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<EquilibriumBranch>,
     /// A line for each obstacle.
     pub obstacles: Vec<Guide>,
     /// Those in which simulations ended.
@@ -143,7 +143,7 @@ pub fn bifurcation(figure: &Bifurcation) -> String {
     .draw()
 }
 
-fn branch_curve(branch: &Branch, look: Look) -> Curve {
+fn branch_curve(branch: &EquilibriumBranch, look: Look) -> Curve {
     // A single point would be invisible as a line.
     let marks = match (branch.points.len(), branch.stable) {
         (2.., _) => Marks::None,

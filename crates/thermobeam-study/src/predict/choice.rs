@@ -7,23 +7,23 @@
 //! space and time in its error, and the larger part is halved until the target is met.
 //!
 //! ```
-//! use thermobeam_study::predict::choice::{Quantity, choose};
+//! use thermobeam_study::predict::choice::{ErrorQuantity, choose};
 //! use thermobeam_study::predict::{MOST_WORK, Work};
 //! use thermobeam_study::scene::Scene;
 //!
 //! let scene = Scene::parse("[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0", "swing.toml")?;
-//! let choice = choose(&scene, Quantity::Tip, 1e-7, &mut Work::new(MOST_WORK, &mut |_| ()))?;
+//! let choice = choose(&scene, ErrorQuantity::Tip, 1e-7, &mut Work::new(MOST_WORK, &mut |_| ()))?;
 //! assert!(choice.error <= 1e-7 && choice.scene.method.name() == "dg");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 use thermobeam::solve::Stopping;
 
-use super::curves::{Apart, Curves, Rows, Wanted, curves};
+use super::curves::{Apart, CurveRows, Curves, Wanted, curves};
 use super::first::impact;
 use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::{Cost, Reason, Unreachable, Work};
+use super::{Cost, StopReason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 
 /// Elements of the coarsest run by the scene's own scheme.
@@ -40,14 +40,14 @@ const FAILURES: usize = 4;
 
 /// The quantity whose error is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ErrorQuantity {
     /// Maximum over [0, T] of the error of u(1, t).
     Tip,
     /// Maximum over [0, T] of the norm of Theorem 3.4.
     Norm,
 }
 
-impl Quantity {
+impl ErrorQuantity {
     /// The name in JSON and on the command line.
     pub fn name(self) -> &'static str {
         match self {
@@ -65,10 +65,10 @@ impl Quantity {
     }
 
     /// * `nodes`: for the norm, which is exact for linear functions between them.
-    fn rows(self, nodes: &[f64]) -> Rows {
+    fn rows(self, nodes: &[f64]) -> CurveRows {
         match self {
-            Self::Tip => Rows::Tip,
-            Self::Norm => Rows::of_norm(nodes, 2),
+            Self::Tip => CurveRows::Tip,
+            Self::Norm => CurveRows::of_norm(nodes, 2),
         }
     }
 
@@ -106,7 +106,7 @@ pub struct Choice {
 /// [`Unreachable`]: why there is no such run, and the error reached.
 pub fn choose(
     scene: &Scene,
-    quantity: Quantity,
+    quantity: ErrorQuantity,
     target: f64,
     work: &mut Work<'_>,
 ) -> Result<Choice, Unreachable> {
@@ -141,7 +141,7 @@ pub fn choose(
 /// As [`choose`].
 pub fn keep_scheme(
     scene: &Scene,
-    quantity: Quantity,
+    quantity: ErrorQuantity,
     target: f64,
     work: &mut Work<'_>,
 ) -> Result<Choice, Unreachable> {
@@ -155,7 +155,7 @@ pub fn keep_scheme(
         &Policy::default(),
         work,
     )?;
-    let mut search = Search {
+    let mut search = OneStepSearch {
         quantity,
         target,
         reference,
@@ -172,17 +172,17 @@ pub fn keep_scheme(
             Next::Refine(factors) => {
                 let [elements, steps] = size(&scene);
                 scene = resized(&scene, [factors[0] * elements, factors[1] * steps])
-                    .ok_or_else(|| search.not_reached(Reason::Finest))?;
+                    .ok_or_else(|| search.not_reached(StopReason::Finest))?;
             }
             Next::GiveUp(reason) => return Err(search.not_reached(reason)),
         }
     }
-    Err(search.not_reached(Reason::Rounds))
+    Err(search.not_reached(StopReason::Rounds))
 }
 
 /// A search for the elements and steps of the scene's own scheme.
-struct Search {
-    quantity: Quantity,
+struct OneStepSearch {
+    quantity: ErrorQuantity,
     target: f64,
     reference: Reference,
     /// The parts of space and time, once they are known.
@@ -206,16 +206,16 @@ enum Next {
     /// By these factors of elements and of steps.
     Refine([f64; 2]),
     /// The target cannot be reached.
-    GiveUp(Reason),
+    GiveUp(StopReason),
 }
 
-impl Search {
+impl OneStepSearch {
     /// Runs a scene, and decides what is next.
     fn round(&mut self, scene: &Scene, work: &mut Work<'_>) -> Next {
         match self.measure(scene, work) {
             Ok((own, error)) => self.after(scene, &own, error, work),
             // Coarse steps may fail although finer ones succeed.
-            Err(Reason::Run(_)) if self.failures < FAILURES => {
+            Err(StopReason::Run(_)) if self.failures < FAILURES => {
                 self.failures += 1;
                 Next::Refine([2.0; 2])
             }
@@ -224,7 +224,7 @@ impl Search {
     }
 
     /// A run and its error; the parts of the error too, if they are needed.
-    fn measure(&mut self, scene: &Scene, work: &mut Work<'_>) -> Result<(Own, f64), Reason> {
+    fn measure(&mut self, scene: &Scene, work: &mut Work<'_>) -> Result<(Own, f64), StopReason> {
         work.leaves(size(scene).iter().product())?;
         let nodes = self.reference.scene.mesh.nodes();
         let own = Own::run(scene, self.quantity, nodes, work)?;
@@ -238,7 +238,7 @@ impl Search {
     /// What follows from a run with this error.
     fn after(&mut self, scene: &Scene, own: &Own, error: f64, work: &Work<'_>) -> Next {
         let Some(parts) = &mut self.parts else {
-            return Next::GiveUp(Reason::NotFinite);
+            return Next::GiveUp(StopReason::NotFinite);
         };
         if error <= self.target {
             return Next::Reached(Box::new(Choice {
@@ -264,7 +264,7 @@ impl Search {
         Next::Refine(parts.halve_larger())
     }
 
-    fn not_reached(&self, reason: Reason) -> Unreachable {
+    fn not_reached(&self, reason: StopReason) -> Unreachable {
         let [space, time] = self.best.parts;
         Unreachable::NotReached {
             target: self.target,
@@ -312,7 +312,7 @@ fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
 
 /// A run by the scene's own scheme.
 struct Own {
-    rows: Rows,
+    rows: CurveRows,
     curves: Curves,
 }
 
@@ -321,11 +321,12 @@ impl Own {
     ///   coarse.
     fn run(
         scene: &Scene,
-        quantity: Quantity,
+        quantity: ErrorQuantity,
         nodes: &[f64],
         work: &mut Work<'_>,
-    ) -> Result<Self, Reason> {
-        let finer = resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(Reason::of_run)?;
+    ) -> Result<Self, StopReason> {
+        let finer =
+            resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(StopReason::of_run)?;
         let mut nodes = [finer.nodes(), nodes].concat();
         nodes.sort_by(f64::total_cmp);
         nodes.dedup();
@@ -335,12 +336,12 @@ impl Own {
     }
 
     /// Its error, including that of the reference.
-    fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, Reason> {
+    fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, StopReason> {
         Ok(self.apart(&self.other(&reference.scene, work)?) + reference.error(0))
     }
 
     /// Another run, read at the same times.
-    fn other(&self, scene: &Scene, work: &mut Work<'_>) -> Result<Curves, Reason> {
+    fn other(&self, scene: &Scene, work: &mut Work<'_>) -> Result<Curves, StopReason> {
         curves(scene, &self.rows, Some(&self.curves.own_times()), work)
     }
 
@@ -359,15 +360,15 @@ struct Parts {
 
 impl Parts {
     /// From two runs: one with twice the elements, one with dt/2.
-    fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
+    fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, StopReason> {
         let [space, time] = Policy::default()
             .finer(scene)
             .map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));
-        let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
+        let order = scene.one_step().map_err(StopReason::of_run)?.scheme.order;
         // In the norm, the error of the mesh is orthogonal to that of a finer one, so squares add.
         let (p, left) = match own.rows {
-            Rows::Norm(_) => (1.0, 0.75_f64.sqrt()),
+            CurveRows::Norm(_) => (1.0, 0.75_f64.sqrt()),
             _ => (2.0, 0.75),
         };
         Ok(Self {

@@ -4,7 +4,7 @@ use convergence_study::{
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::energy::ROW;
-use thermobeam_study::kinds::runs::energy::one_by_one::{self, Found};
+use thermobeam_study::kinds::runs::energy::one_by_one::{self, EnergyHistory};
 use thermobeam_study::kinds::runs::energy::random::{self, Batch};
 
 use super::file;
@@ -26,7 +26,7 @@ type Defect<F> = (&'static str, fn(&mut F));
 fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [Defect<Found>; 9] = [
+    let planted: [Defect<EnergyHistory>; 9] = [
         ("a rise", |found| found.worst.rise = 2e-14),
         ("a residual", |found| found.worst.residual = 2e-14),
         ("a rise that is not finite", |found| {
@@ -77,7 +77,7 @@ fn the_samples_of_a_run_end_with_its_last_step() {
 fn each_claim_of_a_case_can_fail() {
     let study = runs("extremes.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [(&str, Defect<Found>); 10] = [
+    let planted: [(&str, Defect<EnergyHistory>); 10] = [
         ("hat", ("another end", |found| found.end = End::Indefinite)),
         ("hat", ("a missing step", |found| found.steps = 199)),
         ("hat", ("an open balance", |found| found.worst.open = 1.1)),

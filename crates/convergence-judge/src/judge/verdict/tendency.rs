@@ -2,7 +2,7 @@
 //! of the verdict.
 
 use crate::judge::fit::{Level, pairwise_rates};
-use crate::judge::three_values::{Value, correction, observed_order};
+use crate::judge::three_values::{StepValue, correction, observed_order};
 use crate::text::number::{error_text, plain_text};
 
 /// Rates below this are those of errors that have stopped falling.
@@ -137,7 +137,7 @@ fn constant(levels: &[Level]) -> Option<Tendency> {
     let limit = if middle.error == fine.error {
         fine.error
     } else {
-        let value = |level: &Level| Value {
+        let value = |level: &Level| StepValue {
             step: level.step,
             value: level.error,
         };

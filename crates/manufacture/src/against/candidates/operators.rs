@@ -98,7 +98,10 @@ impl Walk<'_> {
         }
         let parts: Vec<&Tree> = parts.iter().collect();
         let whole = operator(of, &parts);
-        for basis in [names::Alteration::Unturned, names::Alteration::Flat] {
+        for basis in [
+            names::OperandAlteration::Unturned,
+            names::OperandAlteration::Flat,
+        ] {
             let new = operator(Operator::Altered(basis), &[&whole]);
             self.add(EditKind::Basis, route, new);
         }

@@ -29,7 +29,7 @@ pub(super) fn operator(operator: Operator, parts: &[&Tree]) -> Tree {
 }
 
 pub(super) fn held(tree: &Tree) -> Tree {
-    operator(Operator::Altered(names::Alteration::Held), &[tree])
+    operator(Operator::Altered(names::OperandAlteration::Held), &[tree])
 }
 
 /// A part times an unknown factor.

@@ -39,7 +39,7 @@ struct Cell {
 }
 
 /// A level: its root, and whether the part lies on it.
-struct Level {
+struct LevelSet {
     root: NodeId,
     is_own: bool,
 }
@@ -48,7 +48,7 @@ struct Level {
 pub(super) struct DomainSearch<'m> {
     model: &'m Model,
     enclosure: Enclosure<'m>,
-    levels: Vec<Level>,
+    levels: Vec<LevelSet>,
     domain: Vec<Interval>,
 }
 
@@ -72,7 +72,7 @@ impl<'m> DomainSearch<'m> {
         let mut levels = vec![];
         for level in model.of_role(Role::Level) {
             roots.extend(&level.tensor.parts);
-            levels.push(Level {
+            levels.push(LevelSet {
                 root: level.tensor.parts[0],
                 is_own: own == Some(level.name.as_str()),
             });

@@ -15,7 +15,7 @@
 //! x = 0, where N = 0. For |x| <= 1 they are quotients of Stumpff functions, and beyond they follow
 //! from τ by `2xτ' = 1 + xτ² - τ`.
 
-use super::super::law::{Law, Support};
+use super::super::law::{ForceLaw, Support};
 use crate::interval::{Interval, sin_cos, stumpff, tanh};
 
 /// A law in intervals.
@@ -52,7 +52,7 @@ pub(super) struct Solution {
 
 impl IntervalLaw {
     /// The law of the solver's numbers; aθ_A is the exact product of the two doubles.
-    pub(super) fn new(law: &Law, moment: Interval) -> Self {
+    pub(super) fn new(law: &ForceLaw, moment: Interval) -> Self {
         Self {
             moment,
             rest: Interval::from(1.0) + law.beta,

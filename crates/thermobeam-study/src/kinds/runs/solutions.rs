@@ -23,7 +23,7 @@ use super::{
 use crate::kinds::prelude::*;
 use crate::{
     exact::assembly::{coupling, mass, stiffness},
-    kinds::settings::{CONTACT, Exercise, Integration, Terms},
+    kinds::settings::{ActiveTerms, CONTACT, Exercise, Integration},
     scene::{Coefficients, tables},
 };
 use thermobeam::{
@@ -69,7 +69,7 @@ struct ExpectedStep {
 
 /// The solutions of a step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct StepSolutions {
     /// λ for m = β: at least 0 where the step has one solution.
     pub lambda: f64,
     /// u(1) of each solution, ascending.
@@ -111,7 +111,7 @@ impl Runs for Solutions {
 
     /// The place of the step.
     type Run = usize;
-    type Shown = Found;
+    type Shown = StepSolutions;
 
     fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let Coefficients { beam, obstacles } = Coefficients::read(root)?;
@@ -142,7 +142,7 @@ impl Runs for Solutions {
     }
 
     fn exercise(&self, _case: Option<&str>) -> Exercise {
-        let terms = Terms::of(&self.beam, Some(&self.obstacles));
+        let terms = ActiveTerms::of(&self.beam, Some(&self.obstacles));
         Exercise::new(CONTACT, Integration::PAPER, terms)
     }
 
@@ -154,15 +154,15 @@ impl Runs for Solutions {
             .collect()
     }
 
-    fn run(&self, &place: &usize) -> Result<Found, CaseFailure> {
-        let step = Step::new(self, self.steps[place].dt)?;
-        Ok(Found {
+    fn run(&self, &place: &usize) -> Result<StepSolutions, CaseFailure> {
+        let step = StepFromRest::new(self, self.steps[place].dt)?;
+        Ok(StepSolutions {
             lambda: step.lambda(self.beam.beta),
             tips: step.tips()?,
         })
     }
 
-    fn numbers(&self, &place: &usize, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, &place: &usize, found: &StepSolutions) -> Vec<Reading> {
         let case = format!("dt = {}", self.steps[place].dt);
         let guarded = |name: &str, key: &str, value| {
             Reading::new(name, value).guarded_in(&case, key, GUARDED)
@@ -202,7 +202,7 @@ impl Runs for Solutions {
 }
 
 impl Solutions {
-    fn checks(&self, step: &ExpectedStep, found: &Found) -> [Check; 2] {
+    fn checks(&self, step: &ExpectedStep, found: &StepSolutions) -> [Check; 2] {
         let case = format!("dt = {}", step.dt);
         let expected = step.tips.len();
         let distance = super::checks::largest_difference(&found.tips, &step.tips);
@@ -231,7 +231,7 @@ impl Solutions {
 }
 
 /// A step from rest.
-struct Step<'a> {
+struct StepFromRest<'a> {
     study: &'a Solutions,
     dt: f64,
     /// A(0) of V alone: W and Θ, which m does not concern, are eliminated.
@@ -241,14 +241,14 @@ struct Step<'a> {
 }
 
 /// The answer of u to a unit load at the tip.
-struct Answer {
+struct UnitLoadResponse {
     /// r(1).
     tip: f64,
     /// ‖r_x‖².
     slope_squared: f64,
 }
 
-impl<'a> Step<'a> {
+impl<'a> StepFromRest<'a> {
     /// # Errors
     /// [`CaseFailure`] if W and Θ cannot be eliminated.
     fn new(study: &'a Solutions, dt: f64) -> Result<Self, CaseFailure> {
@@ -276,19 +276,19 @@ impl<'a> Step<'a> {
     }
 
     /// The answer for the mean axial force m; NaN if the matrix is singular to the last bit.
-    fn answer(&self, m: f64) -> Answer {
+    fn answer(&self, m: f64) -> UnitLoadResponse {
         let n = self.study.mesh.elements();
         let matrix = &self.matrix + 0.5 * m * self.dt * &self.stiffness;
         let mut load = DVector::zeros(n);
         load[n - 1] = 1.0;
         let Some(velocity) = matrix.lu().solve(&load) else {
-            return Answer {
+            return UnitLoadResponse {
                 tip: f64::NAN,
                 slope_squared: f64::NAN,
             };
         };
         let u = self.dt * velocity;
-        Answer {
+        UnitLoadResponse {
             tip: u[n - 1],
             slope_squared: u.dot(&(&self.stiffness * &u)),
         }
@@ -381,7 +381,7 @@ impl<'a> Step<'a> {
     }
 
     /// u(1), and the mean axial force that follows, in contact with an obstacle at `g`.
-    fn in_contact(&self, answer: &Answer, g: f64) -> (f64, f64) {
+    fn in_contact(&self, answer: &UnitLoadResponse, g: f64) -> (f64, f64) {
         let Beam { beta, rho, .. } = self.study.beam;
         let force = -g / (self.study.obstacles.epsilon + answer.tip);
         let slope_squared = force * force * answer.slope_squared;

@@ -47,10 +47,10 @@ use std::sync::OnceLock;
 use crate::kinds::prelude::*;
 use crate::{
     error::{ErrorMeasure, Errors, Evaluator, polynomials::Polynomials},
-    kinds::settings::{Exercise, Integration, Nodes, Terms},
+    kinds::settings::{ActiveTerms, Exercise, Integration, Nodes},
     run::family::Family,
 };
-use convergence_study::internal::study::header::Setting;
+use convergence_study::internal::study::header::SettingWords;
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
 use thermobeam::solve::Solver;
 
@@ -237,11 +237,11 @@ impl Kind for WorkPrecision {
     type Data = Trial;
     type Found = Measurement;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let Family {
             beam, obstacles, ..
         } = &self.family;
-        let terms = Terms::of(beam, obstacles.as_ref());
+        let terms = ActiveTerms::of(beam, obstacles.as_ref());
         let grading = self.family.grading();
         Exercise::new("cost", Integration::PAPER, terms)
             .on(grading.map_or(Nodes::Uniform, Nodes::of_mesh))

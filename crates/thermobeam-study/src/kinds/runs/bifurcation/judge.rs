@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use convergence_judge::{interval::Interval, judge::richardson, text::number::decimals};
 
 use super::{
-    AtRest, Bifurcation, DiagramTask, Found,
+    AtRest, Bifurcation, BifurcationResult, DiagramTask,
     branches::{BRACKET, CLOSE, Diagram, buckles},
 };
 use crate::kinds::prelude::*;
@@ -57,13 +57,13 @@ struct OfScene<'r> {
 impl<'r> OfScene<'r> {
     fn new(study: &'r Bifurcation, results: &Results<'r, Bifurcation>, k: usize) -> Self {
         let diagram = match results.of(&DiagramTask::Diagram(k)) {
-            Some(Found::Diagram(diagram)) => Some(diagram),
+            Some(BifurcationResult::Diagram(diagram)) => Some(diagram),
             _ => None,
         };
         let mut rests = vec![];
         for (place, &beta) in study.rest.betas.iter().enumerate() {
             let rest = match results.of(&DiagramTask::Rest(k, place)) {
-                Some(Found::Rest(rest)) => Some(rest),
+                Some(BifurcationResult::Rest(rest)) => Some(rest),
                 _ => None,
             };
             rests.push((beta, rest));
@@ -252,7 +252,7 @@ impl<'r> OfScene<'r> {
     fn drawing(&self, diagram: &Diagram, title: String, range: RangeInclusive<f64>) -> String {
         let mut sorted: Vec<_> = diagram.branches.iter().collect();
         sorted.sort_by_key(|branch| (branch.key.place(), !branch.key.stable));
-        let mut branches: Vec<figures::Branch> = vec![];
+        let mut branches: Vec<figures::EquilibriumBranch> = vec![];
         for branch in sorted {
             let label = branch.key.name();
             let stable = branch.key.stable;
@@ -265,7 +265,7 @@ impl<'r> OfScene<'r> {
                 {
                     last.points.extend(points);
                 }
-                _ => branches.push(figures::Branch {
+                _ => branches.push(figures::EquilibriumBranch {
                     label: label.to_owned(),
                     points: points.collect(),
                     stable,
@@ -291,7 +291,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     let mut forces = vec![];
     for &n in &study.meshes {
         forces.push(match results.of(&DiagramTask::Buckling(n)) {
-            Some(Found::Force(force)) => Some(*force),
+            Some(BifurcationResult::Force(force)) => Some(*force),
             _ => None,
         });
     }

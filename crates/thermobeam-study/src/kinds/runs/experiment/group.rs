@@ -1,7 +1,8 @@
 //! The runs of an experiment, the experiments of a group, and all groups together.
 
 use super::{
-    AtRest, Experiment, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace,
+    AtRest, Experiment, ExperimentResult, Experiments, MeasuredRun, PaperRun, SectionGroup, Task,
+    Trace,
 };
 use crate::kinds::prelude::*;
 use crate::kinds::runs::Results;
@@ -12,9 +13,9 @@ use thermobeam::parameters::Beam;
 pub(super) struct OfExperiment<'r> {
     pub(super) experiment: &'r Experiment,
     /// By the first discretisation.
-    pub(super) first: &'r Measured,
+    pub(super) first: &'r MeasuredRun,
     /// By the second, which shows the error of the first.
-    pub(super) second: &'r Measured,
+    pub(super) second: &'r MeasuredRun,
     /// By the paper's algorithm, if the study runs that.
     pub(super) paper: Option<&'r PaperRun>,
 }
@@ -27,7 +28,7 @@ impl<'r> OfExperiment<'r> {
         experiment: usize,
     ) -> Option<Self> {
         let paper = match results.of(&Task::FixedPoint(experiment)) {
-            Some(Found::FixedPoint(run)) => Some(&**run),
+            Some(ExperimentResult::FixedPoint(run)) => Some(&**run),
             _ => None,
         };
         let is_complete = paper.is_some() || study.fixed_point.is_none();
@@ -59,13 +60,13 @@ fn run_by_dg<'r>(
     results: &Results<'r, Experiments>,
     experiment: usize,
     discretisation: usize,
-) -> Option<&'r Measured> {
+) -> Option<&'r MeasuredRun> {
     let task = Task::AnyOrder {
         experiment,
         discretisation,
     };
     match results.of(&task) {
-        Some(Found::Run(run)) => Some(&**run),
+        Some(ExperimentResult::Run(run)) => Some(&**run),
         _ => None,
     }
 }
@@ -148,7 +149,7 @@ impl<'r> SectionFive<'r> {
     pub(super) fn of(study: &'r Experiments, results: &Results<'r, Experiments>) -> Self {
         let mut rests = vec![];
         for (place, &beta) in study.rest.betas.iter().enumerate() {
-            if let Some(Found::Rest(rest)) = results.of(&Task::Rest(place)) {
+            if let Some(ExperimentResult::Rest(rest)) = results.of(&Task::Rest(place)) {
                 rests.push((beta, rest));
             }
         }

@@ -134,9 +134,9 @@ pub enum Task {
 
 /// What a case finds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Found {
+pub enum ExperimentResult {
     /// Of an experiment by dG.
-    Run(Box<Measured>),
+    Run(Box<MeasuredRun>),
     /// Of an experiment by the paper's algorithm.
     FixedPoint(Box<PaperRun>),
     /// Of a run to rest.
@@ -145,7 +145,7 @@ pub enum Found {
 
 /// An experiment by dG, until it is steady.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
+pub struct MeasuredRun {
     /// The motion.
     pub trace: Trace,
     /// The beam as soon as it is steady.
@@ -235,7 +235,7 @@ impl Runs for Experiments {
     const KEYS: &'static [Keys] = &[&[&KEYS]];
 
     type Run = Task;
-    type Shown = Found;
+    type Shown = ExperimentResult;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let run = root.table("run", &[&RUN])?;
@@ -294,28 +294,32 @@ impl Runs for Experiments {
         runs
     }
 
-    fn run(&self, &task: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, &task: &Task) -> Result<ExperimentResult, CaseFailure> {
         Ok(match task {
             Task::AnyOrder {
                 experiment,
                 discretisation,
-            } => Found::Run(Box::new(self.run_until_steady(experiment, discretisation)?)),
+            } => {
+                ExperimentResult::Run(Box::new(self.run_until_steady(experiment, discretisation)?))
+            }
             Task::FixedPoint(experiment) => {
-                Found::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
+                ExperimentResult::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
             }
             Task::Rest(place) => {
                 let last = self.experiments.last();
                 let third = last.ok_or_else(|| CaseFailure::new("no experiment"))?;
-                Found::Rest(self.rest.run(&third.scene, place)?)
+                ExperimentResult::Rest(self.rest.run(&third.scene, place)?)
             }
         })
     }
 
-    fn numbers(&self, _: &Task, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, _: &Task, found: &ExperimentResult) -> Vec<Reading> {
         match found {
-            Found::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
-            Found::FixedPoint(run) => [run.trace.readings(""), run.readings("")].concat(),
-            Found::Rest(rest) => rest.readings(),
+            ExperimentResult::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
+            ExperimentResult::FixedPoint(run) => {
+                [run.trace.readings(""), run.readings("")].concat()
+            }
+            ExperimentResult::Rest(rest) => rest.readings(),
         }
     }
 
@@ -422,7 +426,7 @@ impl Experiments {
         &self,
         experiment: usize,
         discretisation: usize,
-    ) -> Result<Measured, CaseFailure> {
+    ) -> Result<MeasuredRun, CaseFailure> {
         let original = &self.experiments[experiment].scene;
         let scene = self.discretisations[discretisation].of(original, self.t_max)?;
         let mut motion = simulate::motion(&scene)?;
@@ -487,12 +491,16 @@ impl Experiments {
 }
 
 /// The beam at its end.
-fn measured(scene: &Scene, trace: Trace, motion: &mut AnyMotion) -> Result<Measured, CaseFailure> {
+fn measured(
+    scene: &Scene,
+    trace: Trace,
+    motion: &mut AnyMotion,
+) -> Result<MeasuredRun, CaseFailure> {
     let nodes = compared(scene)?;
     let t = motion.work().t;
     let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
     let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
-    Ok(Measured {
+    Ok(MeasuredRun {
         trace,
         largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
         end: AtRest::of(scene, &nodes, t, &level, |_| true)?,

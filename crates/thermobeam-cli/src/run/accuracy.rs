@@ -2,7 +2,7 @@
 //! a run.
 
 use clap::ValueEnum;
-use convergence_judge::time_limit;
+use convergence_judge::{SpaceTime, time_limit};
 use convergence_study::internal::cli::{exit, running};
 use serde::Serialize;
 use thermobeam_study::predict::choice::{self, Choice, choose, keep_scheme};
@@ -126,7 +126,11 @@ impl Planned {
     pub(super) fn object(&self) -> Object<'_> {
         let Choice {
             scene,
-            parts: [space_error, time_error],
+            parts:
+                SpaceTime {
+                    space: space_error,
+                    time: time_error,
+                },
             run,
             ..
         } = &self.choice;
@@ -150,7 +154,7 @@ impl Planned {
     pub(super) fn lines(&self) -> Vec<SummaryLine> {
         let Choice {
             scene,
-            parts: [space, time],
+            parts: SpaceTime { space, time },
             parts_by,
             error,
             run,

@@ -17,6 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use convergence_judge::SpaceTime;
 use thermobeam::solve::Stopping;
 
 use super::curves::{Apart, CurveRows, Curves, Wanted, curves};
@@ -87,7 +88,7 @@ pub struct Choice {
     /// The scene with the chosen mesh, method and steps.
     pub scene: Scene,
     /// The parts of space and time in the error.
-    pub parts: [f64; 2],
+    pub parts: SpaceTime<f64>,
     /// The origin of these parts, in words.
     pub parts_by: String,
     /// The cost of the run itself.
@@ -126,7 +127,10 @@ pub fn choose(
     )?;
     Ok(Choice {
         scene: chosen,
-        parts: [space[0], time[0]],
+        parts: SpaceTime {
+            space: space[0],
+            time: time[0],
+        },
         parts_by: format!("differences to {finer_space}, and to half the steps"),
         error: space[0] + time[0],
         is_kept: false,
@@ -162,7 +166,10 @@ pub fn keep_scheme(
         parts: None,
         best: Best {
             error: f64::INFINITY,
-            parts: [f64::NAN; 2],
+            parts: SpaceTime {
+                space: f64::NAN,
+                time: f64::NAN,
+            },
         },
         failures: 0,
     };
@@ -170,9 +177,9 @@ pub fn keep_scheme(
         match search.round(&scene, work) {
             Next::Reached(choice) => return Ok(*choice),
             Next::Refine(factors) => {
-                let [elements, steps] = size(&scene);
-                scene = resized(&scene, [factors[0] * elements, factors[1] * steps])
-                    .ok_or_else(|| search.not_reached(StopReason::Finest))?;
+                let finer = Size::of(&scene).times(factors);
+                scene =
+                    resized(&scene, finer).ok_or_else(|| search.not_reached(StopReason::Finest))?;
             }
             Next::GiveUp(reason) => return Err(search.not_reached(reason)),
         }
@@ -196,7 +203,7 @@ struct OneStepSearch {
 /// An error and its parts of space and time.
 struct Best {
     error: f64,
-    parts: [f64; 2],
+    parts: SpaceTime<f64>,
 }
 
 /// What a search does after a round.
@@ -204,7 +211,7 @@ enum Next {
     /// The error is small enough.
     Reached(Box<Choice>),
     /// By these factors of elements and of steps.
-    Refine([f64; 2]),
+    Refine(Size),
     /// The target cannot be reached.
     GiveUp(StopReason),
 }
@@ -217,7 +224,10 @@ impl OneStepSearch {
             // Coarse steps may fail although finer ones succeed.
             Err(StopReason::Run(_)) if self.failures < FAILURES => {
                 self.failures += 1;
-                Next::Refine([2.0; 2])
+                Next::Refine(Size {
+                    elements: 2.0,
+                    steps: 2.0,
+                })
             }
             Err(reason) => Next::GiveUp(reason),
         }
@@ -225,7 +235,7 @@ impl OneStepSearch {
 
     /// A run and its error; the parts of the error too, if they are needed.
     fn measure(&mut self, scene: &Scene, work: &mut Work<'_>) -> Result<(Own, f64), StopReason> {
-        work.leaves(size(scene).iter().product())?;
+        work.leaves(Size::of(scene).product())?;
         let nodes = self.reference.scene.mesh.nodes();
         let own = Own::run(scene, self.quantity, nodes, work)?;
         let error = own.error(&self.reference, work)?;
@@ -257,7 +267,7 @@ impl OneStepSearch {
             };
         }
         // A run that is clearly too expensive is not started.
-        let least: f64 = size(scene).iter().product();
+        let least = Size::of(scene).product();
         if let Err(reason) = work.leaves(0.5 * least * parts.growth(0.5 * self.target)) {
             return Next::GiveUp(reason);
         }
@@ -265,7 +275,7 @@ impl OneStepSearch {
     }
 
     fn not_reached(&self, reason: StopReason) -> Unreachable {
-        let [space, time] = self.best.parts;
+        let SpaceTime { space, time } = self.best.parts;
         Unreachable::NotReached {
             target: self.target,
             reached: self.best.error,
@@ -290,16 +300,42 @@ fn coarsest(scene: &Scene, target: f64) -> Option<Scene> {
             method: Method::OneStep(stepping),
             ..scene.clone()
         },
-        [ELEMENTS, steps],
+        Size {
+            elements: ELEMENTS,
+            steps,
+        },
     )
 }
 
-fn size(scene: &Scene) -> [f64; 2] {
-    [scene.mesh.elements() as f64, scene.steps() as f64]
+/// Numbers of elements and of steps, or factors of these.
+#[derive(Debug, Clone, Copy)]
+struct Size {
+    elements: f64,
+    steps: f64,
+}
+
+impl Size {
+    fn of(scene: &Scene) -> Self {
+        Self {
+            elements: scene.mesh.elements() as f64,
+            steps: scene.steps() as f64,
+        }
+    }
+
+    fn times(self, factors: Self) -> Self {
+        Self {
+            elements: factors.elements * self.elements,
+            steps: factors.steps * self.steps,
+        }
+    }
+
+    fn product(self) -> f64 {
+        self.elements * self.steps
+    }
 }
 
 /// The scene with at least these numbers of elements and steps; `None` if there is no such mesh.
-fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
+fn resized(scene: &Scene, Size { elements, steps }: Size) -> Option<Scene> {
     // A multiple of the listed elements keeps their nodes.
     let listed = scene.listed.len().saturating_sub(1).max(1);
     let mesh = resampled(
@@ -353,9 +389,9 @@ impl Own {
 /// The parts of space and time in the error of a one-step scheme.
 #[derive(Debug, Clone, Copy)]
 struct Parts {
-    errors: [f64; 2],
+    errors: SpaceTime<f64>,
     /// The orders in h and in dt at which they fall.
-    orders: [f64; 2],
+    orders: SpaceTime<f64>,
 }
 
 impl Parts {
@@ -372,25 +408,40 @@ impl Parts {
             _ => (2.0, 0.75),
         };
         Ok(Self {
-            errors: [space / left, time / (1.0 - 0.5_f64.powf(order))],
-            orders: [p, order],
+            errors: SpaceTime {
+                space: space / left,
+                time: time / (1.0 - 0.5_f64.powf(order)),
+            },
+            orders: SpaceTime {
+                space: p,
+                time: order,
+            },
         })
     }
 
     /// Halves h or dt, whichever has the larger part: the factors of elements and steps. The part
     /// that remains follows from its order until it is measured again.
-    fn halve_larger(&mut self) -> [f64; 2] {
-        let larger = usize::from(self.errors[1] > self.errors[0]);
-        self.errors[larger] *= 0.5_f64.powf(self.orders[larger]);
-        let mut factors = [1.0; 2];
-        factors[larger] = 2.0;
-        factors
+    fn halve_larger(&mut self) -> Size {
+        let Self { errors, orders } = self;
+        if errors.time > errors.space {
+            errors.time *= 0.5_f64.powf(orders.time);
+            Size {
+                elements: 1.0,
+                steps: 2.0,
+            }
+        } else {
+            errors.space *= 0.5_f64.powf(orders.space);
+            Size {
+                elements: 2.0,
+                steps: 1.0,
+            }
+        }
     }
 
     /// By how much the product of elements and steps must grow until each part is at most `target`.
     fn growth(&self, target: f64) -> f64 {
         let mut growth = 1.0;
-        for (error, order) in self.errors.iter().zip(&self.orders) {
+        for (error, order) in self.errors.both().into_iter().zip(self.orders.both()) {
             growth *= (error / target).max(1.0).powf(order.recip());
         }
         growth

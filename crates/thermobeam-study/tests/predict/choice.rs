@@ -1,6 +1,6 @@
 //! `--target-error`: runs that are chosen by their error.
 
-use convergence_judge::time_limit;
+use convergence_judge::{SpaceTime, time_limit};
 use thermobeam::scheme::SCHEMES;
 use thermobeam_study::error::{Evaluator, free_vibration};
 use thermobeam_study::predict::choice::{Choice, ErrorQuantity};
@@ -182,7 +182,8 @@ fn a_scheme_that_is_kept_makes_the_error_asked_for_at_little_cost() {
             );
             // Neither space nor time takes nearly all of the error: that would cost more. (Coarser
             // runs are not tried.)
-            let ([space, time], is_coarsest) = (choice.parts, choice.scene.mesh.elements() == 16);
+            let SpaceTime { space, time } = choice.parts;
+            let is_coarsest = choice.scene.mesh.elements() == 16;
             let is_balanced =
                 (0.2..=0.8).contains(&(space / (space + time))) && space + time <= 1.5 * target;
             assert!(

@@ -241,7 +241,6 @@ fn together(problem: &Problem, edits: [&Alteration; 2]) -> Option<Together> {
     let [Alteration::Rewrite(first), Alteration::Rewrite(second)] = edits else {
         return Some(apart());
     };
-    let is_above = |a: &Rewrite, b: &Rewrite| a.home == b.home && b.route.starts_with(&a.route);
     let place = if is_above(first, second) {
         1
     } else if is_above(second, first) {
@@ -265,6 +264,11 @@ fn together(problem: &Problem, edits: [&Alteration; 2]) -> Option<Together> {
         })],
         inner: Some(place),
     })
+}
+
+/// Whether the first edit replaces a tree in which the second is made.
+fn is_above(first: &Rewrite, second: &Rewrite) -> bool {
+    first.home == second.home && second.route.starts_with(&first.route)
 }
 
 /// Replaces a part, which its place in the text tells from others; whether there is one.

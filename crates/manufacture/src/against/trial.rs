@@ -135,8 +135,8 @@ pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Tria
     outcome
 }
 
-/// What one more of a factor adds to all components that are wrong; `None` if that is not one number
-/// for all values of the factor.
+/// What one more of a factor adds to all components that are wrong; `None` if that is not one
+/// number for all values of the factor.
 fn slopes(solved: &[Option<Solved>], trial: &Trial) -> Option<Column> {
     let mut all = vec![];
     for (solved, sample) in solved.iter().zip(trial.wrong()) {

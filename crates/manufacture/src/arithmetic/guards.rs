@@ -1,8 +1,8 @@
 //! What the choices above a node say about it: `where(x > 0, sqrt(x), 0)` needs no root of a
 //! negative number.
 //!
-//! The value of a node takes part in a root only at points where each choice on some way to it takes
-//! the branch that the way goes through. The branches that all ways have in common are taken
+//! The value of a node takes part in a root only at points where each choice on some way to it
+//! takes the branch that the way goes through. The branches that all ways have in common are taken
 //! wherever the node takes part, and so is the result of their comparisons. These give signs to
 //! nodes: left = right + (left - right), where a comparison restricts the sign of the difference.
 //! Signs of other nodes follow by the rules of signs, as theorems about real numbers.

@@ -149,7 +149,8 @@ impl Jets {
             return product;
         }
         if base.value() == 0.0 && base.is_constant() && value > 0.0 {
-            // Zero next to the point as well: so is its power, whatever derivatives that has at zero.
+            // Zero next to the point as well: so is its power, whatever derivatives that has at
+            // zero.
             return base.clone();
         }
         self.compose(base, &binomial(base.value(), value, base.order))

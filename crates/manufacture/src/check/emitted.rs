@@ -306,6 +306,10 @@ impl Round<'_> {
     }
 }
 
+fn number_or_nan(word: &str) -> f64 {
+    word.parse().unwrap_or(f64::NAN)
+}
+
 /// A line of these names, then a line of numbers for each point; what is none is NaN.
 fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, String> {
     let mut lines = text.lines();
@@ -313,9 +317,8 @@ fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, Stri
     if head != names {
         return Err(format!("expected the names {names:?}, found {head:?}"));
     }
-    let number = |word: &str| word.parse().unwrap_or(f64::NAN);
     let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split_whitespace().map(number).collect())
+        .map(|line| line.split_whitespace().map(number_or_nan).collect())
         .collect();
     if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
         return Err(format!(

@@ -17,8 +17,8 @@ use crate::problem::Problem;
 /// One finding for each equation and kind of edit: the first edit that changes the expression and,
 /// for other fields, the source, but not the source of this solution.
 ///
-/// An edit that changes nothing for any fields, as a gradient transposed inside a symmetric form, is
-/// no mistake.
+/// An edit that changes nothing for any fields, as a gradient transposed inside a symmetric form,
+/// is no mistake.
 pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let problem = &model.problem;
     let Some(mut bench) = Bench::new(model, Part::Interior) else {
@@ -76,14 +76,6 @@ fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&
     let Some(expression) = rewrite.home.expression(problem) else {
         return false;
     };
-    let is_product = |tree: &Tree| {
-        matches!(
-            tree.kind,
-            TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
-                | TreeKind::Negate(_)
-                | TreeKind::Bracket(_)
-        )
-    };
     let part = |length: usize| site::at(&expression.tree, &rewrite.route[..length]);
     let mut length = rewrite.route.len();
     while length > 0 && part(length - 1).is_some_and(is_product) {
@@ -92,6 +84,16 @@ fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&
     let [factor, product] = [rewrite.route.len(), length].map(part);
     let has = |tree: Option<&Tree>| tree.is_some_and(|tree| has_derivative(tree, differential));
     has(product) && !has(factor)
+}
+
+/// Whether a tree multiplies or divides, or passes on what does.
+fn is_product(tree: &Tree) -> bool {
+    matches!(
+        tree.kind,
+        TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
+            | TreeKind::Negate(_)
+            | TreeKind::Bracket(_)
+    )
 }
 
 /// The definitions with a derivative, their own or that of another definition that they name.

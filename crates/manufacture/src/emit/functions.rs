@@ -3,6 +3,7 @@
 use super::Language;
 use crate::arithmetic::NodeId;
 use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
+use crate::language::is_of_name;
 use crate::model::Model;
 
 /// A function of the coordinates and time.
@@ -66,8 +67,7 @@ fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
     let sources: Vec<_> = model.of_role(Role::Source).collect();
     for source in &sources {
         for (number, (label, tensor)) in source.terms.iter().enumerate() {
-            let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            let is_name = label.chars().all(is_letter) && !label.is_empty();
+            let is_name = label.chars().all(is_of_name) && !label.is_empty();
             let number = (number + 1).to_string();
             // A term of a text has no name: its place in the text stands for one.
             let label = if is_name { label } else { &number };
@@ -110,17 +110,17 @@ fn part_of_source(
 
 /// The functions that the answering programs evaluate together, besides sources and data.
 pub(crate) fn others(functions: &[EmittedFunction]) -> Vec<&EmittedFunction> {
-    let is_other = |f: &&EmittedFunction| {
-        let roles = [
-            Role::Exact,
-            Role::Gradient,
-            Role::Definition,
-            Role::Term,
-            Role::Sources,
-        ];
-        roles.contains(&f.role)
-    };
-    functions.iter().filter(is_other).collect()
+    const OTHERS: [Role; 5] = [
+        Role::Exact,
+        Role::Gradient,
+        Role::Definition,
+        Role::Term,
+        Role::Sources,
+    ];
+    functions
+        .iter()
+        .filter(|function| OTHERS.contains(&function.role))
+        .collect()
 }
 
 /// The order of the roles in a file.

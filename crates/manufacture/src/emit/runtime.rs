@@ -1,5 +1,7 @@
 //! What surrounds the statements: signatures, tables of points, averages and norms.
 
+use std::ops::Range;
+
 use super::functions::EmittedFunction;
 use super::texts::{Norm as NormTexts, Norms, Shaped, Time};
 use super::writer::Writer;
@@ -135,19 +137,25 @@ fn sides(shape: &[usize]) -> String {
 
 /// The components of a result of UFL.
 fn nested(shape: &[usize]) -> String {
-    let names = |range: std::ops::Range<usize>| {
-        let names: Vec<String> = range.map(|place| format!("r{place}")).collect();
-        names.join(", ")
-    };
     match shape {
         [] => "r0".to_owned(),
         [rows, columns] => {
-            let row = |row: usize| format!("[{}]", names(row * columns..(row + 1) * columns));
-            let rows: Vec<String> = (0..*rows).map(row).collect();
+            let rows: Vec<String> = (0..*rows)
+                .map(|row| row * columns..(row + 1) * columns)
+                .map(|row| format!("[{}]", names_of_roots(row)))
+                .collect();
             format!("ufl.as_tensor([{}])", rows.join(", "))
         }
-        shape => format!("ufl.as_vector([{}])", names(0..shape.iter().product())),
+        shape => {
+            let names = names_of_roots(0..shape.iter().product());
+            format!("ufl.as_vector([{names}])")
+        }
     }
+}
+
+fn names_of_roots(places: Range<usize>) -> String {
+    let names: Vec<String> = places.map(|place| format!("r{place}")).collect();
+    names.join(", ")
 }
 
 /// The part of a function's name behind its role.

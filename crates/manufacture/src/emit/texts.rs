@@ -251,8 +251,8 @@ row! {
 }
 
 row! {
-    /// How a language chooses among bodies. In the texts `P` is the prefix of C, `ALL` the numbers of
-    /// the models that have the body.
+    /// How a language chooses among bodies. In the texts `P` is the prefix of C, `ALL` the numbers
+    /// of the models that have the body.
     Choice {
         /// What precedes all branches.
         before,

@@ -286,8 +286,8 @@ impl<'m> Writer<'m> {
         }
     }
 
-    /// Statements for the arguments that the nodes below roots of some models do not use: a compiler
-    /// that is strict asks for a use of each.
+    /// Statements for the arguments that the nodes below roots of some models do not use: a
+    /// compiler that is strict asks for a use of each.
     pub(super) fn unused(&self, models: &[(&Model, &[NodeId])], has_time: bool) -> String {
         let time = self.model.problem.coordinates.len();
         let uses = |is_time: bool| {

@@ -6,8 +6,8 @@ use super::token::{Token, TokenKind, next_token};
 use super::tree::{Binary, Relation, Tree, TreeKind};
 
 /// Largest number of operations one inside the other, where the operands of a sum or a product
-/// without brackets stand beside each other. Parsing and evaluating are recursive: this bounds their
-/// stack.
+/// without brackets stand beside each other. Parsing and evaluating are recursive: this bounds
+/// their stack.
 pub const MAX_DEPTH: usize = 256;
 
 /// Largest height of the syntax tree, in which a sum of n terms has the height n. Walks that print,

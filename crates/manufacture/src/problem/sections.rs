@@ -10,6 +10,7 @@ use super::{
     Datum, Definition, EmittedStudy, Equation, EquationTerm, Expression, Face, InputError, Norm,
     Parameter, Problem, Surface, System, constant,
 };
+use crate::language::is_of_name;
 use crate::language::names::{did_you_mean, reserved};
 
 impl Problem {
@@ -328,8 +329,7 @@ fn name(field: &FileField<'_>) -> Result<String, InputError> {
 }
 
 fn check_identifier(name: &str, place: &super::Location) -> Result<(), InputError> {
-    let is_allowed = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_allowed) {
+    if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_of_name) {
         return Ok(());
     }
     let problem = format!("found the name `{name}`; expected a letter, then letters, digits and _");

@@ -33,8 +33,8 @@ pub(crate) enum VariationStep {
 ///
 /// The product w u vanishes at both ends with its derivatives up to m, and w is at most 1, in the
 /// middle. To subtract Hermite's polynomial at both ends instead leaves a remainder of the size of
-/// the derivative of order 2m+2, far below u: the errors of a program are round-off then, and decide
-/// nothing.
+/// the derivative of order 2m+2, far below u: the errors of a program are round-off then, and
+/// decide nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bubble {
     pub(crate) variable: usize,

@@ -209,12 +209,6 @@ fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
 /// allowed the value at a side, which the file may prescribe; a multiple of the value in the
 /// middle.
 fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
-    let scaled = |values: Vec<Values>, scale: f64| {
-        let values = values.into_iter().map(|Values { field, values }| {
-            (field, values.iter().map(|value| scale * value).collect())
-        });
-        values.collect::<BTreeMap<String, Vec<f64>>>()
-    };
     let mut lifts = vec![BTreeMap::new()];
     if design.is_flat() {
         for BoxSide { coordinate, at, .. } in sides(&base.problem) {
@@ -225,6 +219,17 @@ fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
         }
     }
     lifts
+}
+
+/// The values of each field, times a number.
+fn scaled(values: Vec<Values>, scale: f64) -> BTreeMap<String, Vec<f64>> {
+    let values = values.into_iter();
+    values
+        .map(|Values { field, values }| {
+            let values = values.iter().map(|value| scale * value);
+            (field, values.collect())
+        })
+        .collect()
 }
 
 /// The variant, or in words why it cannot be used.

@@ -39,36 +39,26 @@ impl Walk<'_> {
 
     /// `a*b + c` for `a*(b + c)`, `a + b/c` for `(a + b)/c`.
     fn brackets(&mut self, of: Binary, [left, right]: &[Tree; 2], route: &Route) {
-        let sum = |tree: &Tree| match &tree.kind {
-            TreeKind::Bracket(inner) => match &inner.kind {
-                TreeKind::Binary(sign @ (Binary::Add | Binary::Subtract), parts) => {
-                    Some((*sign, (**parts).clone()))
-                }
-                _ => None,
-            },
-            _ => None,
-        };
-        let bracket = |tree: Tree| node(TreeKind::Bracket(Box::new(tree)));
-        if let Some((sign, [first, last])) = sum(left) {
-            let last = binary(of, &last, right);
+        if let Some(Sum { sign, first, last }) = Sum::in_bracket(left) {
+            let last = binary(of, last, right);
             self.add(
                 EditKind::LostBracket,
                 route,
-                bracket(binary(sign, &first, &last)),
+                in_bracket(binary(sign, first, &last)),
             );
         }
-        if let (Binary::Multiply, Some((sign, [first, last]))) = (of, sum(right)) {
-            let first = binary(of, left, &first);
+        if let (Binary::Multiply, Some(Sum { sign, first, last })) = (of, Sum::in_bracket(right)) {
+            let first = binary(of, left, first);
             self.add(
                 EditKind::LostBracket,
                 route,
-                bracket(binary(sign, &first, &last)),
+                in_bracket(binary(sign, &first, last)),
             );
         }
     }
 
-    /// Products: all factors but one are constants for derivatives; a factor goes below a derivative
-    /// that it stands before.
+    /// Products: all factors but one are constants for derivatives; a factor goes below a
+    /// derivative that it stands before.
     pub(super) fn chain(&mut self, tree: &Tree, route: &Route) {
         let mut factors = vec![];
         collect(tree, &mut vec![], &mut factors);
@@ -145,4 +135,33 @@ fn collect(tree: &Tree, route: &mut Route, found: &mut Vec<Route>) {
         collect(child, route, found);
         route.pop();
     }
+}
+
+/// A sum or a difference of two.
+struct Sum<'t> {
+    sign: Binary,
+    first: &'t Tree,
+    last: &'t Tree,
+}
+
+impl<'t> Sum<'t> {
+    /// What a bracket holds, if that is a sum.
+    fn in_bracket(tree: &'t Tree) -> Option<Self> {
+        let TreeKind::Bracket(inner) = &tree.kind else {
+            return None;
+        };
+        let TreeKind::Binary(sign @ (Binary::Add | Binary::Subtract), parts) = &inner.kind else {
+            return None;
+        };
+        let [first, last] = &**parts;
+        Some(Self {
+            sign: *sign,
+            first,
+            last,
+        })
+    }
+}
+
+fn in_bracket(tree: Tree) -> Tree {
+    node(TreeKind::Bracket(Box::new(tree)))
 }

@@ -43,6 +43,13 @@ struct Trouble {
     is_on_boundary: bool,
 }
 
+impl Trouble {
+    /// Whether a function has no derivative there.
+    fn is_kink(&self) -> bool {
+        self.condition.need == Need::OneSide
+    }
+}
+
 /// What the search says about a domain: poles inside as an error, all else as notes.
 ///
 /// # Errors
@@ -53,8 +60,7 @@ pub(super) fn examine(model: &Model) -> Result<Vec<Finding>, InputError> {
         let search = DomainSearch::new(model, *part, quantities);
         let mut troubles = search.run();
         troubles.sort_by_key(|trouble| trouble.condition.operation);
-        let is_kink = |trouble: &Trouble| trouble.condition.need == Need::OneSide;
-        for trouble in troubles.iter().filter(|trouble| !is_kink(trouble)) {
+        for trouble in troubles.iter().filter(|trouble| !trouble.is_kink()) {
             let user = user(model, quantities, trouble.condition.operation);
             let fails = trouble.kind == DomainFinding::Missing
                 && match user.map(|quantity| quantity.role) {
@@ -128,11 +134,11 @@ fn kinks(
         let below = nodes_below(&model.graph, &quantity.tensor.parts);
         let inside: Vec<&Trouble> = troubles
             .iter()
-            .filter(|trouble| trouble.condition.need == Need::OneSide && !trouble.is_on_boundary)
+            .filter(|trouble| trouble.is_kink() && !trouble.is_on_boundary)
             .filter(|trouble| below.contains(&trouble.condition.operation))
             .collect();
-        let is_located = |trouble: &&&Trouble| trouble.kind == DomainFinding::Missing;
-        let located = inside.iter().find(is_located);
+        let mut troubles = inside.iter();
+        let located = troubles.find(|trouble| trouble.kind == DomainFinding::Missing);
         let Some(first) = located.or(inside.first()) else {
             continue;
         };

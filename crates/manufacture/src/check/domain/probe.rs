@@ -36,7 +36,6 @@ pub(super) fn kind(
             values.push(probe.at(&point));
         }
     }
-    let is_zero = |v: &SizedValue| v.value.abs() <= ZERO * v.size;
     let zero = values.iter().find(|v| is_zero(&v.argument));
     let has = |test: fn(f64) -> bool| values.iter().any(|v| test(v.argument.value));
     let changes_sign = has(|v| v > 0.0) && has(|v| v < 0.0);
@@ -130,4 +129,9 @@ fn candidates(sides: &[Interval]) -> Vec<Vec<f64>> {
     }
     corners.extend([middle(sides), snapped(sides)]);
     corners
+}
+
+/// Whether a value is zero but for rounding.
+fn is_zero(value: &SizedValue) -> bool {
+    value.value.abs() <= ZERO * value.size
 }

@@ -231,11 +231,8 @@ impl<'m> DomainSearch<'m> {
 
     /// Whether a point lies on the boundary of the part.
     fn is_on_boundary(&self, point: &[f64]) -> bool {
-        let is_at_end = |(x, side): (&f64, &Interval)| {
-            let near = AT_END * side.width();
-            near > 0.0 && ((x - side.lo).abs() <= near || (side.hi - x).abs() <= near)
-        };
-        if point.iter().zip(&self.domain).any(is_at_end) {
+        let mut coordinates = point.iter().zip(&self.domain);
+        if coordinates.any(|(x, side)| is_at_end(*x, *side)) {
             return true;
         }
         let levels = self.levels.iter().filter(|level| !level.is_own);
@@ -313,4 +310,10 @@ fn integrands(model: &Model) -> Vec<NodeId> {
 
 fn points(point: &[f64]) -> Vec<Interval> {
     point.iter().map(|x| Interval::point(*x)).collect()
+}
+
+/// Whether a coordinate lies on an end of its interval, but for rounding.
+fn is_at_end(x: f64, side: Interval) -> bool {
+    let near = AT_END * side.width();
+    near > 0.0 && ((x - side.lo).abs() <= near || (side.hi - x).abs() <= near)
 }

@@ -27,10 +27,10 @@
 //!
 //! # A project that verifies itself
 //!
-//! A project names its kinds of study in a [`Project`] and calls [`run_command_line`]: its program then has
-//! all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs, judges,
-//! compares with the baseline and writes the report. The smallest one has no kind of its own: its
-//! studies are programs in any language.
+//! A project names its kinds of study in a [`Project`] and calls [`run_command_line`]: its program
+//! then has all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs,
+//! judges, compares with the baseline and writes the report. The smallest one has no kind of its
+//! own: its studies are programs in any language.
 //!
 #![cfg_attr(feature = "command-line", doc = "```no_run")]
 #![cfg_attr(not(feature = "command-line"), doc = "```ignore")]
@@ -71,8 +71,8 @@
 //
 // Each module uses only those before it: `input`, `plots`, `exchange`, `rates`, `study`, `run`,
 // `where_lost`, `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. Nothing is
-// public but what is named here and in `internal`, so that the compiler finds what nobody uses. With
-// fewer features some items serve no one: they are searched for with all.
+// public but what is named here and in `internal`, so that the compiler finds what nobody uses.
+// With fewer features some items serve no one: they are searched for with all.
 #![cfg_attr(not(feature = "command-line"), allow(dead_code, unused_imports))]
 
 #[cfg(feature = "command-line")]

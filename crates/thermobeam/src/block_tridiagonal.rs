@@ -106,8 +106,8 @@ fn signs<const B: usize>() -> [f64; B] {
     std::array::from_fn(|k| if k == 2 { -1.0 } else { 1.0 })
 }
 
-/// An uninitialised factorisation for n elements: a [`NodeFactors`] for each unknown node 1..n; entry 0 is
-/// unused.
+/// An uninitialised factorisation for n elements: a [`NodeFactors`] for each unknown node 1..n;
+/// entry 0 is unused.
 pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<NodeFactors<T, B>> {
     let zero = [[T::splat(0.0); B]; B];
     vec![

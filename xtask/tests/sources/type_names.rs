@@ -1,7 +1,7 @@
 //! One meaning a name: a reader who meets `Found` must not have to ask which of eight it is.
 //!
-//! A name may stand for two or three types, as where two crates cannot share one. In four modules it
-//! says nothing any more.
+//! A name may stand for two or three types, as where two crates cannot share one. In four modules
+//! it says nothing any more.
 
 use std::collections::BTreeMap;
 use std::fs;

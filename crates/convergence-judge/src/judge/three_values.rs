@@ -33,7 +33,8 @@ pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
     (fine - coarse) / growth(ratio, order)
 }
 
-/// The order p of three values, coarse to fine, from the equation of ASME V&V 20 for unequal ratios,
+/// The order p of three values, coarse to fine, from the equation of ASME V&V 20 for unequal
+/// ratios,
 ///
 /// ```text
 ///     p = [ log(d_coarse / d_fine) + log((ρ_fine^p - 1) / (ρ_coarse^p - 1)) ] / log ρ_fine.

@@ -71,8 +71,8 @@ const PATIENCE: Duration = Duration::from_millis(800);
 
 static SAID: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
-/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it blocks the
-/// signal, and a thread of the handler would not.
+/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it blocks
+/// the signal, and a thread of the handler would not.
 pub(crate) fn listen() {
     if guard::is_guard() {
         return;

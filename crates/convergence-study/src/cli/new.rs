@@ -196,8 +196,8 @@ struct TargetFolder {
 }
 
 impl TargetFolder {
-    /// The folder of `--out`; without it `studies/` of the project for a study, if there is one, and
-    /// the current folder for anything else.
+    /// The folder of `--out`; without it `studies/` of the project for a study, if there is one,
+    /// and the current folder for anything else.
     fn of(out: Option<&Path>, template: &Template) -> Result<Self, Unusable> {
         let is_study = template.next.contains(&"study");
         let root = workspace::root().ok().filter(|_| is_study && out.is_none());

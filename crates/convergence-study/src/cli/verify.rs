@@ -62,8 +62,8 @@ pub struct Arguments {
     /// List the slowest studies
     #[arg(long, conflicts_with = "quiet")]
     durations: bool,
-    /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files, named
-    /// with their ending .toml: they are run as `study` runs them
+    /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files,
+    /// named with their ending .toml: they are run as `study` runs them
     #[arg(value_name = "ID|FILE")]
     ids: Vec<String>,
     #[command(flatten)]

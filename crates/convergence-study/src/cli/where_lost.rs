@@ -48,8 +48,8 @@ pub(super) fn no_file(id: &str) -> Unusable {
 /// * `finished`: what the studies found, in their order.
 ///
 /// # Errors
-/// A file of `manufacture` that cannot be used, a variant that does not run, and a program that does
-/// not notice the variant.
+/// A file of `manufacture` that cannot be used, a variant that does not run, and a program that
+/// does not notice the variant.
 pub(super) fn locate(
     studies: &[Box<dyn Study>],
     finished: &mut [Finished],

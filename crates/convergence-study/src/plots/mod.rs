@@ -17,8 +17,8 @@
 //! | [`forest`] | judged rates with their intervals, relative to their claims or to one |
 //! | [`work_precision`] | error against run time |
 //!
-//! The drawing can be read back: `attributes` writes names and values into the picture, for a page that
-//! shows them.
+//! The drawing can be read back: `attributes` writes names and values into the picture, for a page
+//! that shows them.
 //!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a
 //! `sheet`, which is a laid-out page; `xy`, `heat` and `space_time` draw on the sheet; the sheet's

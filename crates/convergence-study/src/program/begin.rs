@@ -1,5 +1,5 @@
-//! The files that `new program` writes: a study, and a program in a language; or a study of a command
-//! of the user.
+//! The files that `new program` writes: a study, and a program in a language; or a study of a
+//! command of the user.
 
 use super::command::filled;
 use super::refine::CaseParameter;

@@ -9,8 +9,8 @@
 //!
 //! On Linux the guard is a subreaper: every process that the program has started, and that has lost
 //! its parent, becomes a child of the guard, whatever group, session or environment it has
-//! (`guard/descendants.rs`). On other Unix systems the guard finds the group of the program, and not
-//! a process that has left it.
+//! (`guard/descendants.rs`). On other Unix systems the guard finds the group of the program, and
+//! not a process that has left it.
 //!
 //! On Windows every case has a job object instead, `guard/job.rs`.
 

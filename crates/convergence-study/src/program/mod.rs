@@ -2,8 +2,8 @@
 //!
 //! A case is one resolution. The program is started with it, without a shell. Its answer is the
 //! last line of its standard output that is a JSON object, or lines of `name = value`: errors by
-//! name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
-//! none of its processes outlives it.
+//! name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case
+//! fails, with a one-line reason; none of its processes outlives it.
 //!
 //! | file | holds |
 //! | --- | --- |

@@ -113,8 +113,8 @@ pub(super) fn claims(
     claims.collect()
 }
 
-/// Where a table has the column of this name: `L2`, or `Table 2:L2` behind the heading or the number
-/// of the table, or `Table 2:` for all its columns.
+/// Where a table has the column of this name: `L2`, or `Table 2:L2` behind the heading or the
+/// number of the table, or `Table 2:` for all its columns.
 ///
 /// * `number`: of the table, from 0.
 fn place(name: &str, number: usize, source: &SourceTable) -> Option<ClaimedColumn> {

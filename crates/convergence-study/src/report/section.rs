@@ -24,8 +24,8 @@ const MOST_FIGURES: usize = 3;
 /// The section of a study in the Markdown report; short if it passes.
 ///
 /// * `command`: runs it again.
-/// * `captions`: of the figures so far. If the only figure of a study has such a caption, it is only
-///   named.
+/// * `captions`: of the figures so far. If the only figure of a study has such a caption, it is
+///   only named.
 pub(super) fn section<'f>(
     finished: &'f Finished,
     command: &str,

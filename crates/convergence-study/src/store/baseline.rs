@@ -229,8 +229,8 @@ impl Baseline {
     /// * `reason`: kept with the number or the claim.
     ///
     /// # Errors
-    /// [`BlessingRefusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the study must
-    /// pass.
+    /// [`BlessingRefusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the
+    /// study must pass.
     pub fn accept(
         &mut self,
         finished: &[Finished],

@@ -1,5 +1,5 @@
-//! A kind of study, typed for its author; its computations, and the result of each or the reason why
-//! it is missing.
+//! A kind of study, typed for its author; its computations, and the result of each or the reason
+//! why it is missing.
 
 use std::path::Path;
 

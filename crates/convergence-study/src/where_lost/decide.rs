@@ -1,12 +1,12 @@
 //! Which part of a program the variants name: a function of what became of the order in each.
 //!
-//! **The argument.** Let the order come back in a variant: then every mistake is invisible in it, so
-//! each is in a part that the variant switches off. Let it stay lost: then at least one mistake
+//! **The argument.** Let the order come back in a variant: then every mistake is invisible in it,
+//! so each is in a part that the variant switches off. Let it stay lost: then at least one mistake
 //! acts on it, in a part that the variant leaves on. So
 //!
 //! - back where the solution is flat at one face: all mistakes are at this face;
-//! - lost where it is flat at all faces but one, back where it is flat at this one too: a mistake is
-//!   at that face;
+//! - lost where it is flat at all faces but one, back where it is flat at this one too: a mistake
+//!   is at that face;
 //! - lost where it is flat at all faces and at the first time: a mistake is inside the domain; if
 //!   the order is back where the solution does not change along y, that mistake acts along y.
 //!
@@ -36,8 +36,8 @@ pub(super) enum Conclusion {
     Corner([String; 2]),
     /// In the data at the first time.
     Initial,
-    /// Inside the domain: in what acts along a coordinate or time, or has a parameter or a field; if
-    /// there are several, in what has all of them.
+    /// Inside the domain: in what acts along a coordinate or time, or has a parameter or a field;
+    /// if there are several, in what has all of them.
     Inside(Vec<SolverPart>),
     /// Lost in each variant.
     Everywhere,

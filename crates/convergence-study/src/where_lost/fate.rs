@@ -8,12 +8,13 @@
 //! `error = a h^p + b h^q + c h^(p+2)`.
 //!
 //! The order is back if the rate passes by the rule, b h^q is less than [`SHARE`] of the finest
-//! error, and b, in proportion to the size of the solution, less than [`LEFT`] of that of the study:
-//! the lost part is gone, not hidden. Where the rule is undecided, the order is lost if the lower
-//! order explains at least [`SEEN`] of the finest error, and as much of the study's part is left.
-//! Measured on a plane problem of advection and diffusion at 8 to
-//! 64 cells, 16 variants of a right program have shares from -0.025 to 0.017; a variant of a program
-//! with upwind differences, whose rate passes at 1.95, has 0.046, and 17 % of the study's part.
+//! error, and b, in proportion to the size of the solution, less than [`LEFT`] of that of the
+//! study: the lost part is gone, not hidden. Where the rule is undecided, the order is lost if the
+//! lower order explains at least [`SEEN`] of the finest error, and as much of the study's part is
+//! left. Measured on a plane problem of advection and diffusion at 8 to
+//! 64 cells, 16 variants of a right program have shares from -0.025 to 0.017; a variant of a
+//! program with upwind differences, whose rate passes at 1.95, has 0.046, and 17 % of the study's
+//! part.
 
 use crate::judge::fit::Level;
 use crate::judge::verdict::{Band, RateVerdict, Reason, Tendency};

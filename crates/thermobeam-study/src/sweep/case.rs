@@ -138,8 +138,8 @@ impl SweepShare {
         count: 1,
     };
 
-    /// Whether it holds a case with this [`content_hash`](convergence_study::internal::store::content_hash):
-    /// exactly one share does.
+    /// Whether it holds a case with this
+    /// [`content_hash`](convergence_study::internal::store::content_hash): exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.count == self.number - 1
     }

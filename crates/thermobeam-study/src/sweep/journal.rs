@@ -304,8 +304,8 @@ fn source_of_lines(folder: &Path) -> PathBuf {
 /// would have written.
 ///
 /// # Errors
-/// [`SweepError`]: folders of different sweeps, a missing or repeated case, `out` among `folders`, a file that cannot be read or written. Nothing
-/// is written then.
+/// [`SweepError`]: folders of different sweeps, a missing or repeated case, `out` among `folders`,
+/// a file that cannot be read or written. Nothing is written then.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     let manifests = folders
         .iter()

@@ -359,7 +359,8 @@ fn figures_begin_with_the_initial_energy_and_tables_show_what_is_allowed() {
     ));
 }
 
-/// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no pass.
+/// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no
+/// pass.
 #[test]
 fn a_beam_of_any_rho_that_blows_up_fails() {
     let study = runs("theorem-2.8.toml");

@@ -376,8 +376,8 @@ fn files_with_errors_are_refused() {
     }
 }
 
-/// Completion is no statement, the threshold that is not sharp is named, and a list that may lack states gives a
-/// least number.
+/// Completion is no statement, the threshold that is not sharp is named, and a list that may lack
+/// states gives a least number.
 #[test]
 fn the_headline_counts_statements_by_whose_they_are() {
     let study = study("section-5.toml");

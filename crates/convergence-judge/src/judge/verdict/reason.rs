@@ -99,7 +99,8 @@ impl Reason {
         self.row().verdict
     }
 
-    /// Whether what the errors tend to says more than the reason: where they do not fall as claimed.
+    /// Whether what the errors tend to says more than the reason: where they do not fall as
+    /// claimed.
     pub(super) fn is_about_the_errors(self) -> bool {
         self.wants_a_level()
             || matches!(
@@ -113,8 +114,8 @@ impl Reason {
         self.row().wants_a_level
     }
 
-    /// Whether a failure for this reason is none of the rule's estimates, so that no finer level can
-    /// take it back.
+    /// Whether a failure for this reason is none of the rule's estimates, so that no finer level
+    /// can take it back.
     pub fn is_final(self) -> bool {
         matches!(
             self,

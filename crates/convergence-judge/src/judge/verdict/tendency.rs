@@ -72,8 +72,8 @@ impl Tendency {
         }
     }
 
-    /// What these errors, coarsest first and above the round-off, tend to; `None` for errors that go
-    /// on falling, or scatter.
+    /// What these errors, coarsest first and above the round-off, tend to; `None` for errors that
+    /// go on falling, or scatter.
     pub(super) fn of(levels: &[Level]) -> Option<Self> {
         let (finest, coarser) = levels.split_last()?;
         if finest.error == 0.0 && coarser.iter().all(|level| level.error > 0.0) {

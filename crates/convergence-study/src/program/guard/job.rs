@@ -1,9 +1,9 @@
 //! The processes of a case on Windows: a job object.
 //!
 //! Whatever a process of the job starts is in the job as well. Windows ends all of them when the
-//! last handle of the job is closed: by [`ProcessGroup::end`], or when this process ends, however it ends.
-//! What a program starts in the instant between its own start and its entry into the job stays
-//! outside.
+//! last handle of the job is closed: by [`ProcessGroup::end`], or when this process ends, however
+//! it ends. What a program starts in the instant between its own start and its entry into the job
+//! stays outside.
 
 use std::io;
 use std::os::windows::io::AsRawHandle;

@@ -143,8 +143,8 @@ impl Setting {
     }
 }
 
-/// A mistake: seen only where the solution is not flat at each of some faces, and at the first time;
-/// and where the solution changes in each part of `hidden_by`.
+/// A mistake: seen only where the solution is not flat at each of some faces, and at the first
+/// time; and where the solution changes in each part of `hidden_by`.
 #[derive(Debug, Clone, PartialEq)]
 struct Mistake {
     faces: Vec<String>,

@@ -5,8 +5,8 @@
 //!
 //! 1. Poles. Those of the free law are `1/(1 + κ²)`, those of a support are enclosed by signs of h.
 //! 2. Between two poles f is concave, `scan`. Signs at three points prove two roots, a tangent
-//!    proves none, and above the largest pole there is one. The sign of the determinant must be that
-//!    of the number of poles above: a pole that was left out changes it.
+//!    proves none, and above the largest pole there is one. The sign of the determinant must be
+//!    that of the number of poles above: a pole that was left out changes it.
 //! 3. Interval Newton sharpens.
 //! 4. The inequality of the contact, at the enclosure.
 //! 5. What is no root of f: the straight beam and the buckled pairs at poles, N = -1, and ρ = 0.

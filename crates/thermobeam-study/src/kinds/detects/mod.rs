@@ -13,9 +13,9 @@
 //! means.
 //!
 //! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while
-//! the sources keep the exact one; each [`Defect`](crate::exact::defect::Defect) in turn is planted in the sources. Sources and
-//! solver share no function, so it stands for the same mistake in the solver. Without a fault every
-//! study must pass, since otherwise its failures would prove nothing.
+//! the sources keep the exact one; each [`Defect`](crate::exact::defect::Defect) in turn is planted
+//! in the sources. Sources and solver share no function, so it stands for the same mistake in the
+//! solver. Without a fault every study must pass, since otherwise its failures would prove nothing.
 //!
 //! ```toml
 //! [controls]

@@ -6,13 +6,13 @@
 //! with the dense matrix A(m). Every other solution has an m = β + ½ρ‖u_x‖² in (β, m*), where `λ(m*) =
 //! B (ζ + dt/2) + m* dt/2 = 0`. There none is missed, since A(m) = A(0) + ½ m dt K is symmetric:
 //!
-//! * free of contact: A(m) is singular, for an eigenvalue of (A(0), K); its vector has the size that m
-//!   asks for, and both signs;
+//! * free of contact: A(m) is singular, for an eigenvalue of (A(0), K); its vector has the size
+//!   that m asks for, and both signs;
 //! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `f(m) = β + ½ρ F² ‖r_x‖² - m`. In the
-//!   eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows between its
-//!   poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1) by s, `F² ‖r_x‖²`
-//!   is g² times its derivative: f is convex between two poles, where it has two roots or none. The
-//!   poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
+//!   eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows between
+//!   its poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1) by s,
+//!   `F² ‖r_x‖²` is g² times its derivative: f is convex between two poles, where it has two roots
+//!   or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
@@ -374,8 +374,8 @@ impl<'a> StepFromRest<'a> {
         tips
     }
 
-    /// The mean axial force m for which A(0) + ½ m dt K has an eigenvalue 0 in units of K, where A(0) has
-    /// this one.
+    /// The mean axial force m for which A(0) + ½ m dt K has an eigenvalue 0 in units of K, where
+    /// A(0) has this one.
     fn force(&self, value: f64) -> f64 {
         -2.0 * value / self.dt
     }
@@ -400,8 +400,8 @@ fn eigen(a: &DMatrix<f64>, k: &Cholesky<f64, Dyn>) -> SymmetricEigen<f64, Dyn> {
 /// Steps of the search for the minimum: each leaves 0.62 of the interval.
 const SEARCH: usize = 80;
 
-/// The roots of a function that is convex between these ends, where it may be infinite: none, one or
-/// two.
+/// The roots of a function that is convex between these ends, where it may be infinite: none, one
+/// or two.
 fn convex_roots(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Vec<f64> {
     // Just inside: at a pole the value is round-off.
     let margin = 1e-9 * (high - low);

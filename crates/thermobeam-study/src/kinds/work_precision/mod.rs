@@ -2,12 +2,12 @@
 //!
 //! A study lists runs of each method, and targets: errors of u(1, t) and in the norm of Theorem
 //! 3.4. The cost of a target is the work of the cheapest run whose error is not larger; a method
-//! without such a run does not reach it. A ratio is one of optimal runs: the neighbours of each listed
-//! run, `neighbours.rs`, are made as well, and none may reach a target for less. Each target names the methods that reach it, from the
-//! dearest to the cheapest, and claims how many times dearer each of them is than the next one.
-//! Errors are the largest over equidistant times, common to all runs. Work is counted, not timed,
-//! so that a report is the same on every machine; `cargo xtask bench` takes the seconds of longer
-//! runs of the same problems.
+//! without such a run does not reach it. A ratio is one of optimal runs: the neighbours of each
+//! listed run, `neighbours.rs`, are made as well, and none may reach a target for less. Each target
+//! names the methods that reach it, from the dearest to the cheapest, and claims how many times
+//! dearer each of them is than the next one. Errors are the largest over equidistant times, common
+//! to all runs. Work is counted, not timed, so that a report is the same on every machine;
+//! `cargo xtask bench` takes the seconds of longer runs of the same problems.
 //!
 //! ```toml
 //! [work-precision]

@@ -1,8 +1,8 @@
 //! The runs next to a listed one, which show that it is the cheapest of its method.
 //!
 //! Elements and steps change by an eighth: fewer elements, fewer steps, or fewer of one and more of
-//! the other. For dG a degree falls by one, the step grows by an eighth, or one of the three is traded
-//! for another. The grading of a mesh, and the nodes of dG, are those of the list.
+//! the other. For dG a degree falls by one, the step grows by an eighth, or one of the three is
+//! traded for another. The grading of a mesh, and the nodes of dG, are those of the list.
 
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 

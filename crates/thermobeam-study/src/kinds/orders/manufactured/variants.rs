@@ -3,10 +3,10 @@
 //!
 //! Flat are products with weights that vanish at an end of the beam, or at the first time, with
 //! their first three derivatives, one more than the largest order: x⁴ at x = 0, (1 - x)⁴ at x = 1,
-//! (4x(1 - x))⁴ at both, (t/T)⁴ at t = 0. The boundary conditions remain: u and φ are 0 at x = 0, and
-//! where the weight takes θ = θ_A from there, a lifting l brings it back, θ = w θ + θ_A l: it falls
-//! from 1 to 0 and is as flat as the solution, 1 - x⁴, or 1 - 35x⁴ + 84x⁵ - 70x⁶ + 20x⁷ at both. At
-//! the first time θ = θ_A (1 - x). Where u is flat at x = 1 the tip touches no obstacle.
+//! (4x(1 - x))⁴ at both, (t/T)⁴ at t = 0. The boundary conditions remain: u and φ are 0 at x = 0,
+//! and where the weight takes θ = θ_A from there, a lifting l brings it back, θ = w θ + θ_A l: it
+//! falls from 1 to 0 and is as flat as the solution, 1 - x⁴, or 1 - 35x⁴ + 84x⁵ - 70x⁶ + 20x⁷ at
+//! both. At the first time θ = θ_A (1 - x). Where u is flat at x = 1 the tip touches no obstacle.
 
 use convergence_study::variants::{SolverPart, Variant, Variants};
 

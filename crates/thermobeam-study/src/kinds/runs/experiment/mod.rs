@@ -31,8 +31,8 @@
 //!
 //! It takes the experiment at β = -0.8 as evidence of several steady states for β < -1/2. That
 //! threshold is not sharp: without heating the straight beam is the only steady state down to
-//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of all
-//! exact steady states, and by where moving beams come to rest.
+//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of
+//! all exact steady states, and by where moving beams come to rest.
 
 mod group;
 mod judge;

@@ -57,8 +57,8 @@ impl EnergyRuns {
     }
 }
 
-/// The change of the energy is negative; a rise would have no place on a logarithmic axis, and would be
-/// counted below the figure.
+/// The change of the energy is negative; a rise would have no place on a logarithmic axis, and
+/// would be counted below the figure.
 fn energies(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     let mut losses = curves(drawn, quantities, |sample| (sample.t, -sample.change));
     for series in &mut losses {

@@ -24,7 +24,8 @@ pub(super) struct Recorder<'r> {
     /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
     bound: Option<Stability>,
     pub(super) watch: EnergyWatch,
-    /// Largest change of the energy in a step since the last sample, in units of the initial energy.
+    /// Largest change of the energy in a step since the last sample, in units of the initial
+    /// energy.
     change: f64,
     pub(super) found: EnergyHistory,
 }

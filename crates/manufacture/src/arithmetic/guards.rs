@@ -70,14 +70,14 @@ struct Compared {
 
 /// What holds at the points of a box at which some choices take these branches.
 #[derive(Debug)]
-struct Facts<'o, 'e, 'g> {
+pub(super) struct Facts<'o, 'e, 'g> {
     over: &'o Over<'e, 'g>,
     compared: Vec<Compared>,
     known: Vec<Known>,
 }
 
 impl<'o, 'e, 'g> Facts<'o, 'e, 'g> {
-    fn new(over: &'o Over<'e, 'g>) -> Self {
+    pub(super) fn new(over: &'o Over<'e, 'g>) -> Self {
         Self {
             over,
             compared: vec![],
@@ -86,7 +86,7 @@ impl<'o, 'e, 'g> Facts<'o, 'e, 'g> {
     }
 
     /// Adds that a choice takes its first branch, or its second.
-    fn add(&mut self, choice: NodeId, is_first: bool) {
+    pub(super) fn add(&mut self, choice: NodeId, is_first: bool) {
         let Node::Choose(comparison, [left, right, ..]) = *self.over.node(choice) else {
             return;
         };
@@ -135,7 +135,7 @@ impl<'o, 'e, 'g> Facts<'o, 'e, 'g> {
     }
 
     /// The signs of a node where the facts hold and it has a value.
-    fn signs(&self, id: NodeId) -> Signs {
+    pub(super) fn signs(&self, id: NodeId) -> Signs {
         self.within(id, DEPTH)
     }
 

@@ -2,8 +2,9 @@
 //! signs that comparisons imply.
 
 use super::enclosure::Enclosure;
-use super::guards::{Facts, Signs};
+use super::guards::Facts;
 use super::interval::Interval;
+use super::signs::Signs;
 use super::tape::{Tape, nodes_below};
 use super::{Algebra, Graph, NodeId};
 use crate::language::names::Function;

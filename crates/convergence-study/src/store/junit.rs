@@ -8,7 +8,7 @@ use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStat
 
 use crate::judge::verdict::Verdict;
 use crate::run::{Finished, Item, items};
-use crate::store::{Change, Record, diagnosis::Diagnosis, without_baseline};
+use crate::store::{GuardedChange, Record, diagnosis::Diagnosis, without_baseline};
 
 /// The document, for the project of this name.
 ///
@@ -95,7 +95,7 @@ fn cause(diagnosis: &Diagnosis) -> TestSuite {
     suite
 }
 
-fn baseline(studies: &[Finished], changes: &[Change]) -> TestSuite {
+fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> TestSuite {
     let mut suite = TestSuite::new("baseline");
     if let Some(numbers) = without_baseline(studies, changes) {
         let why = format!("no baseline yet: {numbers} numbers");

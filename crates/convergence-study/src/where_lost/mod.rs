@@ -16,7 +16,7 @@ mod words;
 use crate::judge::verdict::Verdict;
 use crate::run::{Fate, Located, VariantRate, VariantRates};
 use crate::study::Outcome;
-use crate::study::variants::{LeftOut, Variants};
+use crate::study::variants::{LeftOutVariant, Variants};
 use decide::{Examined, decide};
 use fate::{Sized, fate};
 
@@ -77,7 +77,7 @@ pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located
             left_out: None,
         });
     }
-    for LeftOut {
+    for LeftOutVariant {
         name,
         switches_off,
         why,

@@ -9,12 +9,12 @@ use super::{Finding, finding};
 use crate::Sampling;
 use crate::against::{Right, ask, questions};
 use crate::arithmetic::NodeId;
-use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::derive::{Part, Role};
-use crate::emit::{self, Alternative, Function, Language, OTHERS, accept, emit, functions};
+use crate::emit::{self, Alternative, EmittedFunction, Language, OTHERS, accept, emit, functions};
 use crate::language::tree::Tree;
 use crate::model::Model;
-use crate::problem::{InputError, Setting, mentions};
+use crate::problem::{InputError, ParameterValue, mentions};
 
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
@@ -101,7 +101,7 @@ pub(crate) fn run(
         model,
     } in std::iter::once(&of_file).chain(alternatives)
     {
-        let answer = Answer {
+        let answer = AnswerProgram {
             command: &command,
             variant,
         };
@@ -122,13 +122,13 @@ pub(crate) fn run(
 }
 
 /// The answering program, for a variant.
-struct Answer<'c> {
+struct AnswerProgram<'c> {
     command: &'c [String],
     /// Empty for the solution of the file.
     variant: &'c str,
 }
 
-impl Answer<'_> {
+impl AnswerProgram<'_> {
     fn to(&self, arguments: &[String], question: String) -> Result<String, InputError> {
         let command = [self.command, arguments].concat();
         ask::run(&command, question, Some(self.variant), LIMIT)
@@ -139,7 +139,7 @@ impl Answer<'_> {
 fn values(
     model: &Model,
     language: Language,
-    answer: &Answer<'_>,
+    answer: &AnswerProgram<'_>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let Sampling { seed, points, .. } = *sampling;
@@ -172,7 +172,7 @@ fn values(
 fn values_with_settings(
     model: &Model,
     language: Language,
-    answer: &Answer<'_>,
+    answer: &AnswerProgram<'_>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let settings = settings(model);
@@ -195,11 +195,11 @@ struct Round<'f> {
     /// What asks for them.
     argument: String,
     face: Option<&'f str>,
-    functions: Vec<&'f Function>,
+    functions: Vec<&'f EmittedFunction>,
 }
 
 /// All functions but sources and data.
-fn others(functions: &[Function]) -> Round<'_> {
+fn others(functions: &[EmittedFunction]) -> Round<'_> {
     Round {
         argument: OTHERS.to_owned(),
         face: None,
@@ -208,7 +208,7 @@ fn others(functions: &[Function]) -> Round<'_> {
 }
 
 /// The sources, and the data of each face.
-fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
+fn rounds<'f>(model: &'f Model, functions: &'f [EmittedFunction]) -> Vec<Round<'f>> {
     let mut rounds = vec![Round {
         argument: String::new(),
         face: None,
@@ -218,7 +218,7 @@ fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
             .collect(),
     }];
     for (index, face) in model.problem.faces.iter().enumerate() {
-        let of_face = |f: &&Function| f.role == Role::Datum && f.part == Part::Face(index);
+        let of_face = |f: &&EmittedFunction| f.role == Role::Datum && f.part == Part::Face(index);
         rounds.push(Round {
             argument: face.name.clone(),
             face: Some(&face.name),
@@ -230,7 +230,7 @@ fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
 }
 
 /// All parameters that depend on no other, a thousandth larger.
-fn settings(model: &Model) -> Vec<Setting> {
+fn settings(model: &Model) -> Vec<ParameterValue> {
     let problem = &model.problem;
     let is_free = |tree: &Tree| {
         let mut others = problem.parameters.iter();
@@ -240,7 +240,7 @@ fn settings(model: &Model) -> Vec<Setting> {
     values
         .enumerate()
         .filter(|(_, (parameter, _))| is_free(&parameter.expression.tree))
-        .map(|(parameter, (_, value))| Setting {
+        .map(|(parameter, (_, value))| ParameterValue {
             parameter,
             value: 1.001 * value,
         })
@@ -253,8 +253,8 @@ impl Round<'_> {
     fn held(
         &self,
         model: &Model,
-        answer: &Answer<'_>,
-        settings: &[Setting],
+        answer: &AnswerProgram<'_>,
+        settings: &[ParameterValue],
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
         let questions = questions(model, self.face, sampling.seed, sampling.points)?;
@@ -268,7 +268,7 @@ impl Round<'_> {
             .flat_map(|f| f.roots.clone())
             .collect();
         let mut arguments = vec![self.argument.clone()];
-        for Setting { parameter, value } in settings {
+        for ParameterValue { parameter, value } in settings {
             let name = &model.problem.parameters[*parameter].name;
             arguments.push(format!("{name}={value:?}"));
         }
@@ -306,6 +306,10 @@ impl Round<'_> {
     }
 }
 
+fn number_or_nan(word: &str) -> f64 {
+    word.parse().unwrap_or(f64::NAN)
+}
+
 /// A line of these names, then a line of numbers for each point; what is none is NaN.
 fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, String> {
     let mut lines = text.lines();
@@ -313,9 +317,8 @@ fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, Stri
     if head != names {
         return Err(format!("expected the names {names:?}, found {head:?}"));
     }
-    let number = |word: &str| word.parse().unwrap_or(f64::NAN);
     let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split_whitespace().map(number).collect())
+        .map(|line| line.split_whitespace().map(number_or_nan).collect())
         .collect();
     if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
         return Err(format!(
@@ -334,7 +337,7 @@ fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, Stri
 }
 
 /// A difference as a share of the size; 0 if it is rounding.
-fn difference(right: &Measured, found: f64) -> f64 {
+fn difference(right: &SizedValue, found: f64) -> f64 {
     let difference = (right.value - found).abs();
     // Not a difference of zero over a size of zero.
     if difference <= SAME * right.size {
@@ -344,7 +347,11 @@ fn difference(right: &Measured, found: f64) -> f64 {
     }
 }
 
-fn differences(right: &Right<'_>, answers: &[ask::Answer], language: &str) -> Vec<Finding> {
+fn differences(
+    right: &Right<'_>,
+    answers: &[ask::ForeignQuantity],
+    language: &str,
+) -> Vec<Finding> {
     let mut findings = vec![];
     for place in right.places() {
         let name = right.name(place);

@@ -1,7 +1,9 @@
 use convergence_judge::interval::Interval;
 use convergence_study::{FromFile, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
-use thermobeam_study::kinds::runs::bifurcation::{AtRest, Bifurcation, Diagram, Found, ROW};
+use thermobeam_study::kinds::runs::bifurcation::{
+    AtRest, Bifurcation, BifurcationResult, Diagram, ROW,
+};
 
 use super::file;
 use super::planted::verdict_with;
@@ -10,20 +12,20 @@ use super::typed::passes_but_not_without_each_case;
 
 type BifurcationStudy = RunStudy<Bifurcation>;
 
-fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut Found)> {
+fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut BifurcationResult)> {
     Box::new(move |found| match found {
-        Found::Diagram(diagram) => change(diagram),
+        BifurcationResult::Diagram(diagram) => change(diagram),
         _ => panic!("no diagram"),
     })
 }
 
-fn force(value: f64) -> Box<dyn Fn(&mut Found)> {
-    Box::new(move |found| *found = Found::Force(value))
+fn force(value: f64) -> Box<dyn Fn(&mut BifurcationResult)> {
+    Box::new(move |found| *found = BifurcationResult::Force(value))
 }
 
-fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut Found)> {
+fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut BifurcationResult)> {
     Box::new(move |found| match found {
-        Found::Rest(rest) => change(rest),
+        BifurcationResult::Rest(rest) => change(rest),
         _ => panic!("no run to rest"),
     })
 }

@@ -2,7 +2,7 @@ use convergence_study::{FromFile, Kind, Outcome, Verdict, internal::study::run_c
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::energy::ROW;
-use thermobeam_study::kinds::runs::energy::one_by_one::{self, Found};
+use thermobeam_study::kinds::runs::energy::one_by_one::{self, EnergyHistory};
 use thermobeam_study::kinds::runs::energy::random::{self, Batch};
 
 use super::file;
@@ -24,7 +24,7 @@ type Defect<F> = (&'static str, fn(&mut F));
 fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     let study = runs("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [Defect<Found>; 9] = [
+    let planted: [Defect<EnergyHistory>; 9] = [
         ("a rise", |found| found.worst.rise = 2e-14),
         ("a residual", |found| found.worst.residual = 2e-14),
         ("a rise that is not finite", |found| {
@@ -75,7 +75,7 @@ fn the_samples_of_a_run_end_with_its_last_step() {
 fn each_claim_of_a_case_can_fail() {
     let study = runs("extremes.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [(&str, Defect<Found>); 10] = [
+    let planted: [(&str, Defect<EnergyHistory>); 10] = [
         ("hat", ("another end", |found| found.end = End::Indefinite)),
         ("hat", ("a missing step", |found| found.steps = 199)),
         ("hat", ("an open balance", |found| found.worst.open = 1.1)),
@@ -352,7 +352,8 @@ fn figures_begin_with_the_initial_energy_and_tables_show_what_is_allowed() {
     ));
 }
 
-/// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no pass.
+/// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no
+/// pass.
 #[test]
 fn a_beam_of_any_rho_that_blows_up_fails() {
     let study = runs("theorem-2.8.toml");

@@ -5,7 +5,7 @@ use convergence_study::{
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::experiment::{
-    self, AtRest, Found, Measured, Nearest, PaperRun, ROW, Task,
+    self, AtRest, ExperimentResult, MeasuredRun, Nearest, PaperRun, ROW, Task,
 };
 use thermobeam_study::scene::Scene;
 
@@ -20,16 +20,16 @@ fn study(name: &str) -> Experiments {
     Experiments::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn run(change: fn(&mut Measured)) -> Box<dyn Fn(&mut Found)> {
+fn run(change: fn(&mut MeasuredRun)) -> Box<dyn Fn(&mut ExperimentResult)> {
     Box::new(move |found| match found {
-        Found::Run(run) => change(run),
+        ExperimentResult::Run(run) => change(run),
         _ => panic!("no experiment"),
     })
 }
 
-fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut Found)> {
+fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut ExperimentResult)> {
     Box::new(move |found| match found {
-        Found::Rest(rest) => change(rest),
+        ExperimentResult::Rest(rest) => change(rest),
         _ => panic!("no run to rest"),
     })
 }
@@ -270,9 +270,9 @@ fn the_scenes_of_the_full_study_have_the_papers_resolution() {
     }
 }
 
-fn paper(change: fn(&mut PaperRun)) -> Box<dyn Fn(&mut Found)> {
+fn paper(change: fn(&mut PaperRun)) -> Box<dyn Fn(&mut ExperimentResult)> {
     Box::new(move |found| match found {
-        Found::FixedPoint(run) => change(run),
+        ExperimentResult::FixedPoint(run) => change(run),
         _ => panic!("no run by the paper's algorithm"),
     })
 }
@@ -360,8 +360,8 @@ fn files_with_errors_are_refused() {
     }
 }
 
-/// Completion is no statement, the threshold that is not sharp is named, and a list that may lack states gives a
-/// least number.
+/// Completion is no statement, the threshold that is not sharp is named, and a list that may lack
+/// states gives a least number.
 #[test]
 fn the_headline_counts_statements_by_whose_they_are() {
     let study = study("section-5.toml");

@@ -23,7 +23,7 @@ pub(super) const C: Texts = Texts {
             "@IN@@NAME@_answer_c",
         ],
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

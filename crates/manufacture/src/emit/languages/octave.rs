@@ -41,7 +41,7 @@ pub(super) const OCTAVE: Texts = Texts {
         missing: "Octave",
         commands: &["octave --quiet --no-history --path @IN@ @IN@@NAME@_answer.m"],
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

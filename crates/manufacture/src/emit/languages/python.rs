@@ -52,7 +52,7 @@ pub(super) const PYTHON: Texts = Texts {
         missing: "Python with NumPy",
         commands: &["python3 -B @IN@@NAME@_answer.py"],
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

@@ -30,7 +30,7 @@ pub(super) const RUST: Texts = Texts {
             "@IN@@NAME@_answer_rust",
         ],
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

@@ -1,5 +1,5 @@
-//! Continuous dependence on the data, which gives Theorem 2.6: runs whose data are δ apart stay within
-//! C δ of each other, and difference/δ is constant as δ → 0.
+//! Continuous dependence on the data, which gives Theorem 2.6: runs whose data are δ apart stay
+//! within C δ of each other, and difference/δ is constant as δ → 0.
 //!
 //! The scene is run by dG, whose solution is known to round-off; the differences are those of the
 //! norm of (3.14) at several times, before and after contacts. There they stay below a bound by

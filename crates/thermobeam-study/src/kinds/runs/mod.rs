@@ -23,7 +23,7 @@ use super::prelude::*;
 use crate::kinds::settings::Exercise;
 use convergence_study::{
     Coverage, LevelErrors,
-    internal::study::{header::Setting, over_levels::Levels, readings},
+    internal::study::{header::SettingWords, over_levels::Levels, readings},
 };
 
 /// A list of runs, and what is claimed of them.
@@ -218,7 +218,7 @@ impl<R: Runs> Kind for RunStudy<R> {
         self.0.run(run)
     }
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let exercise = self.0.exercise(subject.case.as_deref());
         exercise.settings(header, subject)
     }

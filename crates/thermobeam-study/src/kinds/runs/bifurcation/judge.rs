@@ -236,7 +236,7 @@ impl<'r> OfScene<'r> {
     fn drawing(&self, title: String, range: RangeInclusive<f64>) -> String {
         let mut sorted: Vec<_> = self.diagram.branches.iter().collect();
         sorted.sort_by_key(|branch| (branch.key.place(), !branch.key.stable));
-        let mut branches: Vec<figures::Branch> = vec![];
+        let mut branches: Vec<figures::EquilibriumBranch> = vec![];
         for branch in sorted {
             let label = branch.key.name();
             let stable = branch.key.stable;
@@ -249,7 +249,7 @@ impl<'r> OfScene<'r> {
                 {
                     last.points.extend(points);
                 }
-                _ => branches.push(figures::Branch {
+                _ => branches.push(figures::EquilibriumBranch {
                     label: label.to_owned(),
                     points: points.collect(),
                     stable,

@@ -26,7 +26,7 @@ use crate::{
             checks::{Condition, all, at_most, energy_and_balance},
             watch::{CLOSED, Watched, Worst, watched},
         },
-        settings::{ENERGY, Exercise, Integration, Nodes, Terms},
+        settings::{ActiveTerms, ENERGY, Exercise, Integration, Nodes},
     },
     run::RunError,
     scene::limits,
@@ -108,7 +108,7 @@ impl Runs for RandomScenes {
     }
 
     fn exercise(&self, _case: Option<&str>) -> Exercise {
-        Exercise::new(ENERGY, Integration::PAPER, Terms::ALL).on(Nodes::Perturbed)
+        Exercise::new(ENERGY, Integration::PAPER, ActiveTerms::ALL).on(Nodes::Perturbed)
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
@@ -362,7 +362,7 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
         .iter()
         .map(|row| row.iter().map(|value| value.is_nan()).collect())
         .collect();
-    let map = plots::Surface {
+    let map = plots::ColouredCells {
         title: Some("The balance of the energy closes to round-off".to_owned()),
         x: plots::Axis::log("time step dt"),
         y: plots::Axis::log("shortest element (dimensionless)"),
@@ -372,7 +372,7 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
         values,
         marked,
         marked_label: "no scene".to_owned(),
-        ..plots::Surface::default()
+        ..plots::ColouredCells::default()
     };
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";

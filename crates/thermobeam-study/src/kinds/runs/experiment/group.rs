@@ -1,7 +1,8 @@
 //! The runs of an experiment, the experiments of a group, and all groups together.
 
 use super::{
-    AtRest, Experiment, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace,
+    AtRest, Experiment, ExperimentResult, Experiments, MeasuredRun, PaperRun, SectionGroup, Task,
+    Trace,
 };
 use crate::kinds::prelude::*;
 use crate::kinds::runs::Results;
@@ -12,9 +13,9 @@ use thermobeam::parameters::Beam;
 pub(super) struct OfExperiment<'r> {
     pub(super) experiment: &'r Experiment,
     /// By the first discretisation.
-    pub(super) first: &'r Measured,
+    pub(super) first: &'r MeasuredRun,
     /// By the second, which shows the error of the first.
-    pub(super) second: &'r Measured,
+    pub(super) second: &'r MeasuredRun,
     /// By the paper's algorithm, if the study runs that.
     pub(super) paper: Option<&'r PaperRun>,
 }
@@ -26,7 +27,7 @@ impl<'r> OfExperiment<'r> {
             experiment: &study.experiments[experiment],
             first: run_by_dg(results, experiment, 0),
             second: run_by_dg(results, experiment, 1),
-            paper: paper.map(Found::paper_run),
+            paper: paper.map(ExperimentResult::paper_run),
         }
     }
 
@@ -50,7 +51,7 @@ fn run_by_dg<'r>(
     results: &Results<'r, Experiments>,
     experiment: usize,
     discretisation: usize,
-) -> &'r Measured {
+) -> &'r MeasuredRun {
     let task = Task::AnyOrder {
         experiment,
         discretisation,

@@ -1,7 +1,7 @@
 //! The sentences of Section 5, each a check with its numbers.
 
 use super::{
-    Experiments, Measured, SectionGroup,
+    Experiments, MeasuredRun, SectionGroup,
     group::{OfExperiment, OfGroup, SectionFive},
     paper,
     plotted::{Plotted, U_TIP, largest_difference},
@@ -140,7 +140,7 @@ fn ends_straight(group: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
     let remains =
         group.largest(|runs| (runs.first.energy - straight_energy(&runs.experiment.scene)).abs());
     let energies = group.list(|runs| {
-        let Measured { energy, end, .. } = runs.first;
+        let MeasuredRun { energy, end, .. } = runs.first;
         let straight = straight_energy(&runs.experiment.scene);
         format!("{energy:.9} for {straight:.9} at t = {:.0}", end.t)
     });
@@ -255,11 +255,11 @@ fn ends_bent(runs: &OfExperiment<'_>) -> Check {
 }
 
 /// Whether the end is an exact, stable steady state.
-fn has_arrived(run: &Measured) -> bool {
+fn has_arrived(run: &MeasuredRun) -> bool {
     run.end.is_stable() && run.end.distance() <= ARRIVED
 }
 
-fn at_rest(run: &Measured) -> String {
+fn at_rest(run: &MeasuredRun) -> String {
     let [u, _] = run.end.tip;
     let [exact, _] = run.end.exact_tip();
     let force = run.contact_force;

@@ -31,8 +31,8 @@
 //!
 //! It takes the experiment at β = -0.8 as evidence of several steady states for β < -1/2. That
 //! threshold is not sharp: without heating the straight beam is the only steady state down to
-//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of all
-//! exact steady states, and by where moving beams come to rest.
+//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of
+//! all exact steady states, and by where moving beams come to rest.
 
 mod group;
 mod judge;
@@ -63,7 +63,7 @@ use thermobeam_exact::equilibrium::Phase;
 
 pub use super::side_by_side::SolverComparison;
 pub use super::steady::{AtRest, Nearest};
-pub use tasks::{Found, Measured, PaperRun, Task};
+pub use tasks::{ExperimentResult, MeasuredRun, PaperRun, Task};
 pub use trace::Trace;
 
 /// The row of the table of kinds.
@@ -181,7 +181,7 @@ impl Runs for Experiments {
     const KEYS: &'static [Keys] = &[&[&KEYS]];
 
     type Run = Task;
-    type Shown = Found;
+    type Shown = ExperimentResult;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let run = root.table("run", &[&RUN])?;
@@ -240,28 +240,32 @@ impl Runs for Experiments {
         runs
     }
 
-    fn run(&self, &task: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, &task: &Task) -> Result<ExperimentResult, CaseFailure> {
         Ok(match task {
             Task::AnyOrder {
                 experiment,
                 discretisation,
-            } => Found::Run(Box::new(self.run_until_steady(experiment, discretisation)?)),
+            } => {
+                ExperimentResult::Run(Box::new(self.run_until_steady(experiment, discretisation)?))
+            }
             Task::FixedPoint(experiment) => {
-                Found::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
+                ExperimentResult::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
             }
             Task::Rest(place) => {
                 let last = self.experiments.last();
                 let third = last.ok_or_else(|| CaseFailure::new("no experiment"))?;
-                Found::Rest(self.rest.run(&third.scene, place)?)
+                ExperimentResult::Rest(self.rest.run(&third.scene, place)?)
             }
         })
     }
 
-    fn numbers(&self, _: &Task, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, _: &Task, found: &ExperimentResult) -> Vec<Reading> {
         match found {
-            Found::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
-            Found::FixedPoint(run) => [run.trace.readings(""), run.readings("")].concat(),
-            Found::Rest(rest) => rest.readings(),
+            ExperimentResult::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
+            ExperimentResult::FixedPoint(run) => {
+                [run.trace.readings(""), run.readings("")].concat()
+            }
+            ExperimentResult::Rest(rest) => rest.readings(),
         }
     }
 

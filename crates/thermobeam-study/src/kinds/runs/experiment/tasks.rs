@@ -31,17 +31,17 @@ pub enum Task {
 
 /// What a case finds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Found {
+pub enum ExperimentResult {
     /// Of an experiment by dG.
-    Run(Box<Measured>),
+    Run(Box<MeasuredRun>),
     /// Of an experiment by the paper's algorithm.
     FixedPoint(Box<PaperRun>),
     /// Of a run to rest.
     Rest(AtRest),
 }
 
-impl Found {
-    pub(super) fn run(&self) -> &Measured {
+impl ExperimentResult {
+    pub(super) fn run(&self) -> &MeasuredRun {
         match self {
             Self::Run(run) => run,
             other => unreachable!("an experiment by dG shows {other:?}"),
@@ -65,7 +65,7 @@ impl Found {
 
 /// An experiment by dG, until it is steady.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
+pub struct MeasuredRun {
     /// The motion.
     pub trace: Trace,
     /// The beam as soon as it is steady.
@@ -97,7 +97,7 @@ impl Experiments {
         &self,
         experiment: usize,
         discretisation: usize,
-    ) -> Result<Measured, CaseFailure> {
+    ) -> Result<MeasuredRun, CaseFailure> {
         let original = &self.experiments[experiment].scene;
         let scene = self.discretisations[discretisation].of(original, self.t_max)?;
         let mut motion = simulate::motion(&scene)?;
@@ -162,12 +162,16 @@ impl Experiments {
 }
 
 /// The beam at its end.
-fn measured(scene: &Scene, trace: Trace, motion: &mut AnyMotion) -> Result<Measured, CaseFailure> {
+fn measured(
+    scene: &Scene,
+    trace: Trace,
+    motion: &mut AnyMotion,
+) -> Result<MeasuredRun, CaseFailure> {
     let nodes = compared(scene)?;
     let t = motion.work().t;
     let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
     let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
-    Ok(Measured {
+    Ok(MeasuredRun {
         trace,
         largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
         end: AtRest::of(scene, &nodes, t, &level, |_| true)?,

@@ -4,10 +4,10 @@ use std::f64::consts::LN_2;
 
 use super::grid::ColumnName;
 use super::names::{self, Word};
-use super::number::{Number, halves, is_dash};
-use super::stated::DIMENSIONS;
-use super::text::counts_rows;
+use super::number::{Number, counts_rows, halves, is_dash};
 
+/// Dimensions that a count may have.
+pub(super) const DIMENSIONS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Largest relative difference of two equal ratios, given their digits.
 const SAME: f64 = 1e-5;
 /// Largest ratio between numbers that tend to a limit.

@@ -2,11 +2,10 @@
 //! checked says otherwise. Nothing is left out because its numbers look wrong.
 
 use super::NotError;
-use super::columns::{Cells, Derived, Holdings, Trend};
+use super::columns::{Cells, DIMENSIONS, Derived, Holdings, Trend};
 use super::names::{self, Word};
-use super::reader::TableReader;
-use super::roles::reasons;
-use super::stated::{DIMENSIONS, Derivation};
+use super::reader::{TableReader, reasons};
+use super::stated::Derivation;
 use super::step::Step;
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};

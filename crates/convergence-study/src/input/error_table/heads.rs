@@ -1,8 +1,8 @@
 //! The names of columns: a line above the rows, numbered lines, or names in two lines.
 
+use super::line::{cell, span, split};
 use super::names::Word;
-use super::number::{is_dash, number};
-use super::text::{cell, counts_rows, span, split};
+use super::number::{counts_rows, is_dash, number};
 
 /// Types of columns and units, as data frames write them below the names.
 const TYPES: [&str; 8] = [

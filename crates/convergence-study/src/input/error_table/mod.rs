@@ -21,7 +21,7 @@
 //! 3. Columns: which one is the step (`step`), and what the others hold (`contents`).
 //!
 //! [`RateTable::reading`] says in a line how a table was read, [`RateTable::doubts`] why none of it
-//! should pass (`failed_run`, `doubt`), and lines that belong to no table are counted (`lines`). A
+//! should pass (`failed_run`, `doubt`), and lines that belong to no table are counted (`outside`). A
 //! level without a result is NaN, and its column fails.
 
 mod cleaned;
@@ -36,11 +36,12 @@ mod grid;
 mod groups;
 mod heads;
 mod limits;
-mod lines;
+mod line;
 mod markup;
 pub(crate) mod names;
 mod number;
 mod original;
+mod outside;
 pub(crate) mod pairs;
 mod parameters;
 mod parts;

@@ -243,3 +243,22 @@ fn decimals(text: &str) -> i32 {
     text.split_once('.')
         .map_or(0, |(_, decimals)| decimals.len() as i32)
 }
+
+/// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.
+pub(super) fn counts_rows(cells: &[&str]) -> bool {
+    let Ok(values) = cells
+        .iter()
+        .map(|cell| cell.parse::<i64>())
+        .collect::<Result<Vec<i64>, _>>()
+    else {
+        return false;
+    };
+    let [first, .., last] = values[..] else {
+        return matches!(values[..], [0 | 1]);
+    };
+    first != last
+        && matches!(first.min(last), 0 | 1)
+        && values
+            .windows(2)
+            .all(|two| two[1] - two[0] == (last - first).signum())
+}

@@ -8,14 +8,13 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::grid::RawTable;
-use super::lines::looks_like_row;
+use super::grid::{RawTable, Turned};
+use super::line::{begins_with_number, is_closing, is_rule, looks_like_row};
 use super::names::{self, Word};
 use super::number::number;
 use super::original::offset;
 use super::pairs::{self, NamedPlace, Naming, Pair, Scan};
-use super::text::{self, begins_with_number, is_closing, is_rule};
-use super::turned::Turned;
+use super::text;
 
 /// A table of a text.
 pub(super) struct Part<'t> {

@@ -3,11 +3,10 @@
 use std::collections::HashSet;
 
 use super::columns::Cells;
-use super::grid::{ColumnName, RawTable};
+use super::grid::{ColumnName, RawTable, Turned};
 use super::names::{self, Word};
 use super::number::{Number, common_unit, has_percent, in_percent, number};
 use super::original::Original;
-use super::turned::Turned;
 use super::{Choice, NotError, Offer};
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
@@ -46,6 +45,15 @@ pub(super) struct TableReader<'t> {
 pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
     let names: Vec<String> = names.take(LISTED + 1).collect();
     names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
+}
+
+/// Columns that are not errors, each with the reason.
+pub(super) fn reasons(others: &[NotError]) -> String {
+    listed(
+        others
+            .iter()
+            .map(|one| format!("`{}` ({})", one.column, one.because)),
+    )
 }
 
 impl Choice {

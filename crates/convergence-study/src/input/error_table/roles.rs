@@ -9,12 +9,12 @@ use super::doubt;
 use super::failed_run;
 use super::groups::{self, Group, Side};
 use super::limits;
-use super::lines;
 use super::names::Word;
 use super::original::Original;
+use super::outside;
 use super::parameters;
 use super::parts::{self, Part};
-use super::reader::{self, TableReader, listed};
+use super::reader::{self, TableReader, listed, reasons};
 use super::step::{Measure, Step};
 use super::{Choice, Column, NotError, RateTable, names};
 use crate::input::advice::{Argument, Text};
@@ -41,7 +41,7 @@ pub(super) fn read_all(
     let parts = parts::read(original.text);
     limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
-    let outside = lines::outside(original.text, &parts);
+    let outside = outside::of_text(original.text, &parts);
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {
         for (_, table) in &mut tables {
@@ -284,15 +284,6 @@ fn reading(
         reading += &format!("; not solved: {}", counted(unsolved, "level"));
     }
     reading
-}
-
-/// Columns that are not errors, each with the reason.
-pub(super) fn reasons(others: &[NotError]) -> String {
-    listed(
-        others
-            .iter()
-            .map(|one| format!("`{}` ({})", one.column, one.because)),
-    )
 }
 
 /// The columns that the user has chosen.

@@ -1,11 +1,11 @@
 //! Which column is the step, or the count or level that it is computed from.
 
 use super::Offer;
-use super::columns::Cells;
+use super::columns::{Cells, DIMENSIONS};
+use super::grid::Turned;
 use super::names::{self, Word, reciprocal};
 use super::reader::{HALVED_ROWS, NEIGHBOURS, TableReader, listed};
-use super::stated::{DIMENSIONS, Stated};
-use super::turned::Turned;
+use super::stated::Stated;
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;

@@ -1,10 +1,9 @@
 //! Lines of a text that belong to none of its tables. They are counted, so that nothing is skipped
 //! without a word.
 
-use super::number::number;
+use super::line::looks_like_row;
 use super::original::offset;
 use super::parts::Part;
-use super::text::is_closing;
 
 /// What stands outside the tables of a text.
 pub(super) struct Outside {
@@ -14,7 +13,8 @@ pub(super) struct Outside {
     pub(super) rows: Vec<usize>,
 }
 
-pub(super) fn outside(text: &str, parts: &[Part<'_>]) -> Outside {
+/// Finds the lines that belong to none of the tables.
+pub(super) fn of_text(text: &str, parts: &[Part<'_>]) -> Outside {
     let mut used: Vec<usize> = vec![];
     for Part { words, table, .. } in parts {
         let cells = table.rows.iter().flatten();
@@ -45,13 +45,4 @@ pub(super) fn outside(text: &str, parts: &[Part<'_>]) -> Outside {
         }
     }
     outside
-}
-
-/// Whether half of the words are numbers without names, as in `finest 6e-4` or `# 0.01 6e-4`.
-pub(super) fn looks_like_row(line: &str) -> bool {
-    let words = line.split_whitespace();
-    let words = words.map(|word| word.trim_matches(|c| ",;|&#%*~()<>".contains(c)));
-    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-    let numbers = words.iter().filter(|word| number(word, true).is_some());
-    2 * numbers.count() >= words.len() && !line.contains([':', '=']) && !is_closing(line)
 }

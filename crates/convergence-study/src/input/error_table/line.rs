@@ -97,8 +97,8 @@ pub(super) fn begins_with_number(line: &&str) -> bool {
 
 /// Whether half of the words are numbers without names, as in `finest 6e-4` or `# 0.01 6e-4`.
 pub(super) fn looks_like_row(line: &str) -> bool {
-    let words = line.split_whitespace();
-    let words = words.map(|word| word.trim_matches(|c| ",;|&#%*~()<>".contains(c)));
+    let words = line.split(|c: char| c.is_whitespace() || ",;|&".contains(c));
+    let words = words.map(|word| word.trim_matches(|c| "#%*~()<>".contains(c)));
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
     let numbers = words.iter().filter(|word| number(word, true).is_some());
     2 * numbers.count() >= words.len() && !line.contains([':', '=']) && !is_closing(line)

@@ -124,7 +124,7 @@ fn sort_lines(text: &str) -> Lines<'_> {
         .filter(|line| !line.trim().is_empty() && !is_rule(line));
     let separator = separator(lines.clone().filter(|line| !is_comment(line)));
     let mut heads = vec![];
-    let mut rows = vec![];
+    let mut rows: Vec<(&str, Vec<&str>)> = vec![];
     let mut quoted_names = None;
     let mut lines = lines.peekable();
     while let Some(line) = lines.next() {
@@ -139,7 +139,10 @@ fn sort_lines(text: &str) -> Lines<'_> {
         let is_first = rows.is_empty();
         if !is_comment(&line)
             && (is_first || !is_closing(line))
-            && (is_row(&cells, separator) || !is_first && is_row_with_words(&cells))
+            && (is_row(&cells, separator)
+                || rows
+                    .last()
+                    .is_some_and(|(_, above)| is_row_below(&cells, above)))
         {
             rows.push((line, cells));
         } else if is_first {
@@ -178,9 +181,14 @@ fn is_row(cells: &[&str], separator: Option<char>) -> bool {
     }
 }
 
-/// Whether more than half of the cells begin with a digit, or half of them with the first. Such a
-/// line is a row with a word in place of a number, and the word will be refused.
-fn is_row_with_words(cells: &[&str]) -> bool {
+/// Whether cells stand below those of a row as another one: each holds a number or what stands for
+/// one, or more than half of them begin with a digit, or half of them with the first. A word in place
+/// of a number will be refused.
+fn is_row_below(cells: &[&str], above: &[&str]) -> bool {
+    let stands_for_number = |cell: &&str| names::is_failure(cell) || number(cell, true).is_some();
+    if cells.len() == above.len() && cells.iter().all(stands_for_number) {
+        return true;
+    }
     let is_digit = |cell: &&str| cell.starts_with(|c: char| c.is_ascii_digit());
     let digits = cells.iter().filter(|cell| is_digit(cell)).count();
     2 * digits > cells.len() || 2 * digits == cells.len() && cells.first().is_some_and(is_digit)

@@ -7,9 +7,6 @@ use std::path::Path;
 
 use super::{files, root, without_comments};
 
-/// Circles that are still there, by the folder that they are in.
-const KNOWN: [&str; 0] = [];
-
 /// The path of a module or an item, from the root of its crate.
 type ModulePath = Vec<String>;
 

@@ -206,9 +206,11 @@ fn rows_of_a_form_that_is_not_read_do_not_pass() {
         "h,L2\n0.2,0.31\n0.1,0.22\n0.05,0.16\n0.025,0.11\n",
         "h = 0.2, L2 = 0.31\nh = 0.1, L2 = 0.22\nh = 0.05, L2 = 0.16\n",
         "{\"h\": [0.2, 0.1, 0.05], \"L2\": [0.31, 0.22, 0.16]}\n",
+        "[{\"h\": 0.2, \"L2\": 0.31}, {\"h\": 0.1, \"L2\": 0.22}, {\"h\": 0.05, \"L2\": 0.16}]\n",
         "| h | L2 |\n|---|---|\n| 0.2 | 0.31 |\n| 0.1 | 0.22 |\n| 0.05 | 0.16 |\n",
     ];
-    for good in [stamped.as_str(), arrays, lists, turned] {
+    let rows = "h L2\n0.4 0.16\n0.2 0.04\n0.1 0.01\n0.05 0.0025\n";
+    for good in [stamped.as_str(), arrays, lists, turned, rows] {
         assert!(passes(good), "{good}");
         for bad in bad {
             for between in ["", "\n", "=====\n", "P2 elements\n"] {

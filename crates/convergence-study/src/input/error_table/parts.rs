@@ -350,10 +350,11 @@ fn has_few_numbers(line: &str) -> bool {
     words.filter(|word| number(word, false).is_some()).count() <= FEW
 }
 
-/// Whether a line has a list of numbers behind a name.
-fn has_list(line: &str) -> bool {
-    let pairs = Scan::of(line).pairs;
-    pairs.iter().any(|pair| pair.values.len() > 1)
+/// Whether a line has several numbers of one name: a list, or records beside each other.
+fn has_levels(line: &str) -> bool {
+    let mut names = HashSet::new();
+    let mut pairs = Scan::of(line).pairs.into_iter();
+    pairs.any(|pair| pair.values.len() > 1 || !names.insert(pair.name))
 }
 
 /// The first line of words above the rows, if there is another, which has the names, or if names
@@ -373,7 +374,7 @@ fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
             && !line.trim().starts_with('\\')
             && !is_closing(line)
             && !is_name(line)
-            && (has_few_numbers(line) || !(looks_like_row(line) || has_list(line)))
+            && (has_few_numbers(line) || !(looks_like_row(line) || has_levels(line)))
     });
     let words = lines.next()?;
     let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));

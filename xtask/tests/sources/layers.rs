@@ -66,8 +66,6 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
     ("toml", &["input"]),
     ("plotters", &["plots"]),
     ("pulldown_cmark", &["report"]),
-    ("quick_junit", &["store"]),
-    ("chrono", &["store"]),
     ("rayon", &["run"]),
 ];
 

@@ -52,6 +52,7 @@ mod space_time;
 pub(crate) mod style;
 pub(crate) mod xy;
 
+pub(crate) use attributes::{escape, escape_attribute};
 pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestAxis, ForestRow, forest};
 pub use heat::{Surface, surface};

@@ -19,9 +19,7 @@ use super::tables_of_errors::judged;
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = with(&studies, |findings| {
-        junit(PROJECT.name, findings.record)
-    });
+    let text = with(&studies, |findings| junit(PROJECT.name, findings.record));
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document
         .root_element()

@@ -1,5 +1,6 @@
 //! The tests of the exact solutions, in one program.
 
+mod dense;
 mod drawn;
 mod equilibrium;
 mod errors;

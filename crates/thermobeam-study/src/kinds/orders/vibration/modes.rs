@@ -211,8 +211,8 @@ fn no_modes() -> CaseFailure {
 /// The method is dense and shares nothing with the solver's sweeps.
 fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
     let n = mesh.elements();
-    let free = |matrix: Tridiagonal| dense(&matrix).part([1, 1], n, n);
-    let [mass, stiffness, coupling] = [mass(mesh), stiffness(mesh), coupling(mesh)].map(free);
+    let [mass, stiffness, coupling] =
+        [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| at_nodes(&matrix, n));
     let [mut a, mut b] = [0, 1].map(|_| Dense::zeros(2 * n, 2 * n));
     let opposite = Dense::zeros(n, n).plus(-1.0, &coupling);
     a.put([0, 0], &stiffness);
@@ -240,8 +240,7 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
 /// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first.
 fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
     let n = mesh.elements();
-    let inner = |matrix: Tridiagonal| dense(&matrix).part([1, 1], n - 1, n - 1);
-    let [a, b] = [stiffness(mesh), mass(mesh)].map(inner);
+    let [a, b] = [stiffness(mesh), mass(mesh)].map(|matrix| at_nodes(&matrix, n - 1));
     let mut temperatures = vec![];
     for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
         let mut largest = 0.0_f64;
@@ -261,9 +260,9 @@ fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
     Some(temperatures)
 }
 
-fn dense(matrix: &Tridiagonal) -> Dense {
-    let n = matrix.diagonal.len();
-    Dense::from_fn(n, n, |i, j| matrix.entry(i, j))
+/// The entries at the nodes 1 to n.
+fn at_nodes(matrix: &Tridiagonal, n: usize) -> Dense {
+    Dense::from_fn(n, n, |i, j| matrix.entry(i + 1, j + 1))
 }
 
 #[cfg(test)]

@@ -10,7 +10,6 @@ mod quick_tier;
 mod readme;
 mod references;
 mod release;
-mod reworded;
 mod site;
 mod sources;
 mod workflow;

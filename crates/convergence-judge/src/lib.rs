@@ -28,6 +28,7 @@ pub mod text {
     #[cfg(feature = "names")]
     pub mod names;
     pub mod number;
+    pub mod prose;
     pub mod section;
     pub mod visible;
 }
@@ -49,3 +50,5 @@ pub use judge::{
         judge_pairs, observe,
     },
 };
+#[doc(inline)]
+pub use text::prose::Prose;

@@ -193,8 +193,8 @@ impl Judgement {
     }
 
     #[getter]
-    fn reason(&self) -> &str {
-        &self.rate.reason
+    fn reason(&self) -> String {
+        self.rate.reason.to_string()
     }
 
     #[getter]

@@ -35,7 +35,7 @@ impl Limit {
     fn new(Estimate { bar, gci, judged }: Estimate, is_claimed: bool) -> Self {
         let reason = match &bar {
             Err(refusal) => refusal.to_string(),
-            Ok(_) if is_claimed => judged.reason.clone(),
+            Ok(_) if is_claimed => judged.reason.to_string(),
             Ok(_) => format!("observed order {}", judged.rate_in_words(RATE_PLACES)),
         };
         let bar = bar.ok();

@@ -169,8 +169,8 @@ impl Study {
     }
 
     #[getter]
-    fn summary(&self) -> &str {
-        &self.finished.outcome.summary
+    fn summary(&self) -> String {
+        self.finished.outcome.summary.to_string()
     }
 
     #[getter]

@@ -112,8 +112,6 @@ mod judge {
 }
 
 #[doc(inline)]
-pub use convergence_judge::Interval;
-#[doc(inline)]
 pub use convergence_judge::judge::{
     claims::Claim,
     grid::SpaceTime,
@@ -122,6 +120,8 @@ pub use convergence_judge::judge::{
         Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs, observe,
     },
 };
+#[doc(inline)]
+pub use convergence_judge::{Interval, Prose};
 
 #[doc(inline)]
 pub use crate::{

@@ -213,10 +213,10 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
                 "{name}: {rate:?}"
             );
             assert!(
-                rate.because.contains(size) && rate.reason.contains(size),
+                rate.because.to_string().contains(size) && rate.reason.to_string().contains(size),
                 "{size}: {rate:?}"
             );
-            assert!(rate.reason.contains("claimed"), "{rate:?}");
+            assert!(rate.reason.to_string().contains("claimed"), "{rate:?}");
         }
     }
     // Half a per cent of the finest error is negligible, 2 % may not be.
@@ -377,7 +377,7 @@ fn steps_that_differ_within_a_row_are_no_grid() {
         "{verdict:?}"
     );
     assert_eq!(
-        verdict.checks[0].evidence,
+        verdict.checks[0].evidence.to_string(),
         "expected h = 0.125, dt = 0.025, found h = 0.125, dt = 0.02525"
     );
 }

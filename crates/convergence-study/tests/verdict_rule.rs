@@ -28,7 +28,11 @@ fn check_rate(outcome: &RateVerdict, expected: f64) {
         (rate - expected).abs() < 0.02 && high - low < 0.2,
         "{outcome:?}"
     );
-    assert!(outcome.reason.contains("from levels"), "{}", outcome.reason);
+    assert!(
+        outcome.reason.to_string().contains("from levels"),
+        "{}",
+        outcome.reason
+    );
 }
 
 #[test]
@@ -132,7 +136,7 @@ fn a_rate_is_shown_whatever_the_verdict() {
             outcome.interval.expect("an interval"),
         );
         assert!(
-            low <= rate && rate <= high && outcome.reason.contains("from levels"),
+            low <= rate && rate <= high && outcome.reason.to_string().contains("from levels"),
             "{outcome:?}"
         );
     }

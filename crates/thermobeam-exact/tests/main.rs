@@ -1,5 +1,7 @@
 //! The tests of the exact solutions, in one program.
 
+#![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
+
 mod dense;
 mod drawn;
 mod equilibrium;

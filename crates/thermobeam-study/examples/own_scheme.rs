@@ -6,6 +6,8 @@
 //!
 //! `cargo run -p thermobeam-study --example own_scheme`
 
+#![allow(clippy::disallowed_methods, reason = "an example of the solver alone")]
+
 use std::error::Error;
 
 use convergence_judge::text::number::max_or_nan;
@@ -51,7 +53,7 @@ fn judged(scheme: Scheme, order: f64) -> Result<(Verdict, String), Box<dyn Error
     study.formulas = Some(FORMULAS);
     study.expect[0].1.order = order;
     let outcome = run_one(&study);
-    Ok((outcome.verdict, outcome.rates[0].rate.reason.clone()))
+    Ok((outcome.verdict, outcome.rates[0].rate.reason.to_string()))
 }
 
 /// The largest residual of the energy's balance over a swing between the obstacles.

@@ -1,5 +1,7 @@
 //! The tests of the beam's studies, in one program.
 
+#![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
+
 mod fuzz;
 mod input;
 mod kinds;

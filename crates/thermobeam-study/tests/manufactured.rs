@@ -120,7 +120,7 @@ fn a_study_with_a_wrong_coefficient_fails_and_says_why() {
     let outcome = run_one(&study);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(
-        outcome.summary.contains("superclose"),
+        outcome.summary.to_string().contains("superclose"),
         "{}",
         outcome.summary
     );
@@ -144,7 +144,7 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
         assert!(
             failed
                 .into_iter()
-                .any(|check| check.evidence.contains("step 7 went astray")),
+                .any(|check| check.evidence.to_string().contains("step 7 went astray")),
             "{:?}",
             outcome.checks
         );

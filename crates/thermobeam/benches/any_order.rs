@@ -1,6 +1,11 @@
 //! Times of the paper's first experiment by the scheme of any order:
 //! `cargo bench -p thermobeam --bench any_order`.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "steps are timed without anything around them"
+)]
+
 use divan::Bencher;
 use std::f64::consts::PI;
 use thermobeam::dg::{Dg, DgProblem, DgStepping, InitialFunctions};

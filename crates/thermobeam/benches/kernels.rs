@@ -2,6 +2,11 @@
 //!
 //! Items are elements: a throughput of 100 Mitem/s is 10 ns per element.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "steps are timed without anything around them"
+)]
+
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use thermobeam::ensemble::Ensemble;

@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p thermobeam --example any_order`
 
+#![allow(clippy::disallowed_methods, reason = "an example of the solver alone")]
+
 use std::error::Error;
 use std::f64::consts::PI;
 use std::time::Instant;

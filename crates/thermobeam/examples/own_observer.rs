@@ -2,6 +2,8 @@
 //!
 //! `cargo run -p thermobeam --example own_observer`
 
+#![allow(clippy::disallowed_methods, reason = "an example of the solver alone")]
+
 use std::error::Error;
 
 use thermobeam::mesh::Mesh;

@@ -80,6 +80,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![allow(clippy::disallowed_methods, reason = "what steps beams is here")]
+
 mod block_tridiagonal;
 #[doc(hidden)]
 pub mod bracket;

@@ -1,5 +1,7 @@
 //! The tests of the solver, in one program.
 
+#![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
+
 mod allocation;
 mod dg;
 mod drawn;

@@ -87,6 +87,10 @@ impl Timed {
     }
 
     /// Seconds, steps and work, to the end or to a failing step; none of the paper's scenes fails.
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "steps are timed without anything around them"
+    )]
     fn run(&self, steps: usize) -> Result<(f64, usize, Work), SetupError> {
         if self.in_lanes {
             let problems = vec![self.problem.clone(); LANES];

@@ -7,10 +7,8 @@ mod citations;
 mod independence;
 mod layers;
 mod links;
-mod one_loop;
 mod paths;
 mod tests_run;
-mod texts;
 mod theory;
 
 use std::path::{Path, PathBuf};

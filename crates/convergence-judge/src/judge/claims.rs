@@ -104,7 +104,7 @@ impl Claim {
                 format!("at least {least}")
             }
             true => self.band().excludes(),
-            false => rate.because.clone(),
+            false => rate.because.to_string(),
         };
         judged_in_words(shown, &claim, &why)
     }

@@ -8,11 +8,11 @@ use crate::judge::grid::SpaceTime;
 use crate::plots::{self, Series};
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
-use crate::study::outcome::joined;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
 use crate::study::until_decided::{self, Looks, Next};
 use crate::study::{Axis, Case, Check, Figure, LevelErrors, NamedRate, Outcome, Ran, Subject};
 use crate::text::number::{error_text, plain_text};
+use crate::text::prose::Prose;
 
 pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
     if let Some(mixed) = mixed_steps(study, ran) {
@@ -122,7 +122,7 @@ fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
         figures.extend(work_precision(levels, ran));
     }
     let rates = [rates, values.rates].concat();
-    let summary = joined(&over_levels::summary(&rates), &values.summary);
+    let summary = Prose::from(over_levels::summary(&rates)).then(&values.summary);
     let outcome = Outcome {
         levels: if levels.columns.is_empty() {
             vec![]

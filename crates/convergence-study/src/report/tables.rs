@@ -105,7 +105,7 @@ fn checks(checks: &[Check]) -> Table {
         vec![
             check.statement(),
             check.verdict.name().to_owned(),
-            check.evidence.clone(),
+            check.evidence.to_string(),
         ]
     });
     Table::new(CHECKS, ["claim", "verdict", "evidence"], rows)

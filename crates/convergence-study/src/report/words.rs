@@ -5,11 +5,12 @@ use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Change, Movement, without_baseline};
 use crate::study::coverage::incomplete;
-use crate::study::outcome::{NamedRate, Outcome, joined};
+use crate::study::outcome::{NamedRate, Outcome};
 use crate::text::lists::{self, and_more};
 use crate::text::number::{
     RATE_PLACES, committed_rate, counted, counted_as, decimals, interval_places,
 };
+use crate::text::prose::Prose;
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -162,7 +163,7 @@ pub(crate) fn key_numbers(outcome: &Outcome) -> String {
     let mut parts = if headline.is_empty() {
         rates_in_words(rates)
     } else {
-        vec![headline.clone()]
+        vec![headline.to_string()]
     };
     parts.extend(count_not_passed(
         rates.iter().map(|named| named.rate.verdict),
@@ -187,10 +188,11 @@ pub(crate) fn key_numbers(outcome: &Outcome) -> String {
 pub(crate) fn summary(outcome: &Outcome) -> String {
     let mut rates = outcome.rates.iter();
     let all_pass = rates.all(|rate| rate.rate.verdict.is_pass());
-    match &outcome.after_rates {
-        Some(more) if !all_pass => joined(&grouped(&outcome.rates), more),
-        _ => outcome.summary.clone(),
-    }
+    let summary = match &outcome.after_rates {
+        Some(more) if !all_pass => &Prose::from(grouped(&outcome.rates)).then(more),
+        _ => &outcome.summary,
+    };
+    summary.to_string()
 }
 
 /// The rates that do not pass, grouped by reason and claim:
@@ -310,7 +312,7 @@ mod tests {
         let expected =
             "of 1.5 1.500 (order 2); 1 of 2 rates do not pass; 1 of 2 checks do not pass";
         assert_eq!(key_numbers(&outcome), expected);
-        let headline = "largest residual 1e-16".to_owned();
+        let headline = "largest residual 1e-16".into();
         let own = Outcome {
             headline,
             ..outcome

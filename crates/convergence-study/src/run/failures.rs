@@ -63,8 +63,8 @@ impl Item<'_> {
         match self {
             Item::Cases { reason, .. } => (*reason).to_owned(),
             Item::Rate { rate, .. } => rate.line(),
-            Item::Check(check) => check.evidence.clone(),
-            Item::Study(outcome) => outcome.summary.clone(),
+            Item::Check(check) => check.evidence.to_string(),
+            Item::Study(outcome) => outcome.summary.to_string(),
         }
     }
 

@@ -193,7 +193,7 @@ fn votes(studies: &[Box<dyn Study + '_>], finished: &[Finished], changes: &[Chan
                 continue;
             }
             let subject = Subject {
-                quantity: check.quantity().to_owned(),
+                quantity: check.quantity(),
                 ..check.subject.clone()
             };
             study.count(&subject, !check.verdict.is_pass(), any_judged);
@@ -266,11 +266,11 @@ fn subject_of_number(outcome: &Outcome, name: &str) -> Subject {
 }
 
 /// The claim of several checks, if it is the same.
-fn common_claim<'c>(checks: &[&'c Check]) -> Option<&'c str> {
+fn common_claim(checks: &[&Check]) -> Option<String> {
     let (first, rest) = checks.split_first()?;
     rest.iter()
         .all(|check| check.claim == first.claim)
-        .then_some(&first.claim)
+        .then(|| first.claim.to_string())
 }
 
 /// The quantities of failing checks, each with the number of checks, the commonest first; in the
@@ -284,7 +284,6 @@ fn checks(failing: &[&Finished]) -> Vec<(String, usize)> {
     let mut claims: Vec<(String, usize)> = groups
         .into_iter()
         .map(|(quantity, checks)| (common_claim(&checks).unwrap_or(quantity), checks.len()))
-        .map(|(words, count)| (words.to_owned(), count))
         .collect();
     claims.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     claims.truncate(2 * NAMED);

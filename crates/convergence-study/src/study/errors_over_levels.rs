@@ -336,7 +336,7 @@ mod tests {
             (Verdict::Fail, Reason::NoResult)
         );
         assert_eq!(
-            found.rates[0].rate.reason,
+            found.rates[0].rate.reason.to_string(),
             "no level has an error `L3`; there are L2, up"
         );
     }
@@ -381,12 +381,19 @@ mod tests {
         });
         assert_eq!(failed.verdict, Verdict::Fail);
         assert!(
-            failed.checks[0].evidence.contains("cells = 8: diverged"),
+            failed.checks[0]
+                .evidence
+                .to_string()
+                .contains("cells = 8: diverged"),
             "{:?}",
             failed.checks
         );
         let expected = "e 2.0000 (order 2): 1 of 5 levels has no result: cells = 8; 2.0000 ± 0.00005 from levels 1 to 5 of 5";
-        assert!(failed.summary.starts_with(expected), "{}", failed.summary);
+        assert!(
+            failed.summary.to_string().starts_with(expected),
+            "{}",
+            failed.summary
+        );
         let rate = &failed.rates[0].rate;
         assert_eq!(
             (rate.kind, rate.set_aside.len(), rate.set_aside[0].level),
@@ -416,6 +423,7 @@ mod tests {
         assert!(
             lacking.checks[0]
                 .evidence
+                .to_string()
                 .contains("cells = 8: the error `f`"),
             "{:?}",
             lacking.checks
@@ -431,7 +439,7 @@ mod tests {
         let twice = |n: usize| [("e", (n as f64).powi(-2)), ("e", 1.0 / n as f64)];
         let found = judged(&levels(COUNTS, twice).claim("e", 2.0));
         assert_eq!(found.verdict, Verdict::Fail);
-        let evidence = &found.checks[0].evidence;
+        let evidence = found.checks[0].evidence.to_string();
         assert!(evidence.contains("found `e` twice"), "{evidence}");
         let solve = |n: usize| [("e", (n as f64).powi(-2))];
         let found = judged(&levels(COUNTS, solve).claim("e", 2.0).claim("e", 1.0));

@@ -13,11 +13,10 @@ use super::coverage::{self, Coverage};
 use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::text::json;
+use crate::text::{json, prose::Prose};
 
 pub use check::{Check, Origin};
 pub use rate::NamedRate;
-pub(crate) use settle::joined;
 pub use settle::settle;
 pub use table::{Figure, Table};
 
@@ -28,14 +27,14 @@ pub struct Outcome {
     /// The worst verdict of checks and rates; inconclusive if nothing was judged.
     pub verdict: Verdict,
     /// The verdict in a sentence.
-    pub summary: String,
+    pub summary: Prose,
     /// What the summary says after the rates, if these sum up the study; `None` if it is in the
     /// study's own words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub after_rates: Option<String>,
+    pub after_rates: Option<Prose>,
     /// The numbers to read first, in a few words; empty if the rates are the claim.
     #[serde(default)]
-    pub headline: String,
+    pub headline: Prose,
     /// Errors of each level of a convergence study.
     pub levels: Vec<LevelErrors>,
     /// Judged rates.
@@ -172,7 +171,7 @@ impl Outcome {
     }
 
     /// Builds an outcome; the verdict is the worst of all rates and checks.
-    pub fn new(summary: impl Into<String>, rates: Vec<NamedRate>, checks: Vec<Check>) -> Self {
+    pub fn new(summary: impl Into<Prose>, rates: Vec<NamedRate>, checks: Vec<Check>) -> Self {
         let verdicts = rates
             .iter()
             .map(|rate| rate.rate.verdict)
@@ -181,7 +180,7 @@ impl Outcome {
             verdict: Verdict::worst(verdicts),
             summary: summary.into(),
             after_rates: None,
-            headline: String::new(),
+            headline: Prose::default(),
             levels: vec![],
             rates,
             checks,
@@ -193,7 +192,7 @@ impl Outcome {
     }
 
     /// The same, whose summary is that of its rates and these words.
-    pub fn summed_up_by_rates(self, more: impl Into<String>) -> Self {
+    pub fn summed_up_by_rates(self, more: impl Into<Prose>) -> Self {
         Self {
             after_rates: Some(more.into()),
             ..self
@@ -202,9 +201,10 @@ impl Outcome {
 
     /// Says more in the summary.
     pub(super) fn add_to_summary(&mut self, words: &str) {
-        self.summary = joined(&self.summary, words);
+        let words = Prose::from(words);
+        self.summary = self.summary.then(&words);
         if let Some(more) = &mut self.after_rates {
-            *more = joined(more, words);
+            *more = more.then(&words);
         }
     }
 
@@ -214,8 +214,8 @@ impl Outcome {
     pub fn of_parts(completion: Check, parts: impl IntoIterator<Item = Self>) -> Self {
         let mut all = Self::new("", vec![], vec![completion]);
         for part in parts {
-            all.summary = joined(&all.summary, &part.summary);
-            all.headline = joined(&all.headline, &part.headline);
+            all.summary = all.summary.then(&part.summary);
+            all.headline = all.headline.then(&part.headline);
             all.extend(part);
         }
         all

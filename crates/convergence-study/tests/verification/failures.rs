@@ -1,7 +1,7 @@
 //! What did not pass: one list, printed by terminal, Markdown, page, JUnit and JSON.
 
 use convergence_study::{
-    Finished, NamedRate, Verdict,
+    Finished, NamedRate, Prose, Verdict,
     internal::{
         report::{tables, text_of_failures},
         run::{Item, NotPassed, not_passed},
@@ -58,7 +58,7 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
 #[test]
 fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
-    studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".to_owned();
+    studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".into();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
     let text = compared(&studies, None, |findings| {
         junit(PROJECT.name, findings.record)
@@ -148,8 +148,8 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
         *rate = judge_pairs(steps().map(|h| (h, h.powf(order))), 2.0, 0.01);
     }
     finished.outcome.verdict = Verdict::Fail;
-    finished.outcome.summary = over_levels::summary(&finished.outcome.rates);
-    finished.outcome.after_rates = Some(String::new());
+    finished.outcome.summary = over_levels::summary(&finished.outcome.rates).into();
+    finished.outcome.after_rates = Some(Prose::default());
     let studies = [finished];
     let together = "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
     let page = with(&studies, |findings| findings.readme());

@@ -14,5 +14,4 @@ mod report;
 mod runner;
 mod shared;
 mod tables_of_errors;
-mod texts;
 mod whole;

@@ -266,8 +266,8 @@ fn the_page_loads_nothing_and_escapes_hostile_texts() {
     let mut studies = two();
     for finished in &mut studies {
         finished.header.claim = hostile.to_owned();
-        finished.outcome.summary = hostile.to_owned();
-        finished.outcome.checks[0].evidence = hostile.to_owned();
+        finished.outcome.summary = hostile.into();
+        finished.outcome.checks[0].evidence = hostile.into();
         finished.outcome.tables[0].title = hostile.to_owned();
         finished.outcome.tables[0].rows = vec![vec![hostile.to_owned()]; 40];
         finished.outcome.figures[0].caption = hostile.to_owned();

@@ -54,7 +54,11 @@ fn every_way_of_not_passing_is_reported_and_stops_no_other_study() {
             "{:?}",
             finished.failed_cases
         );
-        assert!(outcome.summary.contains(words), "{}", outcome.summary);
+        assert!(
+            outcome.summary.to_string().contains(words),
+            "{}",
+            outcome.summary
+        );
     }
 }
 

@@ -230,6 +230,7 @@ pub(crate) fn missing() -> CaseFailure {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "single steps are compared")]
 mod tests {
     use super::*;
     use crate::error::{AnyOrderEvaluator, Evaluator, free_vibration};

@@ -118,6 +118,7 @@ impl ObservableMotion for DgMotion {
         &self.simulation
     }
 
+    #[expect(clippy::disallowed_methods, reason = "the loop steps by it")]
     fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
         let Self {
             simulation,

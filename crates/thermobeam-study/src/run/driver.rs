@@ -105,6 +105,7 @@ impl<'l> Driver<'l> {
     }
 
     /// Solves a step and reads the level at its end.
+    #[expect(clippy::disallowed_methods, reason = "the loop steps by it")]
     fn step_once(&mut self) -> Result<StepReport, RunError> {
         let Self {
             simulation,

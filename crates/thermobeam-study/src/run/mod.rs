@@ -312,6 +312,7 @@ pub(crate) fn run_to<M: ObservableMotion + ?Sized>(
 /// # Errors
 /// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at
 /// the last level.
+#[expect(clippy::disallowed_methods, reason = "it is the loop")]
 pub fn run<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     until: f64,

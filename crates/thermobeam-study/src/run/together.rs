@@ -211,6 +211,7 @@ impl EnsembleDriver {
     ///
     /// # Errors
     /// [`TimeUp`] if the time limit of the case is reached.
+    #[expect(clippy::disallowed_methods, reason = "several beams at once, in lanes")]
     pub(crate) fn step_once(&mut self) -> Result<(), TimeUp> {
         let step = self.ensemble.steps();
         self.patience.check(step, || step as f64 * self.dt)?;

@@ -43,7 +43,9 @@ fn levels_are_added_until_every_rate_is_decided() {
         easy.summary
     );
     assert!(
-        easy.summary.ends_with("; decided after 4 levels"),
+        easy.summary
+            .to_string()
+            .ends_with("; decided after 4 levels"),
         "{}",
         easy.summary
     );
@@ -56,6 +58,7 @@ fn levels_are_added_until_every_rate_is_decided() {
     );
     assert!(
         hard.summary
+            .to_string()
             .contains(&format!("; decided after {count} levels; ")),
         "{}",
         hard.summary
@@ -87,7 +90,11 @@ fn a_budget_ends_a_study_without_a_verdict() {
         (Verdict::Inconclusive, 4)
     );
     let told = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
-    assert!(spent.summary.ends_with(told), "{}", spent.summary);
+    assert!(
+        spent.summary.to_string().ends_with(told),
+        "{}",
+        spent.summary
+    );
 }
 
 #[test]
@@ -106,7 +113,7 @@ fn no_level_is_added_to_one_that_failed() {
     let outcome = study.judge(&runs);
     assert_eq!(outcome.verdict, Verdict::Fail);
     assert!(
-        !outcome.summary.contains("decided after"),
+        !outcome.summary.to_string().contains("decided after"),
         "{}",
         outcome.summary
     );
@@ -279,6 +286,6 @@ fn failed_claims(outcome: &Outcome) -> Vec<String> {
         .checks
         .iter()
         .filter(|check| check.verdict != Verdict::Pass)
-        .map(|check| check.claim.clone())
+        .map(|check| check.claim.to_string())
         .collect()
 }

@@ -54,7 +54,7 @@ fn solutions_that_part_faster_than_their_bound_fail() {
         .checks
         .iter()
         .filter(|check| check.verdict == Verdict::Fail);
-    assert!(failed.all(|check| check.claim.contains("at most the bound")));
+    assert!(failed.all(|check| check.claim.to_string().contains("at most the bound")));
     assert_eq!(outcome.verdict, Verdict::Fail);
 }
 

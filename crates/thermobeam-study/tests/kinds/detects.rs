@@ -50,10 +50,10 @@ fn an_open_verdict_is_no_detection() {
     let check = outcome
         .checks
         .iter()
-        .find(|check| check.claim == "g1 is detected");
+        .find(|check| check.claim == "g1 is detected".into());
     let check = check.expect("a check of g1");
     assert_eq!(
-        (check.verdict, check.evidence.as_str()),
+        (check.verdict, check.evidence.to_string().as_str()),
         (Verdict::Fail, "0 of 4 studies notice it")
     );
 }
@@ -81,17 +81,18 @@ fn a_fault_that_no_study_detects_fails_and_so_does_a_study_that_fails_without_on
         .filter(|check| check.verdict == Verdict::Fail)
         .collect();
     assert_eq!(undetected.len(), 1);
-    assert!(undetected[0].claim.contains("rho"));
+    assert!(undetected[0].claim.to_string().contains("rho"));
     let broken = study.judge(&replaced(rho, Fault::None));
     assert_eq!(broken.verdict, Verdict::Fail);
     // The studies that do not pass are named, since the fault is in them.
     let honest = broken
         .checks
         .iter()
-        .find(|check| check.claim.starts_with("without a fault"))
+        .find(|check| check.claim.to_string().starts_with("without a fault"))
         .unwrap();
     assert!(
-        honest.evidence.contains(" pass; not ") && honest.evidence.contains("theorem-3.4-space"),
+        honest.evidence.to_string().contains(" pass; not ")
+            && honest.evidence.to_string().contains("theorem-3.4-space"),
         "{honest:?}"
     );
 }

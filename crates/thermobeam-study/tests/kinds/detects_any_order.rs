@@ -74,7 +74,11 @@ fn a_run_that_a_fault_breaks_down_is_a_detection_and_a_run_that_is_missing_is_no
     failed[0].found = Err(CaseFailure::new("planted"));
     let outcome = study.judge(&failed);
     let detected = outcome.checks.iter().filter(|check| {
-        check.claim.ends_with(" is detected by every study") && check.verdict == Verdict::Pass
+        check
+            .claim
+            .to_string()
+            .ends_with(" is detected by every study")
+            && check.verdict == Verdict::Pass
     });
     assert_eq!(detected.count(), 0, "{}", report(&outcome));
 }

@@ -139,7 +139,7 @@ fn each_claim_of_a_case_can_fail() {
     assert!(left.iter().any(|left| left.reason == "without a result"));
     // Without a step there is no largest residual.
     let unmoved = changed::<EnergyRuns>(&sound, |_, found| found.steps = 0);
-    assert_eq!(study.judge(&unmoved).headline, "no step");
+    assert_eq!(study.judge(&unmoved).headline, "no step".into());
 }
 
 /// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam

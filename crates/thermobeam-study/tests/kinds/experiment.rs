@@ -266,7 +266,7 @@ fn scenes_with_other_data_than_the_papers_fail() {
         let check = data_of(&study);
         assert_eq!(check.verdict, Verdict::Fail, "{to}");
         assert!(
-            check.evidence.contains(&format!(": {named}")),
+            check.evidence.to_string().contains(&format!(": {named}")),
             "{}",
             check.evidence
         );
@@ -347,7 +347,9 @@ fn a_loose_tolerance_fails() {
         .filter(|check| check.verdict == Verdict::Fail)
         .collect();
     assert!(
-        failed.iter().any(|check| check.claim.contains("η*")),
+        failed
+            .iter()
+            .any(|check| check.claim.to_string().contains("η*")),
         "{failed:?}"
     );
 }
@@ -385,7 +387,7 @@ fn the_headline_counts_statements_by_whose_they_are() {
     let outcome = study.judge(&sound);
     let threshold = "1 has a threshold that is not sharp: several steady states for β < -1/2, where it is -B = -π²/4 / (1 + π²/4) = -0.7116 for θ_A = 0";
     assert_eq!(
-        outcome.headline,
+        outcome.headline.to_string(),
         format!("the paper's 12 statements: 11 hold as printed, {threshold}; 4 of 4 of ours hold")
     );
     let origins = |origin: Origin| {
@@ -428,6 +430,7 @@ fn the_headline_counts_statements_by_whose_they_are() {
         study
             .judge(&broken)
             .headline
+            .to_string()
             .starts_with("the paper's 12 statements: 10 hold"),
         "{}",
         outcome.headline

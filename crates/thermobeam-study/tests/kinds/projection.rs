@@ -13,10 +13,10 @@ fn study(name: &str) -> Projection {
     Projection::read(file(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn failing(outcome: &Outcome) -> Vec<&str> {
+fn failing(outcome: &Outcome) -> Vec<String> {
     let failing = outcome.checks.iter();
     let failing = failing.filter(|check| check.verdict != Verdict::Pass);
-    failing.map(|check| check.claim.as_str()).collect()
+    failing.map(|check| check.claim.to_string()).collect()
 }
 
 #[test]

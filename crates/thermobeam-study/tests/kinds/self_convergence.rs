@@ -220,7 +220,7 @@ fn a_reference_that_is_not_resolved_is_seen_by_the_other() {
     let check = outcome
         .checks
         .iter()
-        .find(|check| check.claim.contains("the same reference"))
+        .find(|check| check.claim.to_string().contains("the same reference"))
         .expect("the check");
     assert_eq!(
         (check.verdict, outcome.verdict),

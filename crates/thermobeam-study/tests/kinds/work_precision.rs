@@ -20,12 +20,12 @@ fn quick() -> WorkPrecision {
     WorkPrecision::read(file("work-precision-manufactured.toml")).unwrap()
 }
 
-fn failed(outcome: &Outcome) -> Vec<&str> {
+fn failed(outcome: &Outcome) -> Vec<String> {
     outcome
         .checks
         .iter()
         .filter(|c| c.verdict == Verdict::Fail)
-        .map(|c| c.claim.as_str())
+        .map(|c| c.claim.to_string())
         .collect()
 }
 
@@ -44,7 +44,7 @@ fn planted(
     }
     assert!(touched > 0, "no run is called {only}");
     let outcome = study.judge(&ran);
-    failed(&outcome).into_iter().map(str::to_owned).collect()
+    failed(&outcome)
 }
 
 #[test]
@@ -52,8 +52,11 @@ fn the_study_passes_and_repeats_and_no_case_may_be_missing() {
     let study = quick();
     let outcome = judge(&study, &passes_but_not_without_each_case(&study));
     let target = "theorem-3.4 1e-2: midpoint costs at least 4.7 times as much as dg";
-    let check = outcome.checks.iter().find(|check| check.claim == target);
-    assert!(check.is_some_and(|check| check.evidence.contains("(98 x 32) against")));
+    let check = outcome
+        .checks
+        .iter()
+        .find(|check| check.claim == target.into());
+    assert!(check.is_some_and(|check| check.evidence.to_string().contains("(98 x 32) against")));
     assert_eq!(settle("study", outcome), run_one(&quick()));
 }
 
@@ -106,8 +109,11 @@ fn a_method_that_is_left_out_of_a_target_fails() {
         ]
     );
     let evidence = |k: &str| {
-        let check = outcome.checks.iter().find(|check| check.claim.contains(k));
-        check.unwrap().evidence.clone()
+        let check = outcome
+            .checks
+            .iter()
+            .find(|check| check.claim.to_string().contains(k));
+        check.unwrap().evidence.to_string()
     };
     assert_eq!(evidence("1e-5: every"), "left out: midpoint");
     assert!(evidence("1e-5: richardson").contains("not reached"));
@@ -120,10 +126,15 @@ fn a_run_that_a_neighbour_beats_fails() {
     let outcome = run_one(&read(&text).unwrap());
     let claim = "tip 1e-5: no run next to a listed one reaches it for less";
     assert_eq!(failed(&outcome), [claim]);
-    let check = outcome.checks.iter().find(|check| check.claim == claim);
+    let check = outcome
+        .checks
+        .iter()
+        .find(|check| check.claim == claim.into());
     let evidence = &check.unwrap().evidence;
     assert!(
-        evidence.starts_with("midpoint by 168 x 384 for 1.88e5 in place of 2.15e5"),
+        evidence
+            .to_string()
+            .starts_with("midpoint by 168 x 384 for 1.88e5 in place of 2.15e5"),
         "{evidence}"
     );
 }

@@ -13,6 +13,7 @@ use crate::text::number::{
     RATE_PLACES, committed_rate, counted, decimals, interval_places, interval_text, order_text,
     plain_text,
 };
+use crate::text::prose::Prose;
 
 /// `error = constant · step^rate`, a straight line in a figure with logarithmic axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -138,9 +139,9 @@ pub struct RateVerdict {
     pub kind: Reason,
     /// The reason in a few words, naming the level if it concerns one.
     #[serde(default)]
-    pub because: String,
+    pub because: Prose,
     /// The reason in words, with its numbers.
-    pub reason: String,
+    pub reason: Prose,
     /// What the errors tend to where the claim does not pass, if that is known: advice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tendency: Option<Tendency>,
@@ -210,7 +211,7 @@ impl RateVerdict {
     /// * `most`: the largest number of decimals.
     pub fn answer(&self, most: usize) -> String {
         let excluded = self.claimed.filter(|_| self.verdict.is_pass());
-        let why = excluded.map_or_else(|| self.because.clone(), Band::excludes);
+        let why = excluded.map_or_else(|| self.because.to_string(), Band::excludes);
         format!("{}: {why}", self.against(most))
     }
 
@@ -333,8 +334,8 @@ impl RateVerdict {
         Self {
             verdict: kind.verdict(),
             kind,
-            because: because.to_owned(),
-            reason,
+            because: because.into(),
+            reason: reason.into(),
             tendency,
             cause,
             ..self
@@ -391,8 +392,8 @@ impl RateVerdict {
         Self {
             verdict: Verdict::Fail,
             kind: Reason::NoResult,
-            because: lacking,
-            reason,
+            because: lacking.into(),
+            reason: reason.into(),
             ..self
         }
     }
@@ -411,12 +412,12 @@ impl RateVerdict {
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),
             kind,
-            because: kind.brief().to_owned(),
-            reason: kind.text().to_owned(),
+            because: kind.brief().into(),
+            reason: Prose::default(),
             tendency: reading.tendency().filter(|_| kind.is_about_the_errors()),
             cause: cause.filter(|_| !kind.verdict().is_pass()),
         };
-        verdict.reason += &verdict.numbers();
+        verdict.reason = format!("{}{}", kind.text(), verdict.numbers()).into();
         verdict
     }
 }

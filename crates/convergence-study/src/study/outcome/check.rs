@@ -2,6 +2,7 @@
 
 use crate::judge::verdict::Verdict;
 use crate::study::subject::Subject;
+use crate::text::prose::Prose;
 
 /// Whose statement a check is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -33,14 +34,14 @@ pub enum Origin {
 #[must_use = "a check counts in the outcome that holds it"]
 pub struct Check {
     /// The claim, without its case.
-    pub claim: String,
+    pub claim: Prose,
     /// What it is about; unknown in older records, whose claims begin with the case.
     #[serde(default, skip_serializing_if = "Subject::is_unknown")]
     pub subject: Subject,
     /// The outcome.
     pub verdict: Verdict,
     /// The evidence, with numbers.
-    pub evidence: String,
+    pub evidence: Prose,
     /// Whose statement it is; [`Origin::Own`] in records that do not say.
     #[serde(default)]
     pub origin: Origin,
@@ -51,7 +52,7 @@ pub struct Check {
 
 impl Check {
     /// Passes or fails on a condition; `holds` must be false for NaN.
-    pub fn that(holds: bool, claim: impl Into<String>, evidence: impl Into<String>) -> Self {
+    pub fn that(holds: bool, claim: impl Into<Prose>, evidence: impl Into<Prose>) -> Self {
         let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
         Self {
             claim: claim.into(),
@@ -72,13 +73,13 @@ impl Check {
     pub fn statement(&self) -> String {
         match &self.subject.case {
             Some(case) => format!("{case}: {}", self.claim),
-            None => self.claim.clone(),
+            None => self.claim.to_string(),
         }
     }
 
     /// What it is about; the claim stands in for a quantity that is not known.
-    pub fn quantity(&self) -> &str {
-        self.subject.quantity_or(&self.claim)
+    pub fn quantity(&self) -> String {
+        self.subject.quantity_or(&self.claim.to_string()).to_owned()
     }
 
     /// The same as somebody's statement.

@@ -41,15 +41,6 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     outcome
 }
 
-/// Two parts of a summary; either may be empty.
-pub(crate) fn joined(summary: &str, more: &str) -> String {
-    match (summary, more) {
-        ("", more) => more.to_owned(),
-        (summary, "") => summary.to_owned(),
-        (summary, more) => format!("{summary}; {more}"),
-    }
-}
-
 fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
     let mut defects = Vec::new();
     defects.extend(repetitions(
@@ -152,7 +143,7 @@ mod tests {
     fn refused(outcome: Outcome, evidence: &str) {
         let settled = settle("id", outcome);
         assert_eq!(settled.verdict, Verdict::Fail, "{settled:?}");
-        let last = &settled.checks.last().unwrap().evidence;
+        let last = settled.checks.last().unwrap().evidence.to_string();
         assert!(last.contains(evidence), "{last}");
     }
 
@@ -183,7 +174,7 @@ mod tests {
         };
         let settled = settle("id", empty);
         assert_eq!(settled.verdict, Verdict::Inconclusive);
-        assert_eq!(settled.summary, "all well; nothing was judged");
+        assert_eq!(settled.summary.to_string(), "all well; nothing was judged");
     }
 
     #[test]
@@ -206,7 +197,7 @@ mod tests {
                 coverage,
                 ..passing()
             };
-            settle("id", outcome).summary
+            settle("id", outcome).summary.to_string()
         };
         assert_eq!(
             summary(&[None, Some("short")]),

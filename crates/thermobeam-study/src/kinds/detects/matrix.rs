@@ -127,7 +127,7 @@ impl<S: Plantable> Kind for Detects<S> {
         let pairs = rows.iter().flat_map(|row| &row.judged);
         let left_out = pairs.map(|judged| judged.as_ref().err().copied());
         Outcome {
-            headline: headline.clone(),
+            headline: headline.clone().into(),
             tables: vec![table],
             quantities: rows.iter().flat_map(|row| self.guarded(row)).collect(),
             coverage: vec![Coverage::of("pairs of a study and a fault", left_out)],

@@ -158,7 +158,7 @@ impl Kind for Sensitivity {
             "Smallest relative error that makes the study fail; n/a: coefficient absent or zero";
         let tables = vec![Table::new(title, head, rows)];
         Outcome {
-            headline: summary.clone(),
+            headline: summary.clone().into(),
             coverage: vec![Coverage::of("pairs of a study and a coefficient", left_out)],
             tables,
             quantities,

@@ -17,7 +17,7 @@ pub mod vibration;
 use std::ops::{Deref, DerefMut};
 
 use convergence_study::{
-    Grid, LevelErrors, Untested,
+    Grid, LevelErrors, Prose, Untested,
     internal::study::{
         allow_only,
         header::Setting,
@@ -240,11 +240,12 @@ impl<S: Source> Kind for Orders<S> {
             ..Outcome::new("", vec![], checks)
         });
         let Some(first) = measured.series.first() else {
-            outcome.headline.clone_from(&measured.summary);
-            outcome.summary = measured.summary;
+            let summary = Prose::from(measured.summary);
+            outcome.headline.clone_from(&summary);
+            outcome.summary = summary;
             return outcome;
         };
-        outcome.summary = summary(&outcome.rates);
+        outcome.summary = summary(&outcome.rates).into();
         let outcome = outcome.summed_up_by_rates("");
         match self.finer_of_complete(runs) {
             Some(finer) => {

@@ -210,7 +210,7 @@ impl Kind for RandomErrors {
             )],
             figures: vec![self.figure(&found)],
             quantities: vec![Quantity::new("work of all searches", work, WORK_TOLERANCE)],
-            headline: headline.clone(),
+            headline: headline.clone().into(),
             coverage: vec![self.searches(ran)],
             ..Outcome::new(headline, vec![], self.checks(ran, &found))
         }

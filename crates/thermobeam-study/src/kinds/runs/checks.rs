@@ -2,6 +2,8 @@
 //!
 //! A claim holds if each of its conditions does. A condition compares such that NaN fails.
 
+use convergence_study::Prose;
+
 use super::cases::End;
 use super::watch::{Worst, of_allowed};
 use crate::kinds::prelude::*;
@@ -12,12 +14,12 @@ pub struct Condition {
     /// False for NaN.
     holds: bool,
     /// In words; empty if another condition shows the numbers.
-    evidence: String,
+    evidence: Prose,
 }
 
 impl Condition {
     /// * `holds`: must be false for NaN.
-    pub fn that(holds: bool, evidence: impl Into<String>) -> Self {
+    pub fn that(holds: bool, evidence: impl Into<Prose>) -> Self {
         Self {
             holds,
             evidence: evidence.into(),
@@ -32,33 +34,32 @@ impl Condition {
 
 /// The check of a claim with several conditions.
 pub fn all<const N: usize>(
-    claim: impl Into<String>,
+    claim: impl Into<Prose>,
     subject: Subject,
     conditions: [Condition; N],
 ) -> Check {
     let holds = N > 0 && conditions.iter().all(|condition| condition.holds);
-    let evidence: Vec<String> = conditions
-        .into_iter()
-        .map(|condition| condition.evidence)
-        .filter(|evidence| !evidence.is_empty())
-        .collect();
-    Check::that(holds, claim, evidence.join("; ")).about(subject)
+    let mut evidence = Prose::default();
+    for condition in conditions {
+        evidence = evidence.then(&condition.evidence);
+    }
+    Check::that(holds, claim, evidence).about(subject)
 }
 
 /// A number is at most its bound.
-pub fn at_most(value: f64, bound: f64, evidence: impl Into<String>) -> Condition {
+pub fn at_most(value: f64, bound: f64, evidence: impl Into<Prose>) -> Condition {
     Condition::that(value <= bound, evidence)
 }
 
 /// A number is an answer that is known from elsewhere.
 ///
 /// * `within`: the distance allowed.
-pub fn within(value: f64, answer: f64, within: f64, evidence: impl Into<String>) -> Condition {
+pub fn within(value: f64, answer: f64, within: f64, evidence: impl Into<Prose>) -> Condition {
     at_most((value - answer).abs(), within, evidence)
 }
 
 /// Each of at least two numbers is larger than the one before.
-pub fn increasing(numbers: &[f64], evidence: impl Into<String>) -> Condition {
+pub fn increasing(numbers: &[f64], evidence: impl Into<Prose>) -> Condition {
     Condition::that(numbers.len() >= 2 && increases(numbers), evidence)
 }
 

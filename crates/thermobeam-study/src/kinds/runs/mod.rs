@@ -235,7 +235,7 @@ impl<R: Runs> Kind for RunStudy<R> {
             figures,
             levels,
             quantities: [guarded.concat(), quantities].concat(),
-            headline,
+            headline: headline.into(),
             ..Outcome::new(summary, rates, checks)
         }
     }

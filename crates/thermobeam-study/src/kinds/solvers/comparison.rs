@@ -134,7 +134,7 @@ impl Comparison {
             .collect();
         let title = "Fixed point against Newton's method on the scene";
         Outcome {
-            headline: summary.clone(),
+            headline: summary.clone().into(),
             tables: vec![readings::table(title, &["tolerance"], &rows)],
             figures: vec![iterations(last.unwrap_or(&Agreement::default()))],
             ..Outcome::new(

@@ -181,7 +181,7 @@ impl Grid {
         let summary = format!("{}; {}", increments(&points, all), known_factors(&points));
         let rows: Vec<_> = points.iter().map(|point| point.row()).collect();
         Outcome {
-            headline: summary.clone(),
+            headline: summary.clone().into(),
             coverage: vec![factors_judged(&points, all)],
             tables: vec![readings::table(
                 "Contraction factor in contact",

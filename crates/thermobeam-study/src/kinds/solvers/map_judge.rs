@@ -87,7 +87,7 @@ impl MapResults<'_> {
         quantities.push(Quantity::new(name, converged as f64, 1e-2).about(subject));
         let title = "Boundary of the fixed point's convergence, by bisection in dt";
         Outcome {
-            headline: format!("{boundary}, {residual}"),
+            headline: format!("{boundary}, {residual}").into(),
             coverage: self.coverage(),
             tables: vec![readings::table(title, &[self.map.over.name()], &lines)],
             figures: self.figures(),

@@ -127,7 +127,7 @@ pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> 
         .map(|target| sentence(target, &costed(ran, target.measure)))
         .collect::<Vec<_>>();
     let mut outcome = Outcome {
-        headline: summary.last().cloned().unwrap_or_default(),
+        headline: summary.last().cloned().unwrap_or_default().into(),
         ..Outcome::new(summary.join("; "), vec![], checks)
     };
     let measures: Vec<ErrorMeasure> = ErrorMeasure::ALL

@@ -427,9 +427,9 @@ impl AnyOrder {
             .draw();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let title = "Error of all fields at the end over the degree";
-        let evidence: Vec<&str> = checks
+        let evidence: Vec<String> = checks
             .iter()
-            .map(|check: &Check| &*check.evidence)
+            .map(|check: &Check| check.evidence.to_string())
             .collect();
         Measured {
             summary: evidence.join("; "),

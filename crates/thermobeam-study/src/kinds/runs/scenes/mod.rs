@@ -376,7 +376,7 @@ impl Whole {
             name, claim, end, ..
         } = &self.case;
         all(
-            claim,
+            claim.as_str(),
             Subject::of("answer").in_case(name),
             [
                 ended(shown.end, *end, shown.counts[0]),

@@ -347,10 +347,10 @@ impl EnergyRun {
             let open = found.worst.open;
             let open = Condition::that(open > 1.0, of_allowed(open));
             let end = ended(found.end, End::Answer, found.steps);
-            return all(&self.claim, subject, [end, open]);
+            return all(self.claim.as_str(), subject, [end, open]);
         }
         all(
-            &self.claim,
+            self.claim.as_str(),
             subject,
             [
                 ended(found.end, self.end, found.steps),

@@ -33,7 +33,7 @@
 //! assert!(svg.starts_with("<svg"));
 //! ```
 
-mod attributes;
+pub(crate) mod attributes;
 pub(crate) mod canvas;
 mod colour;
 mod convergence;
@@ -52,7 +52,6 @@ mod space_time;
 pub(crate) mod style;
 pub(crate) mod xy;
 
-pub(crate) use attributes::{escape, escape_attribute};
 pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestAxis, ForestRow, forest};
 pub use heat::{Surface, surface};

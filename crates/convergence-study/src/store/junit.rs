@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use crate::judge::verdict::Verdict;
-use crate::plots::{escape, escape_attribute};
+use crate::plots::attributes::{escape, escape_attribute};
 use crate::run::{Finished, Item, items};
 use crate::store::{Change, Record, diagnosis::Diagnosis, without_baseline};
 

@@ -98,9 +98,7 @@ impl Dense {
         for row in 0..self.rows {
             for (k, factor) in self.row(row).iter().enumerate() {
                 let target = &mut product.entries[row * other.columns..(row + 1) * other.columns];
-                for (entry, other) in target.iter_mut().zip(other.row(k)) {
-                    *entry += factor * other;
-                }
+                add(target, *factor, other.row(k));
             }
         }
         product
@@ -202,6 +200,13 @@ impl Dense {
 /// The sum of the products of entries.
 pub fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+/// Adds a multiple of a vector.
+pub fn add(target: &mut [f64], factor: f64, other: &[f64]) {
+    for (entry, other) in target.iter_mut().zip(other) {
+        *entry += factor * other;
+    }
 }
 
 /// Sweeps of Jacobi's method: it converges quadratically, for these sizes within ten.

@@ -2,7 +2,7 @@
 
 use thermobeam::linearized::LinearizedIteration;
 
-use crate::exact::dense::{self, Dense, dot};
+use crate::exact::dense::{self, Dense, add, dot};
 
 /// Vectors of the Krylov space: on 100 elements its largest eigenvalue agrees with that of the
 /// dense matrix to 1e-6 at every point of the study.
@@ -28,9 +28,7 @@ pub(super) fn spectral_radius(map: &mut LinearizedIteration) -> f64 {
         for _ in 0..2 {
             for (row, vector) in basis.iter().enumerate() {
                 let part = dot(vector, &image);
-                for (entry, other) in image.iter_mut().zip(vector) {
-                    *entry -= part * other;
-                }
+                add(&mut image, -part, vector);
                 projection[[row, k]] += part;
             }
         }

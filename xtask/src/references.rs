@@ -5,7 +5,7 @@ use convergence_study::{
     Verdict,
     internal::{
         cli::{
-            exit::Outcome,
+            exit::CommandOutcome,
             schema::{MANUFACTURE, of_studies, of_tables_file, other_files, page, text},
         },
         program,
@@ -19,7 +19,7 @@ use thermobeam_cli::project;
 pub(crate) struct Arguments {}
 
 /// Writes the files, from the project's folder.
-pub(crate) fn run(_: &Arguments) -> Outcome {
+pub(crate) fn run(_: &Arguments) -> CommandOutcome {
     for Reference { path, text } in files() {
         atomic::write(path.as_ref(), text)?;
     }

@@ -18,7 +18,7 @@ use convergence_study::{
     Table, Verdict,
     internal::{
         cli::{
-            exit::{self, Outcome, Unusable},
+            exit::{self, CommandOutcome, Unusable},
             running::LongRun,
             screen, workspace,
         },
@@ -27,9 +27,9 @@ use convergence_study::{
     },
 };
 
-use judged::Judged;
+use judged::JudgedRegression;
 use list::Regression;
-use planted::{Copy, Found};
+use planted::{Copy, PlantedRun};
 
 /// Judge the studies: does the quick tier of `verify` notice and name each mistake in a list?
 #[derive(Debug, clap::Args)]
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let root = workspace::root()?;
     let all = list::read(&root)?;
     let chosen = chosen(arguments, &all)?;
@@ -110,7 +110,7 @@ fn chosen<'r>(
 
 /// What was noticed of all mistakes, as the terminal and the page show it.
 struct Report<'r> {
-    judged: Vec<Judged<'r>>,
+    judged: Vec<JudgedRegression<'r>>,
     /// Number of mistakes that were to be planted.
     count: usize,
     /// Number of mistakes that their study or test names.
@@ -123,7 +123,7 @@ struct Report<'r> {
 
 impl<'r> Report<'r> {
     /// * `passing`: seconds of a run without a mistake.
-    fn of(judged: Vec<Judged<'r>>, count: usize, passing: f64) -> Self {
+    fn of(judged: Vec<JudgedRegression<'r>>, count: usize, passing: f64) -> Self {
         let named = judged
             .iter()
             .filter(|one| one.found.is_named_by(one.regression))
@@ -190,7 +190,7 @@ fn plant<'r, 't>(
     planted: impl Iterator<Item = (&'r Regression, &'t String)>,
     recorded: bool,
     clock: &LongRun,
-) -> Result<Vec<(&'r Regression, Found)>, Unusable> {
+) -> Result<Vec<(&'r Regression, PlantedRun)>, Unusable> {
     let mut results = vec![];
     let mut complaints = vec![];
     for (regression, text) in planted {
@@ -212,7 +212,7 @@ fn plant<'r, 't>(
     Ok(results)
 }
 
-fn print_list(chosen: &[&Regression]) -> Outcome {
+fn print_list(chosen: &[&Regression]) -> CommandOutcome {
     let mut rows = vec![];
     for mistake in chosen {
         rows.push(vec![
@@ -254,7 +254,7 @@ fn summary(regression: &Regression, is_named: bool) -> Vec<String> {
     ]
 }
 
-fn first_words(regression: &Regression, found: &Found) -> String {
+fn first_words(regression: &Regression, found: &PlantedRun) -> String {
     let said = found.said();
     match said.first() {
         Some(first) if found.is_named_by(regression) => first.clone(),
@@ -271,7 +271,7 @@ fn first_words(regression: &Regression, found: &Found) -> String {
 /// Lines shown if the study named for a mistake does not notice it.
 const SHOWN: usize = 12;
 
-fn row(regression: &Regression, found: &Found) -> Vec<String> {
+fn row(regression: &Regression, found: &PlantedRun) -> Vec<String> {
     let by = regression.noticed_by();
     let named = if found.is_named_by(regression) {
         by.to_owned()

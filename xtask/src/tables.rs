@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use convergence_study::{
     Choice, Verdict,
     internal::{
-        cli::exit::{Outcome, Unusable},
+        cli::exit::{CommandOutcome, Unusable},
         rates::{self, Claimed, Refusal, Request, Tables, claimed},
     },
 };
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
 
 /// What an expert says of a table.
 #[derive(Debug, Deserialize)]
-struct Expectation {
+struct ExpertVerdict {
     file: String,
     options: Vec<String>,
     /// Exit statuses that are right.
@@ -72,16 +72,16 @@ impl Class {
 }
 
 /// A table with how it was read, and why this is not right.
-struct Judged {
+struct JudgedTable {
     file: String,
     class: Class,
     why: String,
 }
 
 /// Prints each table and the counts; fails if a table is misread or passes falsely.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let all = judge_all(&arguments.folder).map_err(|error| Unusable::because(&error))?;
-    for Judged { file, class, why } in &all {
+    for JudgedTable { file, class, why } in &all {
         println!("{:15} {file}: {why}", class.name());
     }
     let mut counts: BTreeMap<Class, usize> = BTreeMap::new();
@@ -92,7 +92,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         .iter()
         .map(|(class, count)| format!("{} {count}", class.name()));
     println!("{}", counts.collect::<Vec<_>>().join(", "));
-    let is_bad = |judged: &Judged| judged.class >= Class::Misread;
+    let is_bad = |judged: &JudgedTable| judged.class >= Class::Misread;
     Ok(if all.iter().any(is_bad) {
         Verdict::Fail
     } else {
@@ -100,18 +100,18 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     })
 }
 
-fn judge_all(folder: &Path) -> Result<Vec<Judged>, String> {
+fn judge_all(folder: &Path) -> Result<Vec<JudgedTable>, String> {
     let path = folder.join("expect.json");
     let words = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let text = fs::read_to_string(&path).map_err(|error| words(&error))?;
-    let expectations: Vec<Expectation> =
+    let expectations: Vec<ExpertVerdict> =
         serde_json::from_str(&text).map_err(|error| words(&error))?;
     let judged = expectations.iter().map(|expectation| {
         let path = folder.join(&expectation.file);
         let text =
             fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         let (class, why) = judge(expectation, &text)?;
-        Ok(Judged {
+        Ok(JudgedTable {
             file: expectation.file.clone(),
             class,
             why,
@@ -149,7 +149,7 @@ fn request(options: &[String]) -> Result<Request, String> {
     })
 }
 
-fn judge(expectation: &Expectation, text: &str) -> Result<(Class, String), String> {
+fn judge(expectation: &ExpertVerdict, text: &str) -> Result<(Class, String), String> {
     let request = request(&expectation.options)?;
     let refusal = match rates::object("rates", Tables::Text(text), &request) {
         Ok(object) => return Ok(compare(expectation, &object)),
@@ -195,7 +195,7 @@ fn judge(expectation: &Expectation, text: &str) -> Result<(Class, String), Strin
 }
 
 /// What was found of a table that was read, against what is right.
-fn compare(expectation: &Expectation, object: &Value) -> (Class, String) {
+fn compare(expectation: &ExpertVerdict, object: &Value) -> (Class, String) {
     let status = u8::from(object["verdict"] != "pass");
     if status == 0 && !expectation.status.contains(&0) {
         return (Class::FalsePass, "passes".to_owned());
@@ -256,7 +256,7 @@ fn compare(expectation: &Expectation, object: &Value) -> (Class, String) {
 
 /// The rate of a column against what is right.
 fn compare_rate(
-    expectation: &Expectation,
+    expectation: &ExpertVerdict,
     key: &str,
     verdicts: &[String],
     rate: &Value,
@@ -277,7 +277,7 @@ fn compare_rate(
 }
 
 /// The columns that an expert means by a name.
-fn columns<'o>(expectation: &Expectation, key: &str, rates: &[&'o Value]) -> Vec<&'o Value> {
+fn columns<'o>(expectation: &ExpertVerdict, key: &str, rates: &[&'o Value]) -> Vec<&'o Value> {
     if let Some(last) = expectation.last.get(key) {
         return columns_with(*last, rates);
     }

@@ -1,4 +1,5 @@
-//! The tests of the tools, the workflows, the manifests, and those that read the sources, in one program.
+//! The tests of the tools, the workflows, the manifests, and those that read the sources, in one
+//! program.
 
 mod action;
 mod bench;

@@ -1,5 +1,5 @@
-//! What registries, GitHub and citations read: the manifests of all crates and of the Python package, CITATION.cff, the
-//! forms for issues.
+//! What registries, GitHub and citations read: the manifests of all crates and of the Python
+//! package, CITATION.cff, the forms for issues.
 
 #[cfg(unix)]
 use std::fs;
@@ -173,7 +173,8 @@ fn the_python_package_has_the_metadata_of_the_workspace() {
     }
 }
 
-/// The version in a script of its own, which the release runs as well: of each file it notices a change.
+/// The version in a script of its own, which the release runs as well: of each file it notices a
+/// change.
 #[cfg(unix)]
 #[test]
 fn the_version_is_the_same_in_all_files() {

@@ -147,8 +147,8 @@ fn the_error_of_the_papers_figures_is_that_of_the_record() {
     );
 }
 
-/// The table of run times on the page of the program is that of the benchmark, row by row, and says how long a
-/// run may take.
+/// The table of run times on the page of the program is that of the benchmark, row by row, and says
+/// how long a run may take.
 #[test]
 fn the_run_times_are_those_of_the_benchmark() {
     let readme = read(BEAM);

@@ -2,12 +2,12 @@
 //! convergence index.
 
 use convergence_judge::judge::verdict::FEWEST_LEVELS;
-use convergence_study::{Estimator, Interval, Value};
+use convergence_study::{Estimator, Interval, StepValue};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::intervals::{ALL, LEVEL_COUNTS, is_declared, steps};
 use crate::laws::LAWS;
-use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
 
 /// Laws that bars are not made for: chance makes up a tenth of the error or more on every level.
 const NO_BAR: [&str; 5] = [
@@ -21,9 +21,9 @@ const NO_BAR: [&str; 5] = [
 /// How often bars and indices hold the true error, and their half-widths in units of it.
 #[derive(Debug, Clone, Default)]
 struct Bars {
-    refused: Share,
-    bar_holds: Share,
-    index_holds: Share,
+    refused: HitShare,
+    bar_holds: HitShare,
+    index_holds: HitShare,
     bar_lengths: Vec<f64>,
     index_lengths: Vec<f64>,
 }
@@ -41,16 +41,16 @@ impl Bars {
         }
     }
 
-    fn cells(&self) -> Vec<Cell> {
+    fn cells(&self) -> Vec<SheetCell> {
         vec![
             self.refused.cell("refused"),
             self.bar_holds.cell("bar holds it"),
             self.index_holds.cell("index holds it"),
-            Cell {
+            SheetCell {
                 column: "half-width of the bar".to_owned(),
                 value: median(&self.bar_lengths),
             },
-            Cell {
+            SheetCell {
                 column: "of the index".to_owned(),
                 value: median(&self.index_lengths),
             },
@@ -85,7 +85,7 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         let sign = [1.0, -1.0][random.below(2)];
         let mut values = vec![];
         for level in &table.levels {
-            values.push(Value {
+            values.push(StepValue {
                 step: level.step,
                 value: limit + sign * level.error,
             });
@@ -103,12 +103,16 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
     let title = "Error bars and grid convergence index on values of known limit: how often they hold the true error; half-widths are medians, as shares of it";
     let mut rows = vec![];
     for (law, bars) in LAWS.iter().zip(&of_laws) {
-        rows.push(Row::new(law.name, is_declared(law, &NO_BAR), bars.cells()));
+        rows.push(SheetRow::new(
+            law.name,
+            is_declared(law, &NO_BAR),
+            bars.cells(),
+        ));
     }
     for (count, bars) in (FEWEST_LEVELS..).zip(&of_counts) {
-        rows.push(Row::new(format!("{count} values"), true, bars.cells()));
+        rows.push(SheetRow::new(format!("{count} values"), true, bars.cells()));
     }
-    rows.push(Row::new(ALL, true, of_all.cells()));
+    rows.push(SheetRow::new(ALL, true, of_all.cells()));
     let bars = Sheet {
         key: "bars",
         title: title.to_owned(),
@@ -121,14 +125,14 @@ pub fn of_the_bars(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
 fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let mut rows = vec![];
     for count in FEWEST_LEVELS..FEWEST_LEVELS + LEVEL_COUNTS {
-        let mut refused = Share::default();
-        let mut holds = Share::default();
+        let mut refused = HitShare::default();
+        let mut holds = HitShare::default();
         for _ in 0..tables {
             let random = draw.next()?;
             let mut values = vec![];
             for k in 0..count {
                 let step = 0.5_f64.powi(k as i32 + 1);
-                values.push(Value {
+                values.push(StepValue {
                     step,
                     value: 1.0 + step * step * (1.0 + 0.02 * random.normal()),
                 });
@@ -143,7 +147,7 @@ fn noise(estimator: &Estimator, tables: usize, draw: &mut Draw) -> Result<Sheet,
             refused.cell("refused"),
             holds.cell("interval holds the limit"),
         ];
-        rows.push(Row::new(format!("{count} values"), true, cells));
+        rows.push(SheetRow::new(format!("{count} values"), true, cells));
     }
     let title = "Limits of values of second order whose errors scatter by 2 %, steps halved";
     Ok(Sheet {

@@ -9,7 +9,7 @@ use convergence_study::Verdict;
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;
 use crate::laws::{Law, polluted};
-use crate::sheet::{Row, Share, Sheet};
+use crate::sheet::{HitShare, Sheet, SheetRow};
 
 /// A smooth power.
 pub const BENIGN: [Law; 1] = [polluted(
@@ -25,14 +25,14 @@ const COARSEST: usize = 8;
 
 /// The problem -u'' + b u' + c u = f on (0, 1) with u given at both ends, for a solution of three
 /// sines.
-struct Problem {
+struct BenignProblem {
     b: f64,
     c: f64,
     /// Amplitude, wave number and phase of each sine.
     sines: [[f64; 3]; 3],
 }
 
-impl Problem {
+impl BenignProblem {
     fn draw(random: &mut SplitMix) -> Self {
         let mut sine = || {
             [
@@ -108,9 +108,9 @@ pub(crate) fn differences(problems: usize, draw: &mut Draw) -> Result<Sheet, Cal
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for levels in LEVELS {
-        let [mut passes, mut fails, mut wrong] = [Share::default(); 3];
+        let [mut passes, mut fails, mut wrong] = [HitShare::default(); 3];
         for _ in 0..problems {
-            let problem = Problem::draw(draw.next()?);
+            let problem = BenignProblem::draw(draw.next()?);
             for (upwind, order) in [(false, 2.0), (true, 1.0)] {
                 let counts = (0..levels).map(|k| COARSEST << k);
                 let errors: Vec<(f64, [f64; 2])> = counts
@@ -139,7 +139,7 @@ pub(crate) fn differences(problems: usize, draw: &mut Draw) -> Result<Sheet, Cal
             fails.cell("true fail"),
             wrong.cell("wrong pass"),
         ];
-        rows.push(Row::new(format!("{levels} levels"), true, cells));
+        rows.push(SheetRow::new(format!("{levels} levels"), true, cells));
     }
     Ok(Sheet {
         key: "differences",
@@ -157,7 +157,7 @@ mod tests {
     fn the_differences_have_their_orders() {
         let mut random = SplitMix::new(3);
         for _ in 0..20 {
-            let problem = Problem::draw(&mut random);
+            let problem = BenignProblem::draw(&mut random);
             for (upwind, order) in [(false, 2.0), (true, 1.0)] {
                 let [coarse, fine] = [512, 1024].map(|n| problem.errors(n, upwind));
                 for norm in [0, 1] {

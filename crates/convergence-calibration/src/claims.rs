@@ -9,8 +9,8 @@ use convergence_study::{Interval, Reason, Verdict};
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{hidden_term, three_terms, wrong_limit};
 use crate::judge;
-use crate::laws::{LAWS, Law, Table};
-use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::laws::{LAWS, Law, LawErrors};
+use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
 
 /// A claim about the constant 1, and one that it refutes.
 const RIGHT: Interval = Interval {
@@ -23,7 +23,7 @@ const WRONG: Interval = Interval {
 };
 
 /// Whether the order that the coarse levels show passes.
-fn passes(judge: &Judge, table: &Table) -> bool {
+fn passes(judge: &Judge, table: &LawErrors) -> bool {
     let reading = judge.read(&table.levels);
     judge.decide(&reading, table.shown).is_pass()
 }
@@ -31,8 +31,8 @@ fn passes(judge: &Judge, table: &Table) -> bool {
 /// Three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the finest error.
 pub(crate) fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
-    let mut wrong_limit = Share::default();
-    let mut lower_order = Share::default();
+    let mut wrong_limit = HitShare::default();
+    let mut lower_order = HitShare::default();
     for _ in 0..tables {
         let random = draw.next()?;
         let part = random.within([0.05, 0.6]);
@@ -52,7 +52,7 @@ pub(crate) fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibration
     Ok(Sheet {
         key: "three",
         title: title.to_owned(),
-        rows: vec![Row::new("3 levels", true, cells)],
+        rows: vec![SheetRow::new("3 levels", true, cells)],
     })
 }
 
@@ -61,9 +61,9 @@ pub(crate) fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibratio
     let mut rows = vec![];
     for tolerance in [0.05, 0.1, 0.2] {
         let judge = judge(tolerance)?;
-        let mut limit = Share::default();
-        let mut departs_later = Share::default();
-        let mut terms = Share::default();
+        let mut limit = HitShare::default();
+        let mut departs_later = HitShare::default();
+        let mut terms = HitShare::default();
         for _ in 0..tables {
             let table = wrong_limit(draw.next()?);
             let does_pass = passes(&judge, &table);
@@ -78,7 +78,7 @@ pub(crate) fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibratio
             departs_later.cell("and departs without its coarsest levels"),
             terms.cell("three terms pass"),
         ];
-        rows.push(Row::new(format!("±{tolerance}"), true, cells));
+        rows.push(SheetRow::new(format!("±{tolerance}"), true, cells));
     }
     Ok(Sheet {
         key: "limits",
@@ -101,13 +101,13 @@ const HAS_CONSTANT: [&str; 7] = [
 /// Verdicts on a least order and on the constant.
 #[derive(Debug, Clone, Copy, Default)]
 struct OtherClaims {
-    too_much_passes: Share,
-    order_passes: Share,
-    less_passes: Share,
-    interval_holds_constant: Share,
-    right_constant_passes: Share,
-    right_constant_fails: Share,
-    wrong_constant_passes: Share,
+    too_much_passes: HitShare,
+    order_passes: HitShare,
+    less_passes: HitShare,
+    interval_holds_constant: HitShare,
+    right_constant_passes: HitShare,
+    right_constant_fails: HitShare,
+    wrong_constant_passes: HitShare,
 }
 
 /// Whether the claim of at least this order passes.
@@ -118,7 +118,7 @@ fn passes_at_least(judge: &Judge, reading: &Reading<'_>, order: f64) -> bool {
 }
 
 impl OtherClaims {
-    fn count(&mut self, law: &Law, table: &Table, judge: &Judge) {
+    fn count(&mut self, law: &Law, table: &LawErrors, judge: &Judge) {
         let reading = judge.read(&table.levels);
         let half = 2.0 * DEFAULT_TOLERANCE;
         let Some(order) = table.order else {
@@ -148,7 +148,7 @@ impl OtherClaims {
         }
     }
 
-    fn cells(&self) -> Vec<Cell> {
+    fn cells(&self) -> Vec<SheetCell> {
         vec![
             self.too_much_passes
                 .cell("at least half an order too much passes"),
@@ -175,7 +175,11 @@ pub(crate) fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, Cali
                 counted.count(law, &table, &judge);
             }
         }
-        rows.push(Row::new(format!("{levels} levels"), true, counted.cells()));
+        rows.push(SheetRow::new(
+            format!("{levels} levels"),
+            true,
+            counted.cells(),
+        ));
     }
     Ok(Sheet {
         key: "claims",

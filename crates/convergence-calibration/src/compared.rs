@@ -12,8 +12,8 @@ use convergence_judge::judge::{
 
 use crate::draw::{CalibrationError, Draw};
 use crate::fresh::FRESH;
-use crate::laws::{Group, Law};
-use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::laws::{Law, LawGroup};
+use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
 use crate::{judge, wrong};
 
 /// Numbers of levels, equally often.
@@ -220,10 +220,10 @@ impl Distances {
         sorted.get(wrong_passes).copied().unwrap_or(f64::INFINITY)
     }
 
-    fn cells(&self, wrong_passes: usize) -> Vec<Cell> {
+    fn cells(&self, wrong_passes: usize) -> Vec<SheetCell> {
         let half_width = self.half_width(wrong_passes);
         let [wrong, right, shown] = [&self.wrong, &self.right, &self.shown].map(|distances| {
-            let mut share = Share::default();
+            let mut share = HitShare::default();
             for distance in distances {
                 share.count(*distance < half_width);
             }
@@ -233,12 +233,12 @@ impl Distances {
     }
 }
 
-fn cells([wrong, right, shown]: [Share; 3], half_width: f64) -> Vec<Cell> {
+fn cells([wrong, right, shown]: [HitShare; 3], half_width: f64) -> Vec<SheetCell> {
     vec![
         wrong.cell("wrong pass"),
         right.cell("true pass"),
         shown.cell("true pass, order shows"),
-        Cell {
+        SheetCell {
             column: "half-width".to_owned(),
             value: half_width,
         },
@@ -248,7 +248,7 @@ fn cells([wrong, right, shown]: [Share; 3], half_width: f64) -> Vec<Cell> {
 /// The sheet that compares this rule with the others on the [fresh laws](crate::fresh).
 pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
-    let [mut wrong_pass, mut true_pass, mut shown_pass] = [Share::default(); 3];
+    let [mut wrong_pass, mut true_pass, mut shown_pass] = [HitShare::default(); 3];
     let mut wrong_passes = 0;
     let weightings = LEVELS.map(Weighting::both);
     let mut all = vec![Distances::default(); Practice::ALL.len()];
@@ -283,9 +283,9 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibrat
         }
     }
     let own = cells([wrong_pass, true_pass, shown_pass], DEFAULT_TOLERANCE);
-    let mut rows = vec![Row::new("this rule", true, own)];
+    let mut rows = vec![SheetRow::new("this rule", true, own)];
     for (practice, distances) in Practice::ALL.iter().zip(&all) {
-        rows.push(Row::new(
+        rows.push(SheetRow::new(
             practice.name(),
             false,
             distances.cells(wrong_passes),
@@ -301,7 +301,7 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibrat
 
 /// Whether the levels show the order.
 fn shows(law: &Law) -> bool {
-    law.group != Group::Emerging
+    law.group != LawGroup::Emerging
 }
 
 #[cfg(test)]

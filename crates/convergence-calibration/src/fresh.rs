@@ -6,7 +6,7 @@
 
 use convergence_judge::judge::random::SplitMix;
 
-use crate::laws::{Group, Law, held_out};
+use crate::laws::{Law, LawGroup, held_out};
 use crate::shapes::{ErrorOfStep, Exponents};
 
 /// Largest |a| of benign pollution 1 + a h^r, r from 1 to 4.
@@ -16,33 +16,39 @@ const BENIGN: f64 = 0.5;
 pub const FRESH: [Law; 9] = [
     held_out(
         "h^p (1 + a h^r), r 1 to 4, |a| < 0.5",
-        Group::Polluted,
+        LawGroup::Polluted,
         |of, random| polluted(of, 0.0, random),
     ),
     held_out(
         "h^p (1 + a h + b h^2), |a|, |b| < 1/2",
-        Group::Polluted,
+        LawGroup::Polluted,
         two_powers,
     ),
-    held_out("benign, noise 0.3 %", Group::Scattered, |of, random| {
+    held_out("benign, noise 0.3 %", LawGroup::Scattered, |of, random| {
         polluted(of, 0.003, random)
     }),
-    held_out("benign, noise 1 %", Group::Scattered, |of, random| {
+    held_out("benign, noise 1 %", LawGroup::Scattered, |of, random| {
         polluted(of, 0.01, random)
     }),
-    held_out("benign, noise 3 %", Group::Scattered, |of, random| {
+    held_out("benign, noise 3 %", LawGroup::Scattered, |of, random| {
         polluted(of, 0.03, random)
     }),
-    held_out("lower order, noise 0.3 %", Group::Emerging, |of, random| {
-        lower_order(of, 0.003, random)
-    }),
-    held_out("lower order, noise 1 %", Group::Emerging, |of, random| {
-        lower_order(of, 0.01, random)
-    }),
-    held_out("lower order, noise 3 %", Group::Emerging, |of, random| {
-        lower_order(of, 0.03, random)
-    }),
-    held_out("wrong limit, noise 1 %", Group::Stagnating, wrong_limit),
+    held_out(
+        "lower order, noise 0.3 %",
+        LawGroup::Emerging,
+        |of, random| lower_order(of, 0.003, random),
+    ),
+    held_out(
+        "lower order, noise 1 %",
+        LawGroup::Emerging,
+        |of, random| lower_order(of, 0.01, random),
+    ),
+    held_out(
+        "lower order, noise 3 %",
+        LawGroup::Emerging,
+        |of, random| lower_order(of, 0.03, random),
+    ),
+    held_out("wrong limit, noise 1 %", LawGroup::Stagnating, wrong_limit),
 ];
 
 /// Log-normal scatter of an error; σ = 0 draws as many numbers as any other.

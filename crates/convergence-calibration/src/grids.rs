@@ -14,7 +14,7 @@ use convergence_judge::judge::{
 use convergence_study::{RateVerdict, SpaceTime, Verdict};
 
 use crate::draw::{CalibrationError, Draw};
-use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
 
 const ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 
@@ -22,7 +22,7 @@ const ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 const TOLERANCE: f64 = 0.2;
 
 /// A(h) + B(dt), or the root of the sum of their squares.
-struct Law {
+struct GridLaw {
     h: Vec<f64>,
     dt: Vec<f64>,
     orders: SpaceTime<f64>,
@@ -42,7 +42,7 @@ fn halved_steps(levels: usize, random: &mut SplitMix) -> Vec<f64> {
         .collect()
 }
 
-impl Law {
+impl GridLaw {
     fn draw(levels: usize, hidden: bool, random: &mut SplitMix) -> Self {
         let mut law = Self {
             h: halved_steps(levels, random),
@@ -122,13 +122,13 @@ fn both_pass(rates: &SpaceTime<RateVerdict>) -> bool {
 
 /// Verdicts on both orders of a grid, and how often an interval holds its order.
 #[derive(Debug, Clone, Copy, Default)]
-struct Orders {
-    pass: Share,
-    fail: Share,
-    interval_holds: Share,
+struct OrderVerdicts {
+    pass: HitShare,
+    fail: HitShare,
+    interval_holds: HitShare,
 }
 
-impl Orders {
+impl OrderVerdicts {
     fn count(&mut self, rates: &SpaceTime<RateVerdict>, orders: SpaceTime<f64>) {
         self.pass.count(both_pass(rates));
         for (rate, order) in rates.both().into_iter().zip(orders.both()) {
@@ -143,17 +143,17 @@ impl Orders {
 /// What is counted for one number of levels.
 #[derive(Debug, Clone, Copy, Default)]
 struct Grids {
-    sound: Orders,
-    hidden_order_passes: Share,
-    constant_passes: Share,
-    constant_in_squares_passes: Share,
-    noisy: Orders,
+    sound: OrderVerdicts,
+    hidden_order_passes: HitShare,
+    constant_passes: HitShare,
+    constant_in_squares_passes: HitShare,
+    noisy: OrderVerdicts,
 }
 
 impl Grids {
     fn count(&mut self, levels: usize, random: &mut SplitMix) -> Result<(), CalibrationError> {
-        let law = Law::draw(levels, false, random);
-        let hidden = Law::draw(levels, true, random);
+        let law = GridLaw::draw(levels, false, random);
+        let hidden = GridLaw::draw(levels, true, random);
         let size = random.within([0.1_f64.ln(), 3.0_f64.ln()]).exp() * [1.0, -1.0][random.below(2)];
         let sound = law.errors(|error| error);
         let constant = size * sound[sound.len() - 1];
@@ -171,7 +171,7 @@ impl Grids {
         Ok(())
     }
 
-    fn cells(&self) -> Vec<Cell> {
+    fn cells(&self) -> Vec<SheetCell> {
         vec![
             self.sound.pass.cell("sound pass"),
             self.sound.fail.cell("sound orders fail"),
@@ -203,7 +203,11 @@ pub fn of_grids(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError
         for _ in 0..tables {
             counted.count(levels, draw.next()?)?;
         }
-        rows.push(Row::new(format!("{levels} levels"), true, counted.cells()));
+        rows.push(SheetRow::new(
+            format!("{levels} levels"),
+            true,
+            counted.cells(),
+        ));
     }
     let title = "Grids of h and dt at ±0.2: both orders of sound grids, a lower order that hides, a constant of 10 % of the finest error or more";
     Ok(vec![Sheet {

@@ -4,7 +4,7 @@
 //! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H
 //! on the finest, p uniform in [0.5, 4].
 
-use crate::laws::{Group, Law, held_out};
+use crate::laws::{Law, LawGroup, held_out};
 use crate::shapes::{Exponents, log_uniform};
 use convergence_judge::judge::random::SplitMix;
 
@@ -12,26 +12,26 @@ use convergence_judge::judge::random::SplitMix;
 pub const HELD_OUT: [Law; 10] = [
     held_out(
         "h^p (1 + a s (1 - s)), s the fraction of c/h",
-        Group::Scattered,
+        LawGroup::Scattered,
         interface,
     ),
-    held_out("√(h^2p + a² h^(2p+2))", Group::Polluted, two_components),
-    held_out("max(h^p, a h^(p+1))", Group::Polluted, two_places),
-    held_out("h^p (1 + a exp(-h/h0))", Group::Polluted, layer),
-    held_out("tanh((h/h0)^p)", Group::Polluted, bounded),
-    held_out("h^p (1 + a h^p)", Group::Polluted, dispersion),
-    held_out("(h / (1 - h/n))^p", Group::Polluted, nodes_for_elements),
+    held_out("√(h^2p + a² h^(2p+2))", LawGroup::Polluted, two_components),
+    held_out("max(h^p, a h^(p+1))", LawGroup::Polluted, two_places),
+    held_out("h^p (1 + a exp(-h/h0))", LawGroup::Polluted, layer),
+    held_out("tanh((h/h0)^p)", LawGroup::Polluted, bounded),
+    held_out("h^p (1 + a h^p)", LawGroup::Polluted, dispersion),
+    held_out("(h / (1 - h/n))^p", LawGroup::Polluted, nodes_for_elements),
     held_out(
         "h^p + b h^(p - d) |log h|",
-        Group::Emerging,
+        LawGroup::Emerging,
         lower_order_with_a_logarithm,
     ),
     held_out(
         "h^p + b h^(p - d) |N|",
-        Group::Emerging,
+        LawGroup::Emerging,
         lower_order_at_random,
     ),
-    held_out("h^p (1 + 1 % N) + f", Group::Stagnating, noisy_limit),
+    held_out("h^p (1 + 1 % N) + f", LawGroup::Stagnating, noisy_limit),
 ];
 
 /// An interface at c that the mesh does not resolve: it lies anywhere in its element. a in [0, 1].
@@ -121,17 +121,19 @@ mod tests {
                 let table = law.draw(60, 2.0, &mut random);
                 let finest = pairwise_rates(&table.levels)[58];
                 match (law.group, table.order) {
-                    (Group::Stagnating, order) => assert!(order.is_none(), "{}", law.name),
-                    (Group::Emerging, Some(order)) => assert!(order < table.shown, "{}", law.name),
+                    (LawGroup::Stagnating, order) => assert!(order.is_none(), "{}", law.name),
+                    (LawGroup::Emerging, Some(order)) => {
+                        assert!(order < table.shown, "{}", law.name)
+                    }
                     // log h changes by one part in forty: the exponent of the logarithm shows.
-                    (Group::Polluted, Some(order)) => {
+                    (LawGroup::Polluted, Some(order)) => {
                         assert!(
                             (finest - order).abs() < 0.05,
                             "{}: {finest} {order}",
                             law.name
                         );
                     }
-                    (Group::Scattered, Some(order)) => {
+                    (LawGroup::Scattered, Some(order)) => {
                         let mean = (table.levels[0].error / table.levels[59].error).log2() / 59.0;
                         assert!((mean - order).abs() < 0.1, "{}: {mean} {order}", law.name);
                     }

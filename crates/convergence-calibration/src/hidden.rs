@@ -2,7 +2,7 @@
 
 use convergence_judge::judge::{fit::Level, random::SplitMix};
 
-use crate::laws::Table;
+use crate::laws::LawErrors;
 use crate::shapes::log_uniform;
 
 /// Shares of the finest error that a hidden term makes up.
@@ -15,7 +15,7 @@ pub const HIDDEN_SHARES: [f64; 5] = [0.05, 0.07, 0.10, 0.15, 0.20];
 /// order claimed is p.
 ///
 /// * `share`: of the finest error, made up by the term.
-pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> Table {
+pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> LawErrors {
     let p = random.within([1.0, 4.0]);
     let (q, sign) = [(0.0, 1.0), (0.0, -1.0), (p - 1.0, 1.0), (p - 0.5, 1.0)][random.below(4)];
     let a = if random.below(2) == 0 {
@@ -28,7 +28,7 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
     let main = |h: f64| h.powf(p) * (1.0 + a * h.powf(r));
     // b H^q = share (main + b H^q)
     let b = sign * main(finest) * share / (1.0 - sign * share) / finest.powf(q);
-    let mut table = Table {
+    let mut table = LawErrors {
         levels: vec![],
         shown: p,
         order: (q > 0.0).then_some(q),
@@ -45,7 +45,7 @@ pub(crate) fn hidden_term(levels: usize, share: f64, random: &mut SplitMix) -> T
 
 /// Eight errors of second order with a wrong limit, `|h^2 (1 + a h^r) ± f|`: a in [-0.9, 3], r = 1
 /// or 2, f from 1 to 90 % of the finest error.
-pub(crate) fn wrong_limit(random: &mut SplitMix) -> Table {
+pub(crate) fn wrong_limit(random: &mut SplitMix) -> LawErrors {
     let (a, r) = (random.within([-0.9, 3.0]), [1.0, 2.0][random.below(2)]);
     let main = |h: f64| h * h * (1.0 + a * h.powf(r));
     let f = main(0.5_f64.powi(7)) * log_uniform([0.01, 0.9], random) * [1.0, -1.0][random.below(2)];
@@ -54,7 +54,7 @@ pub(crate) fn wrong_limit(random: &mut SplitMix) -> Table {
 
 /// Eight errors h^p (1 + a h) + b h^(p - 1): a and b of either sign, |a| from 0.1 to 10, the last
 /// term 10 to 22 % of the finest error of the others.
-pub(crate) fn three_terms(random: &mut SplitMix) -> Table {
+pub(crate) fn three_terms(random: &mut SplitMix) -> LawErrors {
     let p = random.within([1.0, 4.0]);
     let sign_of_a = [1.0, -1.0][random.below(2)];
     let sign_of_b = [1.0, -1.0][random.below(2)];
@@ -65,9 +65,9 @@ pub(crate) fn three_terms(random: &mut SplitMix) -> Table {
     eight(p, Some(p - 1.0), |h| (main(h) + b * h.powf(p - 1.0)).abs())
 }
 
-fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> Table {
+fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> LawErrors {
     let steps = (0..8).map(|k| 0.5_f64.powi(k));
-    Table {
+    LawErrors {
         levels: steps
             .map(|step| Level {
                 step,

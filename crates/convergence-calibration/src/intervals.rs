@@ -7,9 +7,9 @@ use convergence_judge::judge::{
 use convergence_study::Verdict;
 
 use crate::draw::{CalibrationError, Draw};
-use crate::laws::{Group, LAWS, Law, Table};
+use crate::laws::{LAWS, Law, LawErrors, LawGroup};
 use crate::rules::CLAIMS;
-use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
 use crate::{judge, wrong};
 
 /// Numbers of levels drawn: 3 to 8.
@@ -37,7 +37,7 @@ pub const ALL: &str = "all declared";
 
 /// Whether the rule answers for a law: it has an order, and is not one of those excepted.
 pub(crate) fn is_declared(law: &Law, not: &[&str]) -> bool {
-    law.group != Group::Stagnating && !not.contains(&law.name)
+    law.group != LawGroup::Stagnating && !not.contains(&law.name)
 }
 
 /// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in
@@ -56,15 +56,15 @@ pub(crate) fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
 /// Verdicts on claims, and how often the interval holds the order.
 #[derive(Debug, Clone, Copy, Default)]
 struct Verdicts {
-    wrong_pass: Share,
-    true_fail: Share,
-    inconclusive: Share,
-    interval_holds: Share,
+    wrong_pass: HitShare,
+    true_fail: HitShare,
+    inconclusive: HitShare,
+    interval_holds: HitShare,
 }
 
 impl Verdicts {
     /// * `off`: distance of the wrong claims from the order.
-    fn count(&mut self, table: &Table, reading: &Reading<'_>, judge: &Judge, off: f64) {
+    fn count(&mut self, table: &LawErrors, reading: &Reading<'_>, judge: &Judge, off: f64) {
         for claim in wrong(table, off) {
             self.wrong_pass
                 .count(judge.decide(reading, claim).is_pass());
@@ -78,7 +78,7 @@ impl Verdicts {
         }
     }
 
-    fn cells(&self) -> Vec<Cell> {
+    fn cells(&self) -> Vec<SheetCell> {
         vec![
             self.wrong_pass.cell("wrong pass"),
             self.true_fail.cell("true fail"),
@@ -109,12 +109,16 @@ pub(crate) fn intervals(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibra
                 of_all.count(&table, &reading, &judge, off);
             }
         }
-        rows.push(Row::new(law.name, declared, of_law.cells()));
+        rows.push(SheetRow::new(law.name, declared, of_law.cells()));
     }
     for (count, verdicts) in (FEWEST_LEVELS..).zip(&by_levels) {
-        rows.push(Row::new(format!("{count} levels"), false, verdicts.cells()));
+        rows.push(SheetRow::new(
+            format!("{count} levels"),
+            false,
+            verdicts.cells(),
+        ));
     }
-    rows.push(Row::new(ALL, true, of_all.cells()));
+    rows.push(SheetRow::new(ALL, true, of_all.cells()));
     Ok(Sheet {
         key: "laws",
         title: "Claims 0.1 off at ±0.05, 3 to 8 levels, equal and unequal ratios".to_owned(),

@@ -21,7 +21,7 @@ use convergence_study::{
     Outcome, Quantity, Ran, Section, Subject, Table, completion_check,
     internal::{
         plots::{self, xy::Xy},
-        study::header::{Setting, study},
+        study::header::{SettingWords, study},
     },
     read_study,
 };
@@ -31,7 +31,7 @@ use crate::bars::of_the_bars;
 use crate::grids::of_grids;
 use crate::hidden::HIDDEN_SHARES;
 use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
-use crate::sheet::{Row, Sheet};
+use crate::sheet::{Sheet, SheetRow};
 use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
 
 /// The row of the table of kinds.
@@ -48,7 +48,7 @@ pub const ROW: KindRow = KindRow {
 
 /// A quantity that can be counted.
 #[derive(Debug)]
-struct Part {
+struct CountedQuantity {
     /// Its name in files.
     name: &'static str,
     /// Measured cost in tables of all laws and meshes, for each of `tables`.
@@ -57,18 +57,18 @@ struct Part {
     sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
 }
 
-static PARTS: [Part; 3] = [
-    Part {
+static PARTS: [CountedQuantity; 3] = [
+    CountedQuantity {
         name: "rule",
         cost: 3000,
         sheets: of_the_rule,
     },
-    Part {
+    CountedQuantity {
         name: "bars",
         cost: 90,
         sheets: of_the_bars,
     },
-    Part {
+    CountedQuantity {
         name: "grids",
         cost: 40,
         sheets: of_grids,
@@ -78,7 +78,7 @@ static PARTS: [Part; 3] = [
 /// A part with the number of its tables.
 #[derive(Debug, Clone, Copy)]
 pub struct Measure {
-    of: &'static Part,
+    of: &'static CountedQuantity,
     tables: usize,
     seed: u64,
 }
@@ -102,14 +102,14 @@ impl Measure {
 
 /// A share with a bound.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Expectation {
+pub struct ExpectedShare {
     sheet: String,
     column: String,
     row: Option<String>,
     bounds: [f64; 2],
 }
 
-impl Expectation {
+impl ExpectedShare {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let text = |key: &str| Ok(section.require(key, "a text in quotes")?.text()?.to_owned());
         let bound =
@@ -177,7 +177,7 @@ impl Expectation {
 /// A study of this kind.
 pub struct Calibration {
     measures: Vec<Measure>,
-    expected: Vec<Expectation>,
+    expected: Vec<ExpectedShare>,
 }
 
 const MEASURE: [Key; 3] = [
@@ -215,7 +215,7 @@ impl FromFile for Calibration {
         let measures = root.tables("measure", "", Measure::read)?;
         Ok(Self {
             measures,
-            expected: root.tables("expect", "", Expectation::read)?,
+            expected: root.tables("expect", "", ExpectedShare::read)?,
         })
     }
 }
@@ -225,7 +225,7 @@ impl Kind for Calibration {
     type Found = Vec<Sheet>;
 
     /// It puts no code but the rule to the test.
-    fn settings(&self, header: &Header, _subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, _subject: &Subject) -> Vec<SettingWords> {
         vec![study(header), ("kind".to_owned(), "the harness".to_owned())]
     }
 
@@ -317,7 +317,7 @@ fn figure(
     [x, y]: [Axis; 2],
     show_x: [f64; 2],
     note: String,
-    points: fn(&Row) -> Vec<(f64, f64)>,
+    points: fn(&SheetRow) -> Vec<(f64, f64)>,
 ) -> Figure {
     let mut curves = vec![];
     for row in &sheet.rows {
@@ -335,7 +335,7 @@ fn figure(
 }
 
 /// True claims that pass, and wrong ones, in per cent, at each tolerance.
-fn trade(row: &Row) -> Vec<(f64, f64)> {
+fn trade(row: &SheetRow) -> Vec<(f64, f64)> {
     CLAIMS
         .map(|(tolerance, off)| {
             (
@@ -347,12 +347,12 @@ fn trade(row: &Row) -> Vec<(f64, f64)> {
 }
 
 /// A share in per cent; NaN if the row does not have it.
-fn percent(row: &Row, column: &str) -> f64 {
+fn percent(row: &SheetRow, column: &str) -> f64 {
     100.0 * row.value(column).unwrap_or(f64::NAN)
 }
 
 /// Tables that pass, by the share of the hidden term, both in per cent.
-fn hidden(row: &Row) -> Vec<(f64, f64)> {
+fn hidden(row: &SheetRow) -> Vec<(f64, f64)> {
     HIDDEN_SHARES
         .map(|share| (100.0 * share, percent(row, &hidden_part(share))))
         .to_vec()

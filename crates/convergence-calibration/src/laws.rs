@@ -49,7 +49,7 @@ impl Meshes {
 
 /// What a law does to the order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Group {
+pub enum LawGroup {
     /// The factor before h^p settles.
     Polluted,
     /// The factor before h^p never settles.
@@ -66,21 +66,21 @@ pub struct Law {
     /// The formula.
     pub name: &'static str,
     /// What it does to the order.
-    pub group: Group,
+    pub group: LawGroup,
     shape: Shape,
 }
 
-const fn law(name: &'static str, group: Group, shape: Shape) -> Law {
+const fn law(name: &'static str, group: LawGroup, shape: Shape) -> Law {
     Law { name, group, shape }
 }
 
 /// A law of another file.
-pub(crate) const fn held_out(name: &'static str, group: Group, formula: Formula) -> Law {
+pub(crate) const fn held_out(name: &'static str, group: LawGroup, formula: Formula) -> Law {
     law(name, group, Shape::HeldOut(formula))
 }
 
 pub(crate) const fn polluted(name: &'static str, a: [f64; 2], r: [f64; 2]) -> Law {
-    law(name, Group::Polluted, Shape::Pollution { a, r })
+    law(name, LawGroup::Polluted, Shape::Pollution { a, r })
 }
 
 const fn stagnating(
@@ -88,13 +88,17 @@ const fn stagnating(
     share: [f64; 2],
     error: fn([f64; 2], f64, f64) -> f64,
 ) -> Law {
-    law(name, Group::Stagnating, Shape::Stagnating { share, error })
+    law(
+        name,
+        LawGroup::Stagnating,
+        Shape::Stagnating { share, error },
+    )
 }
 
 const fn noisy(name: &'static str, sigma: f64) -> Law {
     law(
         name,
-        Group::Scattered,
+        LawGroup::Scattered,
         Shape::Noise {
             sigma,
             a: [0.0, 0.0],
@@ -129,25 +133,25 @@ pub const LAWS: [Law; 29] = [
     polluted("h^p (1 + a h), a 1 to 30", [1.0, 30.0], [1.0, 1.0]),
     polluted("h^p (1 + a h^2), a 1 to 100", [1.0, 100.0], [2.0, 2.0]),
     polluted("h^p |1 - a h^r|, a 1 to 30", [-30.0, -1.0], [0.5, 2.0]),
-    law("h^p (L - log h)^k", Group::Polluted, Shape::Logarithm),
+    law("h^p (L - log h)^k", LawGroup::Polluted, Shape::Logarithm),
     law(
         "h^p (1 ± a), odd and even",
-        Group::Scattered,
+        LawGroup::Scattered,
         Shape::OddEven,
     ),
     law(
         "h^p (1 + a h^r cos), r 0.5 to 2",
-        Group::Polluted,
+        LawGroup::Polluted,
         Shape::Oscillation { r: [0.5, 2.0] },
     ),
     law(
         "h^p (1 + a cos)",
-        Group::Scattered,
+        LawGroup::Scattered,
         Shape::Oscillation { r: [0.0, 0.0] },
     ),
     law(
         "h^p + b h^(p - 1/2 or 1)",
-        Group::Emerging,
+        LawGroup::Emerging,
         Shape::LowerOrder,
     ),
     stagnating("h^p + f, f 1 to 100 H^p", [1.0, 100.0], |_, power, f| {
@@ -162,10 +166,10 @@ pub const LAWS: [Law; 29] = [
     stagnating("h^p + f/h²", [0.1, 10.0], |[h, finest], power, f| {
         power + f * finest.powi(2) / (h * h)
     }),
-    law("h^p / (h + h0)^g", Group::Polluted, Shape::Shifted),
+    law("h^p / (h + h0)^g", LawGroup::Polluted, Shape::Shifted),
     law(
         "x / (1 + x), x = (h/h0)^p",
-        Group::Polluted,
+        LawGroup::Polluted,
         Shape::Saturated,
     ),
     noisy("noise 0.1 %", 0.001),
@@ -175,7 +179,7 @@ pub const LAWS: [Law; 29] = [
     noisy("noise 30 %", 0.3),
     law(
         "pollution, noise 1 %",
-        Group::Scattered,
+        LawGroup::Scattered,
         Shape::Noise {
             sigma: 0.01,
             a: [-0.5, 0.5],
@@ -184,12 +188,12 @@ pub const LAWS: [Law; 29] = [
     ),
     law(
         "one outlier, up to a factor of 3",
-        Group::Scattered,
+        LawGroup::Scattered,
         Shape::Outlier,
     ),
     law(
         "noise 3 to 30 % that fades",
-        Group::Scattered,
+        LawGroup::Scattered,
         Shape::Noise {
             sigma: 0.1,
             a: [0.0, 0.0],
@@ -200,7 +204,7 @@ pub const LAWS: [Law; 29] = [
 
 /// A sequence of errors with its true order.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table {
+pub struct LawErrors {
     /// The errors, coarsest first.
     pub levels: Vec<Level>,
     /// The exponent p of the law: the order that the coarse levels of an emerging or stagnating law
@@ -213,20 +217,20 @@ pub struct Table {
 impl Law {
     /// Draws the numbers of the law and its errors on so many levels, each step this many times the
     /// next.
-    pub(crate) fn draw(&self, levels: usize, ratio: f64, random: &mut SplitMix) -> Table {
+    pub(crate) fn draw(&self, levels: usize, ratio: f64, random: &mut SplitMix) -> LawErrors {
         let steps: Vec<f64> = (0..levels).map(|k| ratio.powi(-(k as i32))).collect();
         self.draw_at(&steps, random)
     }
 
     /// The same for any steps, the first of them 1.
-    pub(crate) fn draw_at(&self, steps: &[f64], random: &mut SplitMix) -> Table {
+    pub(crate) fn draw_at(&self, steps: &[f64], random: &mut SplitMix) -> LawErrors {
         let mut shown = random.within([0.5, 4.0]);
         let mut order = Some(shown);
-        if self.group == Group::Emerging {
+        if self.group == LawGroup::Emerging {
             let lower = [0.5, 1.0][random.below(2)];
             shown += 1.0;
             order = Some(shown - lower);
-        } else if self.group == Group::Stagnating {
+        } else if self.group == LawGroup::Stagnating {
             order = None;
         }
         let mut error = self.shape.draw(shown, order, steps, random);
@@ -237,7 +241,7 @@ impl Law {
                 error: error(step),
             })
             .collect();
-        Table {
+        LawErrors {
             levels,
             shown,
             order,

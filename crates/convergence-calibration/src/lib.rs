@@ -9,15 +9,15 @@
 //!   low by twice the tolerance. Five rules judge: this rule; this rule with finer levels added,
 //!   from four on, until a look passes or two in a row fail; and what people use: the slope of a
 //!   straight line, the finest pairwise rate, and the defaults of physverify 0.6, which passes if
-//!   the slope of the four finest levels lies between 0.3 below and 1 above the order and the last refinement
-//!   reduces the error by a factor of 1.2. Only our rule has a third answer. Where the errors have
-//!   no order, the wrong claims lie around the p that they show.
+//!   the slope of the four finest levels lies between 0.3 below and 1 above the order and the last
+//!   refinement reduces the error by a factor of 1.2. Only our rule has a third answer. Where the
+//!   errors have no order, the wrong claims lie around the p that they show.
 //! * *levels*: the same at the default tolerance with steps halved, by number of levels. A claim is
 //!   *visibly off* if it differs from the p that the coarse levels show. Also how often the
 //!   interval holds the order, and how often a table passes only without its coarsest level.
 //! * *held-out*: the same under [ten laws](held_out) with which nothing was tuned.
-//! * *benign*: the same under a smooth power with small pollution; *differences*: finite differences
-//!   of random smooth problems; see [`benign`].
+//! * *benign*: the same under a smooth power with small pollution; *differences*: finite
+//!   differences of random smooth problems; see [`benign`].
 //! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].
 //! * *compared*: this rule and what people do today on nine [laws](fresh) written for it, each with
 //!   the band that lets as many wrong claims pass.
@@ -91,7 +91,7 @@ use compared::compared;
 use draw::Draw;
 use held_out::HELD_OUT;
 use intervals::intervals;
-use laws::{LAWS, Table, USUAL, WIDE};
+use laws::{LAWS, LawErrors, USUAL, WIDE};
 use noisy::noisy;
 use rules::{hidden, levels, rules};
 use sheet::Sheet;
@@ -108,7 +108,7 @@ fn judge(tolerance: f64) -> Result<Judge, JudgeError> {
 }
 
 /// The order, or the one shown if there is none, and claims that are `off` on either side of it.
-fn wrong(table: &Table, off: f64) -> [f64; 2] {
+fn wrong(table: &LawErrors, off: f64) -> [f64; 2] {
     [-off, off].map(|off| table.order.unwrap_or(table.shown) + off)
 }
 

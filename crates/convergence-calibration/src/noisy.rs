@@ -8,7 +8,7 @@ use convergence_study::Verdict;
 
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;
-use crate::sheet::{Row, Share, Sheet};
+use crate::sheet::{HitShare, Sheet, SheetRow};
 
 /// Standard deviations of log e.
 const NOISES: [f64; 4] = [0.0, 0.003, 0.01, 0.03];
@@ -19,12 +19,12 @@ const SHARE: f64 = 0.1;
 
 /// Errors `h^p (1 + a h^r) e^(σ N)`: p in [1.5, 4], r in [1, 4], a = 0 in half of the tables and
 /// |a| < 0.5 in the other; `lower`: with a term b h^(p-1) of a tenth of the finest error.
-struct Errors {
+struct NoisyErrors {
     p: f64,
     levels: Vec<Level>,
 }
 
-fn errors(levels: usize, noise: f64, lower: bool, random: &mut SplitMix) -> Errors {
+fn errors(levels: usize, noise: f64, lower: bool, random: &mut SplitMix) -> NoisyErrors {
     let p = random.within([1.5, 4.0]);
     let r = random.within([1.0, 4.0]);
     let a = [0.0, random.within([-0.5, 0.5])][random.below(2)];
@@ -37,7 +37,7 @@ fn errors(levels: usize, noise: f64, lower: bool, random: &mut SplitMix) -> Erro
         let error = (main(step) + b * step.powf(p - 1.0)) * (noise * random.normal()).exp();
         Level { step, error }
     };
-    Errors {
+    NoisyErrors {
         p,
         levels: (0..levels).map(level).collect(),
     }
@@ -52,11 +52,11 @@ pub(crate) fn noisy(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibration
     let mut rows = vec![];
     for levels in LEVELS {
         for noise in NOISES {
-            let [mut hidden, mut passes, mut fails] = [Share::default(); 3];
+            let [mut hidden, mut passes, mut fails] = [HitShare::default(); 3];
             for _ in 0..tables {
-                let Errors { p, levels: lower } = errors(levels, noise, true, draw.next()?);
+                let NoisyErrors { p, levels: lower } = errors(levels, noise, true, draw.next()?);
                 hidden.count(judge.decide(&judge.read(&lower), p).is_pass());
-                let Errors { p, levels: plain } = errors(levels, noise, false, draw.next()?);
+                let NoisyErrors { p, levels: plain } = errors(levels, noise, false, draw.next()?);
                 let verdict = judge.decide(&judge.read(&plain), p);
                 passes.count(verdict.is_pass());
                 fails.count(verdict == Verdict::Fail);
@@ -67,7 +67,7 @@ pub(crate) fn noisy(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibration
                 passes.cell("true pass"),
                 fails.cell("true fail"),
             ];
-            rows.push(Row::new(name, true, cells));
+            rows.push(SheetRow::new(name, true, cells));
         }
     }
     Ok(Sheet {

@@ -12,8 +12,8 @@ use convergence_study::{Verdict, internal::study::until_decided::is_settled};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};
-use crate::laws::{Group, LAWS, Law, Meshes, Table};
-use crate::sheet::{Cell, Row, Share, Sheet};
+use crate::laws::{LAWS, Law, LawErrors, LawGroup, Meshes};
+use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
 use crate::{judge, wrong};
 
 /// Tolerances, each with the distance of the wrong claims from the order.
@@ -142,14 +142,14 @@ pub fn true_pass(tolerance: f64) -> String {
 /// Verdicts at one tolerance.
 #[derive(Debug, Clone, Copy, Default)]
 struct Verdicts {
-    wrong_pass: Share,
-    true_pass: Share,
-    true_fail: Share,
+    wrong_pass: HitShare,
+    true_pass: HitShare,
+    true_fail: HitShare,
 }
 
 impl Verdicts {
     /// * `off`: distance of the wrong claims from the order.
-    fn count(&mut self, table: &Table, off: f64, verdict: impl Fn(f64) -> Verdict) {
+    fn count(&mut self, table: &LawErrors, off: f64, verdict: impl Fn(f64) -> Verdict) {
         for claim in wrong(table, off) {
             self.wrong_pass.count(verdict(claim).is_pass());
         }
@@ -159,7 +159,7 @@ impl Verdicts {
         }
     }
 
-    fn cells(&self, tolerance: f64, off: f64) -> [Cell; 3] {
+    fn cells(&self, tolerance: f64, off: f64) -> [SheetCell; 3] {
         [
             self.wrong_pass.cell(wrong_pass(tolerance, off)),
             self.true_pass.cell(true_pass(tolerance)),
@@ -200,7 +200,7 @@ pub(crate) fn rules(
         for ((tolerance, off), verdicts) in CLAIMS.into_iter().zip(verdicts) {
             cells.extend(verdicts.cells(tolerance, off));
         }
-        rows.push(Row::new(rule.name(), rule == Rule::Ours, cells));
+        rows.push(SheetRow::new(rule.name(), rule == Rule::Ours, cells));
     }
     Ok(Sheet {
         key,
@@ -255,19 +255,19 @@ const fn added(name: &'static str, levels: usize) -> Look {
 /// What one number of levels decides at the default tolerance.
 #[derive(Debug, Clone, Copy, Default)]
 struct AtLevels {
-    true_pass: Share,
-    true_fail: Share,
-    wrong_pass: Share,
+    true_pass: HitShare,
+    true_fail: HitShare,
+    wrong_pass: HitShare,
     /// Of claims that differ from the exponent that the coarse levels show.
-    visibly_wrong_pass: Share,
-    interval_holds: Share,
-    passes_without_coarsest: Share,
+    visibly_wrong_pass: HitShare,
+    interval_holds: HitShare,
+    passes_without_coarsest: HitShare,
     /// The mean number of levels that a decision took.
-    levels: Share,
+    levels: HitShare,
 }
 
 impl AtLevels {
-    fn count(&mut self, law: &Law, table: &Table, judge: &Judge, look: &Look) {
+    fn count(&mut self, law: &Law, table: &LawErrors, judge: &Judge, look: &Look) {
         let evidence = Evidence::new(judge, &table.levels);
         let is_added = look.rule == Rule::LevelsAdded;
         if let Some(order) = table.order {
@@ -281,7 +281,7 @@ impl AtLevels {
             });
             if let Some(fit) = evidence.all().fit
                 && !is_added
-                && law.group != Group::Emerging
+                && law.group != LawGroup::Emerging
             {
                 self.interval_holds.count(fit.interval.holds(order));
             }
@@ -301,7 +301,7 @@ impl AtLevels {
         }
     }
 
-    fn cells(&self) -> Vec<Cell> {
+    fn cells(&self) -> Vec<SheetCell> {
         vec![
             self.true_pass.cell("true pass"),
             self.true_fail.cell("true fail"),
@@ -333,7 +333,7 @@ pub(crate) fn levels(
                 counted.count(law, &table, &judge, look);
             }
         }
-        rows.push(Row::new(look.name, true, counted.cells()));
+        rows.push(SheetRow::new(look.name, true, counted.cells()));
     }
     let title = format!(
         "Share of claims that pass or fail at ±0.25, {}, steps halved; wrong claims are half an order off",
@@ -356,9 +356,9 @@ pub(crate) fn hidden(
     draw: &mut Draw,
 ) -> Result<Sheet, CalibrationError> {
     let judge = judge(tolerance)?;
-    let mut rows = Rule::ALL.map(|rule| Row::new(rule.name(), rule == Rule::Ours, vec![]));
+    let mut rows = Rule::ALL.map(|rule| SheetRow::new(rule.name(), rule == Rule::Ours, vec![]));
     for part in HIDDEN_SHARES {
-        let mut passing = [Share::default(); Rule::ALL.len()];
+        let mut passing = [HitShare::default(); Rule::ALL.len()];
         for _ in 0..tables {
             let table = hidden_term(levels, part, draw.next()?);
             let evidence = Evidence::new(&judge, &table.levels);

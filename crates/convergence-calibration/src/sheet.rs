@@ -8,23 +8,23 @@ pub struct Sheet {
     /// What it is.
     pub title: String,
     /// The rows, which have the same columns.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SheetRow>,
 }
 
 /// A row of a [`Sheet`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct SheetRow {
     /// Its name.
     pub name: String,
     /// Whether the rule answers for it.
     pub declared: bool,
     /// What was counted.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<SheetCell>,
 }
 
-/// A number of a [`Row`].
+/// A number of a [`SheetRow`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cell {
+pub struct SheetCell {
     /// What is counted: the head of the column.
     pub column: String,
     /// A share, or the median of a length; NaN if nothing was counted.
@@ -39,13 +39,13 @@ impl Sheet {
     }
 
     /// The row with this name.
-    pub fn row(&self, name: &str) -> Option<&Row> {
+    pub fn row(&self, name: &str) -> Option<&SheetRow> {
         self.rows.iter().find(|row| row.name == name)
     }
 }
 
-impl Row {
-    pub(crate) fn new(name: impl Into<String>, declared: bool, cells: Vec<Cell>) -> Self {
+impl SheetRow {
+    pub(crate) fn new(name: impl Into<String>, declared: bool, cells: Vec<SheetCell>) -> Self {
         let name = name.into();
         Self {
             name,
@@ -63,12 +63,12 @@ impl Row {
 
 /// How often something was true.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Share {
+pub(crate) struct HitShare {
     hits: usize,
     of: usize,
 }
 
-impl Share {
+impl HitShare {
     pub(crate) fn count(&mut self, hit: bool) {
         self.add(usize::from(hit));
     }
@@ -85,8 +85,8 @@ impl Share {
     }
 
     /// The share under the head of its column.
-    pub(crate) fn cell(self, column: impl Into<String>) -> Cell {
-        Cell {
+    pub(crate) fn cell(self, column: impl Into<String>) -> SheetCell {
+        SheetCell {
             column: column.into(),
             value: self.value(),
         }
@@ -99,6 +99,6 @@ mod tests {
 
     #[test]
     fn a_share_of_nothing_is_none() {
-        assert!(Share::default().value().is_nan());
+        assert!(HitShare::default().value().is_nan());
     }
 }

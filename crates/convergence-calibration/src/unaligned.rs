@@ -20,7 +20,7 @@ use convergence_judge::judge::{
 
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;
-use crate::sheet::{Row, Share, Sheet};
+use crate::sheet::{HitShare, Sheet, SheetRow};
 
 /// Shifts of a mesh.
 const SHIFTS: usize = 8;
@@ -108,7 +108,7 @@ pub(crate) fn unaligned(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibra
     for computation in &COMPUTATIONS {
         let order = computation.order;
         for levels in LEVELS {
-            let [mut passes, mut line, mut mean_passes, mut wrong] = [Share::default(); 4];
+            let [mut passes, mut line, mut mean_passes, mut wrong] = [HitShare::default(); 4];
             for _ in 0..tables {
                 let drawn = computation.draw(levels, draw.next()?);
                 let reading = judge.read(&drawn.one_mesh);
@@ -128,7 +128,7 @@ pub(crate) fn unaligned(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibra
                 mean_passes.cell("true pass, mean over 8 shifts"),
             ];
             let name = format!("{}, {levels} levels", computation.name);
-            rows.push(Row::new(name, false, cells));
+            rows.push(SheetRow::new(name, false, cells));
         }
     }
     Ok(Sheet {

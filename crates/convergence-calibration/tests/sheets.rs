@@ -7,7 +7,7 @@ use convergence_calibration::grids::of_grids;
 use convergence_calibration::intervals::ALL;
 use convergence_calibration::of_the_rule;
 use convergence_calibration::rules::{CLAIMS, wrong_pass};
-use convergence_calibration::sheet::{Row, Sheet};
+use convergence_calibration::sheet::{Sheet, SheetRow};
 
 static RULE: LazyLock<Vec<Sheet>> = LazyLock::new(|| of_the_rule(20, 1).expect("usable settings"));
 
@@ -18,7 +18,7 @@ fn sheet<'s>(sheets: &'s [Sheet], key: &str) -> &'s Sheet {
         .expect("a sheet")
 }
 
-fn cell(row: &Row, column: &str) -> f64 {
+fn cell(row: &SheetRow, column: &str) -> f64 {
     row.value(column)
         .unwrap_or_else(|| panic!("no {column}: {row:?}"))
 }
@@ -27,7 +27,7 @@ fn value(sheet: &Sheet, row: &str, column: &str) -> f64 {
     cell(sheet.row(row).expect("a row"), column)
 }
 
-fn declared(sheet: &Sheet) -> impl Iterator<Item = &Row> {
+fn declared(sheet: &Sheet) -> impl Iterator<Item = &SheetRow> {
     sheet.rows.iter().filter(|row| row.declared)
 }
 

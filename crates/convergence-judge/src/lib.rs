@@ -43,7 +43,7 @@ pub use judge::{
     claims::Claim,
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
     grid::{Adding, GridErrors, SpaceTime},
-    richardson::{Bar, Estimate, Estimator, Gci, Refusal, Value},
+    richardson::{Bar, Estimate, Estimator, Gci, NoErrorBar, StepValue},
     verdict::{
         Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, PowerLaw,
         RateVerdict, Reading, Reason, SetAside, Tendency, Verdict, WIDEST_TOLERANCE, judge,

@@ -14,7 +14,7 @@ const EXAMPLES = {
 };
 
 let worker = null;
-let asked = 0;
+let latest = 0;
 let timer = 0;
 let last = null;
 
@@ -47,7 +47,7 @@ function receive(data) {
     return;
   }
   if (data.id === 0) return show(message(`The page cannot compute here: ${data.error}`));
-  if (data.id !== asked) return;
+  if (data.id !== latest) return;
   clearTimeout(timer);
   if (data.error) {
     // A module that has stopped is not asked again.
@@ -86,7 +86,7 @@ function wrongNumber() {
 }
 
 function ask() {
-  asked += 1;
+  latest += 1;
   byId("copies").hidden = true;
   byId("copied").value = "";
   const wrong = wrongNumber();
@@ -99,7 +99,7 @@ function ask() {
   byId("answer").classList.add("busy");
   clearTimeout(timer);
   timer = setTimeout(giveUp, PATIENCE);
-  worker.postMessage({ id: asked, question: question() });
+  worker.postMessage({ id: latest, question: question() });
 }
 
 function giveUp() {

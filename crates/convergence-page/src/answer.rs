@@ -48,7 +48,7 @@ impl Read {
 
 /// What is found in the tables of a text.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Judged {
+pub(crate) struct JudgedText {
     #[serde(flatten)]
     pub(crate) sheet: Sheet,
     /// The command that finds the same in a file.

@@ -1,5 +1,5 @@
-//! The judge of tables for a page in a browser: three functions over JSON, [`version`], [`read`] and
-//! [`judge`]. The words, numbers and figures are those of the command `rates`, made by the same
+//! The judge of tables for a page in a browser: three functions over JSON, [`version`], [`read`]
+//! and [`judge`]. The words, numbers and figures are those of the command `rates`, made by the same
 //! code.
 //!
 //! `memory.rs` is what JavaScript calls: no generator of glue takes part. `page/` has the markup,
@@ -15,7 +15,7 @@ use convergence_study::internal::{
 };
 use serde_json::{Value, json};
 
-use answer::{Judged, Read, Refused};
+use answer::{JudgedText, Read, Refused};
 use question::Question;
 
 /// The program in the commands that the page offers.
@@ -32,7 +32,8 @@ pub fn version() -> &'static str {
 
 /// How the tables of a text are read: a JSON object with `tables`, or with `refused`.
 ///
-/// * `question`: a JSON object with `text`, and the options of the command `rates` under their names.
+/// * `question`: a JSON object with `text`, and the options of the command `rates` under their
+///   names.
 pub fn read(question: &str) -> String {
     answered(question, |question| {
         Ok(json!(Read::of(&sheet_of(question)?)))
@@ -42,10 +43,11 @@ pub fn read(question: &str) -> String {
 /// What is found in the tables of a text: a JSON object with `verdict` and `tables`, or with
 /// `refused`.
 ///
-/// * `question`: a JSON object with `text`, and the options of the command `rates` under their names.
+/// * `question`: a JSON object with `text`, and the options of the command `rates` under their
+///   names.
 pub fn judge(question: &str) -> String {
     answered(question, |question| {
-        Ok(json!(Judged {
+        Ok(json!(JudgedText {
             sheet: sheet_of(question)?,
             command: question.command(),
         }))

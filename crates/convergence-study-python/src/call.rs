@@ -1,6 +1,6 @@
 //! Refusals in the words of Python: `dim=2`, and the call with other arguments.
 
-use convergence_study::internal::input::advice::{Argument, Setting, Surface, Value};
+use convergence_study::internal::input::advice::{Argument, ArgumentValue, Setting, Surface};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
@@ -71,9 +71,9 @@ impl Surface for Call<'_> {
                 return None;
             }
             let value = match value {
-                Value::Number(number) => number.to_string(),
-                Value::Name(name) => self.column(name),
-                Value::Names(names) => {
+                ArgumentValue::Number(number) => number.to_string(),
+                ArgumentValue::Name(name) => self.column(name),
+                ArgumentValue::Names(names) => {
                     let columns = names.iter().map(|name| self.column(name));
                     format!("[{}]", columns.collect::<Vec<_>>().join(", "))
                 }

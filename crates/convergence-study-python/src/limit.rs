@@ -1,7 +1,7 @@
 //! Limits of values without an exact solution.
 
 use convergence_judge::{judge::richardson::Estimate, text::number::RATE_PLACES};
-use convergence_study::{Estimator, Value};
+use convergence_study::{Estimator, StepValue};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -103,9 +103,9 @@ pub(crate) fn limit(
 ) -> PyResult<Limit> {
     let claim = values::optional_claim(order, tolerance)?;
     let levels = values::levels(h, "values", values)?;
-    let values: Vec<Value> = levels
+    let values: Vec<StepValue> = levels
         .iter()
-        .map(|level| Value {
+        .map(|level| StepValue {
             step: level.step,
             value: level.error,
         })

@@ -7,7 +7,7 @@ use convergence_study::{
     Finished, Header, Project, Verdict,
     internal::{
         run,
-        store::{Baseline, Change, Movement, Record, atomic},
+        store::{Baseline, GuardedChange, Movement, Record, atomic},
         verify,
     },
 };
@@ -67,7 +67,7 @@ impl Request {
     }
 
     /// The differences between the baseline and the studies of this run.
-    fn changes(&self, numbers: &Baseline, studies: &[Finished]) -> Vec<Change> {
+    fn changes(&self, numbers: &Baseline, studies: &[Finished]) -> Vec<GuardedChange> {
         let known = headers(studies);
         let mut changes = numbers.compare(studies, Some(&known));
         let is_known = |id: &String| known.iter().any(|header| header.id == *id);
@@ -97,7 +97,7 @@ fn headers(studies: &[Finished]) -> Vec<Header> {
     studies.iter().map(|study| study.header.clone()).collect()
 }
 
-fn is_deleted(change: &Change) -> bool {
+fn is_deleted(change: &GuardedChange) -> bool {
     matches!(
         change.movement,
         Movement::VanishedFile { .. } | Movement::Vanished { .. }
@@ -142,14 +142,14 @@ pub(crate) fn finish(
 }
 
 /// Whether pytest itself says that the test is gone.
-fn is_gone(change: &Change, request: &Request) -> bool {
+fn is_gone(change: &GuardedChange, request: &Request) -> bool {
     request.gone.contains(&change.study)
 }
 
 /// Writes the report on the studies of a run.
 fn report(
     studies: Vec<Finished>,
-    changes: Option<&[Change]>,
+    changes: Option<&[GuardedChange]>,
     is_well: bool,
     folder: &Path,
 ) -> PyResult<()> {

@@ -30,7 +30,7 @@ use crate::run::Finished;
 use crate::store::Record;
 use crate::study::outcome::Outcome;
 use crate::text::lists::distinct;
-use both::{Answer, Both};
+use both::{Both, ErrorShift};
 use sequence::ErrorSequence;
 
 /// Rates closer than this are the same order.
@@ -88,12 +88,12 @@ pub struct Finding {
     /// Why.
     pub reason: String,
     /// Its observed orders.
-    pub orders: Orders,
+    pub orders: ComparedOrders,
 }
 
 /// The orders of one error in both records; `None` with too few levels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct Orders {
+pub struct ComparedOrders {
     /// In the old record.
     pub old: Option<Order>,
     /// In the new record.
@@ -118,7 +118,7 @@ impl fmt::Display for Order {
 
 /// Two records side by side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct RecordComparison {
     /// Errors that differ by less, as a share, are the same.
     pub within: f64,
     /// What became of all.
@@ -135,8 +135,8 @@ pub struct Comparison {
 ///
 /// * `floor`: errors not above it count as the floor.
 /// * `within`: errors that differ by less, as a share, are the same.
-pub fn compare(old: &Record, new: &Record, floor: Floor, within: f64) -> Comparison {
-    let mut comparison = Comparison {
+pub fn compare(old: &Record, new: &Record, floor: Floor, within: f64) -> RecordComparison {
+    let mut comparison = RecordComparison {
         within,
         change: Shift::Same,
         studies: 0,
@@ -177,11 +177,11 @@ fn finding_on_study(study: &str, change: Shift, reason: String) -> Finding {
         norm: None,
         change,
         reason,
-        orders: Orders::default(),
+        orders: ComparedOrders::default(),
     }
 }
 
-impl Comparison {
+impl RecordComparison {
     /// Adds a study that both records have.
     fn add(&mut self, old: &Finished, new: &Finished, floor: Floor) {
         self.studies += 1;
@@ -196,7 +196,7 @@ impl Comparison {
         for name in old_names {
             let [before, after] =
                 [old, new].map(|study| ErrorSequence::new(&study.outcome, name, floor));
-            let orders = Orders {
+            let orders = ComparedOrders {
                 old: before.order,
                 new: after.order,
             };
@@ -206,7 +206,7 @@ impl Comparison {
                 floor: floor.value(),
                 within: self.within,
             };
-            let Answer { change, reason } = both.judge();
+            let ErrorShift { change, reason } = both.judge();
             self.findings.push(Finding {
                 study: id.clone(),
                 norm: Some(name.clone()),

@@ -7,7 +7,7 @@ pub mod cli {
         COMMANDS, Command, command_line, ended, program, run_command_line, status_of,
     };
     pub mod exit {
-        pub use crate::cli::exit::{Outcome, Unusable, say};
+        pub use crate::cli::exit::{CommandOutcome, Unusable, say};
     }
     pub mod explain {
         pub use crate::cli::explain::{contents, nearest_name, study, term, terms};
@@ -35,26 +35,27 @@ pub mod cli {
 }
 #[cfg(feature = "reports")]
 pub mod compare {
-    pub use crate::compare::{Comparison, Shift, WITHIN, compare};
+    pub use crate::compare::{RecordComparison, Shift, WITHIN, compare};
 }
 #[cfg(feature = "files")]
 pub mod input {
     pub use crate::input::{POSITIVE, parse, parse_beside, parse_overlaid, read_text};
     pub mod advice {
-        pub use crate::input::advice::{Argument, CommandLine, Setting, Surface, Value};
+        pub use crate::input::advice::{Argument, ArgumentValue, CommandLine, Setting, Surface};
     }
 }
 #[cfg(feature = "tables")]
 pub mod plots {
     pub use crate::plots::{
-        Axis, ErrorSeries, ForestAxis, ForestRow, Guide, Phases, Scale, Series, SpaceTime, Surface,
-        convergence, forest, history, iterations, panels, space_time, surface, work_precision,
+        Axis, ColouredCells, ErrorSeries, ForestAxis, ForestRow, Guide, Phases, Scale, Series,
+        SpaceTime, convergence, forest, history, iterations, panels, space_time, surface,
+        work_precision,
     };
     pub mod canvas {
         pub use crate::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
     }
     pub mod inset {
-        pub use crate::plots::inset::{Inset, Place};
+        pub use crate::plots::inset::{Inset, InsetFrame};
     }
     pub mod look {
         pub use crate::plots::look::{Look, Marker, Marks, look};
@@ -100,7 +101,7 @@ pub mod run {
 #[cfg(feature = "reports")]
 pub mod store {
     pub use crate::store::{
-        Baseline, BlessedClaim, Change, Movement, Record, ReportFolder, ReportSet, Works,
+        Baseline, BlessedClaim, GuardedChange, Movement, Record, ReportFolder, ReportSet, Works,
         content_hash, json, junit, lock,
     };
     pub mod atomic {
@@ -123,7 +124,7 @@ pub mod study {
         pub use crate::study::coverage::NO_RESULT;
     }
     pub mod header {
-        pub use crate::study::header::{Setting, is_name, study};
+        pub use crate::study::header::{SettingWords, is_name, study};
     }
     pub mod kind {
         pub use crate::study::kind::{judge, run_cases_here};

@@ -27,10 +27,10 @@
 //!
 //! # A project that verifies itself
 //!
-//! A project names its kinds of study in a [`Project`] and calls [`run_command_line`]: its program then has
-//! all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs, judges,
-//! compares with the baseline and writes the report. The smallest one has no kind of its own: its
-//! studies are programs in any language.
+//! A project names its kinds of study in a [`Project`] and calls [`run_command_line`]: its program
+//! then has all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs,
+//! judges, compares with the baseline and writes the report. The smallest one has no kind of its
+//! own: its studies are programs in any language.
 //!
 #![cfg_attr(feature = "command-line", doc = "```no_run")]
 #![cfg_attr(not(feature = "command-line"), doc = "```ignore")]
@@ -71,8 +71,8 @@
 //
 // Each module uses only those before it: `input`, `plots`, `exchange`, `rates`, `study`, `run`,
 // `where_lost`, `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. Nothing is
-// public but what is named here and in `internal`, so that the compiler finds what nobody uses. With
-// fewer features some items serve no one: they are searched for with all.
+// public but what is named here and in `internal`, so that the compiler finds what nobody uses.
+// With fewer features some items serve no one: they are searched for with all.
 #![cfg_attr(not(feature = "command-line"), allow(dead_code, unused_imports))]
 
 #[cfg(feature = "command-line")]
@@ -115,7 +115,7 @@ mod judge {
 pub use convergence_judge::judge::{
     claims::Claim,
     grid::SpaceTime,
-    richardson::{Estimator, Value},
+    richardson::{Estimator, StepValue},
     verdict::{
         Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs, observe,
     },
@@ -138,7 +138,7 @@ pub use crate::{
 
 /// Variants of a study's solution, by which `--where` names the part that has lost the order.
 pub mod variants {
-    pub use crate::study::variants::{LeftOut, Part, Variant, Variants};
+    pub use crate::study::variants::{LeftOutVariant, SolverPart, Variant, Variants};
 }
 
 #[cfg(feature = "files")]
@@ -155,8 +155,10 @@ pub use crate::{
 #[doc(inline)]
 pub use crate::{
     program::{PROJECT as PROGRAMS, ROW as PROGRAM},
-    project::{Front, Project, Template, Term},
-    verify::{Blessing, Request, Scope, Verification, VerificationError, verify, write_report},
+    project::{Front, Project, SourcePlace, Statement, Template, Term},
+    verify::{
+        Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,
+    },
 };
 
 #[cfg(feature = "command-line")]

@@ -28,8 +28,8 @@ pub struct Project {
     pub front_pictures: &'static [(&'static str, &'static str)],
     /// The beginning of the report of a passing run.
     pub front: Front,
-    /// Where to look: a value of a setting or a field, and the place.
-    pub places: &'static [(&'static str, &'static str)],
+    /// Where to look when a study fails.
+    pub places: &'static [SourcePlace],
     /// About how many seconds a unit of the cost of its cases takes on one thread; `None` if that
     /// is not known.
     pub seconds_per_cost: Option<f64>,
@@ -74,13 +74,32 @@ pub struct Front {
     pub picture: &'static str,
     /// The most important result, in two sentences.
     pub finding: &'static str,
-    /// Statements, each with the study whose numbers answer it, and the name of the rate that does;
-    /// an empty name means its key numbers.
-    pub statements: &'static [(&'static str, &'static str, &'static str)],
+    /// What has been verified, in this order.
+    pub statements: &'static [Statement],
     /// The figure that shows the claim of one study.
     pub plot: &'static str,
     /// What was verified and how, in a few sentences.
     pub verified: &'static str,
+}
+
+/// A statement that a study answers.
+#[derive(Debug, Clone, Copy)]
+pub struct Statement {
+    /// What is stated.
+    pub text: &'static str,
+    /// The id of the study whose numbers answer it.
+    pub study: &'static str,
+    /// The name of the rate that does; empty for the study's key numbers.
+    pub rate: &'static str,
+}
+
+/// Where to look in the sources.
+#[derive(Debug, Clone, Copy)]
+pub struct SourcePlace {
+    /// The value of a setting, or the name of a field.
+    pub word: &'static str,
+    /// The place that belongs to it.
+    pub place: &'static str,
 }
 
 /// Commented files to start from, which run unchanged.

@@ -19,8 +19,8 @@ use crate::project::Project;
 use crate::report::{Findings, NEWEST};
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
-    Baseline, Change, Provenance, Record, Refusal, Works, atomic, diagnosis::diagnose, json,
-    write_json,
+    Baseline, BlessingRefusal, GuardedChange, Provenance, Record, Works, atomic,
+    diagnosis::diagnose, json, write_json,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
@@ -97,7 +97,7 @@ impl Scope {
 
 /// A verification to be done.
 #[derive(Debug, Clone)]
-pub struct Request {
+pub struct VerifyRequest {
     /// Which studies these are.
     pub scope: Scope,
     /// Threads and time.
@@ -114,7 +114,7 @@ pub struct Request {
     pub reports: PathBuf,
 }
 
-impl Request {
+impl VerifyRequest {
     /// All these studies, as those of a tier, on all processors; nothing is blessed.
     ///
     /// * `root`: the project's folder; the reports go to `reports/` in it.
@@ -164,11 +164,11 @@ pub enum Blessing {
     /// They have.
     Taken,
     /// They have not, for this reason.
-    Refused(Refusal),
+    Refused(BlessingRefusal),
 }
 
 impl Blessing {
-    fn of(taken: Result<(), Refusal>) -> Self {
+    fn of(taken: Result<(), BlessingRefusal>) -> Self {
         taken.map_or_else(Self::Refused, |()| Self::Taken)
     }
 }
@@ -196,7 +196,7 @@ pub enum VerificationError {
     /// The baseline cannot be used, or the reports cannot be written.
     #[error(transparent)]
     Files(#[from] io::Error),
-    /// A pattern of [`Request::only`] that matches no change.
+    /// A pattern of [`VerifyRequest::only`] that matches no change.
     #[error("--only: found `{pattern}`, which matches no change; expected one of {changes}{}", .some.iter().map(|id| format!(", `{id}`")).collect::<String>())]
     NoChange {
         /// The pattern.
@@ -218,7 +218,7 @@ pub enum VerificationError {
 pub fn verify(
     project: &Project,
     studies: &[Box<dyn Study>],
-    request: &Request,
+    request: &VerifyRequest,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
@@ -242,13 +242,13 @@ pub fn verify(
 }
 
 /// The file of the work limits.
-fn works_file(request: &Request) -> PathBuf {
+fn works_file(request: &VerifyRequest) -> PathBuf {
     request.root.join("studies/work.json")
 }
 
 /// Changes files of the reports while no other process writes them.
 fn locked(
-    request: &Request,
+    request: &VerifyRequest,
     reports: &Reports,
     change: impl FnOnce() -> io::Result<()>,
 ) -> io::Result<()> {
@@ -261,7 +261,7 @@ fn locked(
 fn run_and_write(
     project: &Project,
     studies: &[Box<dyn Study>],
-    request: &Request,
+    request: &VerifyRequest,
     reports: &Reports,
     mut works: Works,
     progress: &(dyn Fn(Progress) + Sync),
@@ -322,9 +322,9 @@ fn run_and_write(
 fn diagnosed(
     project: &Project,
     studies: &[Box<dyn Study>],
-    request: &Request,
+    request: &VerifyRequest,
     finished: Vec<Finished>,
-    changes: &[Change],
+    changes: &[GuardedChange],
 ) -> Record {
     let command = request.scope.command(project);
     let verdict = verdict(&finished, changes);
@@ -341,7 +341,7 @@ fn diagnosed(
 fn bless(
     baseline: &mut Baseline,
     finished: &[Finished],
-    request: &Request,
+    request: &VerifyRequest,
 ) -> Result<Blessing, VerificationError> {
     let known = request.scope.known();
     let reason = request.reason.as_deref();
@@ -368,7 +368,7 @@ fn bless(
             return Err(VerificationError::NoChange {
                 pattern: word.clone(),
                 changes: changes.len(),
-                some: changes.iter().take(3).map(Change::id).collect(),
+                some: changes.iter().take(3).map(GuardedChange::id).collect(),
             });
         }
     }
@@ -384,7 +384,7 @@ fn bless(
 }
 
 /// Completes or removes what runs that were killed have left.
-fn remove_leftovers(request: &Request, reports: &Reports) -> io::Result<()> {
+fn remove_leftovers(request: &VerifyRequest, reports: &Reports) -> io::Result<()> {
     // If the lock of the baseline is not held, another process may be writing it.
     if request.bless || request.reports_of_project().shares_its_lock(reports) {
         atomic::remove_leftovers(&request.baseline())?;
@@ -393,7 +393,7 @@ fn remove_leftovers(request: &Request, reports: &Reports) -> io::Result<()> {
 }
 
 /// The worst verdict of all studies; fail if the baseline differs.
-fn verdict(finished: &[Finished], changes: &[Change]) -> Verdict {
+fn verdict(finished: &[Finished], changes: &[GuardedChange]) -> Verdict {
     let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
     if changes.is_empty() {
         own

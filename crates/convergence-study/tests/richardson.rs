@@ -1,24 +1,24 @@
 //! Error bars of values without an exact solution.
 
 use convergence_judge::judge::richardson::{
-    Estimate, Refusal, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED,
+    Estimate, NoErrorBar, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED,
 };
-use convergence_study::{Estimator, Interval, Reason, Value, Verdict};
+use convergence_study::{Estimator, Interval, Reason, StepValue, Verdict};
 
 const RATIO_2: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 const UNEQUAL: [f64; 6] = [1.0, 0.7, 0.3, 0.2, 0.11, 0.05];
 
-fn values(steps: &[f64], value: impl Fn(f64) -> f64) -> Vec<Value> {
+fn values(steps: &[f64], value: impl Fn(f64) -> f64) -> Vec<StepValue> {
     steps
         .iter()
-        .map(|&step| Value {
+        .map(|&step| StepValue {
             step,
             value: value(step),
         })
         .collect()
 }
 
-fn estimate(order: f64, values: &[Value]) -> Estimate {
+fn estimate(order: f64, values: &[StepValue]) -> Estimate {
     Estimator::new(0.1).unwrap().estimate(values, order)
 }
 
@@ -95,7 +95,7 @@ fn three_values_lean_on_the_claim() {
     assert!(bar.error_interval.low < error && error < bar.error_interval.high);
     let slow = estimate(0.4, &values(&RATIO_2[..3], |h| h.powf(0.4))).bar;
     assert!(
-        matches!(slow, Err(Refusal::RateMayBeZero(low)) if (low + 0.1).abs() < 1e-12),
+        matches!(slow, Err(NoErrorBar::RateMayBeZero(low)) if (low + 0.1).abs() < 1e-12),
         "{slow:?}"
     );
 }
@@ -106,10 +106,10 @@ fn three_values_lean_on_the_claim() {
 #[test]
 fn the_index_is_that_of_the_published_example() {
     let steps = [4500.0_f64, 8000.0, 18000.0].map(|cells| cells.powf(-0.5));
-    let cells: Vec<Value> = steps
+    let cells: Vec<StepValue> = steps
         .into_iter()
         .zip([5.863, 5.972, 6.063])
-        .map(|(step, value)| Value { step, value })
+        .map(|(step, value)| StepValue { step, value })
         .collect();
     let index = estimate(1.6, &cells).gci.unwrap();
     assert_eq!(
@@ -159,38 +159,38 @@ fn outside_the_asymptotic_range_there_is_no_bar() {
     let refused = |steps: &[f64], value: &dyn Fn(f64) -> f64| {
         estimate(2.0, &values(steps, value)).bar.unwrap_err()
     };
-    assert_eq!(refused(&RATIO_2[..2], &|h| h), Refusal::TooFewValues(2));
-    assert_eq!(refused(&[], &|h| h), Refusal::TooFewValues(0));
+    assert_eq!(refused(&RATIO_2[..2], &|h| h), NoErrorBar::TooFewValues(2));
+    assert_eq!(refused(&[], &|h| h), NoErrorBar::TooFewValues(0));
     assert_eq!(
         refused(&RATIO_2, &|h| if h == 0.5 { f64::NAN } else { h }),
-        Refusal::NotFinite
+        NoErrorBar::NotFinite
     );
-    assert_eq!(refused(&[1.0, 0.5, 0.5], &|h| h), Refusal::Steps);
-    assert_eq!(refused(&RATIO_2, &|_| 1.0), Refusal::NoChange);
+    assert_eq!(refused(&[1.0, 0.5, 0.5], &|h| h), NoErrorBar::Steps);
+    assert_eq!(refused(&RATIO_2, &|_| 1.0), NoErrorBar::NoChange);
     assert_eq!(
         refused(&RATIO_2, &|h| if h > 0.2 { 1.0 } else { h }),
-        Refusal::NoChange
+        NoErrorBar::NoChange
     );
     assert!(matches!(
         refused(&RATIO_2, &|h| 1.0 + 1e-12 * h),
-        Refusal::RoundOff { .. }
+        NoErrorBar::RoundOff { .. }
     ));
     // (-1)^k h^2
     let turns = |h: f64| h * h * (h.log2() * std::f64::consts::PI).cos();
-    assert_eq!(refused(&RATIO_2, &turns), Refusal::Oscillating);
-    assert_eq!(refused(&RATIO_2, &|h| 1.0 / h), Refusal::Diverging);
-    assert_eq!(refused(&RATIO_2[..3], &|h| 1.0 / h), Refusal::Diverging);
-    assert_eq!(refused(&RATIO_2, &|h| h.ln()), Refusal::Diverging);
+    assert_eq!(refused(&RATIO_2, &turns), NoErrorBar::Oscillating);
+    assert_eq!(refused(&RATIO_2, &|h| 1.0 / h), NoErrorBar::Diverging);
+    assert_eq!(refused(&RATIO_2[..3], &|h| 1.0 / h), NoErrorBar::Diverging);
+    assert_eq!(refused(&RATIO_2, &|h| h.ln()), NoErrorBar::Diverging);
     assert_eq!(
         refused(&RATIO_2, &|h| h * h / (1.0 + 30.0 * h * h)),
-        Refusal::NotAsymptotic(Reason::NotAsymptotic)
+        NoErrorBar::NotAsymptotic(Reason::NotAsymptotic)
     );
     let claim = Estimator::new(0.1)
         .unwrap()
         .estimate(&values(&RATIO_2, |h| h), 0.0);
     assert_eq!(
         claim.bar,
-        Err(Refusal::NotAsymptotic(Reason::ClaimUnusable))
+        Err(NoErrorBar::NotAsymptotic(Reason::ClaimUnusable))
     );
     assert_eq!(claim.gci.unwrap_err(), claim.bar.unwrap_err());
 }
@@ -205,7 +205,10 @@ fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
         .unwrap()
         .estimate(&printed, 2.0);
     assert!(
-        matches!(found.bar, Err(Refusal::RoundOff { .. } | Refusal::NoChange)),
+        matches!(
+            found.bar,
+            Err(NoErrorBar::RoundOff { .. } | NoErrorBar::NoChange)
+        ),
         "{:?}",
         found.bar
     );
@@ -225,8 +228,8 @@ fn a_wrong_order_is_judged_and_has_a_bar_all_the_same() {
 
 #[test]
 fn values_without_a_claim_have_a_limit_and_no_verdict() {
-    let values: Vec<Value> = [0.2, 0.1, 0.05, 0.025]
-        .map(|step| Value {
+    let values: Vec<StepValue> = [0.2, 0.1, 0.05, 0.025]
+        .map(|step| StepValue {
             step,
             value: 3.0 + step * step,
         })
@@ -243,13 +246,13 @@ fn values_without_a_claim_have_a_limit_and_no_verdict() {
         (found.judged.verdict, found.gci.is_ok()),
         (Verdict::Inconclusive, true)
     );
-    let zigzag: Vec<Value> = values
+    let zigzag: Vec<StepValue> = values
         .iter()
         .zip([1.0, 2.0, 1.0, 2.0])
-        .map(|(level, value)| Value { value, ..*level })
+        .map(|(level, value)| StepValue { value, ..*level })
         .collect();
     let found = Estimator::new(0.25)
         .expect("a tolerance")
         .estimate_unclaimed(&zigzag);
-    assert_eq!(found.bar, Err(Refusal::Oscillating));
+    assert_eq!(found.bar, Err(NoErrorBar::Oscillating));
 }

@@ -1,7 +1,8 @@
 //! Tables as codes, libraries and people print them: each is read as `tables.txt` says, or refused
 //! with the command that reads it.
 //!
-//! With `BLESS_TABLES` set, results and `reading-tables.md` are written anew; read them before committing.
+//! With `BLESS_TABLES` set, results and `reading-tables.md` are written anew; read them before
+//! committing.
 
 use std::{env, fs, path::Path};
 
@@ -249,7 +250,8 @@ fn shown(options: &str) -> String {
     }
 }
 
-/// What the page says of a refusal: the message without the place, and the first command that works.
+/// What the page says of a refusal: the message without the place, and the first command that
+/// works.
 fn refusal(message: &str) -> String {
     let (message, rest) = message.split_once('\n').unwrap_or((message, ""));
     let command = rest

@@ -3,14 +3,14 @@
 use serde_json::{Map, Value, json};
 
 use crate::arithmetic::NodeId;
-use crate::arithmetic::tape::Measured;
-use crate::derive::{Part, Quantity, Role, components};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::language::names::did_you_mean;
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 
 /// Points, and of each the face that it is on.
-struct Table {
+struct PointTable {
     points: Vec<Vec<f64>>,
     faces: Vec<String>,
 }
@@ -33,7 +33,7 @@ fn places(variables: &[&str], head: &[&str]) -> Result<Vec<usize>, String> {
 }
 
 /// Reads a header with the coordinates, time and optionally `face`, then a point for each line.
-fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
+fn read(model: &Model, text: &str, file: &str) -> Result<PointTable, InputError> {
     let variables = model.problem.variables();
     let mut lines = text
         .lines()
@@ -49,7 +49,7 @@ fn read(model: &Model, text: &str, file: &str) -> Result<Table, InputError> {
     let places = places(&variables, &head)
         .map_err(|problem| InputError::at_line(file, first + 1, problem))?;
     let face = head.iter().position(|name| *name == "face");
-    let mut table = Table {
+    let mut table = PointTable {
         points: vec![],
         faces: vec![],
     };
@@ -89,8 +89,12 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(model: &Model, quantities: &[&Quantity<NodeId>], points: &[Option<Vec<f64>>]) -> Self {
-        let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+    fn of(
+        model: &Model,
+        quantities: &[&DerivedQuantity<NodeId>],
+        points: &[Option<Vec<f64>>],
+    ) -> Self {
+        let rows = TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
         let values: Vec<_> = points
             .iter()
             .map(|point| point.as_ref().map(|point| rows.at(point).tensors))
@@ -102,8 +106,8 @@ impl Columns {
         for (index, quantity) in quantities.iter().enumerate() {
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
             for (place, name) in names.into_iter().enumerate() {
-                let column = |part: fn(&Measured) -> f64| -> Value {
-                    let cell = |row: &Option<Vec<Vec<Measured>>>| {
+                let column = |part: fn(&SizedValue) -> f64| -> Value {
+                    let cell = |row: &Option<Vec<Vec<SizedValue>>>| {
                         row.as_ref().map(|row| part(&row[index][place]))
                     };
                     values.iter().map(|row| json!(cell(row))).collect()
@@ -116,7 +120,7 @@ impl Columns {
     }
 }
 
-fn quantities(model: &Model, role: Role, part: Part) -> Vec<&Quantity<NodeId>> {
+fn quantities(model: &Model, role: Role, part: Part) -> Vec<&DerivedQuantity<NodeId>> {
     model.part(part).iter().filter(|q| q.role == role).collect()
 }
 
@@ -142,7 +146,7 @@ pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, Inp
     let mut terms = Map::new();
     for quantity in sources {
         for (label, tensor) in &quantity.terms {
-            let term = Quantity {
+            let term = DerivedQuantity {
                 tensor: tensor.clone(),
                 terms: vec![],
                 ..quantity.clone()

@@ -35,7 +35,7 @@ pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
 pub use problem::{FILE_KEYS, InputError};
-pub use variants::{DescribedVariant, Description, LeftOut, Switch, Variant, Variants};
+pub use variants::{DescribedVariant, Description, LeftOutVariant, Switch, Variant, Variants};
 
 /// A file, read and derived.
 #[derive(Debug)]

@@ -5,9 +5,9 @@ use std::rc::Rc;
 use crate::arithmetic::NodeId;
 use crate::arithmetic::jet::{Jet, Jets, Monomials};
 use crate::arithmetic::quadrature::{self, POINTS};
-use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::arithmetic::{Depth, Graph, Node};
-use crate::derive::{Elaborator, Part, Quantity, Role, quantity};
+use crate::derive::{DerivedQuantity, Elaborator, Part, Role, quantity};
 use crate::problem::{InputError, Problem};
 
 /// A file, derived.
@@ -15,9 +15,9 @@ use crate::problem::{InputError, Problem};
 pub(crate) struct Model {
     pub(crate) problem: Problem,
     pub(crate) graph: Graph,
-    pub(crate) parts: Vec<(Part, Vec<Quantity<NodeId>>)>,
+    pub(crate) parts: Vec<(Part, Vec<DerivedQuantity<NodeId>>)>,
     /// The values of [define], in alphabetical order.
-    pub(crate) definitions: Vec<Quantity<NodeId>>,
+    pub(crate) definitions: Vec<DerivedQuantity<NodeId>>,
     /// The expressions of the parameters, in those that they depend on.
     pub(crate) parameters: Vec<NodeId>,
     /// The largest number of derivatives one inside the other.
@@ -81,12 +81,12 @@ impl Model {
     }
 
     /// The quantities of a part.
-    pub(crate) fn part(&self, part: Part) -> &[Quantity<NodeId>] {
+    pub(crate) fn part(&self, part: Part) -> &[DerivedQuantity<NodeId>] {
         let entry = self.parts.iter().find(|entry| entry.0 == part);
         entry.map_or(&[], |entry| &entry.1)
     }
 
-    pub(crate) fn of_role(&self, role: Role) -> impl Iterator<Item = &Quantity<NodeId>> {
+    pub(crate) fn of_role(&self, role: Role) -> impl Iterator<Item = &DerivedQuantity<NodeId>> {
         let all = self.parts.iter().flat_map(|entry| &entry.1);
         all.filter(move |quantity| quantity.role == role)
     }
@@ -127,7 +127,11 @@ pub(crate) struct JetsAt<'m> {
 
 impl JetsAt<'_> {
     /// The quantities of a part at a point, from the expressions as written.
-    pub(crate) fn at(&self, part: Part, point: &[f64]) -> Result<Vec<Quantity<Jet>>, InputError> {
+    pub(crate) fn at(
+        &self,
+        part: Part,
+        point: &[f64],
+    ) -> Result<Vec<DerivedQuantity<Jet>>, InputError> {
         let jets = Jets {
             monomials: Rc::clone(&self.monomials),
             point: point.to_vec(),
@@ -139,13 +143,13 @@ impl JetsAt<'_> {
 }
 
 /// The values of tensors at a point: of each all components.
-pub(crate) struct Rows<'m> {
+pub(crate) struct TensorRows<'m> {
     tape: Tape<'m>,
     /// Where the components of each tensor begin.
     starts: Vec<usize>,
 }
 
-impl<'m> Rows<'m> {
+impl<'m> TensorRows<'m> {
     pub(crate) fn new<'t>(
         graph: &'m Graph,
         tensors: impl Iterator<Item = &'t crate::derive::Tensor<NodeId>>,
@@ -172,7 +176,7 @@ impl<'m> Rows<'m> {
         self.cut(evaluated.roots, evaluated.switches)
     }
 
-    fn cut(&self, roots: Vec<Measured>, switches: Vec<f64>) -> RowsAt {
+    fn cut(&self, roots: Vec<SizedValue>, switches: Vec<f64>) -> RowsAt {
         let ends = self.starts.windows(2);
         RowsAt {
             tensors: ends.map(|ends| roots[ends[0]..ends[1]].to_vec()).collect(),
@@ -181,8 +185,8 @@ impl<'m> Rows<'m> {
     }
 }
 
-/// [`Rows`] at a point.
+/// [`TensorRows`] at a point.
 pub(crate) struct RowsAt {
-    pub(crate) tensors: Vec<Vec<Measured>>,
+    pub(crate) tensors: Vec<Vec<SizedValue>>,
     pub(crate) switches: Vec<f64>,
 }

@@ -1,7 +1,7 @@
 //! Points of the domain and of its faces, drawn at random, the same for the same seed.
 
 use crate::derive::{Part, Role};
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::{InputError, Surface, System};
 
 /// Points keep this distance from a switch of `abs`, `min`, `max`, `where`, `heaviside`.
@@ -37,7 +37,7 @@ pub(crate) struct Sampler<'m> {
     model: &'m Model,
     random: Random,
     /// The levels, in the order of [`Sampler::level_faces`].
-    levels: Rows<'m>,
+    levels: TensorRows<'m>,
     level_faces: Vec<String>,
 }
 
@@ -47,7 +47,7 @@ impl<'m> Sampler<'m> {
         Self {
             model,
             random: Random(seed),
-            levels: Rows::new(&model.graph, levels.iter().map(|level| &level.tensor)),
+            levels: TensorRows::new(&model.graph, levels.iter().map(|level| &level.tensor)),
             level_faces: levels.iter().map(|level| level.name.clone()).collect(),
         }
     }
@@ -55,7 +55,7 @@ impl<'m> Sampler<'m> {
     /// Points of a part of the domain, away from all switches of its quantities.
     pub(crate) fn points(&mut self, part: Part, count: usize) -> Result<Vec<Vec<f64>>, InputError> {
         let quantities = self.model.part(part);
-        let rows = Rows::new(&self.model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = TensorRows::new(&self.model.graph, quantities.iter().map(|q| &q.tensor));
         let mut points = vec![];
         let mut is_empty = true;
         for _ in 0..count.saturating_mul(TRIES) {

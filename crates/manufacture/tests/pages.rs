@@ -1,5 +1,5 @@
-//! The pages: each note has its example, and the README's problem passes. The page of ten minutes is
-//! run by the tests of programs.
+//! The pages: each note has its example, and the README's problem passes. The page of ten minutes
+//! is run by the tests of programs.
 
 use manufacture::Language;
 

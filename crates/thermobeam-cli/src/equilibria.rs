@@ -15,7 +15,7 @@ use thermobeam_study::scene::Scene;
 use convergence_study::{
     Verdict,
     internal::cli::{
-        exit::{Outcome, Unusable},
+        exit::{CommandOutcome, Unusable},
         flags::Flags,
         screen,
     },
@@ -31,7 +31,7 @@ pub struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let scene = Scene::read(&arguments.scene)?;
     let states = match equilibria(&scene.beam, scene.obstacles.as_ref()) {
         Ok(states) => states,
@@ -52,13 +52,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(flags.show(
         "equilibria",
         Verdict::Pass,
-        &Listed::new(&states, &proof),
+        &EquilibriaList::new(&states, &proof),
         &words,
     )?)
 }
 
 #[derive(Debug, Serialize)]
-struct Listed {
+struct EquilibriaList {
     equilibria: Vec<ListedState>,
     /// Whether these are all. If not, unstable states with -1 < N < -0.9996 may be missing, or are.
     complete: bool,
@@ -98,7 +98,7 @@ fn bounds(interval: Interval) -> [f64; 2] {
     [interval.lo, interval.hi]
 }
 
-impl Listed {
+impl EquilibriaList {
     fn new(states: &[Equilibrium], proof: &Proof) -> Self {
         let mut equilibria = vec![];
         for state in states {

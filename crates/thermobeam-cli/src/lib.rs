@@ -1,7 +1,7 @@
 //! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
 //!
-//! The harness's commands come from `convergence_study::internal::cli`, with the beam's kinds of study
-//! registered in [`project()`]. This file adds the beam's own commands and dispatches.
+//! The harness's commands come from `convergence_study::internal::cli`, with the beam's kinds of
+//! study registered in [`project()`]. This file adds the beam's own commands and dispatches.
 
 mod equilibria;
 mod merge;
@@ -110,7 +110,7 @@ impl Command {
     ///
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
-    pub fn run(&self, project: &Project, program: clap::Command) -> exit::Outcome {
+    pub fn run(&self, project: &Project, program: clap::Command) -> exit::CommandOutcome {
         match self {
             Self::Harness(command) => command.run(project, program),
             Self::Run(arguments) => run::run(arguments),

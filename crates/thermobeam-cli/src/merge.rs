@@ -8,7 +8,7 @@ use thermobeam_study::sweep;
 use convergence_study::{
     Verdict,
     internal::cli::{
-        exit::{Outcome, Unusable},
+        exit::{CommandOutcome, Unusable},
         flags::Flags,
     },
 };
@@ -19,7 +19,7 @@ use convergence_study::{
 ///
 /// # Errors
 /// A missing or repeated case; nothing is written then.
-pub(crate) fn run(folders: &[PathBuf], flags: &Flags) -> Outcome {
+pub(crate) fn run(folders: &[PathBuf], flags: &Flags) -> CommandOutcome {
     let Some(folder) = &flags.out else {
         return Err(Unusable::because(
             "--out DIR: expected the folder for the joined results; found none",

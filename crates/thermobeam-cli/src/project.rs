@@ -1,6 +1,6 @@
 //! The beam as a project of the harness.
 
-use convergence_study::{Front, Project, Template, internal::program};
+use convergence_study::{Front, Project, Statement, Template, internal::program};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
 use thermobeam_study::scene;
 
@@ -54,51 +54,71 @@ const FRONT: Front = Front {
                study fail, and so does each mistake that is planted in a function: half of rho in the axial force, an obstacle that is \
                missing, a contact force with the other sign, and those in the table of negative-controls.",
     statements: &[
-        ("Section 5: the paper's statements", "section-5", ""),
-        (
-            "The paper's figures, against the exact solution",
-            "experiments-error",
-            "",
-        ),
-        (
-            "Theorem 3.4, in h: the scheme, to the interpolant",
-            "theorem-3.4-space",
-            "superclose",
-        ),
-        (
-            "Theorem 3.4, in h: its own norm, which is interpolation",
-            "theorem-3.4-space",
-            "theorem-3.4",
-        ),
-        ("Theorem 3.4, in dt", "theorem-3.4-time", "theorem-3.4"),
-        (
-            "Theorem 3.4, over a grid, in h",
-            "theorem-3.4-grid",
-            "theorem-3.4 in h",
-        ),
-        (
-            "Theorem 3.4, over a grid, in dt",
-            "theorem-3.4-grid",
-            "theorem-3.4 in dt",
-        ),
-        (
-            "Proposition 3.1: the energy never rises, its balance closes",
-            "energy-decay",
-            "",
-        ),
-        (
-            "Section 4: the fixed point contracts as its linearisation does",
-            "fixed-point",
-            "",
-        ),
-        ("Steady states, in closed form", "equilibria", ""),
-        ("Beyond: elements of degree p", "any-order-space", ""),
-        ("Beyond: dG(q) in time", "any-order-time", ""),
-        (
-            "Beyond: the experiments to ten decimals",
-            "experiments-exact",
-            "",
-        ),
+        Statement {
+            text: "Section 5: the paper's statements",
+            study: "section-5",
+            rate: "",
+        },
+        Statement {
+            text: "The paper's figures, against the exact solution",
+            study: "experiments-error",
+            rate: "",
+        },
+        Statement {
+            text: "Theorem 3.4, in h: the scheme, to the interpolant",
+            study: "theorem-3.4-space",
+            rate: "superclose",
+        },
+        Statement {
+            text: "Theorem 3.4, in h: its own norm, which is interpolation",
+            study: "theorem-3.4-space",
+            rate: "theorem-3.4",
+        },
+        Statement {
+            text: "Theorem 3.4, in dt",
+            study: "theorem-3.4-time",
+            rate: "theorem-3.4",
+        },
+        Statement {
+            text: "Theorem 3.4, over a grid, in h",
+            study: "theorem-3.4-grid",
+            rate: "theorem-3.4 in h",
+        },
+        Statement {
+            text: "Theorem 3.4, over a grid, in dt",
+            study: "theorem-3.4-grid",
+            rate: "theorem-3.4 in dt",
+        },
+        Statement {
+            text: "Proposition 3.1: the energy never rises, its balance closes",
+            study: "energy-decay",
+            rate: "",
+        },
+        Statement {
+            text: "Section 4: the fixed point contracts as its linearisation does",
+            study: "fixed-point",
+            rate: "",
+        },
+        Statement {
+            text: "Steady states, in closed form",
+            study: "equilibria",
+            rate: "",
+        },
+        Statement {
+            text: "Beyond: elements of degree p",
+            study: "any-order-space",
+            rate: "",
+        },
+        Statement {
+            text: "Beyond: dG(q) in time",
+            study: "any-order-time",
+            rate: "",
+        },
+        Statement {
+            text: "Beyond: the experiments to ten decimals",
+            study: "experiments-exact",
+            rate: "",
+        },
     ],
 };
 

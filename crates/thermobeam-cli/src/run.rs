@@ -15,7 +15,7 @@ use convergence_study::{
     Verdict,
     internal::{
         cli::{
-            exit::{self, Outcome, Unusable},
+            exit::{self, CommandOutcome, Unusable},
             flags::Flags,
             running::{self, seconds},
             screen,
@@ -54,7 +54,7 @@ pub struct Arguments {
     keep_scheme: bool,
     /// The quantity of the target error
     #[arg(long, value_enum, default_value_t, requires = "target_error")]
-    quantity: accuracy::Quantity,
+    quantity: accuracy::QuantityName,
     /// Time limit of the run; the results so far are then shown, and the exit status is 1
     /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
@@ -74,7 +74,7 @@ impl Arguments {
         object: &impl Serialize,
         sentence: &str,
         text: impl FnOnce() -> String,
-    ) -> Outcome {
+    ) -> CommandOutcome {
         let verdict = if complaint.is_none() {
             Verdict::Pass
         } else {
@@ -109,7 +109,7 @@ const TICKS: f64 = 1000.0;
 
 /// Runs the command. Nothing is written, and no folder is created, before the scene has proved
 /// usable.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let read = Scene::read(&arguments.scene)?;
     let planned = match arguments
         .target_error
@@ -168,7 +168,7 @@ struct Finished<'a> {
 
 impl Finished<'_> {
     /// Estimates the error if it is asked for, and prints the result.
-    fn show(&self, arguments: &Arguments) -> Outcome {
+    fn show(&self, arguments: &Arguments) -> CommandOutcome {
         let Self {
             scene,
             planned,

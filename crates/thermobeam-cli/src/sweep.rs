@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::ProgressBar;
-use thermobeam_study::sweep::{self, InOrder, Journal, Line, Share, Sweep};
+use thermobeam_study::sweep::{self, CaseLine, InOrder, Journal, Sweep, SweepShare};
 
 use convergence_study::{
     Verdict,
     internal::{
         cli::{
-            exit::{self, Outcome},
+            exit::{self, CommandOutcome},
             flags::Flags,
             running::{self, seconds},
         },
@@ -43,8 +43,8 @@ pub struct Arguments {
     #[arg(long, requires = "out")]
     resume: bool,
     /// Run share k of n; the values of a case determine its share; --merge joins the shares
-    #[arg(long, value_name = "k/n", default_value_t = Share::ALL, hide_default_value = true)]
-    partition: Share,
+    #[arg(long, value_name = "k/n", default_value_t = SweepShare::ALL, hide_default_value = true)]
+    partition: SweepShare,
     /// Join these shares of a sweep, and run nothing
     #[arg(
         long,
@@ -58,14 +58,14 @@ pub struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> Outcome {
+pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let Some(file) = &arguments.file else {
         return merge::run(&arguments.merge, &arguments.flags);
     };
     let sweep = Sweep::read(file)?;
     let share = arguments.partition;
     let mine: Vec<usize> = (0..sweep.cases())
-        .filter(|&index| share == Share::ALL || share.holds(sweep.case(index).hash()))
+        .filter(|&index| share == SweepShare::ALL || share.holds(sweep.case(index).hash()))
         .collect();
     Ok(match &arguments.flags.out {
         Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
@@ -82,7 +82,7 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> io::Resu
         &mine,
         jobs(arguments),
         arguments.time_limit,
-        |line: Line| {
+        |line: CaseLine| {
             let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
             state.1 = if line.passed { state.1 } else { Verdict::Fail };
             bar.inc(1);
@@ -191,7 +191,7 @@ fn summary(
     took: Duration,
     results: &Path,
 ) -> String {
-    let share = if arguments.partition == Share::ALL {
+    let share = if arguments.partition == SweepShare::ALL {
         String::new()
     } else {
         format!(

@@ -60,7 +60,8 @@ impl Tridiagonal {
         product
     }
 
-    /// The solution of `A y = right` in the rows and columns from `first` to `last`, zero elsewhere.
+    /// The solution of `A y = right` in the rows and columns from `first` to `last`, zero
+    /// elsewhere.
     ///
     /// Elimination without pivoting: for a matrix that is positive definite.
     pub fn solve_between(&self, first: usize, last: usize, right: &[f64]) -> Vec<f64> {

@@ -1,9 +1,10 @@
 //! The constants C_h and C_t of Theorem 3.4, known before any run: `error² ≈ (C_h h)² + (C_t dt)²`.
 //!
 //! The derivation, with the equations that are integrated here, is in THEORY.md, "The constants of
-//! Theorem 3.4". C_h is that of interpolated slopes on a uniform mesh. C_t is the largest norm of the
-//! solution (e, q, r) of the system linearised on the mesh, with the terms of order dt that the
-//! scheme's equations leave: inertia and contact. It is integrated by the classical method of order 4.
+//! Theorem 3.4". C_h is that of interpolated slopes on a uniform mesh. C_t is the largest norm of
+//! the solution (e, q, r) of the system linearised on the mesh, with the terms of order dt that the
+//! scheme's equations leave: inertia and contact. It is integrated by the classical method of
+//! order 4.
 
 use crate::assembly::{Tridiagonal, coupling, mass, stiffness};
 use crate::formulas::{axial_force, contact_force};

@@ -23,7 +23,7 @@ use num_dual::Dual2_64;
 
 pub use error::NotFinite;
 pub use manufacture::language::SyntaxError as ExpressionError;
-use syntax::Node;
+use syntax::SyntaxNode;
 
 /// The variable of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -61,7 +61,7 @@ impl Variable {
 pub struct Expression {
     source: String,
     variable: Variable,
-    root: Node,
+    root: SyntaxNode,
 }
 
 impl Expression {

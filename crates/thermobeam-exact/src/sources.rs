@@ -23,7 +23,7 @@ use crate::defect::{Defect, axial_force_with, contact_with};
 use crate::formulas::{SchemeFormulas, contact_force};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, FieldFactors, Manufactured, Product};
-use term::{Term, Terms};
+use term::{ProductTerms, SourceTerm};
 use thermobeam::dg::{Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::InitialValues;
@@ -46,7 +46,7 @@ pub struct Forces {
 #[derive(Debug, Clone)]
 pub struct Sources {
     beam: Beam,
-    terms: Vec<Term>,
+    terms: Vec<SourceTerm>,
     /// ∫ X_j' X_k', row by row.
     gram: Vec<f64>,
     /// X_j(1).
@@ -198,7 +198,7 @@ impl Sources {
             slopes.collect()
         });
         let boundary = [slope, tip_phi, slope_phi];
-        let mut terms = Terms::new(beam);
+        let mut terms = ProductTerms::new(beam);
         for (j, vectors) in u.iter().enumerate() {
             terms.add_displacement(j, vectors);
         }

@@ -41,10 +41,10 @@ use std::path::Path;
 use crate::scene::{Scene, limits};
 use convergence_study::{InputError, internal::input};
 
-pub use case::{Key, Share, SweepCase};
+pub use case::{SceneKey, SweepCase, SweepShare};
 pub use journal::{Journal, Manifest, Merged, RESULTS, merge};
 pub use lines::SweepError;
-pub use run::{InOrder, Line, run};
+pub use run::{CaseLine, InOrder, run};
 
 use design::Design;
 
@@ -57,7 +57,7 @@ pub struct Sweep {
     /// The file's name without folder and extension.
     pub name: String,
     base: Base,
-    keys: Vec<Key>,
+    keys: Vec<SceneKey>,
     design: Design,
     fingerprint: u64,
 }
@@ -73,7 +73,7 @@ struct Base {
 
 impl Base {
     /// The scene with these values.
-    fn scene(&self, values: impl Iterator<Item = (Key, f64)>) -> Result<Scene, InputError> {
+    fn scene(&self, values: impl Iterator<Item = (SceneKey, f64)>) -> Result<Scene, InputError> {
         let mut overlay = self.set.clone();
         for (key, value) in values {
             let (path, written) = (key.path(), key.written(value));
@@ -105,7 +105,7 @@ impl Sweep {
     }
 
     /// The varied keys, in the order of a case's values.
-    pub fn keys(&self) -> &[Key] {
+    pub fn keys(&self) -> &[SceneKey] {
         &self.keys
     }
 

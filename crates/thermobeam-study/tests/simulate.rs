@@ -80,12 +80,12 @@ fn recording_changes_nothing_but_the_record() {
 
 #[test]
 fn the_steps_are_told_one_by_one() {
-    let mut told = Vec::new();
+    let mut steps = Vec::new();
     Simulator::new(&thrown("0.1", ""))
         .unwrap()
-        .run(Recording::Summary, &mut |step, t| told.push((step, t)));
+        .run(Recording::Summary, &mut |step, t| steps.push((step, t)));
     assert_eq!(
-        told,
+        steps,
         (1..=10)
             .map(|step| (step, step as f64 * 0.1))
             .collect::<Vec<_>>()
@@ -178,12 +178,12 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
     let scene = thrown("1e-4", "");
     let limit = Duration::from_millis(3);
     let (stopped, up) = within_by(ticking, Some(limit), || run(&scene, Recording::Summary));
-    let Some(RunError::TimeUp(told)) = stopped.failure else {
+    let Some(RunError::TimeUp(time_up)) = stopped.failure else {
         panic!("{:?}", stopped.failure)
     };
-    assert_eq!(Some(told), up);
+    assert_eq!(Some(time_up), up);
     assert_eq!(
-        (told.step, told.t, told.limit),
+        (time_up.step, time_up.t, time_up.limit),
         (stopped.steps, stopped.last.t, limit)
     );
     assert!(0 < stopped.steps && stopped.steps < scene.steps());

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::time::Duration;
 
-use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
+use thermobeam_study::sweep::{self, CaseLine, Journal, Manifest, Sweep, SweepShare};
 
 const BASE: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.05\ng2 = 0.05\n\
     [initial]\nu_t = \"x\"\n[mesh]\nelements = 7\n[time]\ndt = 0.1\nt_end = 50.0\n";
@@ -20,7 +20,7 @@ fn sweep(folder: &std::path::Path) -> Sweep {
     Sweep::read(folder.join("sweep.toml")).unwrap()
 }
 
-fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, Line> {
+fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, CaseLine> {
     let lines = Mutex::new(BTreeMap::new());
     let cases: Vec<usize> = (0..sweep.cases()).collect();
     sweep::run(sweep, &cases, jobs, limit, |line| {
@@ -105,10 +105,10 @@ fn a_line_that_was_changed_is_refused_on_resume_and_on_merging() {
     let open = |journal: &str| {
         let _ = std::fs::remove_dir_all(&share);
         std::fs::create_dir(&share).unwrap();
-        let manifest = serde_json::to_string(&Manifest::new(&sweep, Share::ALL)).unwrap();
+        let manifest = serde_json::to_string(&Manifest::new(&sweep, SweepShare::ALL)).unwrap();
         std::fs::write(share.join("sweep.json"), manifest).unwrap();
         std::fs::write(share.join("journal.jsonl"), journal).unwrap();
-        Journal::open(&share, &sweep, Share::ALL, true)
+        Journal::open(&share, &sweep, SweepShare::ALL, true)
             .map(|journal| (0..3).filter(|&case| journal.has(case)).count())
     };
     assert_eq!(open(&lines[..2].concat()).unwrap(), 2);
@@ -156,13 +156,13 @@ fn a_whole_line_of_another_sweep_or_share_is_refused() {
         .json
         .clone()
         + "\n";
-    let half: Share = "1/2".parse().unwrap();
+    let half: SweepShare = "1/2".parse().unwrap();
     let not_held = (0..3)
         .find(|&case| !half.holds(sweep.case(case).hash()))
         .unwrap();
     for (share, line, words) in [
         (
-            Share::ALL,
+            SweepShare::ALL,
             &foreign,
             ":1: expected a line that begins with {\"case\":1,\"status\":\"done\",\"parameters\":{",
         ),
@@ -230,7 +230,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     assert_eq!(all(&sweep, 2, HOUR), alone);
     // Each case belongs to one share; a journal with half the lines is continued, and refused if a
     // line is altered.
-    let shares: Vec<Share> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
+    let shares: Vec<SweepShare> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
     let held = |case: usize| {
         shares
             .iter()
@@ -242,10 +242,10 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     let resumed = |lines: String| {
         let _ = std::fs::remove_dir_all(&share);
         std::fs::create_dir(&share).unwrap();
-        let manifest = serde_json::to_string(&Manifest::new(&sweep, Share::ALL)).unwrap();
+        let manifest = serde_json::to_string(&Manifest::new(&sweep, SweepShare::ALL)).unwrap();
         std::fs::write(share.join("sweep.json"), manifest).unwrap();
         std::fs::write(share.join("journal.jsonl"), lines).unwrap();
-        Journal::open(&share, &sweep, Share::ALL, true)
+        Journal::open(&share, &sweep, SweepShare::ALL, true)
             .map(|journal| (0..32).filter(|&case| journal.has(case)).count())
     };
     let half: String = alone

@@ -14,7 +14,7 @@ pub(crate) type Block<T, const B: usize> = [[T; B]; B];
 
 /// The factors at one node.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Node<T, const B: usize> {
+pub(crate) struct NodeFactors<T, const B: usize> {
     /// `G_i = O_i S_{i-1}⁻¹`, zero at the first node.
     pub(crate) multiplier: Block<T, B>,
     /// `S_i⁻¹`, symmetric.
@@ -106,12 +106,12 @@ fn signs<const B: usize>() -> [f64; B] {
     std::array::from_fn(|k| if k == 2 { -1.0 } else { 1.0 })
 }
 
-/// An uninitialised factorisation for n elements: a [`Node`] for each unknown node 1..n; entry 0 is
-/// unused.
-pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<Node<T, B>> {
+/// An uninitialised factorisation for n elements: a [`NodeFactors`] for each unknown node 1..n;
+/// entry 0 is unused.
+pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<NodeFactors<T, B>> {
     let zero = [[T::splat(0.0); B]; B];
     vec![
-        Node {
+        NodeFactors {
             multiplier: zero,
             inverse: zero
         };
@@ -125,7 +125,7 @@ pub(crate) fn uninitialised<T: Lane, const B: usize>(elements: usize) -> Vec<Nod
 /// [`StepFailure::Indefinite`] at the first pivot of the wrong sign; the factorisation is then
 /// unusable.
 pub(crate) fn factorize<T: Lane, const B: usize>(
-    nodes: &mut [Node<T, B>],
+    nodes: &mut [NodeFactors<T, B>],
     lane: usize,
     n_value: f64,
     mut blocks: impl FnMut(usize) -> (Block<f64, B>, Block<f64, B>),

@@ -37,9 +37,9 @@ impl Case {
 
     /// `A_u = κ M + (ζ + dt (1 + N)/2) K`, the matrix of the first equation of (4.2); `None` if it
     /// is not positive definite.
-    fn matrix_of_u(&self, n_value: f64) -> Option<Operator> {
+    fn matrix_of_u(&self, n_value: f64) -> Option<ShiftedOperator> {
         let stiffness = self.beam.zeta + 0.5 * self.dt * (1.0 + n_value);
-        Operator::new(
+        ShiftedOperator::new(
             self.lengths.len(),
             &self.lengths,
             self.scheme.inertia / self.dt,
@@ -86,8 +86,8 @@ impl Case {
         let lengths = &self.lengths;
         let n = lengths.len();
         let (kappa, sigma) = self.kappa_and_sigma();
-        let of_u = Operator::new(n, lengths, kappa, sigma + 0.5 * self.dt * n_value);
-        let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
+        let of_u = ShiftedOperator::new(n, lengths, kappa, sigma + 0.5 * self.dt * n_value);
+        let of_phi = ShiftedOperator::new(n, lengths, kappa + sigma, sigma);
         of_u.zip(of_phi).map_or(f64::INFINITY, |(of_u, of_phi)| {
             round_trip(lengths, sigma, &of_u, &of_phi)
         })
@@ -108,8 +108,8 @@ impl Case {
         if n == 1 || self.beam.a == 0.0 {
             return 0.0;
         }
-        let of_phi = Operator::new(n, lengths, kappa + sigma, sigma);
-        let of_theta = Operator::new(n - 1, lengths, 2.0 / self.dt, 1.0);
+        let of_phi = ShiftedOperator::new(n, lengths, kappa + sigma, sigma);
+        let of_theta = ShiftedOperator::new(n - 1, lengths, 2.0 / self.dt, 1.0);
         match of_phi.zip(of_theta) {
             Some((of_phi, of_theta)) => round_trip(lengths, self.beam.a, &of_phi, &of_theta),
             None => f64::INFINITY,
@@ -172,13 +172,13 @@ pub(crate) fn stiffness_times(lengths: &[f64], u: &[f64]) -> Vec<f64> {
 }
 
 /// `mass M + stiffness K`, with its factorisation.
-pub(crate) struct Operator {
+pub(crate) struct ShiftedOperator {
     mass: f64,
     stiffness: f64,
     factor: TridiagonalFactor,
 }
 
-impl Operator {
+impl ShiftedOperator {
     /// For the nodes 1..=last; `None` if it is not positive definite.
     pub(crate) fn new(last: usize, lengths: &[f64], mass: f64, stiffness: f64) -> Option<Self> {
         let mut factor = TridiagonalFactor::new(last);
@@ -204,7 +204,7 @@ impl Operator {
 }
 
 /// The largest eigenvalue of `b² outer⁻¹ C inner⁻¹ Cᵀ`, by power iteration.
-fn round_trip(lengths: &[f64], b: f64, outer: &Operator, inner: &Operator) -> f64 {
+fn round_trip(lengths: &[f64], b: f64, outer: &ShiftedOperator, inner: &ShiftedOperator) -> f64 {
     let n = lengths.len();
     // A load at the tip starts in the layer there and contains every mode.
     let mut v = vec![0.0; n + 1];

@@ -15,16 +15,16 @@
 //! the state if the spectral radius of (δV, δW) -> (δV', δW') is below 1. The four factors are
 //! those of one loop each; two loops that act on the same vectors can add or cancel.
 
-use crate::contraction::{Operator, coupling, stiffness_times, transposed_coupling};
+use crate::contraction::{ShiftedOperator, coupling, stiffness_times, transposed_coupling};
 use crate::norms::slope_squared;
 use crate::scheme::Case;
 
 /// The linear map of the errors (δV, δW) of one iterate to those of the next.
 pub struct LinearizedIteration {
-    of_u: Operator,
-    of_phi: Operator,
+    of_u: ShiftedOperator,
+    of_phi: ShiftedOperator,
     /// `None` where nothing couples to the temperature.
-    of_theta: Option<Operator>,
+    of_theta: Option<ShiftedOperator>,
     lengths: Vec<f64>,
     /// σ = ζ + dt/2.
     sigma: f64,
@@ -59,15 +59,15 @@ impl Case {
         let sigma = beam.zeta + 0.5 * dt;
         let is_coupled = n > 1 && beam.a != 0.0;
         let of_theta = if is_coupled {
-            Some(Operator::new(n - 1, lengths, 2.0 / dt, 1.0)?)
+            Some(ShiftedOperator::new(n - 1, lengths, 2.0 / dt, 1.0)?)
         } else {
             None
         };
         let touched = obstacles.filter(|obstacles| obstacles.force(u[n]) != 0.0);
         let slope = touched.map_or(0.0, |obstacles| obstacles.slope(scheme.contact));
         Some(LinearizedIteration {
-            of_u: Operator::new(n, lengths, kappa, sigma + 0.5 * dt * axial_force)?,
-            of_phi: Operator::new(n, lengths, kappa + sigma, sigma)?,
+            of_u: ShiftedOperator::new(n, lengths, kappa, sigma + 0.5 * dt * axial_force)?,
+            of_phi: ShiftedOperator::new(n, lengths, kappa + sigma, sigma)?,
             of_theta,
             lengths: lengths.clone(),
             sigma,

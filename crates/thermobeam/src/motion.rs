@@ -42,7 +42,8 @@ use crate::error::StepError;
 
 /// A beam at one time level, which does one step at a time.
 pub trait Motion {
-    /// Does one step, which ends at `limit` at the latest; `None` if the motion has reached `limit`.
+    /// Does one step, which ends at `limit` at the latest; `None` if the motion has reached
+    /// `limit`.
     ///
     /// A one-step scheme does not shorten its steps: it ends at the multiple of δt that is closest
     /// to `limit`.

@@ -14,7 +14,7 @@ use convergence_study::{
     CaseFailure, Project, Table, Verdict,
     internal::{
         cli::{
-            exit::{Outcome, Unusable},
+            exit::{CommandOutcome, Unusable},
             running::LongRun,
             workspace,
         },
@@ -30,7 +30,7 @@ use thermobeam_study::scene::Scene;
 
 use page::{LIBRARY, PROBLEMS};
 use record::{Record, Timed};
-use search::Search;
+use search::MethodSearch;
 
 /// Elements of the scaling table.
 const ELEMENTS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
@@ -55,9 +55,6 @@ pub(crate) struct Arguments {
     /// Makes only the runs of this method, of this problem (a study), or `steps`; again for more
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Keeps the runs of an earlier piece, and makes only those that it lacks
-    #[arg(long, requires = "out")]
-    resume: bool,
     /// CPU seconds that a run may take; for all pieces the same, since a dash means that it was not
     /// enough
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
@@ -152,7 +149,7 @@ impl Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     arguments.check()?;
     let root = workspace::root()?;
     let library = arguments.beside.as_deref().map(library).transpose()?;
@@ -216,12 +213,7 @@ fn add(
         .map_err(|failure| unusable(problem.0, &failure))?;
     let error = reference.map_or([0.0; 2], |(_, error)| [error.norm, error.tip]);
     record.references.insert(problem.0.to_owned(), error);
-    let made = if arguments.resume {
-        record.made(problem.0, method.name)
-    } else {
-        vec![]
-    };
-    let runs = Search::new(problem, method, made, arguments.limit, cpu_seconds)
+    let runs = MethodSearch::new(problem, method, arguments.limit, cpu_seconds)
         .all()
         .map_err(|failure| unusable(problem.0, &failure))?;
     record.replace(problem.0, method.name, runs);

@@ -92,15 +92,6 @@ impl Record {
         atomic::write(&folder.join(FILE), format!("{text}\n"))
     }
 
-    /// The runs of a method on a problem.
-    pub(super) fn made(&self, problem: &str, method: &str) -> Vec<Timed> {
-        let own = self
-            .runs
-            .iter()
-            .filter(|run| run.problem == problem && run.method == method);
-        own.cloned().collect()
-    }
-
     /// Replaces the runs of a method on a problem.
     pub(super) fn replace(&mut self, problem: &str, method: &str, runs: Vec<Timed>) {
         self.runs

@@ -11,7 +11,7 @@ use convergence_study::CaseFailure;
 use thermobeam_study::error::ErrorMeasure;
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::method::{
-    Clock, Degrees, Grid, Measurement, NamedMethod, OneStep, Resolution, Trial,
+    Clock, Degrees, Measurement, NamedMethod, OneStep, Resolution, Trial, UniformGrid,
 };
 
 use super::record::Timed;
@@ -67,7 +67,7 @@ const DEGREES: [(usize, usize, f64); 27] = [
 ];
 
 /// The runs of one method on one problem.
-pub(super) struct Search<'s> {
+pub(super) struct MethodSearch<'s> {
     study: &'s WorkPrecision,
     problem: &'s str,
     method: NamedMethod,
@@ -81,32 +81,27 @@ pub(super) struct Search<'s> {
 }
 
 /// The work of a run on a grid, in element-steps.
-fn work(grid: &Grid) -> f64 {
+fn work(grid: &UniformGrid) -> f64 {
     (grid.elements * grid.steps) as f64
 }
 
-impl<'s> Search<'s> {
+impl<'s> MethodSearch<'s> {
     /// * `problem`: the study's name.
-    /// * `made`: runs of the method on the problem that are not made again.
     /// * `limit`: CPU seconds that a run may take.
     pub(super) fn new(
         (problem, study): (&'s str, &'s WorkPrecision),
         method: NamedMethod,
-        made: Vec<Timed>,
         limit: f64,
         clock: Clock,
     ) -> Self {
-        let known = made
-            .iter()
-            .map(|run| (run.resolution.clone(), Some(run.clone())));
         Self {
             study,
             problem,
             method,
             limit,
             clock,
-            known: known.collect(),
-            runs: made,
+            known: HashMap::new(),
+            runs: vec![],
         }
     }
 
@@ -167,19 +162,24 @@ impl<'s> Search<'s> {
     }
 
     /// Doubles elements or steps while runs are cheap; the last grid with its error.
-    fn cheap(&mut self, scheme: OneStep, grading: f64, measure: ErrorMeasure) -> (Grid, f64) {
-        let mut grid = Grid {
+    fn cheap(
+        &mut self,
+        scheme: OneStep,
+        grading: f64,
+        measure: ErrorMeasure,
+    ) -> (UniformGrid, f64) {
+        let mut grid = UniformGrid {
             grading,
             elements: FIRST,
             steps: self.study.observations(),
         };
         let mut error = self.error(grid, measure);
         while ((2 * grid.elements * grid.steps) as f64) * scheme.runs() <= CHEAP as f64 {
-            let more_elements = Grid {
+            let more_elements = UniformGrid {
                 elements: 2 * grid.elements,
                 ..grid
             };
-            let more_steps = Grid {
+            let more_steps = UniformGrid {
                 steps: 2 * grid.steps,
                 ..grid
             };
@@ -193,7 +193,13 @@ impl<'s> Search<'s> {
 
     /// A grid whose errors of space and time are both smaller by the same factor: by four or two,
     /// or by its root for half a part.
-    fn finer(&self, grid: Grid, scheme: OneStep, measure: ErrorMeasure, part: f64) -> Grid {
+    fn finer(
+        &self,
+        grid: UniformGrid,
+        scheme: OneStep,
+        measure: ErrorMeasure,
+        part: f64,
+    ) -> UniformGrid {
         let space = match measure {
             ErrorMeasure::Theorem34 => 1.0,
             ErrorMeasure::Tip => 2.0,
@@ -206,7 +212,7 @@ impl<'s> Search<'s> {
         let factor = 2.0_f64.powf(part * f64::max(space, time));
         let observations = self.study.observations();
         let intervals = (grid.steps / observations) as f64;
-        Grid {
+        UniformGrid {
             elements: (grid.elements as f64 * factor.powf(1.0 / space)).round() as usize,
             steps: observations * (intervals * factor.powf(1.0 / time)).round() as usize,
             ..grid
@@ -214,12 +220,12 @@ impl<'s> Search<'s> {
     }
 
     /// The error of a run; infinite if it fails.
-    fn error(&mut self, grid: Grid, measure: ErrorMeasure) -> f64 {
+    fn error(&mut self, grid: UniformGrid, measure: ErrorMeasure) -> f64 {
         self.measure(Resolution::OneStep(grid))
             .map_or(f64::INFINITY, |run| run.error(measure))
     }
 
-    fn seconds(&mut self, grid: Grid) -> f64 {
+    fn seconds(&mut self, grid: UniformGrid) -> f64 {
         self.measure(Resolution::OneStep(grid))
             .map_or(f64::INFINITY, |run| run.seconds)
     }

@@ -127,10 +127,10 @@ impl Timed {
 }
 
 /// A change of the configuration.
-type Alteration = fn(&mut Timed);
+type ConfigurationChange = fn(&mut Timed);
 
 /// The ways to solve a step, and the savings from omitted features.
-const WAYS: [(&str, Alteration); 10] = [
+const WAYS: [(&str, ConfigurationChange); 10] = [
     ("Newton, extrapolated start", |_| ()),
     ("Newton from the level before", |s| {
         s.stepping.settings = Settings {

@@ -11,7 +11,7 @@ use convergence_study::internal::{
 };
 
 use super::list::Regression;
-use super::planted::Found;
+use super::planted::PlantedRun;
 
 /// The lines of a diagnosis that are shown: what fails, and what moved first.
 const SHOWN: [&str; 2] = ["fails", "first"];
@@ -20,9 +20,9 @@ const SHOWN: [&str; 2] = ["fails", "first"];
 const METHODS: [&str; 2] = ["one-step schemes", "any order"];
 
 /// A mistake, the results with it, and their diagnosis.
-pub(super) struct Judged<'r> {
+pub(super) struct JudgedRegression<'r> {
     pub(super) regression: &'r Regression,
-    pub(super) found: Found,
+    pub(super) found: PlantedRun,
     diagnosis: Diagnosis,
     /// Whether method, term or field, and module are right; `None` if none was declared.
     right: [Option<bool>; 3],
@@ -34,16 +34,16 @@ pub(super) struct Judged<'r> {
 /// Study files that cannot be read.
 pub(super) fn judged<'r>(
     root: &Path,
-    found: Vec<(&'r Regression, Found)>,
-) -> Result<Vec<Judged<'r>>, Unusable> {
+    found: Vec<(&'r Regression, PlantedRun)>,
+) -> Result<Vec<JudgedRegression<'r>>, Unusable> {
     let files = workspace::studies(&crate::PROJECT, root)?;
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
-    let mut all: Vec<Judged<'r>> = vec![];
+    let mut all: Vec<JudgedRegression<'r>> = vec![];
     for (regression, found) in found {
         let record = &found.record;
         let diagnosis = diagnose(&crate::PROJECT, &studies, &record.studies, record.moves());
         let diagnosis = diagnosis.unwrap_or_default();
-        all.push(Judged {
+        all.push(JudgedRegression {
             regression,
             right: right(regression, &diagnosis),
             found,
@@ -83,7 +83,7 @@ fn names(values: &[&str], word: &str) -> bool {
 /// The scores for written mistakes and for randomly drawn ones.
 ///
 /// * `passing`: seconds of a run without a mistake.
-pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
+pub(super) fn page(all: &[JudgedRegression<'_>], passing: f64) -> String {
     let [written, drawn] = [false, true].map(|mutant| -> Vec<_> {
         all.iter()
             .filter(|one| one.regression.mutant == mutant)
@@ -96,14 +96,14 @@ pub(super) fn page(all: &[Judged<'_>], passing: f64) -> String {
 }
 
 /// The diagnosis of each, for the terminal.
-pub(super) fn diagnoses(all: &[Judged<'_>]) -> String {
+pub(super) fn diagnoses(all: &[JudgedRegression<'_>]) -> String {
     let each: String = all.iter().map(said).collect();
     format!("\n## What is said of each\n\n{each}")
 }
 
-fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
+fn scores(name: &str, all: &[&JudgedRegression<'_>], passing: f64) -> String {
     // The diagnosis is that of `verify`; it says nothing of what only a test notices.
-    let noticed: Vec<&&Judged<'_>> = all
+    let noticed: Vec<&&JudgedRegression<'_>> = all
         .iter()
         .filter(|one| !one.found.record.verdict.is_pass())
         .collect();
@@ -132,7 +132,7 @@ fn scores(name: &str, all: &[&Judged<'_>], passing: f64) -> String {
 }
 
 /// How often one of the three answers is right.
-fn score(noticed: &[&&Judged<'_>], which: usize) -> String {
+fn score(noticed: &[&&JudgedRegression<'_>], which: usize) -> String {
     let answers: Vec<bool> = noticed.iter().filter_map(|one| one.right[which]).collect();
     let right = answers.iter().filter(|right| **right).count();
     percent(right, answers.len())
@@ -140,7 +140,7 @@ fn score(noticed: &[&&Judged<'_>], which: usize) -> String {
 
 /// How often the commonest word would be right.
 fn share_of_commonest(
-    noticed: &[&&Judged<'_>],
+    noticed: &[&&JudgedRegression<'_>],
     words: impl Fn(&Regression) -> Vec<String>,
 ) -> String {
     let mut declared = 0;
@@ -162,8 +162,8 @@ fn percent(part: usize, whole: usize) -> String {
     )
 }
 
-fn said(one: &Judged<'_>) -> String {
-    let Judged {
+fn said(one: &JudgedRegression<'_>) -> String {
+    let JudgedRegression {
         regression,
         found,
         diagnosis,

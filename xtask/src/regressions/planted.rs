@@ -43,7 +43,7 @@ pub(super) struct Copy {
 
 /// The results of `verify`.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Found {
+pub(super) struct PlantedRun {
     /// Hash of the copy with the mistake.
     key: String,
     /// Its run time in seconds.
@@ -79,12 +79,12 @@ impl Copy {
     ///
     /// # Errors
     /// If it does not pass, since it would then seem to notice every mistake.
-    pub(super) fn as_it_is(&self, recorded: bool) -> Result<Found, Unusable> {
+    pub(super) fn as_it_is(&self, recorded: bool) -> Result<PlantedRun, Unusable> {
         self.passing(recorded, None)
     }
 
     /// Results without a mistake: of the quick tier, or of a study of the full tier alone.
-    fn passing(&self, recorded: bool, full: Option<&str>) -> Result<Found, Unusable> {
+    fn passing(&self, recorded: bool, full: Option<&str>) -> Result<PlantedRun, Unusable> {
         let name = full.map_or("as-it-is".to_owned(), |study| format!("as-it-is-{study}"));
         let found = self.kept(&name, self.hash, recorded, |key| self.verify(key, "", full))?;
         if found.record.verdict.is_pass() {
@@ -109,7 +109,7 @@ impl Copy {
         regression: &Regression,
         text: &str,
         recorded: bool,
-    ) -> Result<Found, Unusable> {
+    ) -> Result<PlantedRun, Unusable> {
         let Regression {
             name, file, test, ..
         } = regression;
@@ -179,14 +179,14 @@ impl Copy {
         name: &str,
         hash: u64,
         recorded: bool,
-        find: impl FnOnce(String) -> Result<Found, Unusable>,
-    ) -> Result<Found, Unusable> {
+        find: impl FnOnce(String) -> Result<PlantedRun, Unusable>,
+    ) -> Result<PlantedRun, Unusable> {
         let name = name.replace(|letter: char| !letter.is_ascii_alphanumeric(), "-");
         let path = self.folder.join("records").join(name + ".json");
         let key = format!("{hash:016x}");
         let known = fs::read_to_string(&path)
             .ok()
-            .and_then(|text| serde_json::from_str::<Found>(&text).ok());
+            .and_then(|text| serde_json::from_str::<PlantedRun>(&text).ok());
         if let Some(known) = known.filter(|known| recorded || known.key == key) {
             return Ok(known);
         }
@@ -199,7 +199,7 @@ impl Copy {
     }
 
     /// Builds the copy and runs the quick tier, or in its place a study of the full tier.
-    fn verify(&self, key: String, test: &str, full: Option<&str>) -> Result<Found, Unusable> {
+    fn verify(&self, key: String, test: &str, full: Option<&str>) -> Result<PlantedRun, Unusable> {
         let [build, out] = ["build", "out"].map(|name| self.folder.join(name));
         let built = self
             .cargo("build")
@@ -246,7 +246,7 @@ impl Copy {
             study.outcome.tables.clear();
             study.outcome.figures.clear();
         }
-        Ok(Found {
+        Ok(PlantedRun {
             key,
             seconds,
             lines,
@@ -256,7 +256,7 @@ impl Copy {
     }
 }
 
-impl Found {
+impl PlantedRun {
     /// Whether `verify` passes, and the test named for the mistake, if one is.
     pub(super) fn is_unnoticed(&self) -> bool {
         self.record.verdict.is_pass() && self.failed_test.is_none()

@@ -184,7 +184,8 @@ fn schema_and_reader_of_scenes_allow_the_same_keys() {
     assert!(differing.is_empty(), "{differing:#?}");
 }
 
-/// The files of `manufacture` in the repository: those of folders, the template, and those of pages.
+/// The files of `manufacture` in the repository: those of folders, the template, and those of
+/// pages.
 fn manufacture_files() -> Vec<(String, String)> {
     let folders = ["studies/manufactured", "crates/manufacture/tests/files"];
     let paths = folders.into_iter().flat_map(toml_files);
@@ -209,7 +210,8 @@ fn manufacture_files() -> Vec<(String, String)> {
     files
 }
 
-/// The changes of files of `manufacture` that only the reader refuses, beside those of [`is_a_name`].
+/// The changes of files of `manufacture` that only the reader refuses, beside those of
+/// [`is_a_name`].
 const STRICTER_OF_MANUFACTURE: [&str; 3] = [
     "[boundary.ball] without level",
     "[boundary.circle] without level",

@@ -56,8 +56,8 @@ pub(super) fn mutants(text: &str) -> Vec<Mutant> {
     mutants
 }
 
-/// Keys of the tables of a text that are not there, each with a value of another type: a reader that
-/// does not read a key which it allows would not refuse that.
+/// Keys of the tables of a text that are not there, each with a value of another type: a reader
+/// that does not read a key which it allows would not refuse that.
 pub(super) fn insertions(text: &str, sets: &[Keys]) -> Vec<Mutant> {
     let lines: Vec<&str> = text.lines().collect();
     let mut mutants = vec![];

@@ -1,13 +1,14 @@
-//! What judges calls nothing of what is judged: the sources of `thermobeam-exact`, and of the studies that
-//! evaluate exact solutions by a scheme, are read and refused if they use the solver's formulas.
-//! THEORY.md, "What both sides of a comparison share".
+//! What judges calls nothing of what is judged: the sources of `thermobeam-exact`, and of the
+//! studies that evaluate exact solutions by a scheme, are read and refused if they use the solver's
+//! formulas. THEORY.md, "What both sides of a comparison share".
 
 use std::fs;
 use std::path::Path;
 
 use super::{code, crate_folder, files};
 
-/// What `thermobeam-exact` may use of the solver: data types, what a discrete function is, and bisection.
+/// What `thermobeam-exact` may use of the solver: data types, what a discrete function is, and
+/// bisection.
 const ALLOWED: [&str; 11] = [
     "bracket::bisect",
     "contact::Phase",

@@ -8,7 +8,8 @@ use super::{crate_folder, files, without_comments};
 
 const HARNESS: &str = "convergence-study";
 
-/// Words of the application that the harness was first written for; it must serve any other as well.
+/// Words of the application that the harness was first written for; it must serve any other as
+/// well.
 const FOREIGN: [&str; 21] = [
     "beam",
     "beams",

@@ -10,6 +10,7 @@ mod links;
 mod paths;
 mod tests_run;
 mod theory;
+mod type_names;
 
 use std::path::{Path, PathBuf};
 

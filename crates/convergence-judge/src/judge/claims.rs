@@ -26,7 +26,8 @@ use crate::text::number::{committed_rate, order_text};
 /// assert_eq!(bound.judge(&levels, Floor::NONE).kind, Reason::Agrees);
 /// ```
 ///
-/// The tolerance is that of the claim. A rule with a tolerance of its own beside it is not accepted:
+/// The tolerance is that of the claim. A rule with a tolerance of its own beside it is not
+/// accepted:
 ///
 /// ```compile_fail,E0308
 /// # use convergence_judge::{Claim, Level, judge::verdict::Judge};
@@ -169,8 +170,8 @@ pub fn at_least(rate: RateVerdict) -> RateVerdict {
     }
 }
 
-/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None` without
-/// a rate or a claim.
+/// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None`
+/// without a rate or a claim.
 ///
 /// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest,
 /// halving the remaining distance at each refinement by ρ, so that `log C` changes by

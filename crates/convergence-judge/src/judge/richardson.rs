@@ -44,8 +44,8 @@
 mod estimate;
 
 use super::three_values::{self, NoOrder};
-pub use super::three_values::{Value, correction, growth};
-pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, Refusal};
+pub use super::three_values::{StepValue, correction, growth};
+pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, NoErrorBar};
 pub(crate) use estimate::{RATES, crossing};
 
 /// Factor of safety if the observed order confirms theory.
@@ -82,7 +82,7 @@ pub struct Gci {
 
 impl Gci {
     /// * `values`: at least three, finite, steps decreasing.
-    fn of(values: &[Value], order: f64, tolerance: f64) -> Result<Self, Refusal> {
+    fn of(values: &[StepValue], order: f64, tolerance: f64) -> Result<Self, NoErrorBar> {
         let observed = observed_order(values)?;
         let confirmed = (observed - order).abs() <= tolerance;
         let factor = if confirmed {
@@ -92,7 +92,7 @@ impl Gci {
         };
         let used = observed.max(LOWEST_ORDER).min(order);
         let [.., middle, fine] = values else {
-            return Err(Refusal::TooFewValues(values.len()));
+            return Err(NoErrorBar::TooFewValues(values.len()));
         };
         let half_width =
             factor * (middle.value - fine.value).abs() / growth(middle.step / fine.step, used);
@@ -106,13 +106,13 @@ impl Gci {
 }
 
 /// The [observed order](three_values::observed_order) of the three finest values.
-fn observed_order(values: &[Value]) -> Result<f64, Refusal> {
+fn observed_order(values: &[StepValue]) -> Result<f64, NoErrorBar> {
     let [.., coarse, middle, fine] = values else {
-        return Err(Refusal::TooFewValues(values.len()));
+        return Err(NoErrorBar::TooFewValues(values.len()));
     };
     three_values::observed_order([*coarse, *middle, *fine]).map_err(|error| match error {
-        NoOrder::NoChange => Refusal::NoChange,
-        NoOrder::Oscillating => Refusal::Oscillating,
-        NoOrder::Diverging => Refusal::Diverging,
+        NoOrder::NoChange => NoErrorBar::NoChange,
+        NoOrder::Oscillating => NoErrorBar::Oscillating,
+        NoOrder::Diverging => NoErrorBar::Diverging,
     })
 }

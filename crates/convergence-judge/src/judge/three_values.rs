@@ -2,7 +2,7 @@
 
 /// A value at a step; NaN if there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Value {
+pub struct StepValue {
     /// Step size, h or dt; positive, and smaller from level to level.
     pub step: f64,
     /// The value computed.
@@ -33,7 +33,8 @@ pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
     (fine - coarse) / growth(ratio, order)
 }
 
-/// The order p of three values, coarse to fine, from the equation of ASME V&V 20 for unequal ratios,
+/// The order p of three values, coarse to fine, from the equation of ASME V&V 20 for unequal
+/// ratios,
 ///
 /// ```text
 ///     p = [ log(d_coarse / d_fine) + log((ρ_fine^p - 1) / (ρ_coarse^p - 1)) ] / log ρ_fine.
@@ -43,7 +44,7 @@ pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
 /// much the larger (4 and 1.2 with p = 1). The equation is equivalent to
 /// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p,
 /// from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
-pub(crate) fn observed_order([coarse, middle, fine]: [Value; 3]) -> Result<f64, NoOrder> {
+pub(crate) fn observed_order([coarse, middle, fine]: [StepValue; 3]) -> Result<f64, NoOrder> {
     let quotient = (coarse.value - middle.value) / (middle.value - fine.value);
     let [wide, narrow] = [coarse.step / middle.step, middle.step / fine.step];
     if !quotient.is_finite() {

@@ -10,7 +10,8 @@ pub fn is_hidden(c: char) -> bool {
     c.is_control() || is_mark
 }
 
-/// Text on one line: every [hidden](is_hidden) character, line ends included, is replaced by U+FFFD.
+/// Text on one line: every [hidden](is_hidden) character, line ends included, is replaced by
+/// U+FFFD.
 pub fn visible(text: &str) -> String {
     text.chars()
         .map(|c| {

@@ -341,7 +341,7 @@ fn a_study_with_a_near_extension_is_named() {
     write("two.TOML", &study("two", "c", 0.5));
     write("notes.tml", "# [study]\n");
     write("three.txt", &study("three", "c", 0.5));
-    let told =
+    let message =
         "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
     for (arguments, status) in [
         (&["verify", "--bless"][..], 0),
@@ -349,6 +349,10 @@ fn a_study_with_a_near_extension_is_named() {
         (&["list"], 0),
     ] {
         let (ended, _, err) = run(&root, arguments);
-        assert_eq!((ended, err.as_str()), (Some(status), told), "{arguments:?}");
+        assert_eq!(
+            (ended, err.as_str()),
+            (Some(status), message),
+            "{arguments:?}"
+        );
     }
 }

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::flags::{Flags, number};
 use crate::cli::screen;
-use crate::compare::{Comparison, Finding, Order, Shift, WITHIN, compare};
+use crate::compare::{Finding, Order, RecordComparison, Shift, WITHIN, compare};
 use crate::interval::Interval;
 use crate::judge::verdict::{Floor, Verdict};
 use crate::store::Record;
@@ -53,7 +53,7 @@ fn share(text: &str) -> Result<f64, String> {
 ///
 /// # Errors
 /// Files that are not records, and records without a common study.
-pub(super) fn run(arguments: &Arguments) -> Outcome {
+pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
     let Arguments {
         old,
         new,
@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &Arguments) -> Outcome {
     Ok(flags.show("compare", verdict, &comparison, &words)?)
 }
 
-fn text(comparison: &Comparison, all: bool) -> String {
+fn text(comparison: &RecordComparison, all: bool) -> String {
     let mut text = String::new();
     for Finding {
         study,
@@ -108,7 +108,7 @@ fn text(comparison: &Comparison, all: bool) -> String {
 }
 
 /// The orders of every error in both records.
-fn orders(comparison: &Comparison) -> String {
+fn orders(comparison: &RecordComparison) -> String {
     let row = |Finding {
                    study,
                    norm,
@@ -143,7 +143,7 @@ fn order_text(order: Option<Order>) -> String {
     format!("{order:.4} ({low:.4} to {high:.4})")
 }
 
-fn sentence(comparison: &Comparison) -> String {
+fn sentence(comparison: &RecordComparison) -> String {
     let count = |change: Shift| {
         comparison
             .findings

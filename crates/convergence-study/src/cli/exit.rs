@@ -50,10 +50,10 @@ impl<E: Error> From<E> for Unusable {
 
 /// What a command with usable input returns: exit status 0 for a pass, otherwise 1; the failure has
 /// then been reported.
-pub type Outcome = Result<Verdict, Unusable>;
+pub type CommandOutcome = Result<Verdict, Unusable>;
 
 /// Reports unusable input, and turns the outcome into the exit status.
-pub(crate) fn status(outcome: Outcome) -> u8 {
+pub(crate) fn status(outcome: CommandOutcome) -> u8 {
     match outcome {
         Ok(verdict) => u8::from(!verdict.is_pass()),
         Err(Unusable(message)) => {
@@ -71,8 +71,8 @@ const PATIENCE: Duration = Duration::from_millis(800);
 
 static SAID: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
-/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it blocks the
-/// signal, and a thread of the handler would not.
+/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it blocks
+/// the signal, and a thread of the handler would not.
 pub(crate) fn listen() {
     if guard::is_guard() {
         return;

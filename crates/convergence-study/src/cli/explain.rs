@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
 use super::workspace;
 use crate::judge::verdict::{Reason, Verdict};
@@ -34,7 +34,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// An unknown name, and a study file that cannot be used.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let Some(name) = arguments.name.as_deref() else {
         return show(arguments, &contents(project));
     };
@@ -66,7 +66,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     show(arguments, &text)
 }
 
-fn show(arguments: &Arguments, text: &str) -> Outcome {
+fn show(arguments: &Arguments, text: &str) -> CommandOutcome {
     let Arguments { name, flags, .. } = arguments;
     // The first line is the name and what it names.
     let words = flags.words(Verdict::Pass, text.lines().next().unwrap_or(""), || {

@@ -19,8 +19,8 @@ pub struct HelpPage {
     pub examples: &'static [(&'static str, &'static str)],
 }
 
-/// The pages of the harness's commands. Each example works as it is in the folder that a test of the
-/// program `convergence-study` fills.
+/// The pages of the harness's commands. Each example works as it is in the folder that a test of
+/// the program `convergence-study` fills.
 pub fn pages<'p>() -> impl Iterator<Item = &'p HelpPage> {
     let pages = PAGES.iter();
     #[cfg(feature = "manual")]

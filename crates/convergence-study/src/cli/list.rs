@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::exit::Outcome;
+use super::exit::CommandOutcome;
 use super::flags::Flags;
 use super::screen;
 use super::workspace;
@@ -31,7 +31,7 @@ pub struct Arguments {
 
 /// A study as it is listed.
 #[derive(serde::Serialize)]
-struct Listed {
+struct ListedStudy {
     id: String,
     tier: &'static str,
     kind: String,
@@ -43,7 +43,7 @@ struct Listed {
     claim: String,
 }
 
-impl Listed {
+impl ListedStudy {
     /// * `last`, `seconds`: the last verdict of the study and the time of that run, if it ever ran.
     fn of(file: &StudyFile, last: Option<Verdict>, seconds: Option<f64>) -> Self {
         let header = file.study.header();
@@ -67,7 +67,7 @@ const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "cl
 ///
 /// # Errors
 /// Study files or records that cannot be read, and a selection without a study.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let root = workspace::root()?;
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
@@ -80,12 +80,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     )?;
     let verdicts = workspace::last_verdicts(&root)?;
     let seconds = workspace::last_seconds(&root)?;
-    let mut studies: Vec<Listed> = vec![];
+    let mut studies: Vec<ListedStudy> = vec![];
     for (file, is_selected) in all.iter().zip(mask) {
         if is_selected {
             let id = &file.study.header().id;
             let verdict = verdicts.get(id).copied();
-            studies.push(Listed::of(file, verdict, seconds.get(id).copied()));
+            studies.push(ListedStudy::of(file, verdict, seconds.get(id).copied()));
         }
     }
     let passed = studies
@@ -120,8 +120,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     Ok(Verdict::Pass)
 }
 
-fn row(study: &Listed) -> Vec<String> {
-    let Listed {
+fn row(study: &ListedStudy) -> Vec<String> {
+    let ListedStudy {
         id,
         tier,
         kind,

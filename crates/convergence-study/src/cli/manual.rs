@@ -30,7 +30,7 @@ pub enum Command {
 
 impl Command {
     /// Runs the command; `whole` is the whole command line.
-    pub(super) fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
+    pub(super) fn run(&self, project: &Project, whole: clap::Command) -> exit::CommandOutcome {
         match self {
             Self::Completions { shell } => complete(whole, project, *shell),
             Self::Man { command } => man(whole, command.as_deref()),
@@ -39,7 +39,7 @@ impl Command {
 }
 
 /// Prints what a shell needs to complete the commands of that command line.
-fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outcome {
+fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::CommandOutcome {
     // `cargo` cannot complete its aliases: the name is `xtask` for `cargo xtask`.
     let name = project
         .command
@@ -57,7 +57,7 @@ fn complete(whole: clap::Command, project: &Project, shell: Shell) -> exit::Outc
 ///
 /// # Errors
 /// An unknown command.
-fn man(mut whole: clap::Command, name: Option<&str>) -> exit::Outcome {
+fn man(mut whole: clap::Command, name: Option<&str>) -> exit::CommandOutcome {
     whole.build();
     let known = visible_commands(&whole);
     let page = match name {

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use manufacture::{
-    Check, Comparison, EmittedFile, Finding, Language, LeftOut, Manufacture, Sampling, Variants,
+    Check, Comparison, EmittedFile, Finding, Language, LeftOutVariant, Manufacture, Sampling,
+    Variants,
 };
 use serde_json::{Value, json};
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::flags::{Flags, at_least};
 use super::new::words;
 use super::running::seconds;
@@ -88,7 +89,7 @@ fn command(text: &str) -> Result<String, String> {
 ///
 /// # Errors
 /// A file, a table or a command that cannot be used.
-pub(super) fn run(arguments: &Arguments) -> Outcome {
+pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
     let file = arguments.file.display().to_string();
     let manufacture = Manufacture::parse(&read_text(&arguments.file)?, &file)?;
     let sampling = Sampling {
@@ -206,7 +207,7 @@ fn list(variants: &Variants<'_>) -> String {
         .map(|variant| vec![variant.switch.variant(), variant.switch.words()])
         .collect();
     let mut text = screen::table(&["variant", "switches off"], &rows);
-    for LeftOut { switch, why } in &variants.left_out {
+    for LeftOutVariant { switch, why } in &variants.left_out {
         text += &format!("left out: {}: {why}\n", switch.variant());
     }
     text.push('\n');
@@ -226,7 +227,7 @@ fn temporary(languages: &[Language]) -> Result<PathBuf, Unusable> {
     Ok(folder)
 }
 
-fn values(manufacture: &Manufacture, table: &Path) -> Outcome {
+fn values(manufacture: &Manufacture, table: &Path) -> CommandOutcome {
     let text = read_text(table)?;
     let values = manufacture.at(&text, &table.display().to_string())?;
     screen::print(&text_of(&values)?)?;
@@ -330,7 +331,7 @@ fn compared(
     arguments: &Arguments,
     manufacture: &Manufacture,
     comparisons: &[Comparison],
-) -> Outcome {
+) -> CommandOutcome {
     let verdict = verdict(
         comparisons
             .iter()

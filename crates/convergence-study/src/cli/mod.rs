@@ -84,7 +84,7 @@ impl Command {
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
     #[cfg_attr(not(feature = "manual"), expect(unused_variables))]
-    pub fn run(&self, project: &Project, whole: clap::Command) -> exit::Outcome {
+    pub fn run(&self, project: &Project, whole: clap::Command) -> exit::CommandOutcome {
         guard::enable();
         match self {
             Self::Verify(arguments) => verify::run(project, arguments),
@@ -120,7 +120,7 @@ fn visible_commands(line: &clap::Command) -> Vec<&str> {
 ///
 /// # Errors
 /// Started by anyone except the harness, or the program cannot be waited for.
-fn serve() -> exit::Outcome {
+fn serve() -> exit::CommandOutcome {
     if !guard::is_guard() {
         return Err(exit::Unusable::because(
             "found the command guard; expected another: the harness starts its guards itself",
@@ -184,14 +184,17 @@ fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command 
 
 /// Parses the arguments of the process, runs the command, and turns the outcome into the exit
 /// status.
-pub fn ended<P: Parser>(line: clap::Command, run: impl FnOnce(P) -> exit::Outcome) -> ExitCode {
+pub fn ended<P: Parser>(
+    line: clap::Command,
+    run: impl FnOnce(P) -> exit::CommandOutcome,
+) -> ExitCode {
     ExitCode::from(status(line, env::args_os(), run))
 }
 
 fn status<P: Parser>(
     line: clap::Command,
     arguments: impl Iterator<Item = OsString>,
-    run: impl FnOnce(P) -> exit::Outcome,
+    run: impl FnOnce(P) -> exit::CommandOutcome,
 ) -> u8 {
     let arguments: Vec<OsString> = arguments.collect();
     if let Some(colour) = screen::colour_in(&arguments) {

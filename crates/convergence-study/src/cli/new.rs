@@ -8,7 +8,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use manufacture::against::{CommandWords, command_words};
 use serde_json::json;
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
 use super::workspace;
 use crate::judge::verdict::Verdict;
@@ -69,7 +69,7 @@ pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap:
 }
 
 /// Runs the command. It never overwrites an existing file.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let Arguments {
         what, name, flags, ..
     } = arguments;
@@ -80,7 +80,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
     let template = template
         .ok_or_else(|| Unusable::because(&format!("found `{what}`; expected a template")))?;
     let begun = begun(arguments, template)?;
-    let place = Place::of(flags.out.as_deref(), template)?;
+    let place = TargetFolder::of(flags.out.as_deref(), template)?;
     let file = |begun: &begin::Begun| place.folder.join(format!("{name}{}", begun.ending));
     let files: Vec<PathBuf> = begun.iter().map(file).collect();
     if let Some(taken) = files.iter().find(|path| fs::symlink_metadata(path).is_ok()) {
@@ -184,7 +184,7 @@ fn begun(arguments: &Arguments, template: &Template) -> Result<Vec<begin::Begun>
 }
 
 /// Where files are written.
-struct Place {
+struct TargetFolder {
     /// As the command line names it.
     folder: PathBuf,
     /// The folder that the commands run in, where reports are written.
@@ -195,9 +195,9 @@ struct Place {
     below: String,
 }
 
-impl Place {
-    /// The folder of `--out`; without it `studies/` of the project for a study, if there is one, and
-    /// the current folder for anything else.
+impl TargetFolder {
+    /// The folder of `--out`; without it `studies/` of the project for a study, if there is one,
+    /// and the current folder for anything else.
     fn of(out: Option<&Path>, template: &Template) -> Result<Self, Unusable> {
         let is_study = template.next.contains(&"study");
         let root = workspace::root().ok().filter(|_| is_study && out.is_none());

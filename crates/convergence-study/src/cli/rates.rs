@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
@@ -103,7 +103,7 @@ fn ratio(text: &str) -> Result<f64, String> {
 ///
 /// # Errors
 /// Tables or claims that cannot be used, and a folder that cannot be written.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let request = arguments.request();
     let files = arguments.files()?;
     let refused = |refusal| refuse(project, arguments, &refusal);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
 use super::screen;
 use crate::project::Project;
@@ -37,7 +37,7 @@ pub(super) fn run(
         record: path,
         flags,
     }: &Arguments,
-) -> Outcome {
+) -> CommandOutcome {
     let mut record = Record::read(path)?;
     let beside = path.parent().unwrap_or(Path::new(""));
     let is_report = beside.join(MANIFEST).is_file();

@@ -14,7 +14,7 @@ use crate::text::visible::visible;
 use crate::verify::{publish, record};
 use crate::where_lost::text_of_located;
 
-use super::exit::Outcome;
+use super::exit::CommandOutcome;
 use super::flags::Flags;
 use super::github;
 use super::running::{Limits, watched};
@@ -40,7 +40,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// As [`run_files`].
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     run_files(
         project,
         &arguments.files,
@@ -85,7 +85,7 @@ pub(super) fn run_files(
     limits: Limits,
     located: bool,
     flags: &Flags,
-) -> Outcome {
+) -> CommandOutcome {
     let studies = StudyFile::read_all(project.kinds, files)?;
     let studies: Vec<Box<dyn Study>> = studies.into_iter().map(|file| file.study).collect();
     limits.consent(project, &studies)?;

@@ -6,7 +6,7 @@ use std::io;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use super::exit::Outcome;
+use super::exit::CommandOutcome;
 use super::flags::Flags;
 use super::running::{Limits, watched};
 use super::screen::{self, Format};
@@ -17,12 +17,12 @@ use crate::report::{
     Findings, blessing, can_be_blessed, key_numbers, sentence, text_of_diagnosis, text_of_failures,
 };
 use crate::run::{Effort, Finished};
-use crate::store::{Change, Record, json, without_baseline};
+use crate::store::{GuardedChange, Record, json, without_baseline};
 use crate::study::{Study, Tier};
 use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
-use crate::verify::{Blessing, Request, Scope, Verification};
+use crate::verify::{Blessing, Scope, Verification, VerifyRequest};
 use crate::where_lost::{summary_of_located, text_of_located};
 use selection::{dry_run, failed, files, scope};
 
@@ -62,8 +62,8 @@ pub struct Arguments {
     /// List the slowest studies
     #[arg(long, conflicts_with = "quiet")]
     durations: bool,
-    /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files, named
-    /// with their ending .toml: they are run as `study` runs them
+    /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files,
+    /// named with their ending .toml: they are run as `study` runs them
     #[arg(value_name = "ID|FILE")]
     ids: Vec<String>,
     #[command(flatten)]
@@ -74,7 +74,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Study files, a baseline or a selection that cannot be used, and reports that cannot be written.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     if let Some(files) = files(arguments)? {
         return study::run_files(
             project,
@@ -136,7 +136,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
 fn print(
     project: &Project,
     found: &Verification,
-    request: &Request,
+    request: &VerifyRequest,
     arguments: &Arguments,
     took: Duration,
 ) -> io::Result<()> {
@@ -157,9 +157,9 @@ fn print(
 }
 
 /// * `scope`: what is run; `root`: the folder of the project.
-fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> Request {
+fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> VerifyRequest {
     let flags = &arguments.flags;
-    Request {
+    VerifyRequest {
         scope,
         effort: Effort {
             fail_fast: arguments.fail_fast,
@@ -191,7 +191,7 @@ fn reason(text: &str) -> Result<String, String> {
 fn text(
     project: &Project,
     found: &Verification,
-    request: &Request,
+    request: &VerifyRequest,
     arguments: &Arguments,
     took: Duration,
 ) -> String {
@@ -286,13 +286,14 @@ fn is_first(record: &Record) -> bool {
 
 /// The changes, without those of failing studies unless `verbose`: such a study has already said
 /// why, and its numbers moved for the same reason.
-fn changes_to_print(record: &Record, verbose: bool) -> Vec<Change> {
+fn changes_to_print(record: &Record, verbose: bool) -> Vec<GuardedChange> {
     let failed = |id: &str| {
         let mut studies = record.studies.iter();
         studies.any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
     };
-    let is_printed =
-        |change: &&Change| verbose || change.movement.needs_a_reason() || !failed(&change.study);
+    let is_printed = |change: &&GuardedChange| {
+        verbose || change.movement.needs_a_reason() || !failed(&change.study)
+    };
     let moves = match without_baseline(&record.studies, record.moves()) {
         Some(_) => &[],
         None => record.moves(),
@@ -324,7 +325,7 @@ fn blessed(project: &Project, found: &Verification) -> String {
 /// reports are.
 fn overview(
     found: &Verification,
-    request: &Request,
+    request: &VerifyRequest,
     Arguments {
         verbose, durations, ..
     }: &Arguments,
@@ -411,8 +412,8 @@ const LISTED: usize = 6;
 
 /// Changed claims, under a head, after the numbers, one line each if they are few or all are
 /// wanted.
-fn moved_lines(changes: &[Change], all: bool) -> String {
-    let (claims, numbers): (Vec<&Change>, Vec<&Change>) = changes
+fn moved_lines(changes: &[GuardedChange], all: bool) -> String {
+    let (claims, numbers): (Vec<&GuardedChange>, Vec<&GuardedChange>) = changes
         .iter()
         .partition(|change| change.movement.needs_a_reason());
     let shown = numbers.iter().filter(|_| all || numbers.len() <= LISTED);
@@ -427,22 +428,22 @@ fn moved_lines(changes: &[Change], all: bool) -> String {
     }
 }
 
-fn claim(change: &Change) -> String {
+fn claim(change: &GuardedChange) -> String {
     format!("  {}\n", visible(&change.words()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::moved_lines;
-    use crate::store::{Change, Movement};
+    use crate::store::{GuardedChange, Movement};
 
-    fn moved(study: &str, name: &str, to: f64) -> Change {
+    fn moved(study: &str, name: &str, to: f64) -> GuardedChange {
         let movement = Movement::Moved {
             from: 1.0,
             to,
             tolerance: 1e-3,
         };
-        Change {
+        GuardedChange {
             study: study.to_owned(),
             name: name.to_owned(),
             movement,
@@ -451,7 +452,7 @@ mod tests {
 
     #[test]
     fn few_changes_are_listed_and_many_only_where_they_are_wanted() {
-        let changes: Vec<Change> = (0..10)
+        let changes: Vec<GuardedChange> = (0..10)
             .map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i)))
             .collect();
         assert!(

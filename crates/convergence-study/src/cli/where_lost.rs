@@ -13,7 +13,7 @@ use crate::study::{Outcome, Study};
 use crate::where_lost::{figure, is_unnoticed, located, lost, probe};
 
 /// A study whose order is lost.
-struct Search<'s> {
+struct LostOrder<'s> {
     study: &'s dyn Study,
     /// Its place among the studies that have ended.
     place: usize,
@@ -48,8 +48,8 @@ pub(super) fn no_file(id: &str) -> Unusable {
 /// * `finished`: what the studies found, in their order.
 ///
 /// # Errors
-/// A file of `manufacture` that cannot be used, a variant that does not run, and a program that does
-/// not notice the variant.
+/// A file of `manufacture` that cannot be used, a variant that does not run, and a program that
+/// does not notice the variant.
 pub(super) fn locate(
     studies: &[Box<dyn Study>],
     finished: &mut [Finished],
@@ -57,7 +57,7 @@ pub(super) fn locate(
     quiet: bool,
 ) -> Result<(), Unusable> {
     let searches = searches(studies, finished)?;
-    let empty = |search: &Search<'_>| vec![None; search.variants.usable.len()];
+    let empty = |search: &LostOrder<'_>| vec![None; search.variants.usable.len()];
     let mut ran: Vec<Vec<Option<Finished>>> = searches.iter().map(empty).collect();
     // A program that ignores the variable is refused after one variant.
     for is_probe in [true, false] {
@@ -67,7 +67,7 @@ pub(super) fn locate(
         }
     }
     for (search, ran) in searches.iter().zip(ran) {
-        let Search {
+        let LostOrder {
             place, variants, ..
         } = search;
         let of_search: Vec<Finished> = ran.into_iter().flatten().collect();
@@ -85,7 +85,7 @@ pub(super) fn locate(
 ///
 /// * `ran`: for each search and each of its variants what it found, if it was run.
 fn run_variants(
-    searches: &[Search<'_>],
+    searches: &[LostOrder<'_>],
     is_probe: bool,
     ran: &mut [Vec<Option<Finished>>],
     effort: Effort,
@@ -120,7 +120,7 @@ fn run_variants(
 fn searches<'s>(
     studies: &'s [Box<dyn Study>],
     finished: &[Finished],
-) -> Result<Vec<Search<'s>>, Unusable> {
+) -> Result<Vec<LostOrder<'s>>, Unusable> {
     let mut searches = vec![];
     for (place, finished) in finished.iter().enumerate() {
         let mut studies = studies.iter();
@@ -135,7 +135,7 @@ fn searches<'s>(
             Some(file) => variants_of(file)?,
             None => study.variants(),
         };
-        searches.extend(variants.map(|variants| Search {
+        searches.extend(variants.map(|variants| LostOrder {
             study: study.as_ref(),
             place,
             variants,
@@ -183,24 +183,25 @@ fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
 mod tests {
     use manufacture::Switch;
 
-    use crate::study::variants::Part;
+    use crate::study::variants::SolverPart;
 
     #[test]
     fn each_part_of_a_file_is_one_of_the_search() {
         let name = || "x_max".to_owned();
         for (switch, part) in [
-            (Switch::Coordinate(name()), Part::Coordinate(name())),
-            (Switch::Time(name()), Part::Time(name())),
-            (Switch::Face(name()), Part::Face(name())),
-            (Switch::BothFaces(name()), Part::BothFaces(name())),
-            (Switch::AllFaces, Part::AllFaces),
-            (Switch::AllFacesBut(name()), Part::AllFacesBut(name())),
-            (Switch::Initial, Part::Initial),
-            (Switch::AllFacesAndInitial, Part::AllFacesAndInitial),
-            (Switch::Parameter(name()), Part::Parameter(name())),
-            (Switch::Field(name()), Part::Field(name())),
+            (Switch::Coordinate(name()), SolverPart::Coordinate(name())),
+            (Switch::Time(name()), SolverPart::Time(name())),
+            (Switch::Face(name()), SolverPart::Face(name())),
+            (Switch::BothFaces(name()), SolverPart::BothFaces(name())),
+            (Switch::AllFaces, SolverPart::AllFaces),
+            (Switch::AllFacesBut(name()), SolverPart::AllFacesBut(name())),
+            (Switch::Initial, SolverPart::Initial),
+            (Switch::AllFacesAndInitial, SolverPart::AllFacesAndInitial),
+            (Switch::Parameter(name()), SolverPart::Parameter(name())),
+            (Switch::Field(name()), SolverPart::Field(name())),
         ] {
-            let read: Part = serde_json::from_value(serde_json::to_value(switch).unwrap()).unwrap();
+            let read: SolverPart =
+                serde_json::from_value(serde_json::to_value(switch).unwrap()).unwrap();
             assert_eq!(read, part);
         }
     }

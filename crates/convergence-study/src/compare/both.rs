@@ -1,6 +1,6 @@
 //! One error in both records: the four questions, in their order.
 
-use super::sequence::{ErrorSequence, Point, work};
+use super::sequence::{ErrorSequence, LevelPoint, work};
 use super::{ORDER_SHIFT, SAME_STEP, Shift, WORK_WITHIN};
 use crate::judge::verdict::Verdict;
 use crate::study::LevelErrors;
@@ -19,14 +19,14 @@ pub(super) struct Both<'r> {
 }
 
 /// What became of an error, and why.
-pub(super) struct Answer {
+pub(super) struct ErrorShift {
     /// What became of it.
     pub(super) change: Shift,
     /// Why.
     pub(super) reason: String,
 }
 
-impl Answer {
+impl ErrorShift {
     fn new(change: Shift, reason: impl Into<String>) -> Self {
         Self {
             change,
@@ -44,22 +44,22 @@ struct Ratio<'r> {
 impl Both<'_> {
     /// The first question that finds a difference; a better order is a smaller matter than a
     /// larger error.
-    pub(super) fn judge(&self) -> Answer {
+    pub(super) fn judge(&self) -> ErrorShift {
         if let Some(reason) = self.loss() {
-            return Answer::new(Shift::Lost, reason);
+            return ErrorShift::new(Shift::Lost, reason);
         }
         let order = self.change_of_order();
         if let Some(order) = &order
             && order.change == Shift::Worse
         {
-            return Answer::new(Shift::Worse, &order.reason);
+            return ErrorShift::new(Shift::Worse, &order.reason);
         }
         let ratios = self.ratios();
         if let Some(reason) = self.loss_of_finite_errors() {
-            return Answer::new(Shift::Worse, reason);
+            return ErrorShift::new(Shift::Worse, reason);
         }
         if let Some(reason) = self.growth(&ratios) {
-            return Answer::new(Shift::Worse, reason);
+            return ErrorShift::new(Shift::Worse, reason);
         }
         order.unwrap_or_else(|| self.smaller_or_cheaper(&ratios))
     }
@@ -84,7 +84,7 @@ impl Both<'_> {
     }
 
     /// Another order, or a claim that no longer passes.
-    fn change_of_order(&self) -> Option<Answer> {
+    fn change_of_order(&self) -> Option<ErrorShift> {
         if let (Some(old), Some(new)) = (self.old.order, self.new.order) {
             let apart =
                 old.interval.high < new.interval.low || new.interval.high < old.interval.low;
@@ -95,7 +95,7 @@ impl Both<'_> {
                 } else {
                     Shift::Better
                 };
-                return Some(Answer::new(change, format!("order {old} → {new}")));
+                return Some(ErrorShift::new(change, format!("order {old} → {new}")));
             }
         }
         let old = self.old.rate?;
@@ -107,13 +107,13 @@ impl Both<'_> {
             "the claimed order was pass, is {}: {}",
             new.verdict, new.reason
         );
-        Some(Answer::new(Shift::Worse, reason))
+        Some(ErrorShift::new(Shift::Worse, reason))
     }
 
     /// Levels whose error has become negative, infinite or NaN.
     fn loss_of_finite_errors(&self) -> Option<String> {
         let mut levels = vec![];
-        for Point { level, step, error } in &self.new.points {
+        for LevelPoint { level, step, error } in &self.new.points {
             let before = self.old.at(level, *step);
             if !is_error(*error) && before.is_some_and(|point| is_error(point.error)) {
                 levels.push(label(level));
@@ -135,7 +135,7 @@ impl Both<'_> {
             .collect()
     }
 
-    fn ratio<'p>(&self, point: &Point<'p>) -> Option<Ratio<'p>> {
+    fn ratio<'p>(&self, point: &LevelPoint<'p>) -> Option<Ratio<'p>> {
         let before = self.old.at(point.level, point.step)?;
         let log = point.error.max(self.floor).ln() - before.error.max(self.floor).ln();
         Some(Ratio {
@@ -168,7 +168,7 @@ impl Both<'_> {
 
     /// What became of errors none of which is larger: smaller, unclear, or the same, for which the
     /// work is compared.
-    fn smaller_or_cheaper(&self, ratios: &[Ratio<'_>]) -> Answer {
+    fn smaller_or_cheaper(&self, ratios: &[Ratio<'_>]) -> ErrorShift {
         let count = ratios.len();
         let limit = self.limit();
         if count == 0 {
@@ -179,18 +179,18 @@ impl Both<'_> {
                 "no level is at a step that both have"
             };
             let reason = format!("no difference of orders is proven; {explanation}");
-            return Answer::new(Shift::NotProven, reason);
+            return ErrorShift::new(Shift::NotProven, reason);
         }
         let mut logs = ratios.iter().map(|ratio| ratio.log);
         if logs.clone().all(|log| log < -limit) {
             let most = logs.fold(f64::NEG_INFINITY, f64::max);
             let times = plain_text(most.exp());
             let reason = format!("errors smaller: {times} times or less at {count} levels");
-            return Answer::new(Shift::Better, reason);
+            return ErrorShift::new(Shift::Better, reason);
         }
         if !logs.all(|log| log.abs() <= limit) {
             let reason = format!("no difference of errors is proven at {count} levels");
-            return Answer::new(Shift::NotProven, reason);
+            return ErrorShift::new(Shift::NotProven, reason);
         }
         match self.work() {
             Some(work) if work.abs() > WORK_WITHIN.ln_1p() => {
@@ -201,9 +201,9 @@ impl Both<'_> {
                 };
                 let times = work.exp();
                 let reason = format!("the same error takes {times:.3} times the work");
-                Answer::new(change, reason)
+                ErrorShift::new(change, reason)
             }
-            _ => Answer::new(Shift::Same, format!("errors the same at {count} levels")),
+            _ => ErrorShift::new(Shift::Same, format!("errors the same at {count} levels")),
         }
     }
 

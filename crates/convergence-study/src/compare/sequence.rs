@@ -7,7 +7,7 @@ use crate::study::LevelErrors;
 use crate::study::outcome::Outcome;
 
 /// The error at a level.
-pub(super) struct Point<'r> {
+pub(super) struct LevelPoint<'r> {
     /// The level.
     pub(super) level: &'r LevelErrors,
     /// Its step; NaN if it has none.
@@ -19,7 +19,7 @@ pub(super) struct Point<'r> {
 /// One error on the levels of one record that have it, and its rate.
 pub(super) struct ErrorSequence<'r> {
     /// Coarse to fine.
-    pub(super) points: Vec<Point<'r>>,
+    pub(super) points: Vec<LevelPoint<'r>>,
     /// Whether the steps fall from level to level; a grid of parameters has no single step.
     pub(super) is_sequence: bool,
     /// The rate that the study has judged.
@@ -34,7 +34,7 @@ impl<'r> ErrorSequence<'r> {
         let mut points = vec![];
         for level in &outcome.levels {
             if let Some((_, error)) = level.errors.iter().find(|(other, _)| other == name) {
-                points.push(Point {
+                points.push(LevelPoint {
                     level,
                     step: level.step.unwrap_or(f64::NAN),
                     error: *error,
@@ -70,7 +70,7 @@ impl<'r> ErrorSequence<'r> {
     }
 
     /// The point at the level with these parameters, or else at this step.
-    pub(super) fn at(&self, level: &LevelErrors, step: f64) -> Option<&Point<'r>> {
+    pub(super) fn at(&self, level: &LevelErrors, step: f64) -> Option<&LevelPoint<'r>> {
         let mut points = self.points.iter();
         let same = points.find(|point| point.level.parameters == level.parameters);
         same.or_else(|| {

@@ -63,7 +63,7 @@ impl Argument {
 
     /// Its name in a message.
     pub(crate) fn alone(self) -> Text {
-        Text(vec![Part::Argument {
+        Text(vec![MessagePart::Argument {
             argument: self,
             value: None,
         }])
@@ -71,7 +71,7 @@ impl Argument {
 
     /// The same with a value as the caller writes it.
     pub(crate) fn with(self, value: &str) -> Text {
-        Text(vec![Part::Argument {
+        Text(vec![MessagePart::Argument {
             argument: self,
             value: Some(value.to_owned()),
         }])
@@ -85,7 +85,7 @@ impl Argument {
 
 /// A part of a message.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Part {
+pub enum MessagePart {
     /// Words, which name no argument.
     Words(String),
     /// An argument.
@@ -97,7 +97,7 @@ pub enum Part {
     },
 }
 
-impl Part {
+impl MessagePart {
     fn words(&self, surface: &dyn Surface) -> String {
         match self {
             Self::Words(words) => words.clone(),
@@ -108,11 +108,11 @@ impl Part {
 
 /// A message, or a part of one, that may name arguments. Shown in the words of the command line.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Text(Vec<Part>);
+pub struct Text(Vec<MessagePart>);
 
 impl Text {
     /// Its parts in order.
-    pub fn parts(&self) -> &[Part] {
+    pub fn parts(&self) -> &[MessagePart] {
         &self.0
     }
 
@@ -136,7 +136,7 @@ impl From<&str> for Text {
 
 impl From<String> for Text {
     fn from(words: String) -> Self {
-        Self(vec![Part::Words(words)])
+        Self(vec![MessagePart::Words(words)])
     }
 }
 
@@ -155,12 +155,12 @@ pub struct Setting {
     /// Which argument.
     pub argument: Argument,
     /// Its value.
-    pub value: Value,
+    pub value: ArgumentValue,
 }
 
 /// The value of an argument.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Value {
+pub enum ArgumentValue {
     /// A number.
     Number(f64),
     /// A column, by its name or its number from 1.
@@ -169,7 +169,7 @@ pub enum Value {
     Names(Vec<String>),
 }
 
-impl Value {
+impl ArgumentValue {
     /// `None` without names.
     pub(crate) fn names(names: &[String]) -> Option<Self> {
         (!names.is_empty()).then(|| Self::Names(names.to_vec()))
@@ -177,7 +177,7 @@ impl Value {
 }
 
 /// The value of an option: several columns are separated by commas.
-impl fmt::Display for Value {
+impl fmt::Display for ArgumentValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) => number.fmt(f),

@@ -143,12 +143,12 @@ const FILE_BYTES: u64 = 10_000_000;
 
 /// A text and the name of the file that it comes from.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Source<'a> {
+pub(crate) struct SourceText<'a> {
     pub(crate) file: &'a str,
     pub(crate) text: &'a str,
 }
 
-impl Source<'_> {
+impl SourceText<'_> {
     /// Line and column, from 1, of a byte of the text.
     pub(crate) fn place(&self, offset: usize) -> Place {
         let mut offset = offset.min(self.text.len());
@@ -226,7 +226,7 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
-        let place = Source { file, text: &text }.place(valid);
+        let place = SourceText { file, text: &text }.place(valid);
         let found = format!("the byte 0x{:02x}", error.as_bytes()[valid]);
         InputError {
             place: Some(place),
@@ -244,7 +244,7 @@ pub fn parse<T>(
     file: &str,
     read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
-    let source = Source { file, text };
+    let source = SourceText { file, text };
     let root = table(source, text)?;
     read(&Section::root(source, &root))
 }
@@ -270,7 +270,7 @@ pub fn parse_overlaid<T>(
     read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     let whole = format!("{text}\n{overlay}");
-    let source = Source { file, text: &whole };
+    let source = SourceText { file, text: &whole };
     // Preceded by as much blank space as the text is long, values keep their places in the whole.
     let shifted = " ".repeat(text.len() + 1) + overlay;
     let mut root = table(source, text)?;
@@ -285,7 +285,7 @@ pub fn parse_overlaid<T>(
 }
 
 /// The topmost table of `text`, whose places are those of `source`.
-fn table<'t>(source: Source<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
+fn table<'t>(source: SourceText<'_>, text: &'t str) -> Result<DeTable<'t>, InputError> {
     // The `toml` crate bounds how deeply tables and lists may nest, so what it returns can be
     // walked by recursion.
     DeTable::parse(text)

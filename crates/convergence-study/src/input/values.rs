@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
-use super::{Complaint, InputError, Source, settings};
+use super::{Complaint, InputError, SourceText, settings};
 use crate::text::names::nearest;
 use crate::text::visible;
 
@@ -25,7 +25,7 @@ pub const POSITIVE: &str = "a finite number > 0";
 /// A value of the document, with its dotted name.
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
-    source: Source<'a>,
+    source: SourceText<'a>,
     value: &'a DeValue<'a>,
     path: String,
     span: Range<usize>,
@@ -243,7 +243,7 @@ impl<'a> Field<'a> {
 /// A table of the document, with its dotted name.
 #[derive(Debug, Clone)]
 pub struct Section<'a> {
-    source: Source<'a>,
+    source: SourceText<'a>,
     table: &'a DeTable<'a>,
     /// Empty for the document itself.
     path: String,
@@ -251,7 +251,7 @@ pub struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    pub(super) fn root(source: Source<'a>, table: &'a DeTable<'a>) -> Self {
+    pub(super) fn root(source: SourceText<'a>, table: &'a DeTable<'a>) -> Self {
         Self {
             source,
             table,

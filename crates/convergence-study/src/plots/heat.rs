@@ -22,7 +22,7 @@ const ALONE: f64 = 0.25;
 
 /// Values over two parameters, as coloured cells.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Surface {
+pub struct ColouredCells {
     /// Above the plot: what the reader should see.
     pub title: Option<String>,
     /// Horizontal axis, for example `dt`.
@@ -47,7 +47,7 @@ pub struct Surface {
 }
 
 /// Draws values over two parameters.
-pub fn surface(figure: &Surface) -> String {
+pub fn surface(figure: &ColouredCells) -> String {
     let columns = SortedAxis::new(figure.x.scale, &figure.x_values);
     let rows = SortedAxis::new(figure.y.scale, &figure.y_values);
     let values = select_cells(&figure.values, &rows, &columns, f64::NAN);
@@ -157,7 +157,7 @@ impl HeatMap {
 
 /// Equal neighbours in a row.
 #[derive(Debug, PartialEq)]
-struct Run<T> {
+struct CellRun<T> {
     /// Their first column.
     first: usize,
     /// Their last column.
@@ -167,11 +167,11 @@ struct Run<T> {
 }
 
 /// The runs of a row, from left to right.
-fn runs<T: Copy + PartialEq>(row: &[T]) -> Vec<Run<T>> {
+fn runs<T: Copy + PartialEq>(row: &[T]) -> Vec<CellRun<T>> {
     let mut runs = vec![];
     let mut first = 0;
     for cells in row.chunk_by(|a, b| a == b) {
-        runs.push(Run {
+        runs.push(CellRun {
             first,
             last: first + cells.len() - 1,
             content: cells[0],
@@ -267,7 +267,7 @@ fn count_off_scale(scale: Scale, values: &[f64]) -> usize {
 /// A boundary with fewer points is drawn as points.
 const FEWEST_FOR_A_LINE: usize = 6;
 
-fn entries(figure: &Surface) -> Vec<Entry> {
+fn entries(figure: &ColouredCells) -> Vec<Entry> {
     let mut entries = vec![];
     for (k, series) in figure.boundaries.iter().enumerate() {
         let (width, marks) = if is_sparse(series) {
@@ -322,7 +322,7 @@ fn draw_marks(sheet: &mut Page, marked: &[Vec<bool>], place: &dyn Fn(usize, usiz
 
 /// All rims before all lines: if two boundaries agree, the other shows through the gaps of the
 /// dashed one.
-fn draw_boundaries(sheet: &mut Page, figure: &Surface) {
+fn draw_boundaries(sheet: &mut Page, figure: &ColouredCells) {
     for rim in [true, false] {
         for (k, series) in figure.boundaries.iter().enumerate() {
             let look = boundary_look(k);
@@ -394,7 +394,7 @@ mod tests {
             let values: Vec<f64> = (0..cells)
                 .map(|k| (k as f64 + 0.5) / cells as f64)
                 .collect();
-            let figure = Surface {
+            let figure = ColouredCells {
                 values: vec![vec![f64::NAN; cells]; cells],
                 marked: (0..cells)
                     .map(|k| vec![marked(k * 4 / cells); cells])
@@ -413,7 +413,7 @@ mod tests {
 
     #[test]
     fn a_boundary_without_cells_is_still_a_document() {
-        let figure = Surface {
+        let figure = ColouredCells {
             boundaries: vec![Series::new("b", vec![(f64::NAN, 1.0), (0.5, 0.5)])],
             ..Default::default()
         };

@@ -32,8 +32,8 @@ pub enum Marks {
 const RADIUS: f64 = 5.5;
 
 impl Look {
-    /// Draws the marker centred at `at`. Strokes have no inside to leave white: open, they stand in a
-    /// circle.
+    /// Draws the marker centred at `at`. Strokes have no inside to leave white: open, they stand in
+    /// a circle.
     pub fn mark(self, pen: &Pen<'_>, at: Point, marks: Marks) {
         let Self { colour, marker, .. } = self;
         let radius = self.size * RADIUS;

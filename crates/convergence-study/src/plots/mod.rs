@@ -17,8 +17,8 @@
 //! | [`forest`] | judged rates with their intervals, relative to their claims or to one |
 //! | [`work_precision`] | error against run time |
 //!
-//! The drawing can be read back: `attributes` writes names and values into the picture, for a page that
-//! shows them.
+//! The drawing can be read back: `attributes` writes names and values into the picture, for a page
+//! that shows them.
 //!
 //! From data to document: an axis and its data give a `ruler`; rulers, legend and notes give a
 //! `sheet`, which is a laid-out page; `xy`, `heat` and `space_time` draw on the sheet; the sheet's
@@ -54,7 +54,7 @@ pub(crate) mod xy;
 
 pub use convergence::{ErrorSeries, convergence};
 pub use forest::{ForestAxis, ForestRow, forest};
-pub use heat::{Surface, surface};
+pub use heat::{ColouredCells, surface};
 pub use history::{history, iterations, work_precision};
 pub use panels::panels;
 pub use space_time::{SpaceTime, space_time};

@@ -1,5 +1,5 @@
-//! The answer of a program: the last line of its standard output that is a JSON object; without such
-//! a line, numbers behind the names that the study expects: `max = 1.5e-3`.
+//! The answer of a program: the last line of its standard output that is a JSON object; without
+//! such a line, numbers behind the names that the study expects: `max = 1.5e-3`.
 
 use std::fmt;
 

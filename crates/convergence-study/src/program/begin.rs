@@ -1,8 +1,8 @@
-//! The files that `new program` writes: a study, and a program in a language; or a study of a command
-//! of the user.
+//! The files that `new program` writes: a study, and a program in a language; or a study of a
+//! command of the user.
 
 use super::command::filled;
-use super::refine::Parameter;
+use super::refine::CaseParameter;
 use crate::project::Template;
 
 /// A language of `new program`.
@@ -117,7 +117,7 @@ pub(crate) fn in_language(language: &Language) -> Vec<Begun> {
 /// # Errors
 /// A placeholder that the study gives no value, in words.
 pub(crate) fn of_command(words: Vec<String>) -> Result<Vec<Begun>, String> {
-    const VALUES: [Parameter; 3] = [("n", 8.0), ("h", 0.125), ("level", 0.0)];
+    const VALUES: [CaseParameter; 3] = [("n", 8.0), ("h", 0.125), ("level", 0.0)];
     for word in &words {
         filled(word, &VALUES).map_err(|misread| misread.reason)?;
     }

@@ -11,7 +11,7 @@ use std::time::Duration;
 use super::answer::{Answer, Expectation, STEPS_AND_WORK, object_of_lines};
 use super::guard::{Ending, NotStarted, Running};
 use super::output::{NoAnswer, read_last_words, read_output};
-use super::refine::Parameter;
+use super::refine::CaseParameter;
 use crate::input::Misread;
 use crate::study::CaseFailure;
 use crate::text::names::{did_you_mean, nearest};
@@ -268,7 +268,7 @@ fn ending(status: ExitStatus) -> String {
 ///
 /// # Errors
 /// A placeholder without a value, with its place in the text.
-pub(super) fn filled(text: &str, values: &[Parameter]) -> Result<(String, bool), Misread> {
+pub(super) fn filled(text: &str, values: &[CaseParameter]) -> Result<(String, bool), Misread> {
     let mut filled = String::new();
     let mut rest = text;
     let mut has_placeholder = false;
@@ -307,7 +307,7 @@ fn name_in_braces(text: &str) -> Option<&str> {
     (is_name && name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')).then_some(name)
 }
 
-fn unknown(name: &str, values: &[Parameter]) -> String {
+fn unknown(name: &str, values: &[CaseParameter]) -> String {
     let known = || values.iter().map(|(name, _)| *name);
     let hint = did_you_mean(&nearest(name, known()).map(str::to_owned));
     let known: Vec<String> = known().map(|name| format!("{{{name}}}")).collect();
@@ -321,7 +321,7 @@ fn unknown(name: &str, values: &[Parameter]) -> String {
 mod tests {
     use super::*;
 
-    const KNOWN: [Parameter; 2] = [("n", 8.0), ("h", 0.125)];
+    const KNOWN: [CaseParameter; 2] = [("n", 8.0), ("h", 0.125)];
 
     #[test]
     fn the_crashes_of_windows_have_names() {

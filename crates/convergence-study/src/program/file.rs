@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::Program;
 use super::answer::Expectation;
 use super::command::filled;
-use super::refine::{self, Parameter, refine};
+use super::refine::{self, CaseParameter, refine};
 use crate::input::{Field, Form, InputError, Key, Section, visible};
 use crate::judge::claims::order_of_factor;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
@@ -201,7 +201,7 @@ fn variables(section: &Section<'_>) -> Result<Vec<(String, String)>, InputError>
     Ok(variables)
 }
 
-fn words(section: &Section<'_>, values: &[Parameter]) -> Result<Vec<String>, InputError> {
+fn words(section: &Section<'_>, values: &[CaseParameter]) -> Result<Vec<String>, InputError> {
     let allowed = "a list of the program and its arguments, each a text in quotes";
     let field = section.require("command", allowed)?;
     let items = field.items(allowed)?;

@@ -9,8 +9,8 @@
 //!
 //! On Linux the guard is a subreaper: every process that the program has started, and that has lost
 //! its parent, becomes a child of the guard, whatever group, session or environment it has
-//! (`guard/descendants.rs`). On other Unix systems the guard finds the group of the program, and not
-//! a process that has left it.
+//! (`guard/descendants.rs`). On other Unix systems the guard finds the group of the program, and
+//! not a process that has left it.
 //!
 //! On Windows every case has a job object instead, `guard/job.rs`.
 
@@ -37,11 +37,11 @@ mod message;
 mod serve;
 
 #[cfg(unix)]
-use group::Group;
+use group::ProcessGroup;
 #[cfg(unix)]
 use guarded::Guarded;
 #[cfg(windows)]
-use job::Group;
+use job::ProcessGroup;
 
 /// The name of the command that a guard is started by.
 pub const COMMAND: &str = "guard";
@@ -131,7 +131,7 @@ enum Processes {
     Guarded(Guarded),
     Alone {
         program: Child,
-        group: Group,
+        group: ProcessGroup,
     },
 }
 
@@ -154,7 +154,7 @@ impl Running {
             });
         }
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut group = Group::new().map_err(NotStarted::Guard)?;
+        let mut group = ProcessGroup::new().map_err(NotStarted::Guard)?;
         let start = |command: &mut Command| group.start(command);
         let mut program = fed(&mut command, input, start).map_err(NotStarted::Program)?;
         Ok(Self {
@@ -208,7 +208,11 @@ fn fed(
 }
 
 /// Whether a program without a guard has ended by itself within its time limit.
-fn end_in_time(program: &mut Child, group: &Group, time_limit: Duration) -> io::Result<bool> {
+fn end_in_time(
+    program: &mut Child,
+    group: &ProcessGroup,
+    time_limit: Duration,
+) -> io::Result<bool> {
     let start = Instant::now();
     if has_ended_by(program, start.checked_add(time_limit))? {
         return Ok(true);

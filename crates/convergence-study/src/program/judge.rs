@@ -2,7 +2,7 @@
 //! limit and the distance to it.
 
 use super::answer::{Answer, Expectation};
-use super::{Program, Run, refine, values};
+use super::{CaseRun, Program, refine, values};
 use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
 use crate::plots::{self, Series};
@@ -14,7 +14,7 @@ use crate::study::{Axis, Case, Check, Figure, LevelErrors, NamedRate, Outcome, R
 use crate::text::number::{error_text, plain_text};
 use crate::text::prose::Prose;
 
-pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
+pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
     if let Some(mixed) = mixed_steps(study, ran) {
         let check = Check::that(
             false,
@@ -39,7 +39,7 @@ pub(super) fn judge(study: &Program, ran: &[Run]) -> Outcome {
 }
 
 /// Both orders of each error at once.
-fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let column = |expected: &Expectation| GridColumn {
         name: expected.name.clone(),
         space: expected.claim,
@@ -78,7 +78,7 @@ fn over_grid(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
 }
 
 /// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
-pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
+pub(super) fn next(study: &Program, ran: &[CaseRun]) -> Option<Next> {
     let of_variant = study.is_variant && study.refine.can_add();
     let budget = study
         .refine
@@ -102,13 +102,13 @@ pub(super) fn next(study: &Program, ran: &[Run]) -> Option<Next> {
 }
 
 /// The rates of errors and of values over these levels.
-fn rates(study: &Program, ran: &[Run]) -> Vec<NamedRate> {
+fn rates(study: &Program, ran: &[CaseRun]) -> Vec<NamedRate> {
     let levels = levels(study, ran);
     let values = values::judge(study, ran, &levels.refinements);
     [levels.judge(), values.rates].concat()
 }
 
-fn along_path(study: &Program, ran: &[Run], levels: &Levels) -> Outcome {
+fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let rates = levels.judge();
     let mut checks = exact(study, ran);
     checks.push(completion_check(ran));
@@ -146,7 +146,7 @@ fn by_degree(study: &Program) -> bool {
 }
 
 /// A check for each error that should vanish.
-fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
+fn exact(study: &Program, ran: &[CaseRun]) -> Vec<Check> {
     let check = |expected: &Expectation| {
         let bound = expected.exact?;
         let (largest, is_exact) = claims::exact(ran.iter().map(|ran| number(ran, expected)), bound);
@@ -158,15 +158,15 @@ fn exact(study: &Program, ran: &[Run]) -> Vec<Check> {
 }
 
 /// The number that a case answered; NaN if it did not.
-fn number(ran: &Run, expected: &Expectation) -> f64 {
+fn number(ran: &CaseRun, expected: &Expectation) -> f64 {
     ran.ok()
         .and_then(|answer| answer.number(expected))
         .unwrap_or(f64::NAN)
 }
 
 /// A case that answered less than required counts as failed.
-fn completion_check(ran: &[Run]) -> Check {
-    let whole = |Ran { case, found }: &Run| {
+fn completion_check(ran: &[CaseRun]) -> Check {
+    let whole = |Ran { case, found }: &CaseRun| {
         let answered = found.as_ref().map_err(Clone::clone);
         let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
         Ran {
@@ -179,7 +179,7 @@ fn completion_check(ran: &[Run]) -> Check {
 
 /// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace
 /// the missing ones.
-fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
+fn mixed_steps(study: &Program, ran: &[CaseRun]) -> Option<String> {
     let space = study.refine.space.is_some();
     let time = study.refine.time.is_some();
     let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
@@ -208,7 +208,7 @@ fn mixed_steps(study: &Program, ran: &[Run]) -> Option<String> {
 }
 
 /// The step of a case: as reported by the program, otherwise the nominal one.
-fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
+fn step(Ran { case, found }: &CaseRun, axis: Axis) -> f64 {
     let answered = found.as_ref().ok();
     match axis {
         Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
@@ -219,7 +219,7 @@ fn step(Ran { case, found }: &Run, axis: Axis) -> f64 {
 }
 
 /// Every error of every answer.
-fn levels(study: &Program, ran: &[Run]) -> Levels {
+fn levels(study: &Program, ran: &[CaseRun]) -> Levels {
     let axis = study.refine.axis();
     let over = |step: f64| {
         if by_degree(study) {
@@ -243,7 +243,7 @@ fn levels(study: &Program, ran: &[Run]) -> Levels {
 }
 
 /// Every error of every level, with the work that the program counts.
-fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
+fn errors(levels: &Levels, ran: &[CaseRun]) -> Vec<LevelErrors> {
     let work = ran
         .iter()
         .map(|ran| ran.ok().and_then(|answer| answer.work));
@@ -256,8 +256,8 @@ fn errors(levels: &Levels, ran: &[Run]) -> Vec<LevelErrors> {
 }
 
 /// Errors over the work that the program counts, if every answer contains it.
-fn work_precision(levels: &Levels, ran: &[Run]) -> Option<Figure> {
-    let work = |ran: &Run| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
+fn work_precision(levels: &Levels, ran: &[CaseRun]) -> Option<Figure> {
+    let work = |ran: &CaseRun| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
     let series = |column: &ErrorColumn| {
         let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));

@@ -2,8 +2,8 @@
 //!
 //! A case is one resolution. The program is started with it, without a shell. Its answer is the
 //! last line of its standard output that is a JSON object, or lines of `name = value`: errors by
-//! name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case fails, with a one-line reason;
-//! none of its processes outlives it.
+//! name, values, its own step, its work. If a program fails, hangs or answers nonsense, the case
+//! fails, with a one-line reason; none of its processes outlives it.
 //!
 //! | file | holds |
 //! | --- | --- |
@@ -39,7 +39,7 @@ use command::{Invocation, filled};
 use refine::Refine;
 
 pub(crate) use answer::Answer;
-pub(crate) use refine::Resolution;
+pub(crate) use refine::RefinedCase;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -121,7 +121,7 @@ impl FromFile for Program {
 }
 
 /// A case that was run.
-type Run = Ran<Resolution, Answer>;
+type CaseRun = Ran<RefinedCase, Answer>;
 
 impl Program {
     /// The claims about rates, of errors or of values.
@@ -136,7 +136,7 @@ impl Program {
     }
 
     /// The command of a case. Without placeholders the program reads the case from standard input.
-    fn invocation(&self, case: &Resolution) -> Invocation {
+    fn invocation(&self, case: &RefinedCase) -> Invocation {
         // The reader of the file has refused words whose placeholders have no value.
         let fill = |word: &String| {
             filled(word, &case.parameters).unwrap_or_else(|_| (word.clone(), false))
@@ -182,21 +182,21 @@ pub(crate) fn printed(
 }
 
 impl Kind for Program {
-    type Data = Resolution;
+    type Data = RefinedCase;
     type Found = Answer;
 
-    fn cases(&self) -> Vec<Case<Resolution>> {
-        let case = |data: Resolution| Case::new(data.label.clone(), data.cost(), data);
+    fn cases(&self) -> Vec<Case<RefinedCase>> {
+        let case = |data: RefinedCase| Case::new(data.label.clone(), data.cost(), data);
         self.refine.resolutions().into_iter().map(case).collect()
     }
 
-    fn more(&self, ran: &[Run]) -> Option<Case<Resolution>> {
+    fn more(&self, ran: &[CaseRun]) -> Option<Case<RefinedCase>> {
         let is_next = judge::next(self, ran)? == Next::Another;
         let data = is_next.then(|| self.refine.finer(&ran[ran.len() - 1].case.data, ran.len()))?;
         Some(Case::new(data.label.clone(), data.cost(), data))
     }
 
-    fn run(&self, case: &Resolution) -> Result<Answer, CaseFailure> {
+    fn run(&self, case: &RefinedCase) -> Result<Answer, CaseFailure> {
         let invocation = self.invocation(case);
         let started = Instant::now();
         let answer = invocation.run(&self.expect)?;
@@ -210,7 +210,7 @@ impl Kind for Program {
         answer.failure.clone()
     }
 
-    fn judge(&self, ran: &[Run]) -> Outcome {
+    fn judge(&self, ran: &[CaseRun]) -> Outcome {
         judge::judge(self, ran)
     }
 

@@ -44,7 +44,7 @@ const LEVELS: [Key; 2] = [
 ];
 
 /// A number passed to a case, by its name.
-pub(crate) type Parameter = (&'static str, f64);
+pub(crate) type CaseParameter = (&'static str, f64);
 
 /// Largest count of cells or steps: up to it every whole number is a floating-point number.
 const LARGEST_COUNT: usize = 1 << 53;
@@ -74,7 +74,7 @@ impl Sequence {
     }
 
     /// The parameters of one value: itself and, for a count, the nominal step.
-    fn parameters(&self, value: f64) -> Vec<Parameter> {
+    fn parameters(&self, value: f64) -> Vec<CaseParameter> {
         match self.name {
             "n" => vec![("n", value), ("h", 1.0 / value)],
             "steps" => vec![("steps", value), ("dt", 1.0 / value)],
@@ -96,13 +96,13 @@ pub(super) struct Refine {
 
 /// One case: its identification, and what its program receives.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Resolution {
+pub(crate) struct RefinedCase {
     /// As in `[refine]`, such as `n = 8`.
     pub label: String,
     /// The values listed in `[refine]`.
-    pub listed: Vec<Parameter>,
+    pub listed: Vec<CaseParameter>,
     /// These, the nominal steps of counts, and the number of the case.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<CaseParameter>,
     /// Nominal mesh width, or NaN.
     pub h: f64,
     /// Nominal time step, or NaN.
@@ -131,7 +131,7 @@ impl Refine {
     }
 
     /// The level after `level` of a study that adds levels: counts are doubled.
-    pub(super) fn finer(&self, level: &Resolution, index: usize) -> Resolution {
+    pub(super) fn finer(&self, level: &RefinedCase, index: usize) -> RefinedCase {
         let doubled = |sequence: &Option<Sequence>, step: f64| {
             sequence.as_ref().map(|_| (2.0 / step).round())
         };
@@ -143,7 +143,7 @@ impl Refine {
     }
 
     /// All cases, coarse to fine; for a grid the time steps run fastest.
-    pub(super) fn resolutions(&self) -> Vec<Resolution> {
+    pub(super) fn resolutions(&self) -> Vec<RefinedCase> {
         let values = |sequence: &Option<Sequence>| match sequence {
             Some(sequence) => sequence.values.iter().copied().map(Some).collect(),
             None => vec![None],
@@ -166,17 +166,17 @@ impl Refine {
             .collect()
     }
 
-    fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> Resolution {
+    fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> RefinedCase {
         let given = [(&self.space, in_space), (&self.time, in_time)];
         let given: Vec<_> = given
             .into_iter()
             .filter_map(|(sequence, value)| sequence.as_ref().zip(value))
             .collect();
-        let listed: Vec<Parameter> = given
+        let listed: Vec<CaseParameter> = given
             .iter()
             .map(|(sequence, value)| (sequence.name, *value))
             .collect();
-        let mut parameters: Vec<Parameter> = given
+        let mut parameters: Vec<CaseParameter> = given
             .iter()
             .flat_map(|(sequence, value)| sequence.parameters(*value))
             .collect();
@@ -191,7 +191,7 @@ impl Refine {
             .iter()
             .map(|(name, value)| format!("{name} = {value}"))
             .collect();
-        Resolution {
+        RefinedCase {
             label: label.join(", "),
             listed,
             parameters,
@@ -201,7 +201,7 @@ impl Refine {
     }
 }
 
-impl Resolution {
+impl RefinedCase {
     /// Estimate of the cost: the number of cells and steps, up to factors.
     pub(super) fn cost(&self) -> f64 {
         [self.h, self.dt]

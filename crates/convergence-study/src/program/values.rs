@@ -1,7 +1,7 @@
 //! Values without an exact solution: the rates of their differences, and their limits.
 
-use super::{Program, Run};
-use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, Value};
+use super::{CaseRun, Program};
+use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, StepValue};
 use crate::judge::verdict::{Reason, Verdict};
 use crate::study::over_levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::{Claim, Figure, NamedRate, Outcome, Quantity, Subject, Table};
@@ -11,7 +11,7 @@ use crate::text::number::{error_text, plain_text, rate_text};
 /// sentence.
 ///
 /// * `refinements`: one for each of `ran`, with its step.
-pub(super) fn judge(study: &Program, ran: &[Run], refinements: &[Refinement]) -> Outcome {
+pub(super) fn judge(study: &Program, ran: &[CaseRun], refinements: &[Refinement]) -> Outcome {
     let found: Vec<_> = ran
         .iter()
         .map(|ran| ran.ok().map(|answer| answer.values.as_slice()))
@@ -67,12 +67,12 @@ fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate
         order, tolerance, ..
     } = column.claim?;
     let level = |(level, value): (&Refinement, &Option<f64>)| {
-        Some(Value {
+        Some(StepValue {
             step: level.step,
             value: (*value)?,
         })
     };
-    let values: Vec<Value> = refinements
+    let values: Vec<StepValue> = refinements
         .iter()
         .zip(&column.errors)
         .filter_map(level)

@@ -1,6 +1,6 @@
 //! The orders that are claimed, and the claim for each column.
 
-use super::{Request, Source, columns};
+use super::{Request, SourceTable, columns};
 use crate::input::advice::{Argument, Text};
 use crate::input::error_table::{is_degree, names::position};
 use crate::judge::claims::{Claim, order_from_text};
@@ -83,7 +83,7 @@ pub fn claimed(text: &str) -> Result<Claimed, String> {
 }
 
 /// What a claim is about in one table.
-struct Place {
+struct ClaimedColumn {
     /// The number of the column; that of all columns behind the last one.
     column: usize,
     /// Whether the claim names the table.
@@ -93,7 +93,7 @@ struct Place {
 /// The claims for each column of each table. Each column that is named must be in one of them.
 pub(super) fn claims(
     request: &Request,
-    sources: &[Source],
+    sources: &[SourceTable],
 ) -> Result<Vec<Vec<Option<Claim>>>, Text> {
     let all: Vec<&str> = sources
         .iter()
@@ -113,14 +113,14 @@ pub(super) fn claims(
     claims.collect()
 }
 
-/// Where a table has the column of this name: `L2`, or `Table 2:L2` behind the heading or the number
-/// of the table, or `Table 2:` for all its columns.
+/// Where a table has the column of this name: `L2`, or `Table 2:L2` behind the heading or the
+/// number of the table, or `Table 2:` for all its columns.
 ///
 /// * `number`: of the table, from 0.
-fn place(name: &str, number: usize, source: &Source) -> Option<Place> {
+fn place(name: &str, number: usize, source: &SourceTable) -> Option<ClaimedColumn> {
     let names = || columns(&source.table).map(|column| column.name.as_str());
     if let Some(column) = position(names(), name) {
-        return Some(Place {
+        return Some(ClaimedColumn {
             column,
             is_own: false,
         });
@@ -135,7 +135,7 @@ fn place(name: &str, number: usize, source: &Source) -> Option<Place> {
         "" => names().count(),
         name => position(names(), name)?,
     };
-    Some(Place {
+    Some(ClaimedColumn {
         column,
         is_own: true,
     })
@@ -146,7 +146,7 @@ fn place(name: &str, number: usize, source: &Source) -> Option<Place> {
 fn claims_of(
     request: &Request,
     number: usize,
-    source: &Source,
+    source: &SourceTable,
 ) -> Result<Vec<Option<Claim>>, Text> {
     let names: Vec<&str> = columns(&source.table)
         .map(|column| column.name.as_str())
@@ -155,7 +155,7 @@ fn claims_of(
     let mut general: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
     let mut own = general.clone();
     for claimed in &request.claims {
-        let all = Place {
+        let all = ClaimedColumn {
             column: names.len(),
             is_own: false,
         };
@@ -164,7 +164,7 @@ fn claims_of(
             .as_deref()
             .map_or(Some(all), |name| place(name, number, source));
         // Another table has the column.
-        let Some(Place { column, is_own }) = place else {
+        let Some(ClaimedColumn { column, is_own }) = place else {
             continue;
         };
         let claims = if is_own { &mut own } else { &mut general };
@@ -190,7 +190,7 @@ fn claims_of(
 }
 
 /// The order that is claimed of a table.
-fn order(claimed: &Claimed, source: &Source) -> Result<f64, Text> {
+fn order(claimed: &Claimed, source: &SourceTable) -> Result<f64, Text> {
     let (name, plus) = match &claimed.order {
         ClaimedOrder::Number(order) => return Ok(*order),
         ClaimedOrder::Degree { name, plus } => (name, plus),

@@ -78,8 +78,8 @@ fn escaped(text: &str) -> String {
     visible(text).chars().flat_map(plain).collect()
 }
 
-/// What `rates --format json` prints in addition to the verdict: the object of a table, or a list of
-/// several, each with its name and verdict.
+/// What `rates --format json` prints in addition to the verdict: the object of a table, or a list
+/// of several, each with its name and verdict.
 pub(crate) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
     if let [alone] = findings {
         return object(alone);

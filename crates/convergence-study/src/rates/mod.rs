@@ -48,7 +48,7 @@ impl JudgedColumn<'_> {
 }
 
 /// A table that was read.
-pub(crate) struct Source {
+pub(crate) struct SourceTable {
     /// As the command line names it.
     file: String,
     /// The file, and the heading of the table if the file has several.
@@ -58,7 +58,7 @@ pub(crate) struct Source {
     table: RateTable,
 }
 
-impl Source {
+impl SourceTable {
     /// * `heading`: of the table, if its file has several; otherwise empty.
     fn new(file: &str, heading: &str, table: RateTable) -> Self {
         let name = if heading.is_empty() {
@@ -79,7 +79,7 @@ impl Source {
 pub(crate) struct Judgement<'t> {
     /// The program of the caller, in the commands that advice names.
     command: &'t str,
-    source: &'t Source,
+    source: &'t SourceTable,
     columns: Vec<JudgedColumn<'t>>,
     floor: Floor,
     verdict: Verdict,
@@ -249,7 +249,7 @@ fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
 }
 
 /// Reads all tables of a file or a text.
-pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<Source>, Refusal> {
+pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTable>, Refusal> {
     let (file, tables) = match tables {
         Tables::File(file) => (file, RateTable::read_all_with(file, choice)),
         Tables::Text(text) => (TEXT, RateTable::parse_all_with(text, TEXT, choice)),
@@ -260,19 +260,19 @@ pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<Source>, R
     })?;
     let tables = tables.into_iter();
     Ok(tables
-        .map(|(heading, table)| Source::new(file, &heading, table))
+        .map(|(heading, table)| SourceTable::new(file, &heading, table))
         .collect())
 }
 
 /// The judgements of all tables.
 pub(crate) fn judgements<'t>(
     command: &'t str,
-    sources: &'t [Source],
+    sources: &'t [SourceTable],
     rule: &'t Rule,
     request: &Request,
 ) -> Result<Vec<Judgement<'t>>, Refusal> {
     let claims = claims::claims(request, sources)?;
-    let judged = |(source, claims): (&'t Source, Vec<Option<Claim>>)| {
+    let judged = |(source, claims): (&'t SourceTable, Vec<Option<Claim>>)| {
         let columns = judged_columns(source, &claims, rule, request.all);
         let deciding = columns.iter().filter(|column| column.decides);
         let verdicts = deciding.map(|column| column.rate.verdict);
@@ -300,7 +300,7 @@ pub(crate) fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
 /// * `claims`: one for each column, errors first.
 /// * `all`: whether columns without a claim count, too.
 fn judged_columns<'t>(
-    source: &'t Source,
+    source: &'t SourceTable,
     claims: &[Option<Claim>],
     rule: &Rule,
     all: bool,

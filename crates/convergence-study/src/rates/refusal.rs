@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::input::advice::{self, Part, Surface, Text};
+use crate::input::advice::{self, MessagePart, Surface, Text};
 use crate::input::error_table::Offer;
 use crate::input::{Complaint, InputError};
 use crate::judge::verdict::JudgeError;
@@ -66,10 +66,10 @@ impl Refusal {
 }
 
 /// Words, or an argument by its name.
-fn part(part: &Part) -> Value {
+fn part(part: &MessagePart) -> Value {
     match part {
-        Part::Words(words) => json!(words),
-        Part::Argument { argument, value } => {
+        MessagePart::Words(words) => json!(words),
+        MessagePart::Argument { argument, value } => {
             json!({"argument": argument.name(), "value": value})
         }
     }
@@ -90,10 +90,10 @@ fn offer(offer: &Offer, surface: &dyn Surface) -> Value {
 }
 
 /// The value of an argument.
-fn value(value: &advice::Value) -> Value {
+fn value(value: &advice::ArgumentValue) -> Value {
     match value {
-        advice::Value::Number(number) => json!(number),
-        advice::Value::Name(name) => json!(name),
-        advice::Value::Names(names) => json!(names),
+        advice::ArgumentValue::Number(number) => json!(number),
+        advice::ArgumentValue::Name(name) => json!(name),
+        advice::ArgumentValue::Names(names) => json!(names),
     }
 }

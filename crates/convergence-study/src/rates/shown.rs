@@ -200,8 +200,8 @@ pub(super) fn advice_of_claim(judged: &JudgedColumn<'_>) -> Option<String> {
     (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged))
 }
 
-/// What the errors tend to, or what the reason means, and what to do; for a value that looks like an
-/// error, how it is judged as one.
+/// What the errors tend to, or what the reason means, and what to do; for a value that looks like
+/// an error, how it is judged as one.
 fn advice(judged: &JudgedColumn<'_>) -> String {
     let general = judged.rate.advice().unwrap_or_default();
     match judged.rate.tendency {

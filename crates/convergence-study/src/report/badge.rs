@@ -1,4 +1,5 @@
-//! The verdict as a badge for a project's page: a picture, and the numbers of one for a service that draws badges.
+//! The verdict as a badge for a project's page: a picture, and the numbers of one for a service
+//! that draws badges.
 
 use serde_json::json;
 

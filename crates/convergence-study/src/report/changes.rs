@@ -5,7 +5,7 @@ use super::Findings;
 use super::markdown::{cell, table, text};
 use super::section::folded;
 use super::words::{blessing, can_be_blessed};
-use crate::store::{Change, Movement, Record, without_baseline};
+use crate::store::{GuardedChange, Movement, Record, without_baseline};
 use crate::text::number::short_text;
 
 /// Claims, the worst number of each study, how to accept them, and all numbers, folded; a part may
@@ -17,7 +17,7 @@ pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) ->
     if without_baseline(&record.studies, record.moves()).is_some() {
         return vec![acceptance(findings)];
     }
-    let (claims, numbers): (Vec<&Change>, Vec<&Change>) = record
+    let (claims, numbers): (Vec<&GuardedChange>, Vec<&GuardedChange>) = record
         .moves()
         .iter()
         .partition(|change| change.movement.needs_a_reason());
@@ -28,7 +28,7 @@ pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) ->
         .filter(|study| !study.outcome.verdict.is_pass())
         .map(|study| study.header.id.as_str())
         .collect();
-    let numbers: Vec<&Change> = numbers
+    let numbers: Vec<&GuardedChange> = numbers
         .into_iter()
         .filter(|change| !failing.contains(&change.study.as_str()))
         .collect();
@@ -40,7 +40,7 @@ pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) ->
     ]
 }
 
-fn list_of_claims(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
+fn list_of_claims(changes: &[&GuardedChange], link: &dyn Fn(&str) -> String) -> String {
     if changes.is_empty() {
         return String::new();
     }
@@ -54,11 +54,11 @@ fn list_of_claims(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String 
 }
 
 /// One row for each study: its worst number.
-fn table_of_worst_numbers(changes: &[&Change], link: &dyn Fn(&str) -> String) -> String {
+fn table_of_worst_numbers(changes: &[&GuardedChange], link: &dyn Fn(&str) -> String) -> String {
     if changes.is_empty() {
         return String::new();
     }
-    let mut studies: Vec<(&Change, usize)> = changes
+    let mut studies: Vec<(&GuardedChange, usize)> = changes
         .chunk_by(|one, next| one.study == next.study)
         .filter_map(|of_study| Some((heaviest(of_study)?, of_study.len())))
         .collect();
@@ -89,7 +89,7 @@ fn table_of_worst_numbers(changes: &[&Change], link: &dyn Fn(&str) -> String) ->
 }
 
 /// The first of the largest weight.
-fn heaviest<'c>(changes: &[&'c Change]) -> Option<&'c Change> {
+fn heaviest<'c>(changes: &[&'c GuardedChange]) -> Option<&'c GuardedChange> {
     changes
         .iter()
         .rev()
@@ -131,7 +131,7 @@ fn acceptance(findings: &Findings<'_>) -> String {
 }
 
 /// Every number, folded; empty if the table above has them all.
-fn table_of_all_numbers(changes: &[&Change]) -> String {
+fn table_of_all_numbers(changes: &[&GuardedChange]) -> String {
     if changes
         .chunk_by(|one, next| one.study == next.study)
         .all(|of_study| of_study.len() == 1)

@@ -24,8 +24,8 @@ const MOST_FIGURES: usize = 3;
 /// The section of a study in the Markdown report; short if it passes.
 ///
 /// * `command`: runs it again.
-/// * `captions`: of the figures so far. If the only figure of a study has such a caption, it is only
-///   named.
+/// * `captions`: of the figures so far. If the only figure of a study has such a caption, it is
+///   only named.
 pub(super) fn section<'f>(
     finished: &'f Finished,
     command: &str,
@@ -167,13 +167,14 @@ pub(super) fn front(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) -> P
     let record = findings.record;
     let front = &findings.project.front;
     let mut statements = String::new();
-    for (statement, id, rate) in front.statements {
-        if let Some(study) = record.studies.iter().find(|study| study.header.id == *id) {
+    for statement in front.statements {
+        let mut studies = record.studies.iter();
+        if let Some(study) = studies.find(|study| study.header.id == statement.study) {
             statements += &item(&format!(
                 "**{}**: {} ({})",
-                text(statement),
-                text(&answer(study, rate)),
-                link(id)
+                text(statement.text),
+                text(&answer(study, statement.rate)),
+                link(statement.study)
             ));
         }
     }

@@ -29,14 +29,14 @@ const ONLY_ON_PAGE: &str = "page";
 
 /// The folder of the link to a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum FigureFolder {
     /// That of the report itself.
     Own,
     /// That of the report one folder above.
     Above,
 }
 
-impl Place {
+impl FigureFolder {
     /// How a link begins.
     fn link(self) -> String {
         match self {
@@ -74,7 +74,7 @@ fn is_file_name(name: &str) -> bool {
 
 /// The path of a figure in a set of files, by the links of the Markdown report in it.
 pub(super) fn path(readme: &str, name: &str) -> String {
-    if readme.contains(&format!("{}{name})", Place::Own.link())) {
+    if readme.contains(&format!("{}{name})", FigureFolder::Own.link())) {
         format!("{FIGURES}/{name}")
     } else {
         format!("{FIGURES}/{ONLY_ON_PAGE}/{name}")
@@ -96,7 +96,7 @@ pub(crate) fn picture(folder: &Path, name: &str) -> io::Result<std::path::PathBu
     let readme = if_there(read_to_string(&folder.join(README)))?.unwrap_or_default();
     Ok(if only_on_page.exists() {
         only_on_page
-    } else if Place::Above.figures(&readme).contains(name) {
+    } else if FigureFolder::Above.figures(&readme).contains(name) {
         folder.join("..").join(FIGURES).join(name)
     } else {
         own
@@ -169,11 +169,11 @@ impl Common {
             paths: BTreeSet::new(),
             readme: readme.to_owned(),
         };
-        for name in Place::Own.figures(readme) {
+        for name in FigureFolder::Own.figures(readme) {
             let path = format!("{FIGURES}/{name}");
             let bytes = own(&path)?;
             if bytes.is_some() && stored.contains(&path) && bytes == above.read(&path)? {
-                common.readme = Place::Above.of(&name, &common.readme);
+                common.readme = FigureFolder::Above.of(&name, &common.readme);
                 common.paths.insert(path);
             }
         }
@@ -193,12 +193,12 @@ fn keep(below: &ReportFolder, above: &ReportFolder, new: &ReportSet) -> io::Resu
     };
     let mut linked = readme.clone();
     let mut copies = ReportSet::default();
-    for name in Place::Above.figures(&readme) {
+    for name in FigureFolder::Above.figures(&readme) {
         let path = format!("{FIGURES}/{name}");
         let now = above.read(&path)?;
         if let Some(bytes) = now.filter(|bytes| new.get(&path) != Some(bytes)) {
             copies.add(path, bytes)?;
-            linked = Place::Own.of(&name, &linked);
+            linked = FigureFolder::Own.of(&name, &linked);
         }
     }
     if linked == readme {
@@ -234,15 +234,15 @@ mod tests {
     #[test]
     fn a_link_moves_and_its_like_stay() {
         let text = "![a](figures/a.svg) [b](figures/aa.svg) ![c](../figures/c.svg) figures/a.svg";
-        let moved = Place::Above.of("a.svg", text);
+        let moved = FigureFolder::Above.of("a.svg", text);
         assert_eq!(
             moved,
             "![a](../figures/a.svg) [b](figures/aa.svg) ![c](../figures/c.svg) figures/a.svg"
         );
-        assert_eq!(Place::Own.of("a.svg", &moved), text);
-        let names = |place: Place| place.figures(text).into_iter().collect::<Vec<_>>();
-        assert_eq!(names(Place::Own), ["a.svg", "aa.svg"]);
-        assert_eq!(names(Place::Above), ["c.svg"]);
+        assert_eq!(FigureFolder::Own.of("a.svg", &moved), text);
+        let names = |place: FigureFolder| place.figures(text).into_iter().collect::<Vec<_>>();
+        assert_eq!(names(FigureFolder::Own), ["a.svg", "aa.svg"]);
+        assert_eq!(names(FigureFolder::Above), ["c.svg"]);
     }
 
     /// Another process was killed after its set of the quick tier counted, and before the first
@@ -280,6 +280,6 @@ mod tests {
     #[test]
     fn a_link_that_leaves_the_folder_of_figures_is_no_figure() {
         let text = "![a](../figures/../../b.svg) ![c](../figures/d/e.svg) ![f](../figures/..)";
-        assert!(Place::Above.figures(text).is_empty());
+        assert!(FigureFolder::Above.figures(text).is_empty());
     }
 }

@@ -133,7 +133,7 @@ const WIDEST: usize = 120;
 
 /// A parameter of the levels; or the errors of one name on their levels, with the rate from the
 /// previous level.
-struct Column {
+struct TableColumn {
     /// Name, and the word above the rates, if there are any.
     head: Vec<String>,
     /// For each level: nothing, or as many cells as heads.
@@ -142,7 +142,7 @@ struct Column {
 
 /// An error at a level.
 #[derive(Clone, Copy, PartialEq)]
-enum Cell {
+enum ErrorCell {
     /// The level does not have the error.
     NotMeasured,
     /// It should have it, but its case gave no result.
@@ -151,20 +151,20 @@ enum Cell {
     Error(f64),
 }
 
-impl Cell {
+impl ErrorCell {
     fn of(level: &LevelErrors, name: &str) -> Self {
         match level.errors.iter().find(|(known, _)| known == name) {
-            None => Cell::NotMeasured,
-            Some(_) if level.without.iter().any(|known| known == name) => Cell::NoResult,
-            Some((_, error)) => Cell::Error(*error),
+            None => ErrorCell::NotMeasured,
+            Some(_) if level.without.iter().any(|known| known == name) => ErrorCell::NoResult,
+            Some((_, error)) => ErrorCell::Error(*error),
         }
     }
 
     fn text(self) -> Option<String> {
         match self {
-            Cell::NotMeasured => None,
-            Cell::NoResult => Some("-".to_owned()),
-            Cell::Error(error) => Some(error_text(error)),
+            ErrorCell::NotMeasured => None,
+            ErrorCell::NoResult => Some("-".to_owned()),
+            ErrorCell::Error(error) => Some(error_text(error)),
         }
     }
 }
@@ -204,11 +204,11 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
             .map(|name| name.chars().count().max(6) + 3)
             .sum::<usize>()
             .min(WIDEST);
-    let mut groups: Vec<Vec<Column>> = vec![];
+    let mut groups: Vec<Vec<TableColumn>> = vec![];
     for name in names {
-        let column = Column::of(outcome, name);
+        let column = TableColumn::of(outcome, name);
         if let Some(last) = groups.last_mut()
-            && last.iter().map(Column::width).sum::<usize>() + column.width() <= room
+            && last.iter().map(TableColumn::width).sum::<usize>() + column.width() <= room
             && last[0].rows_like(&column)
         {
             last.push(column);
@@ -216,9 +216,9 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
             groups.push(vec![column]);
         }
     }
-    let first_columns: Vec<Column> = parameters
+    let first_columns: Vec<TableColumn> = parameters
         .into_iter()
-        .map(|name| Column::of_parameter(outcome, name))
+        .map(|name| TableColumn::of_parameter(outcome, name))
         .collect();
     let mut tables = vec![];
     for group in &groups {
@@ -227,7 +227,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
         } else {
             "Errors, continued"
         };
-        let columns: Vec<&Column> = first_columns.iter().chain(group).collect();
+        let columns: Vec<&TableColumn> = first_columns.iter().chain(group).collect();
         let head = columns.iter().flat_map(|column| column.head.clone());
         let rows = (0..levels.len()).filter_map(|level| row_of_errors(&columns, level));
         tables.push(Table::new(title, head, rows));
@@ -236,7 +236,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
 }
 
 /// The cells of a level; `None` if it does not have these errors.
-fn row_of_errors(columns: &[&Column], level: usize) -> Option<Vec<String>> {
+fn row_of_errors(columns: &[&TableColumn], level: usize) -> Option<Vec<String>> {
     let mut row = vec![];
     for column in columns {
         row.extend_from_slice(column.cells[level].as_deref()?);
@@ -244,7 +244,7 @@ fn row_of_errors(columns: &[&Column], level: usize) -> Option<Vec<String>> {
     Some(row)
 }
 
-impl Column {
+impl TableColumn {
     /// What identifies the levels.
     fn of_parameter(outcome: &Outcome, name: &str) -> Self {
         let texts = outcome.levels.iter().map(|level| {
@@ -259,12 +259,12 @@ impl Column {
 
     /// The errors of this name, and their rates if these were judged on the same levels.
     fn of(outcome: &Outcome, name: &str) -> Self {
-        let cells: Vec<Cell> = outcome
+        let cells: Vec<ErrorCell> = outcome
             .levels
             .iter()
-            .map(|level| Cell::of(level, name))
+            .map(|level| ErrorCell::of(level, name))
             .collect();
-        let measured = cells.iter().filter(|cell| **cell != Cell::NotMeasured);
+        let measured = cells.iter().filter(|cell| **cell != ErrorCell::NotMeasured);
         let pairs = measured.count().saturating_sub(1);
         let pairwise = outcome
             .rate(name)

@@ -3,7 +3,7 @@
 use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{Change, Movement, without_baseline};
+use crate::store::{GuardedChange, Movement, without_baseline};
 use crate::study::coverage::incomplete;
 use crate::study::outcome::{NamedRate, Outcome};
 use crate::text::lists::{self, and_more};
@@ -18,7 +18,7 @@ const NAMED: usize = 3;
 /// The verdict on a run in one line, without the verdict itself.
 ///
 /// * `changes`: what moved away from the baseline; `None` without a baseline.
-pub fn sentence(finished: &[Finished], changes: Option<&[Change]>) -> String {
+pub fn sentence(finished: &[Finished], changes: Option<&[GuardedChange]>) -> String {
     let verdicts = [
         (Verdict::Fail, "fail"),
         (Verdict::Inconclusive, "inconclusive"),
@@ -59,7 +59,7 @@ fn count_of_studies(finished: &[Finished], verdict: Verdict, words: &str) -> Opt
 }
 
 /// How many numbers and claims differ from the baseline.
-fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
+fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String {
     match without_baseline(finished, changes) {
         Some(numbers) if can_be_blessed(finished) => {
             return format!("no baseline yet: {} to accept", counted(numbers, "number"));
@@ -79,7 +79,7 @@ fn baseline_in_words(finished: &[Finished], changes: &[Change]) -> String {
     let mut deleted = 0;
     let mut claims = 0;
     let mut values = 0;
-    for Change { movement, .. } in changes {
+    for GuardedChange { movement, .. } in changes {
         match movement {
             _ if movement.is_of_one_claim() => claims += 1,
             Movement::New { .. } => new_numbers += 1,
@@ -122,7 +122,7 @@ pub fn blessing(
     project: &Project,
     command: &str,
     finished: &[Finished],
-    changes: &[Change],
+    changes: &[GuardedChange],
 ) -> String {
     let all_run = changes.iter().all(|change| {
         let is_gone = matches!(

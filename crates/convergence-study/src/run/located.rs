@@ -3,13 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use crate::judge::verdict::RateVerdict;
-use crate::study::variants::Part;
+use crate::study::variants::SolverPart;
 
 /// What the variants of a study's solution show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Located {
     /// The parts in which the order is lost; empty if nothing can be claimed.
-    pub named: Vec<Part>,
+    pub named: Vec<SolverPart>,
     /// The conclusion, in words.
     pub conclusion: String,
     /// Each variant that was run.
@@ -36,7 +36,7 @@ pub struct VariantRates {
     /// Its name.
     pub name: String,
     /// What it switches off.
-    pub switches_off: Part,
+    pub switches_off: SolverPart,
     /// What became of the order.
     pub order: Fate,
     /// The rates of the errors whose order is lost in the study; none for a variant that cannot be

@@ -42,7 +42,7 @@ use crate::text::{json, visible};
 use change::Claims;
 pub(crate) use change::signed_percent;
 pub(crate) use change::without_baseline;
-pub use change::{BlessedClaim, Change, Movement};
+pub use change::{BlessedClaim, GuardedChange, Movement};
 
 /// Version of the file format.
 const SCHEMA: u32 = 2;
@@ -80,7 +80,7 @@ pub struct Guarded {
 /// Why a run was not accepted as baseline. Shown in the words of the command line.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}", self.words("--bless --reason TEXT"))]
-pub enum Refusal {
+pub enum BlessingRefusal {
     /// A study does not pass, or was not run; a number cannot be met by any run, because it is not
     /// finite or its tolerance is invalid: in words.
     Unacceptable(String),
@@ -88,7 +88,7 @@ pub enum Refusal {
     Unreasoned(Vec<String>),
 }
 
-impl Refusal {
+impl BlessingRefusal {
     /// The message.
     ///
     /// * `blessing`: the options that bless with a reason.
@@ -137,7 +137,7 @@ impl Baseline {
     /// * `known`: the headers of all existing studies, run or not: claims are compared for all of
     ///   them, numbers for those that were run. A study of the baseline that is not among them was
     ///   deleted, which is one change, including its numbers; `None` if only a selection matters.
-    pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<Change> {
+    pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<GuardedChange> {
         let none = BTreeMap::new();
         let mut changes = Vec::new();
         for Finished {
@@ -175,7 +175,7 @@ impl Baseline {
         changes
     }
 
-    fn changed_claims(&self, header: &Header) -> Vec<Change> {
+    fn changed_claims(&self, header: &Header) -> Vec<GuardedChange> {
         change::of_claims(header, self.claims.get(&header.id), self.guards(&header.id))
     }
 
@@ -196,13 +196,13 @@ impl Baseline {
     ///   study.
     ///
     /// # Errors
-    /// [`Refusal`]; the baseline then stays unchanged.
+    /// [`BlessingRefusal`]; the baseline then stays unchanged.
     pub fn bless(
         &mut self,
         finished: &[Finished],
         known: Option<&[Header]>,
         reason: Option<&str>,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), BlessingRefusal> {
         finished.iter().try_for_each(acceptable)?;
         let mut changes = self.compare(finished, known);
         // Claims of known studies that were not run are left alone.
@@ -216,7 +216,7 @@ impl Baseline {
             .map(|change| visible::visible(&change.to_string()))
             .collect();
         if !claims.is_empty() {
-            return Err(Refusal::Unreasoned(claims));
+            return Err(BlessingRefusal::Unreasoned(claims));
         }
         changes.iter().try_for_each(|change| {
             let is_new = matches!(change.movement, Movement::New { .. });
@@ -229,14 +229,14 @@ impl Baseline {
     /// * `reason`: kept with the number or the claim.
     ///
     /// # Errors
-    /// [`Refusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the study must
-    /// pass.
+    /// [`BlessingRefusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the
+    /// study must pass.
     pub fn accept(
         &mut self,
         finished: &[Finished],
-        change: &Change,
+        change: &GuardedChange,
         reason: &str,
-    ) -> Result<(), Refusal> {
+    ) -> Result<(), BlessingRefusal> {
         find(finished, &change.study).map_or(Ok(()), acceptable)?;
         self.take(finished, change, Some(reason))
     }
@@ -244,10 +244,10 @@ impl Baseline {
     fn take(
         &mut self,
         finished: &[Finished],
-        change: &Change,
+        change: &GuardedChange,
         reason: Option<&str>,
-    ) -> Result<(), Refusal> {
-        let Change {
+    ) -> Result<(), BlessingRefusal> {
+        let GuardedChange {
             study,
             name,
             movement,
@@ -271,7 +271,7 @@ impl Baseline {
             }
             // It changes only with a run that passes.
             (_, None) => {
-                return Err(Refusal::Unacceptable(format!(
+                return Err(BlessingRefusal::Unacceptable(format!(
                     "not accepted: `{study}` was not run; name it, or its tier"
                 )));
             }
@@ -332,21 +332,23 @@ fn acceptable(
     Finished {
         header, outcome, ..
     }: &Finished,
-) -> Result<(), Refusal> {
+) -> Result<(), BlessingRefusal> {
     let study = &header.id;
     let verdict = outcome.verdict;
     if verdict != Verdict::Pass {
         let refused = format!(
             "the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass"
         );
-        return Err(Refusal::Unacceptable(format!("not blessed: {refused}")));
+        return Err(BlessingRefusal::Unacceptable(format!(
+            "not blessed: {refused}"
+        )));
     }
     let cannot_be_met =
         |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
     outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance, .. }| {
         let refused =
             format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
-        Err(Refusal::Unacceptable(format!("not blessed: {refused}")))
+        Err(BlessingRefusal::Unacceptable(format!("not blessed: {refused}")))
     })
 }
 

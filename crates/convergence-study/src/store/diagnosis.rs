@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{Change, Movement, baseline::signed_percent};
-use crate::study::header::{self, Setting};
+use crate::store::{GuardedChange, Movement, baseline::signed_percent};
+use crate::study::header::{self, SettingWords};
 use crate::study::{Check, Header, NamedRate, Origin, Outcome, Study, Subject};
 use crate::text::json;
 use crate::text::lists::{and_more, grouped};
@@ -31,7 +31,7 @@ pub struct Diagnosis {
     /// Which settings separate failing from passing items.
     pub contrast: Contrast,
     /// Wrong fields, ordered by how much they moved within their studies.
-    pub first: Vec<Field>,
+    pub first: Vec<WrongField>,
     /// Claims of failing checks, the commonest first, and how many fail.
     pub checks: Vec<(String, usize)>,
     /// Where to look.
@@ -44,7 +44,7 @@ pub struct Diagnosis {
 
 /// A field that is wrong.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Field {
+pub struct WrongField {
     /// Its name.
     pub name: String,
     /// Its share of the movement, on the finest levels, summed over studies.
@@ -82,7 +82,7 @@ pub fn diagnose(
     project: &Project,
     studies: &[Box<dyn Study + '_>],
     finished: &[Finished],
-    changes: &[Change],
+    changes: &[GuardedChange],
 ) -> Option<Diagnosis> {
     let failing: Vec<&Finished> = finished
         .iter()
@@ -104,7 +104,7 @@ pub fn diagnose(
     let claims = changes
         .iter()
         .filter(|change| change.movement.needs_a_reason());
-    let claims: Vec<String> = claims.map(Change::words).collect();
+    let claims: Vec<String> = claims.map(GuardedChange::words).collect();
     let contrast = contrast(&votes(studies, finished, changes));
     let first = fields::first(finished, changes);
     let clearest = clearest(&failing);
@@ -127,7 +127,7 @@ pub fn diagnose(
 impl Diagnosis {
     /// Adds the command that repeats the clearest failure of a run of `verify`, which finds studies
     /// by their ids.
-    pub fn add_repetition(&mut self, project: &Project, changes: &[Change]) {
+    pub fn add_repetition(&mut self, project: &Project, changes: &[GuardedChange]) {
         let moved = changes
             .iter()
             .find(|change| is_number(change))
@@ -144,31 +144,38 @@ impl Diagnosis {
 }
 
 /// Where to look: the places that belong to the settings of a contrast and to a field.
-fn places(project: &Project, contrast: &Contrast, first: Option<&Field>) -> Vec<String> {
+fn places(project: &Project, contrast: &Contrast, first: Option<&WrongField>) -> Vec<String> {
     let field = first.map(|field| field.name.as_str());
     let mut places = vec![];
     for word in contrast.values().chain(field) {
-        if let Some((_, place)) = project.places.iter().find(|(key, _)| *key == word) {
-            places.push((*place).to_owned());
+        if let Some(known) = project.places.iter().find(|known| known.word == word) {
+            places.push(known.place.to_owned());
         }
     }
     places
 }
 
 /// Whether a number has moved or vanished: a new one has no cause.
-fn is_number(change: &Change) -> bool {
+fn is_number(change: &GuardedChange) -> bool {
     !change.movement.needs_a_reason() && change.movement.weight() > 0.0
 }
 
 /// The numbers of a study that moved or vanished.
-fn moved_numbers<'c>(changes: &'c [Change], study: &str) -> impl Iterator<Item = &'c Change> {
+fn moved_numbers<'c>(
+    changes: &'c [GuardedChange],
+    study: &str,
+) -> impl Iterator<Item = &'c GuardedChange> {
     changes
         .iter()
         .filter(move |change| change.study == study && is_number(change))
 }
 
 /// One vote for each study and set of settings.
-fn votes(studies: &[Box<dyn Study + '_>], finished: &[Finished], changes: &[Change]) -> Vec<Vote> {
+fn votes(
+    studies: &[Box<dyn Study + '_>],
+    finished: &[Finished],
+    changes: &[GuardedChange],
+) -> Vec<Vote> {
     let any_judged = finished
         .iter()
         .any(|study| study.outcome.verdict != Verdict::Pass);
@@ -238,7 +245,7 @@ impl StudyVotes<'_> {
         }
     }
 
-    fn count_with(&mut self, settings: Vec<Setting>, fails: bool, counts: bool) {
+    fn count_with(&mut self, settings: Vec<SettingWords>, fails: bool, counts: bool) {
         let known = self.votes.iter().position(|vote| vote.settings == settings);
         let place = known.unwrap_or(self.votes.len());
         if known.is_none() {
@@ -320,7 +327,7 @@ fn largest_distance(outcome: &Outcome) -> f64 {
 
 /// Moved numbers of passing studies: those of the same field that changed by the same factor have
 /// one cause.
-fn groups_of_moved_numbers(finished: &[Finished], changes: &[Change]) -> Vec<String> {
+fn groups_of_moved_numbers(finished: &[Finished], changes: &[GuardedChange]) -> Vec<String> {
     let mut moved = vec![];
     for Finished {
         header, outcome, ..
@@ -386,7 +393,12 @@ impl Diagnosis {
         }
         lines.extend(self.lines_of_contrast());
         if !self.first.is_empty() {
-            let named: Vec<String> = self.first.iter().take(NAMED).map(Field::words).collect();
+            let named: Vec<String> = self
+                .first
+                .iter()
+                .take(NAMED)
+                .map(WrongField::words)
+                .collect();
             let rest = if self.first.len() > NAMED {
                 ", then the rest"
             } else {
@@ -459,7 +471,7 @@ impl Diagnosis {
     }
 }
 
-impl Field {
+impl WrongField {
     fn words(&self) -> String {
         let rate = self
             .rate

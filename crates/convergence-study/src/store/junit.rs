@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use crate::judge::verdict::Verdict;
 use crate::plots::attributes::{escape, escape_attribute};
 use crate::run::{Finished, Item, items};
-use crate::store::{Change, Record, diagnosis::Diagnosis, without_baseline};
+use crate::store::{GuardedChange, Record, diagnosis::Diagnosis, without_baseline};
 
 /// The document, for the project of this name.
 ///
@@ -120,7 +120,7 @@ fn cause(diagnosis: &Diagnosis) -> Suite {
     }
 }
 
-fn baseline(studies: &[Finished], changes: &[Change]) -> Suite {
+fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Suite {
     const NAME: &str = "baseline";
     let mut suite = Suite::new(NAME);
     if let Some(numbers) = without_baseline(studies, changes) {

@@ -12,8 +12,8 @@ mod junit;
 mod provenance;
 mod record;
 
-pub use baseline::{Baseline, BlessedClaim, Change, Movement, Works};
-pub(crate) use baseline::{Refusal, without_baseline};
+pub use baseline::{Baseline, BlessedClaim, GuardedChange, Movement, Works};
+pub(crate) use baseline::{BlessingRefusal, without_baseline};
 pub(crate) use file_set::MANIFEST;
 pub use file_set::{ReportFolder, ReportSet, lock};
 pub use junit::junit;

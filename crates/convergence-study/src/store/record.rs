@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
-use crate::store::{self, Change, atomic, diagnosis::Diagnosis, parsed};
+use crate::store::{self, GuardedChange, atomic, diagnosis::Diagnosis, parsed};
 use crate::text::number::{committed, committed_rate};
 
 /// Version of the schema; it increases when a field changes its name or meaning, not when one is
@@ -49,7 +49,7 @@ pub struct Record {
     pub baseline_changes: Vec<String>,
     /// The same as data; `None` without a baseline.
     #[serde(default)]
-    pub changes: Option<Vec<Change>>,
+    pub changes: Option<Vec<GuardedChange>>,
     /// The known facts about the cause, if the run does not pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diagnosis: Option<Diagnosis>,
@@ -78,7 +78,7 @@ impl Record {
         scope: &str,
         command: &str,
         verdict: Verdict,
-        changes: Option<&[Change]>,
+        changes: Option<&[GuardedChange]>,
         studies: Vec<Finished>,
     ) -> Self {
         Self {
@@ -90,16 +90,16 @@ impl Record {
             baseline_changes: changes
                 .unwrap_or_default()
                 .iter()
-                .map(Change::to_string)
+                .map(GuardedChange::to_string)
                 .collect(),
-            changes: changes.map(<[Change]>::to_vec),
+            changes: changes.map(<[GuardedChange]>::to_vec),
             diagnosis: None,
             studies,
         }
     }
 
     /// Differences from the baseline, if there is one.
-    pub fn moves(&self) -> &[Change] {
+    pub fn moves(&self) -> &[GuardedChange] {
         self.changes.as_deref().unwrap_or_default()
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::header::{Header, Setting};
+use super::header::{Header, SettingWords};
 use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
 use super::outcome::Outcome;
 use super::subject::Subject;
@@ -24,7 +24,7 @@ pub trait Study: Send + Sync {
     fn untested(&self) -> Vec<Untested>;
 
     /// The settings that an item exercises, as [`Kind::settings`] states them.
-    fn settings(&self, subject: &Subject) -> Vec<Setting>;
+    fn settings(&self, subject: &Subject) -> Vec<SettingWords>;
 
     /// As [`Kind::manufactured`].
     fn manufactured(&self) -> Option<&Path> {
@@ -111,7 +111,7 @@ impl<K: Kind> Study for Described<K> {
         self.kind.untested()
     }
 
-    fn settings(&self, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, subject: &Subject) -> Vec<SettingWords> {
         self.kind.settings(&self.header, subject)
     }
 

@@ -83,7 +83,8 @@ impl StudyFile {
         Ok(files)
     }
 
-    /// Reads a study from `text`; messages name `path`, and other files are searched for next to it.
+    /// Reads a study from `text`; messages name `path`, and other files are searched for next to
+    /// it.
     pub fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
         Self::parse_after(&[], kinds, text, path)
     }

@@ -109,13 +109,13 @@ pub fn is_name(text: &str) -> bool {
 
 /// A setting: its key, and its value in words that can stand alone, such as `axis` and
 /// `refined in space`.
-pub type Setting = (String, String);
+pub type SettingWords = (String, String);
 
 /// The setting that only the items of one study share.
 pub(crate) const STUDY: &str = "study";
 
 /// That setting: if nothing else separates, a study fails alone.
-pub fn study(header: &Header) -> Setting {
+pub fn study(header: &Header) -> SettingWords {
     (STUDY.to_owned(), format!("{} alone", header.id))
 }
 
@@ -123,7 +123,7 @@ pub fn study(header: &Header) -> Setting {
 /// study's file.
 ///
 /// * `subject`: what the item is about; its quantity is known.
-pub(crate) fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
+pub(crate) fn of_file(header: &Header, subject: &Subject) -> Vec<SettingWords> {
     let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
     let is_own = |path: &str| !path.starts_with("study.") && !path.contains('[');
     let own = [
@@ -132,7 +132,7 @@ pub(crate) fn of_file(header: &Header, subject: &Subject) -> Vec<Setting> {
         pair("kind", &header.kind),
     ];
     // Each entry of a list, such as the words of a command, is a separate setting.
-    let entries = |(path, value): &Setting| {
+    let entries = |(path, value): &SettingWords| {
         let entries = value.trim_matches(['[', ']']).split(", ").enumerate();
         let entry = |(k, entry): (usize, &str)| {
             (

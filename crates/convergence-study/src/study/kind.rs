@@ -1,10 +1,10 @@
-//! A kind of study, typed for its author; its computations, and the result of each or the reason why
-//! it is missing.
+//! A kind of study, typed for its author; its computations, and the result of each or the reason
+//! why it is missing.
 
 use std::path::Path;
 
 use super::coverage::{Coverage, NO_RESULT};
-use super::header::{self, Header, Setting};
+use super::header::{self, Header, SettingWords};
 use super::outcome::{Check, Origin, Outcome};
 use super::subject::Subject;
 use super::variants::Variants;
@@ -200,7 +200,7 @@ pub trait Kind: Send + Sync {
     /// failing from passing items. By default the values of the study's file.
     ///
     /// * `subject`: what the item is about; its quantity is known.
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         header::of_file(header, subject)
     }
 

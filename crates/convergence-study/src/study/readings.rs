@@ -131,7 +131,8 @@ impl Reading {
     }
 }
 
-/// Names of the readings that are NaN or infinite, for [`completion_check`](super::kind::completion_check).
+/// Names of the readings that are NaN or infinite, for
+/// [`completion_check`](super::kind::completion_check).
 pub fn not_finite(readings: &[Reading]) -> Vec<String> {
     let broken = readings
         .iter()

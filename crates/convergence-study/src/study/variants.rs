@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A part of a solver, or several of one sort, as a variant switches it off.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "part", content = "name", rename_all = "snake_case")]
-pub enum Part {
+pub enum SolverPart {
     /// All that acts along a coordinate.
     Coordinate(String),
     /// All that acts along time, by its name.
@@ -37,7 +37,7 @@ pub struct Variant {
     /// Its name, such as `flat_x_max`.
     pub name: String,
     /// What it switches off.
-    pub switches_off: Part,
+    pub switches_off: SolverPart,
     /// The size of its solution, in any unit that is the same for all: errors are compared in
     /// proportion to it.
     pub size: f64,
@@ -45,11 +45,11 @@ pub struct Variant {
 
 /// A variant that cannot be run, although the solution has the part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct LeftOutVariant {
     /// Its name.
     pub name: String,
     /// What it would switch off.
-    pub switches_off: Part,
+    pub switches_off: SolverPart,
     /// Why it cannot be run.
     pub why: String,
 }
@@ -62,7 +62,7 @@ pub struct Variants {
     /// Those that can be run.
     pub usable: Vec<Variant>,
     /// The others: nothing is known of these parts.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutVariant>,
     /// The conditions at each face, by their names.
     pub data: BTreeMap<String, Vec<String>>,
 }

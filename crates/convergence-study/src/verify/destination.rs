@@ -1,5 +1,5 @@
-//! Where a report goes: that of a run that passes, or is blessed, where git holds it; any other into
-//! `reports/local/`.
+//! Where a report goes: that of a run that passes, or is blessed, where git holds it; any other
+//! into `reports/local/`.
 
 use std::io;
 use std::path::Path;
@@ -45,8 +45,8 @@ impl Destination {
         }
     }
 
-    /// The report on the full tier, next to that on the quick one. Its page is not committed: a fresh
-    /// checkout has only its Markdown. A report elsewhere has no neighbour.
+    /// The report on the full tier, next to that on the quick one. Its page is not committed: a
+    /// fresh checkout has only its Markdown. A report elsewhere has no neighbour.
     pub(super) fn see_also(&self, record: &Record) -> Option<&'static str> {
         let Self::One { target, .. } = self else {
             return None;

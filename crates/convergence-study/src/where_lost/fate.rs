@@ -8,12 +8,13 @@
 //! `error = a h^p + b h^q + c h^(p+2)`.
 //!
 //! The order is back if the rate passes by the rule, b h^q is less than [`SHARE`] of the finest
-//! error, and b, in proportion to the size of the solution, less than [`LEFT`] of that of the study:
-//! the lost part is gone, not hidden. Where the rule is undecided, the order is lost if the lower
-//! order explains at least [`SEEN`] of the finest error, and as much of the study's part is left.
-//! Measured on a plane problem of advection and diffusion at 8 to
-//! 64 cells, 16 variants of a right program have shares from -0.025 to 0.017; a variant of a program
-//! with upwind differences, whose rate passes at 1.95, has 0.046, and 17 % of the study's part.
+//! error, and b, in proportion to the size of the solution, less than [`LEFT`] of that of the
+//! study: the lost part is gone, not hidden. Where the rule is undecided, the order is lost if the
+//! lower order explains at least [`SEEN`] of the finest error, and as much of the study's part is
+//! left. Measured on a plane problem of advection and diffusion at 8 to
+//! 64 cells, 16 variants of a right program have shares from -0.025 to 0.017; a variant of a
+//! program with upwind differences, whose rate passes at 1.95, has 0.046, and 17 % of the study's
+//! part.
 
 use crate::judge::fit::Level;
 use crate::judge::verdict::{Band, RateVerdict, Reason, Tendency};
@@ -139,7 +140,7 @@ struct Lost {
 
 /// What a lower order explains of errors.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct LowerOrderPart {
     /// The b of b h^q.
     coefficient: f64,
     /// Its share of the finest error.
@@ -148,7 +149,7 @@ struct Part {
 
 impl Lost {
     /// The part of the lower order; `None` without three levels.
-    fn part(self, levels: &[Level]) -> Option<Part> {
+    fn part(self, levels: &[Level]) -> Option<LowerOrderPart> {
         let [.., coarse, middle, fine] = levels else {
             return None;
         };
@@ -175,7 +176,7 @@ impl Lost {
         let coefficient = share * fine.error / fine.step.powf(self.lower);
         coefficient
             .is_finite()
-            .then_some(Part { coefficient, share })
+            .then_some(LowerOrderPart { coefficient, share })
     }
 }
 

@@ -16,7 +16,7 @@ mod words;
 use crate::judge::verdict::Verdict;
 use crate::run::{Fate, Located, VariantRate, VariantRates};
 use crate::study::Outcome;
-use crate::study::variants::{LeftOut, Part, Variant, Variants};
+use crate::study::variants::{LeftOutVariant, SolverPart, Variant, Variants};
 use decide::{Examined, decide};
 use fate::{Sized, fate};
 
@@ -44,7 +44,7 @@ pub fn probe(variants: &Variants) -> Option<usize> {
     let has_bubble = |variant: &Variant| {
         matches!(
             variant.switches_off,
-            Part::BothFaces(_) | Part::AllFaces | Part::AllFacesAndInitial
+            SolverPart::BothFaces(_) | SolverPart::AllFaces | SolverPart::AllFacesAndInitial
         )
     };
     variants.usable.iter().position(has_bubble)
@@ -90,7 +90,7 @@ pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located
             left_out: None,
         });
     }
-    for LeftOut {
+    for LeftOutVariant {
         name,
         switches_off,
         why,

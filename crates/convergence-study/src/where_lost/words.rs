@@ -3,7 +3,7 @@
 use super::decide::Conclusion;
 use crate::judge::verdict::{RateVerdict, Tendency};
 use crate::run::{Fate, Located, VariantRates};
-use crate::study::variants::{Part, Variants};
+use crate::study::variants::{SolverPart, Variants};
 use crate::text::columns::Columns;
 use crate::text::number::plain_text;
 
@@ -56,7 +56,7 @@ pub(crate) fn summary_of_located(places: &[&Located]) -> String {
     if places.len() < 2 {
         return String::new();
     }
-    let mut counts: Vec<(&Part, usize)> = vec![];
+    let mut counts: Vec<(&SolverPart, usize)> = vec![];
     for part in places.iter().flat_map(|located| &located.named) {
         match counts.iter_mut().find(|(known, _)| *known == part) {
             Some((_, count)) => *count += 1,
@@ -81,10 +81,10 @@ pub(crate) fn summary_of_located(places: &[&Located]) -> String {
 }
 
 /// A part that is named.
-fn place(part: &Part) -> String {
+fn place(part: &SolverPart) -> String {
     match part {
-        Part::Face(name) => format!("at the face {name}"),
-        Part::Initial => "at the first time".to_owned(),
+        SolverPart::Face(name) => format!("at the face {name}"),
+        SolverPart::Initial => "at the first time".to_owned(),
         part => Inside::of(part).map_or_else(String::new, |words| words.place),
     }
 }
@@ -128,21 +128,21 @@ pub(super) fn sentence(
             "{lost} at the face {face}, in time: {it} comes back where the solution is flat there ({}), \
              and where it is constant in {time} ({}), and not where it is flat at any other face; \
              look at the time at which {} is taken",
-            rate(rows, &Part::Face(face.clone())),
-            rate(rows, &Part::Time(time.clone())),
+            rate(rows, &SolverPart::Face(face.clone())),
+            rate(rows, &SolverPart::Time(time.clone())),
             conditions(face, variants),
         ),
         Conclusion::Corner([one, other]) => format!(
             "{lost} where the faces {one} and {other} meet: {it} comes back where the solution is flat \
              at {one} ({}) and at {other} ({}) alike, and not where it is flat at any other face; \
              look at what is done at this corner",
-            rate(rows, &Part::Face(one.clone())),
-            rate(rows, &Part::Face(other.clone())),
+            rate(rows, &SolverPart::Face(one.clone())),
+            rate(rows, &SolverPart::Face(other.clone())),
         ),
         Conclusion::Initial => format!(
             "{lost} at the first time: {it} comes back where the solution is flat there ({}), and not \
              where it is flat at any face; look at the initial data",
-            rate(rows, &Part::Initial),
+            rate(rows, &SolverPart::Initial),
         ),
         Conclusion::Inside(parts) => inside([&lost, it], parts, rows),
         Conclusion::Everywhere => format!(
@@ -175,7 +175,7 @@ fn faces(
         return format!(
             "{lost} at the face {face}: {it} comes back where the solution is flat there ({}), and not \
              where it is flat at any other face; look at {}",
-            rate(rows, &Part::Face(face.clone())),
+            rate(rows, &SolverPart::Face(face.clone())),
             conditions(face, variants),
         );
     }
@@ -201,25 +201,25 @@ struct Inside {
 
 impl Inside {
     /// `None` for a part that is not inside.
-    fn of(part: &Part) -> Option<Self> {
+    fn of(part: &SolverPart) -> Option<Self> {
         match part {
-            Part::Coordinate(name) => Some(Self {
+            SolverPart::Coordinate(name) => Some(Self {
                 place: format!("in what acts along {name}"),
                 variant: format!("the solution is constant in {name}"),
                 hint: format!("the derivatives by {name} inside the domain"),
             }),
-            Part::Time(name) => Some(Self {
+            SolverPart::Time(name) => Some(Self {
                 place: format!("in what acts along {name}"),
                 variant: format!("the solution is constant in {name}"),
                 hint: "the time at which source and data are taken, and the time stepping"
                     .to_owned(),
             }),
-            Part::Parameter(name) => Some(Self {
+            SolverPart::Parameter(name) => Some(Self {
                 place: format!("in the terms with {name}"),
                 variant: format!("{name} is zero"),
                 hint: format!("the terms with {name}"),
             }),
-            Part::Field(name) => Some(Self {
+            SolverPart::Field(name) => Some(Self {
                 place: format!("in what acts on {name}"),
                 variant: format!("{name} is constant"),
                 hint: format!("the terms with {name}"),
@@ -230,7 +230,7 @@ impl Inside {
 }
 
 /// * `lost`, `it`: as for [`faces`].
-fn inside([lost, it]: [&str; 2], parts: &[Part], rows: &[VariantRates]) -> String {
+fn inside([lost, it]: [&str; 2], parts: &[SolverPart], rows: &[VariantRates]) -> String {
     let mut places = vec![];
     let mut variants = vec![];
     let mut hints = vec![];
@@ -261,7 +261,7 @@ fn conditions(face: &str, variants: &Variants) -> String {
 }
 
 /// The rate with a variant.
-fn rate(rows: &[VariantRates], part: &Part) -> String {
+fn rate(rows: &[VariantRates], part: &SolverPart) -> String {
     let row = rows.iter().find(|row| row.switches_off == *part);
     let rate = row.and_then(|row| row.rates.first());
     rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate))
@@ -299,15 +299,15 @@ mod tests {
 
     #[test]
     fn the_parts_named_in_several_studies_are_counted() {
-        let located = |named: Vec<Part>| Located {
+        let located = |named: Vec<SolverPart>| Located {
             named,
             conclusion: String::new(),
             variants: vec![],
         };
-        let a = || Part::Parameter("a".to_owned());
+        let a = || SolverPart::Parameter("a".to_owned());
         let places = [
-            located(vec![Part::Face("x_max".to_owned())]),
-            located(vec![Part::Field("heat".to_owned()), a()]),
+            located(vec![SolverPart::Face("x_max".to_owned())]),
+            located(vec![SolverPart::Field("heat".to_owned()), a()]),
             located(vec![a()]),
             located(vec![]),
         ];

@@ -5,7 +5,7 @@ mod larger;
 use convergence_study::{
     Finished, Floor, Header, Interval, LevelErrors, NamedRate, Outcome, Verdict,
     internal::{
-        compare::{Comparison, Shift, WITHIN, compare},
+        compare::{RecordComparison, Shift, WITHIN, compare},
         run::Spent,
         store::{Record, json},
     },
@@ -72,12 +72,12 @@ fn sound(id: &str) -> Finished {
     study(id, &COUNTS, smooth(1.0, 2.0), smooth(3.0, 1.0))
 }
 
-fn compared(old: Finished, new: Finished) -> Comparison {
+fn compared(old: Finished, new: Finished) -> RecordComparison {
     compare(&record(vec![old]), &record(vec![new]), Floor::NONE, WITHIN)
 }
 
 /// The errors that differ, each with its change.
-fn found(comparison: &Comparison) -> Vec<(&str, Shift)> {
+fn found(comparison: &RecordComparison) -> Vec<(&str, Shift)> {
     let norms = comparison
         .findings
         .iter()
@@ -86,7 +86,7 @@ fn found(comparison: &Comparison) -> Vec<(&str, Shift)> {
 }
 
 /// The reason given for the first error.
-fn reason(comparison: &Comparison) -> &str {
+fn reason(comparison: &RecordComparison) -> &str {
     &comparison.findings[0].reason
 }
 

@@ -98,13 +98,13 @@ pub(crate) fn over_dt() -> Xy {
     }
 }
 
-pub(crate) fn error_surface() -> Surface {
+pub(crate) fn error_surface() -> ColouredCells {
     let h: Vec<f64> = (2..=9).map(|k| 0.5_f64.powi(k)).collect();
     let values = h
         .iter()
         .map(|h| h.iter_dt().map(|dt| (0.9 * h).hypot(1.2 * dt)).collect())
         .collect();
-    Surface {
+    ColouredCells {
         title: Some("The error falls with both".into()),
         x: Axis::log("time step dt"),
         y: Axis::log("mesh width h"),
@@ -112,7 +112,7 @@ pub(crate) fn error_surface() -> Surface {
         x_values: 1.0.iter_dt().collect(),
         y_values: h,
         values,
-        ..Surface::default()
+        ..ColouredCells::default()
     }
 }
 
@@ -292,7 +292,7 @@ pub(crate) fn iteration_counts() -> Xy {
     }
 }
 
-pub(crate) fn stability_map() -> Surface {
+pub(crate) fn stability_map() -> ColouredCells {
     let dt: Vec<f64> = (0..33)
         .map(|k| 10f64.powf(-5.0 + 0.1 * f64::from(k)))
         .collect();
@@ -319,7 +319,7 @@ pub(crate) fn stability_map() -> Surface {
             .filter(|p| p.1 < 2.5e-2 && p.1 > 1e-4)
             .collect()
     };
-    Surface {
+    ColouredCells {
         title: Some("The fixed point fails where α reaches 1".into()),
         x: Axis::log("time step dt"),
         y: Axis::log("compliance ε (dimensionless)"),

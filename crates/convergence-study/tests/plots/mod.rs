@@ -141,7 +141,7 @@ fn points_that_cannot_be_drawn_are_counted() {
 fn figures_without_data_do_not_panic() {
     let empty = [
         convergence(Xy::of_errors(""), &[], &[]),
-        surface(&Surface::default()),
+        surface(&ColouredCells::default()),
         history(Axis::default(), &[]).draw(),
         space_time(&SpaceTime::default()),
         iterations(&[]).draw(),
@@ -201,7 +201,7 @@ fn figures_of_extreme_data_do_not_panic() {
             parse(&convergence(Xy::of_errors(""), &[norm], &[x, 1.0]));
             let (x_values, y_values, values) =
                 (vec![x, y, 1.0], vec![x, y], vec![vec![x, y, 2.0], vec![y]]);
-            let cells = Surface {
+            let cells = ColouredCells {
                 x_values,
                 y_values,
                 values,
@@ -209,7 +209,7 @@ fn figures_of_extreme_data_do_not_panic() {
                 ..Default::default()
             };
             parse(&surface(&cells));
-            parse(&surface(&Surface {
+            parse(&surface(&ColouredCells {
                 marked: vec![vec![true]],
                 boundaries: series,
                 ..cells

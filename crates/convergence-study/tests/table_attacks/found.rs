@@ -261,7 +261,8 @@ fn a_line_of_separators_between_some_rows_cuts() {
     }
 }
 
-/// Variables in rows, as AMReX prints them, with the steps in the head or the rates of halved steps.
+/// Variables in rows, as AMReX prints them, with the steps in the head or the rates of halved
+/// steps.
 #[test]
 fn variables_in_rows_are_no_steps() {
     let with_steps = "L1 errors\n          dx=1/32     dx=1/64     dx=1/128\n\

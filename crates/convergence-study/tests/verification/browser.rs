@@ -49,7 +49,8 @@ addEventListener("load", () => {
   for (const part of document.querySelectorAll("details")) part.open = true;
   expect("nothing overflows", document.documentElement.scrollWidth <= innerWidth);
   expect("nothing is loaded", performance.getEntriesByType("resource").length === 0);
-  // The page measures its tables when a frame is drawn. A browser without a screen may draw none: then it is started again.
+  // The page measures its tables when a frame is drawn. A browser without a screen may draw none:
+  // then it is started again.
   const measured = () => {
     const cut = [...document.querySelectorAll("div.scroll")].filter(box => box.scrollWidth > box.clientWidth + 1);
     const cell = one(".flow td");

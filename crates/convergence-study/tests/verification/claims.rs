@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use convergence_study::{
-    Blessing, Header, Project, Request, Scope, Study, Tier, Verdict, Verification,
+    Blessing, Header, Project, Scope, SourcePlace, Study, Tier, Verdict, Verification,
+    VerifyRequest,
     internal::{
         report::{blessing, sentence},
-        store::{Baseline, BlessedClaim, Change, diagnosis::diagnose, junit},
+        store::{Baseline, BlessedClaim, GuardedChange, diagnosis::diagnose, junit},
     },
     verify,
 };
@@ -56,7 +57,7 @@ fn blessed(headers: &[Header]) -> Baseline {
     baseline
 }
 
-fn words(changes: &[Change]) -> Vec<String> {
+fn words(changes: &[GuardedChange]) -> Vec<String> {
     changes.iter().map(ToString::to_string).collect()
 }
 
@@ -99,7 +100,7 @@ fn a_changed_claim_names_the_norm_that_it_is_about() {
     let norm = ("expect[0].norm", "\"L2\"");
     let former = header("a", &[CLAIMS[0], CLAIMS[1], CLAIMS[2], norm]);
     let baseline = blessed(&[former]);
-    for (settings, told) in [
+    for (settings, message) in [
         (
             vec![CLAIMS[0], CLAIMS[1], ("expect[0].tolerance", "0.49"), norm],
             "a, L2: tolerance 0.002, now 0.49",
@@ -134,8 +135,8 @@ fn a_changed_claim_names_the_norm_that_it_is_about() {
     ] {
         let changes = baseline.compare(&finished(vec![study(&header("a", &settings))]), None);
         assert_eq!(
-            changes.iter().map(Change::words).collect::<Vec<_>>(),
-            [told]
+            changes.iter().map(GuardedChange::words).collect::<Vec<_>>(),
+            [message]
         );
     }
 }
@@ -276,9 +277,9 @@ fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
         fs::write(&file, object.to_string()).unwrap();
         let mut baseline = Baseline::read(&file).unwrap();
         let ran = || finished(vec![study(&a)]);
-        let told =
+        let message =
             "a: study file has no claims in the baseline, which guards 1 of its numbers: 3 values";
-        assert_eq!(words(&baseline.compare(&ran(), None)), [told]);
+        assert_eq!(words(&baseline.compare(&ran(), None)), [message]);
         let changes = baseline.compare(&ran(), None);
         assert_eq!(
             blessing(&PROJECT, "c", &ran(), &changes),
@@ -286,7 +287,7 @@ fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
         );
         let refused = baseline.bless(&ran(), None, None).unwrap_err().to_string();
         assert!(refused.ends_with(&format!(
-            " needs a reason; repeat it with --bless --reason TEXT\n  {told}"
+            " needs a reason; repeat it with --bless --reason TEXT\n  {message}"
         )));
         let mut accepted = baseline.clone();
         baseline
@@ -316,7 +317,10 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     }
     .erased();
     let project = Project {
-        places: &[("finest error", "force.rs")],
+        places: &[SourcePlace {
+            word: "finest error",
+            place: "force.rs",
+        }],
         ..PROJECT
     };
     let diagnosed = |study: Box<dyn Study>| {
@@ -352,7 +356,7 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
 
 fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verification {
     let scope = Scope::Tier(Tier::Quick, vec![header.clone()]);
-    let request = Request {
+    let request = VerifyRequest {
         scope,
         bless,
         reason: reason.map(str::to_owned),

@@ -8,8 +8,8 @@ use convergence_study::{
         program,
         report::text_of_diagnosis,
         run::run,
-        store::{Change, Movement, diagnosis::diagnose},
-        study::header::Setting,
+        store::{GuardedChange, Movement, diagnosis::diagnose},
+        study::header::SettingWords,
     },
 };
 
@@ -34,17 +34,17 @@ impl Kind for Methods {
         Outcome::new("", vec![], vec![Check::that(true, "c", "")])
     }
 
-    fn settings(&self, _: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, _: &Header, subject: &Subject) -> Vec<SettingWords> {
         vec![method(subject.method.as_deref().unwrap_or_default())]
     }
 }
 
-fn method(name: &str) -> Setting {
+fn method(name: &str) -> SettingWords {
     ("method".to_owned(), name.to_owned())
 }
 
 /// What is named where a ratio of two methods fails, and a check of each method passes.
-fn settings_named(ratio: Subject) -> Vec<Setting> {
+fn settings_named(ratio: Subject) -> Vec<SettingWords> {
     let mut checks = vec![Check::that(false, "c", "").about(ratio)];
     for method in ["midpoint", "dg", "one-step", "fixed-point"] {
         checks.push(Check::that(true, "c", "").about(Subject::of("error").by(method)));
@@ -63,13 +63,13 @@ fn a_ratio_blames_both_its_parts() {
     assert_eq!(settings_named(alone.against("dg")), []);
 }
 
-fn moved(name: &str, from: f64, to: f64) -> Change {
+fn moved(name: &str, from: f64, to: f64) -> GuardedChange {
     let movement = Movement::Moved {
         from,
         to,
         tolerance: 1e-3,
     };
-    Change {
+    GuardedChange {
         study: "s".to_owned(),
         name: name.to_owned(),
         movement,

@@ -6,7 +6,7 @@ use std::path::Path;
 use convergence_judge::{judge::verdict, time_limit::Patience};
 use convergence_study::{
     Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, NamedRate, Outcome,
-    Project, Quantity, Ran, Request, Scope, Study, Table, Tier, Verdict, boxed_study,
+    Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest, boxed_study,
     internal::run,
 };
 
@@ -191,9 +191,9 @@ pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
 }
 
 /// A verification of the quick tier with these known studies.
-pub(crate) fn request(root: &Path, known: &[&str]) -> Request {
+pub(crate) fn request(root: &Path, known: &[&str]) -> VerifyRequest {
     let scope = Scope::Tier(Tier::Quick, ids(known));
-    Request {
+    VerifyRequest {
         scope,
         effort: jobs(2).into(),
         bless: false,

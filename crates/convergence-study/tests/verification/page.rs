@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use convergence_study::{
-    Figure, Finished, Front, Project, Verdict,
+    Figure, Finished, Front, Project, Statement, Verdict,
     internal::{
         plots::{ErrorSeries, convergence, xy::Xy},
         report::Findings,
@@ -216,9 +216,21 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
         picture: "a-errors.svg",
         finding: "It is not as printed.",
         statements: &[
-            ("First order", "a", "velocity"),
-            ("All checks", "a", ""),
-            ("Elsewhere", "gone", ""),
+            Statement {
+                text: "First order",
+                study: "a",
+                rate: "velocity",
+            },
+            Statement {
+                text: "All checks",
+                study: "a",
+                rate: "",
+            },
+            Statement {
+                text: "Elsewhere",
+                study: "gone",
+                rate: "",
+            },
         ],
         plot: "a-errors.svg",
         verified: "Errors fall.",

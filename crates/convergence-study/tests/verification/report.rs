@@ -5,7 +5,7 @@ use convergence_study::{
     internal::{
         report::{Findings, LONGEST, sentence},
         run::not_passed,
-        store::{Baseline, Change, Movement, Record, junit},
+        store::{Baseline, GuardedChange, Movement, Record, junit},
     },
 };
 
@@ -30,7 +30,7 @@ pub(super) fn several() -> Vec<Finished> {
 pub(super) fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) -> T) -> T {
     let mut changes = Baseline::default().compare(finished, None);
     // A baseline that has a number of a study that fails: without any, a report lists none.
-    changes.extend(not_passed(finished).first().map(|failing| Change {
+    changes.extend(not_passed(finished).first().map(|failing| GuardedChange {
         study: failing.id().to_owned(),
         name: "gone".to_owned(),
         movement: Movement::Vanished { value: 1.0 },
@@ -40,7 +40,7 @@ pub(super) fn with<T>(finished: &[Finished], read: impl FnOnce(&Findings<'_>) ->
 
 pub(super) fn compared<T>(
     finished: &[Finished],
-    changes: Option<&[Change]>,
+    changes: Option<&[GuardedChange]>,
     read: impl FnOnce(&Findings<'_>) -> T,
 ) -> T {
     let record = Record::new(
@@ -116,12 +116,12 @@ fn a_comment_is_never_longer_than_it_may_be_and_what_failed_comes_first() {
         digest.contains("<details>") && digest.find("study-1.0") < digest.find("Moved from"),
         "{digest}"
     );
-    let change = |k: usize| Change {
+    let change = |k: usize| GuardedChange {
         study: "study-0.0".to_owned(),
         name: format!("error {k}"),
         movement: Movement::Vanished { value: 1.0 },
     };
-    let many: Vec<Change> = (0..5000).map(change).collect();
+    let many: Vec<GuardedChange> = (0..5000).map(change).collect();
     let long = compared(&studies, Some(&many), |findings| findings.digest());
     assert!(
         long.len() <= LONGEST && long.ends_with("A comment holds no more: see the report.\n"),
@@ -164,13 +164,13 @@ fn the_picture_for_the_front_page_has_a_name_of_its_own() {
     assert!(has_front(&studies));
 }
 
-fn moved(study: &str, name: &str, to: f64) -> Change {
+fn moved(study: &str, name: &str, to: f64) -> GuardedChange {
     let movement = Movement::Moved {
         from: 1.0,
         to,
         tolerance: 1e-3,
     };
-    Change {
+    GuardedChange {
         study: study.to_owned(),
         name: name.to_owned(),
         movement,
@@ -189,7 +189,8 @@ fn of_numbers_that_moved_each_study_shows_the_worst_and_all_are_folded() {
         moved("a", "q2", 1.1),
         moved("b-1.0", "q", 4.0),
     ];
-    let page = |changes: &[Change]| compared(&studies, Some(changes), |findings| findings.readme());
+    let page =
+        |changes: &[GuardedChange]| compared(&studies, Some(changes), |findings| findings.readme());
     let readme = page(&changes);
     let section = readme
         .split("## Moved from the baseline\n\n")

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::{Request, Scope, Study, Tier, verify};
+use convergence_study::{Scope, Study, Tier, VerifyRequest, verify};
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, request};
 
@@ -19,7 +19,7 @@ fn scaled(id: &str, scale: f64) -> Box<dyn Study> {
 
 /// Blessed: only then the report is written where git holds it.
 fn quick(root: &Path, scale: f64) {
-    let request = Request {
+    let request = VerifyRequest {
         bless: true,
         ..request(root, &["a"])
     };
@@ -27,7 +27,7 @@ fn quick(root: &Path, scale: f64) {
 }
 
 fn full(root: &Path, scale: f64) {
-    let request = Request {
+    let request = VerifyRequest {
         scope: Scope::Tier(Tier::Full, ids(&["a", "b"])),
         bless: true,
         ..request(root, &["a"])
@@ -153,7 +153,7 @@ fn a_quick_run_that_was_killed_leaves_the_full_report_its_figures() {
 #[test]
 fn a_figure_that_is_gone_from_the_quick_report_stays_in_the_full_one() {
     let (root, reports, picture) = both(1.0);
-    let other = Request {
+    let other = VerifyRequest {
         bless: true,
         reason: Some("another study".to_owned()),
         ..request(root.path(), &["c"])
@@ -175,7 +175,7 @@ fn without_its_copy_of_a_figure_no_report_changes() {
     fs::remove_dir_all(full.join("figures")).unwrap();
     fs::write(full.join("figures"), "no folder").unwrap();
     let studies = [scaled("a", 3.0)];
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         reason: Some("one study less".to_owned()),
         ..request(root.path(), &["a"])

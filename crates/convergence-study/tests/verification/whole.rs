@@ -6,13 +6,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use convergence_study::{
-    Blessing, Progress, Project, Request, Scope, Study, Tier, Verdict, Verification,
+    Blessing, Progress, Project, Scope, Study, Tier, Verdict, Verification, VerifyRequest,
     internal::report::NEWEST, verify,
 };
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
 
-fn run(studies: Vec<Box<dyn Study>>, request: &Request) -> Verification {
+fn run(studies: Vec<Box<dyn Study>>, request: &VerifyRequest) -> Verification {
     verify(&PROJECT, &studies, request, &|_| {}).unwrap()
 }
 
@@ -47,7 +47,7 @@ fn a_run_that_is_new_fails_until_it_is_blessed() {
     );
     let blessed = run(
         vec![study("a", Does::Converge)],
-        &Request {
+        &VerifyRequest {
             bless: true,
             ..plain.clone()
         },
@@ -90,7 +90,7 @@ fn a_run_that_does_not_pass_leaves_what_git_holds_and_shows_itself_to_programs()
     let reports = root.path().join("reports");
     let local = reports.join("local/quick");
     let plain = request(root.path(), &["a"]);
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         ..plain.clone()
     };
@@ -133,7 +133,7 @@ fn no_program_reads_an_older_result_while_a_run_is_under_way() {
     let root = tempfile::tempdir().unwrap();
     let reports = root.path().join("reports");
     let plain = request(root.path(), &["a"]);
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         ..plain.clone()
     };
@@ -150,7 +150,7 @@ fn no_program_reads_an_older_result_while_a_run_is_under_way() {
     assert_eq!(seen.into_inner(), 1);
     assert_eq!(committed(&reports), before);
     // A run that ends without a result puts them back.
-    let no_change = Request {
+    let no_change = VerifyRequest {
         only: vec!["b:*".to_owned()],
         reason: Some("meant".to_owned()),
         ..bless
@@ -165,7 +165,7 @@ fn a_blessing_that_leaves_changes_does_not_write_what_git_holds() {
     let root = tempfile::tempdir().unwrap();
     let reports = root.path().join("reports");
     let request = request(root.path(), &["a", "b"]);
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         ..request.clone()
     };
@@ -181,7 +181,7 @@ fn a_blessing_that_leaves_changes_does_not_write_what_git_holds() {
     run(scaled(1.0).into(), &bless);
     let readme = || fs::read_to_string(reports.join("README.md")).unwrap();
     let before = readme();
-    let some = Request {
+    let some = VerifyRequest {
         only: vec!["a:*".to_owned()],
         reason: Some("meant".to_owned()),
         ..bless
@@ -202,7 +202,7 @@ fn a_failing_run_of_the_full_tier_leaves_both_reports() {
     let full = |does: Does, bless: bool| {
         let studies = vec![study("a", does)];
         let headers = studies.iter().map(|study| study.header().clone()).collect();
-        let request = Request {
+        let request = VerifyRequest {
             scope: Scope::Tier(Tier::Full, headers),
             bless,
             ..request(root.path(), &["a"])
@@ -211,7 +211,7 @@ fn a_failing_run_of_the_full_tier_leaves_both_reports() {
     };
     run(
         vec![study("a", Does::Converge)],
-        &Request {
+        &VerifyRequest {
             bless: true,
             ..request(root.path(), &["a"])
         },
@@ -231,7 +231,7 @@ fn a_failing_run_of_the_full_tier_leaves_both_reports() {
 #[test]
 fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
     let root = tempfile::tempdir().unwrap();
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         ..request(root.path(), &["a"])
     };
@@ -252,7 +252,7 @@ fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
 #[test]
 fn a_blessing_does_not_turn_a_failing_study_green() {
     let root = tempfile::tempdir().unwrap();
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         ..request(root.path(), &["a"])
     };
@@ -264,7 +264,7 @@ fn a_blessing_does_not_turn_a_failing_study_green() {
     assert!(matches!(failing.blessing, Blessing::Refused(_)));
     assert_eq!(fs::read(&file).unwrap(), before);
     // Nor does it with a selection of its numbers.
-    let selected = Request {
+    let selected = VerifyRequest {
         only: vec!["a:*".to_owned()],
         reason: Some("meant".to_owned()),
         ..bless
@@ -326,7 +326,7 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
     let root = tempfile::tempdir().unwrap();
     let reports = root.path().join("reports");
     let quick = request(root.path(), &["a", "b"]);
-    let bless = Request {
+    let bless = VerifyRequest {
         bless: true,
         ..quick.clone()
     };
@@ -336,7 +336,7 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
     let words = vec!["a".to_owned(), "b*".to_owned()];
     let part = run(
         vec![study("a", Does::Stay)],
-        &Request {
+        &VerifyRequest {
             scope: Scope::Selection(words),
             ..quick.clone()
         },
@@ -349,7 +349,7 @@ fn a_part_does_not_replace_the_report_on_the_whole() {
         "{page}"
     );
 
-    let full = Request {
+    let full = VerifyRequest {
         scope: Scope::Tier(Tier::Full, ids(&["a", "b"])),
         ..bless
     };
@@ -372,7 +372,7 @@ fn a_selection_blesses_itself_alone() {
     let both = || vec![study("a", Does::Converge), study("b", Does::Converge)];
     run(
         both(),
-        &Request {
+        &VerifyRequest {
             bless: true,
             ..quick.clone()
         },
@@ -388,7 +388,7 @@ fn a_selection_blesses_itself_alone() {
     assert_eq!(
         run(
             moved,
-            &Request {
+            &VerifyRequest {
                 bless: true,
                 scope,
                 ..quick.clone()

@@ -15,7 +15,7 @@ const PAUSE: Duration = Duration::from_millis(1);
 
 /// A quantity as the other program computes it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Answer {
+pub(crate) struct ForeignQuantity {
     pub(crate) name: String,
     pub(crate) values: Vec<f64>,
     /// One unit of the last digit that is printed, for each value; 0 if all digits are.
@@ -177,7 +177,7 @@ pub(crate) fn read(
     command: &str,
     known: &[String],
     points: usize,
-) -> Result<Vec<Answer>, InputError> {
+) -> Result<Vec<ForeignQuantity>, InputError> {
     let mut lines = text
         .lines()
         .enumerate()
@@ -213,7 +213,7 @@ pub(crate) fn read(
     }
     let answers = names.into_iter().zip(columns);
     Ok(answers
-        .map(|(name, cells)| Answer {
+        .map(|(name, cells)| ForeignQuantity {
             values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
             units: units(&cells),
             name,

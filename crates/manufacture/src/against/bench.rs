@@ -5,12 +5,12 @@ use std::collections::{HashMap, HashSet};
 
 use super::site::{self, Home, Route};
 use crate::arithmetic::graph::Mark;
-use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::arithmetic::{Graph, NodeId};
 use crate::derive::{Basis, Elaborator, Part, Role, Tensor};
-use crate::language::tree::{Kind, Tree};
+use crate::language::tree::{Tree, TreeKind};
 use crate::model::Model;
-use crate::problem::{Expression, LineColumn, Parameter, Place, Problem, mentions};
+use crate::problem::{Expression, LineColumn, Location, Parameter, Problem, mentions};
 
 /// The names of unknown factors; no file can contain them.
 pub(crate) const FACTORS: [&str; 2] = [" first factor", " second factor"];
@@ -86,7 +86,7 @@ pub(crate) struct Evaluation<'b> {
 
 impl Evaluation<'_> {
     /// All components at a point, with these unknown factors.
-    pub(crate) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<Measured> {
+    pub(crate) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<SizedValue> {
         self.work.set(self.work.get() + self.tape.work());
         let mut parameters = self.parameters.to_vec();
         let known = parameters.len() - factors.len();
@@ -310,7 +310,7 @@ fn reached(problem: &Problem) -> HashMap<String, HashSet<String>> {
 /// The number 1, as an expression of the file.
 fn one() -> Expression {
     Expression {
-        place: Place {
+        place: Location {
             file: String::new(),
             line: 0,
             start: 0,
@@ -319,7 +319,7 @@ fn one() -> Expression {
         },
         text: "1".to_owned(),
         tree: Tree {
-            kind: Kind::Number(1.0, "1".to_owned()),
+            kind: TreeKind::Number(1.0, "1".to_owned()),
             at: 0,
         },
     }

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::candidates::Change;
+use super::candidates::EditKind;
 
 /// A change of the file that gives the values of the other program.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -25,7 +25,7 @@ pub struct Edit {
 /// An edit with its data.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Named {
-    pub(super) change: Change,
+    pub(super) change: EditKind,
     /// The factor that fits, of an edit that has one.
     pub(super) factor: f64,
     /// The label of the term, if the edit is about all of it.
@@ -98,33 +98,33 @@ fn of_factors(mut factors: impl Iterator<Item = f64> + Clone) -> &'static str {
 }
 
 /// The name of an edit, by what it changes.
-pub(crate) fn kind(change: Change, factor: f64) -> &'static str {
+pub(crate) fn kind(change: EditKind, factor: f64) -> &'static str {
     match change {
-        Change::Term => of_factors(std::iter::once(factor)),
-        Change::Exponent => "exponent",
-        Change::Summand | Change::Part if factor == -1.0 => "sign",
-        Change::Summand | Change::Part if factor == 0.0 => "missing-term",
-        Change::Summand | Change::Part => "coefficient",
-        Change::LostFactor | Change::LostDivisor => "missing-factor",
-        Change::TimesForOver => "inverse-factor",
-        Change::Square => "exponent",
-        Change::LostOperator => "missing-operator",
-        Change::Function => "function",
-        Change::TransposedGradient => "transposed-gradient",
-        Change::MissingTranspose => "missing-transpose",
-        Change::Order => "order",
-        Change::Operator | Change::TakenBelow => "operator",
-        Change::Held | Change::OneDifferentiated => "product-rule",
-        Change::Basis => "basis",
-        Change::Exchange => "exchange",
-        Change::Parameters => "parameters",
-        Change::Normal => "normal",
-        Change::Derivative => "derivative",
-        Change::Index => "index",
-        Change::Branch => "branch",
-        Change::LostBracket => "bracket",
-        Change::Name => "name",
-        Change::Added => "added-term",
+        EditKind::Term => of_factors(std::iter::once(factor)),
+        EditKind::Exponent => "exponent",
+        EditKind::Summand | EditKind::Part if factor == -1.0 => "sign",
+        EditKind::Summand | EditKind::Part if factor == 0.0 => "missing-term",
+        EditKind::Summand | EditKind::Part => "coefficient",
+        EditKind::LostFactor | EditKind::LostDivisor => "missing-factor",
+        EditKind::TimesForOver => "inverse-factor",
+        EditKind::Square => "exponent",
+        EditKind::LostOperator => "missing-operator",
+        EditKind::Function => "function",
+        EditKind::TransposedGradient => "transposed-gradient",
+        EditKind::MissingTranspose => "missing-transpose",
+        EditKind::Order => "order",
+        EditKind::Operator | EditKind::TakenBelow => "operator",
+        EditKind::Held | EditKind::OneDifferentiated => "product-rule",
+        EditKind::Basis => "basis",
+        EditKind::Exchange => "exchange",
+        EditKind::Parameters => "parameters",
+        EditKind::Normal => "normal",
+        EditKind::Derivative => "derivative",
+        EditKind::Index => "index",
+        EditKind::Branch => "branch",
+        EditKind::LostBracket => "bracket",
+        EditKind::Name => "name",
+        EditKind::Added => "added-term",
     }
 }
 
@@ -301,7 +301,7 @@ pub(crate) fn unseen(named: &Named, file: &str) -> String {
         ..
     } = &named.edit;
     let what = match named.change {
-        Change::Held => format!("if `{old}` is not differentiated"),
+        EditKind::Held => format!("if `{old}` is not differentiated"),
         _ => format!("with `{new}` in place of `{old}`"),
     };
     format!("{kind}: the source is the same {what} ({file}:{line}:{column})")
@@ -311,13 +311,13 @@ pub(crate) fn unseen(named: &Named, file: &str) -> String {
 pub(super) fn place_and_text(named: &Named, file: &str) -> String {
     let Edit { key, old, new, .. } = &named.edit;
     let what = match named.change {
-        Change::Held => {
+        EditKind::Held => {
             format!("your source does not differentiate `{old}`: it stands outside the derivatives")
         }
-        Change::OneDifferentiated => {
+        EditKind::OneDifferentiated => {
             format!("your source differentiates only `{new}` of the product `{old}`")
         }
-        Change::Normal => "your normal points inwards".to_owned(),
+        EditKind::Normal => "your normal points inwards".to_owned(),
         _ if old.is_empty() => format!("your source has another summand, `{}`", new.trim_start()),
         _ if new.is_empty() => format!("your source lacks `{old}`"),
         _ => format!("your source has `{new}` where the file has `{old}`"),

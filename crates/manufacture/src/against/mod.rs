@@ -7,13 +7,15 @@
 //! | `candidates/`, `site.rs` | all single edits of the file, by their places in its trees and its text |
 //! | `bench.rs` | what becomes of a quantity after an edit |
 //! | `solve.rs`, `trial.rs` | the factor of an edit, and whether it fits at a few points |
-//! | `search.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
+//! | `search.rs` | the components of an answer, and the edits that may explain them |
+//! | `explain.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
 //! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
 pub(crate) mod ask;
 pub(crate) mod bench;
 pub(crate) mod candidates;
 pub(crate) mod cause;
+mod explain;
 mod pairs;
 mod right;
 mod search;
@@ -34,7 +36,7 @@ use serde::Serialize;
 use crate::Sampling;
 use crate::derive::{Part, Role};
 use crate::language::names::did_you_mean;
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -151,7 +153,7 @@ pub(crate) fn questions(
     let normal = model.part(part).iter().find(|q| q.role == Role::Normal);
     if let Some(normal) = normal {
         names.extend(problem.axes().iter().map(|axis| format!("n_{axis}")));
-        let normals = Rows::new(&model.graph, std::iter::once(&normal.tensor));
+        let normals = TensorRows::new(&model.graph, std::iter::once(&normal.tensor));
         for row in &mut rows {
             let normal = normals.at(row).tensors.remove(0);
             row.extend(normal.iter().map(|v| v.value));

@@ -2,48 +2,14 @@
 
 use super::bench::{Alteration, FACTORS, Rewrite};
 use super::cause::Named;
-use super::right::Place;
-use super::search::{Search, position};
+use super::right::ComponentPlace;
+use super::search::{EditSearch, position};
 use super::site;
 use super::solve::{difference, simple};
-use super::trial::Trial;
+use super::trial::{Effect, Trial};
 use crate::fit::{self, Column};
-use crate::language::tree::{Kind, Tree};
+use crate::language::tree::{Tree, TreeKind};
 use crate::problem::Problem;
-
-/// What an edit adds to all components that are wrong, one after the other.
-#[derive(Debug, Clone)]
-pub(super) struct Effect {
-    pub(super) candidate: usize,
-    /// For one more of its factor, or for the edit itself.
-    column: Column,
-    is_free: bool,
-}
-
-impl Effect {
-    /// Of an edit without a number.
-    pub(super) fn fixed(column: Column) -> Self {
-        Self {
-            candidate: 0,
-            column,
-            is_free: false,
-        }
-    }
-
-    /// The same, of this candidate.
-    pub(super) fn of(self, candidate: usize) -> Self {
-        Self { candidate, ..self }
-    }
-
-    /// Of an edit whose values are linear in a factor.
-    pub(super) fn free(column: Column) -> Self {
-        Self {
-            candidate: 0,
-            column,
-            is_free: true,
-        }
-    }
-}
 
 /// The best edits, which are tried together with all others.
 const BEST: usize = 60;
@@ -57,12 +23,12 @@ const LEFT: f64 = 1e-7;
 /// The pairs that were tried, and the first that fits.
 pub(super) struct Pairs {
     pub(super) count: usize,
-    found: Vec<(Vec<Place>, Vec<Named>)>,
+    found: Vec<(Vec<ComponentPlace>, Vec<Named>)>,
 }
 
 impl Pairs {
     /// The pair that explains a component.
-    pub(super) fn fits(&self, place: Place) -> Option<Vec<Named>> {
+    pub(super) fn fits(&self, place: ComponentPlace) -> Option<Vec<Named>> {
         let mut found = self.found.iter();
         found
             .find(|entry| entry.0.contains(&place))
@@ -78,7 +44,7 @@ struct Pair<'e> {
 
 /// Tries pairs of the best edits on all components that are wrong together.
 pub(super) fn search(
-    search: &mut Search<'_, '_>,
+    search: &mut EditSearch<'_, '_>,
     quantity: usize,
     trial: &Trial,
     effects: &[Effect],
@@ -121,7 +87,11 @@ pub(super) fn search(
 }
 
 /// The edits that leave least, of those with the same effect one.
-fn best<'e>(effects: &[&'e Effect], target: &Column, search: &Search<'_, '_>) -> Vec<&'e Effect> {
+fn best<'e>(
+    effects: &[&'e Effect],
+    target: &Column,
+    search: &EditSearch<'_, '_>,
+) -> Vec<&'e Effect> {
     let mut left: Vec<(f64, &Effect)> = effects
         .iter()
         .map(|effect| (Rest::new(effect, target).length, *effect))
@@ -218,11 +188,11 @@ fn fitted<'e>(edits: [&'e Effect; 2], target: &Column) -> Option<Pair<'e>> {
 
 /// A pair that gives the values of components at all points: these, and what is said of it.
 fn confirmed(
-    search: &mut Search<'_, '_>,
+    search: &mut EditSearch<'_, '_>,
     quantity: usize,
     trial: &Trial,
     pair: &Pair<'_>,
-) -> Option<(Vec<Place>, Vec<Named>)> {
+) -> Option<(Vec<ComponentPlace>, Vec<Named>)> {
     let [first, second] = pair.edits.map(|effect| effect.candidate);
     let first_alteration = search.candidates[first].alteration.clone();
     let second_alteration = with_second_factor(&search.candidates[second].alteration);
@@ -239,7 +209,7 @@ fn confirmed(
     }
     let mut places = vec![];
     for sample in trial.wrong() {
-        let place = Place {
+        let place = ComponentPlace {
             quantity,
             component: sample.component,
         };
@@ -271,7 +241,6 @@ fn together(problem: &Problem, edits: [&Alteration; 2]) -> Option<Together> {
     let [Alteration::Rewrite(first), Alteration::Rewrite(second)] = edits else {
         return Some(apart());
     };
-    let is_above = |a: &Rewrite, b: &Rewrite| a.home == b.home && b.route.starts_with(&a.route);
     let place = if is_above(first, second) {
         1
     } else if is_above(second, first) {
@@ -297,6 +266,11 @@ fn together(problem: &Problem, edits: [&Alteration; 2]) -> Option<Together> {
     })
 }
 
+/// Whether the first edit replaces a tree in which the second is made.
+fn is_above(first: &Rewrite, second: &Rewrite) -> bool {
+    first.home == second.home && second.route.starts_with(&first.route)
+}
+
 /// Replaces a part, which its place in the text tells from others; whether there is one.
 fn replace(tree: &mut Tree, old: &Tree, new: &Tree) -> bool {
     if tree == old {
@@ -319,7 +293,7 @@ fn with_second_factor(alteration: &Alteration) -> Alteration {
 }
 
 fn rename(tree: &mut Tree) {
-    if let Kind::Name(name) = &mut tree.kind
+    if let TreeKind::Name(name) = &mut tree.kind
         && name == FACTORS[0]
     {
         FACTORS[1].clone_into(name);

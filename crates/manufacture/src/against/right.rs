@@ -1,26 +1,26 @@
 //! The right values, and what they would be after a mistake.
 
 use super::Questions;
-use super::ask::Answer;
+use super::ask::ForeignQuantity;
 use crate::arithmetic::NodeId;
 use crate::arithmetic::jet::Jet;
-use crate::arithmetic::tape::Measured;
-use crate::derive::{Part, Quantity, Role, Tensor, components};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
 use crate::fit::Column;
-use crate::model::{Model, Rows};
-use crate::problem::{InputError, Setting};
+use crate::model::{Model, TensorRows};
+use crate::problem::{InputError, ParameterValue};
 
 /// Points where the file is evaluated in both ways.
 const SPREAD_POINTS: usize = 50;
 
 /// A source or a datum at all points.
 pub(crate) struct RightQuantity<'m> {
-    pub(crate) quantity: &'m Quantity<NodeId>,
+    pub(crate) quantity: &'m DerivedQuantity<NodeId>,
     pub(crate) components: Vec<String>,
     /// For each point, all components.
-    pub(crate) values: Vec<Vec<Measured>>,
+    pub(crate) values: Vec<Vec<SizedValue>>,
     /// For each term, for each point, all components.
-    pub(crate) terms: Vec<Vec<Vec<Measured>>>,
+    pub(crate) terms: Vec<Vec<Vec<SizedValue>>>,
 }
 
 /// All sources, or all data of a face.
@@ -33,7 +33,7 @@ pub(crate) struct Right<'m> {
 
 /// A component of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct ComponentPlace {
     pub(crate) quantity: usize,
     pub(crate) component: usize,
 }
@@ -78,7 +78,7 @@ impl<'m> Right<'m> {
         for (index, point) in self.points.iter().enumerate().take(SPREAD_POINTS) {
             let second = jets.at(self.part, point)?;
             for (right, spreads) in self.quantities.iter().zip(&mut spreads) {
-                let same = |q: &&Quantity<Jet>| {
+                let same = |q: &&DerivedQuantity<Jet>| {
                     q.role == right.quantity.role && q.name == right.quantity.name
                 };
                 let Some(second) = second.iter().find(same) else {
@@ -105,10 +105,10 @@ impl<'m> Right<'m> {
             .collect()
     }
 
-    pub(crate) fn places(&self) -> Vec<Place> {
+    pub(crate) fn places(&self) -> Vec<ComponentPlace> {
         let mut places = vec![];
         for (quantity, right) in self.quantities.iter().enumerate() {
-            places.extend((0..right.components.len()).map(|component| Place {
+            places.extend((0..right.components.len()).map(|component| ComponentPlace {
                 quantity,
                 component,
             }));
@@ -116,17 +116,17 @@ impl<'m> Right<'m> {
         places
     }
 
-    pub(crate) fn name(&self, place: Place) -> &str {
+    pub(crate) fn name(&self, place: ComponentPlace) -> &str {
         &self.quantities[place.quantity].components[place.component]
     }
 
-    pub(crate) fn place_of(&self, answer: &Answer) -> Option<Place> {
+    pub(crate) fn place_of(&self, answer: &ForeignQuantity) -> Option<ComponentPlace> {
         self.places()
             .into_iter()
             .find(|place| self.name(*place) == answer.name)
     }
 
-    pub(crate) fn values(&self, place: Place) -> Vec<Measured> {
+    pub(crate) fn values(&self, place: ComponentPlace) -> Vec<SizedValue> {
         let values = &self.quantities[place.quantity].values;
         values
             .iter()
@@ -134,7 +134,7 @@ impl<'m> Right<'m> {
             .collect()
     }
 
-    pub(crate) fn terms(&self, place: Place) -> Vec<Column> {
+    pub(crate) fn terms(&self, place: ComponentPlace) -> Vec<Column> {
         let terms = self.quantities[place.quantity].terms.iter();
         terms
             .map(|values| without_rounding(values, place.component))
@@ -142,7 +142,7 @@ impl<'m> Right<'m> {
     }
 
     /// The labels of the terms; a datum has none.
-    pub(crate) fn labels(&self, place: Place) -> Vec<&str> {
+    pub(crate) fn labels(&self, place: ComponentPlace) -> Vec<&str> {
         let terms = self.quantities[place.quantity].quantity.terms.iter();
         terms.map(|term| term.0.as_str()).collect()
     }
@@ -150,19 +150,19 @@ impl<'m> Right<'m> {
     /// The parameters with one of them changed; those that depend on it follow.
     pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
         let problem = &self.model.problem;
-        let setting = Setting { parameter, value };
+        let setting = ParameterValue { parameter, value };
         problem.parameter_values(&[setting]).ok()
     }
 
     /// A quantity, to be evaluated at other points or with other parameters.
-    pub(crate) fn rows(&self, place: Place) -> Rows<'m> {
+    pub(crate) fn rows(&self, place: ComponentPlace) -> TensorRows<'m> {
         let tensor = &self.quantities[place.quantity].quantity.tensor;
-        Rows::new(&self.model.graph, std::iter::once(tensor))
+        TensorRows::new(&self.model.graph, std::iter::once(tensor))
     }
 }
 
 /// A component, with zeros where only rounding is left: that is no column to fit with.
-fn without_rounding(values: &[Vec<Measured>], component: usize) -> Column {
+fn without_rounding(values: &[Vec<SizedValue>], component: usize) -> Column {
     let values = values.iter().map(|values| values[component]);
     values
         .map(|v| {
@@ -175,8 +175,8 @@ fn without_rounding(values: &[Vec<Measured>], component: usize) -> Column {
         .collect()
 }
 
-fn at(model: &Model, tensor: &Tensor<NodeId>, points: &[Vec<f64>]) -> Vec<Vec<Measured>> {
-    let rows = Rows::new(&model.graph, std::iter::once(tensor));
+fn at(model: &Model, tensor: &Tensor<NodeId>, points: &[Vec<f64>]) -> Vec<Vec<SizedValue>> {
+    let rows = TensorRows::new(&model.graph, std::iter::once(tensor));
     points
         .iter()
         .map(|point| rows.at(point).tensors.remove(0))

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::Comparison;
-use super::ask::Answer;
+use super::ask::ForeignQuantity;
 use super::candidates;
 use super::cause::{Cause, Edit, TermFactor, Unexplained};
-use super::right::{Place, Right};
-use super::search::{Explained, Search, place_of};
+use super::explain::Explained;
+use super::right::{ComponentPlace, Right};
+use super::search::{EditSearch, place_of};
 use super::text::{self, of_whole};
 use super::whole::Component;
 use crate::problem::{Expression, Problem};
@@ -26,7 +27,7 @@ const SPREADS: f64 = 1000.0;
 pub(super) fn explain(
     right: &Right<'_>,
     spreads: &[Vec<f64>],
-    answers: &[Answer],
+    answers: &[ForeignQuantity],
     fresh: &[Vec<f64>],
 ) -> Vec<Comparison> {
     let components: Vec<Component<'_, '_>> = answers
@@ -45,7 +46,7 @@ pub(super) fn explain(
         }
     }
     if !open.is_empty()
-        && let Some(mut search) = Search::new(right, &components, fresh.to_vec())
+        && let Some(mut search) = EditSearch::new(right, &components, fresh.to_vec())
     {
         for (quantity, wrong) in open {
             let found = search.explain(quantity, &wrong);
@@ -67,9 +68,9 @@ pub(super) fn explain(
 fn component<'a, 'm>(
     right: &'a Right<'m>,
     spreads: &[Vec<f64>],
-    answer: &'a Answer,
+    answer: &'a ForeignQuantity,
 ) -> Component<'a, 'm> {
-    let place = right.place_of(answer).unwrap_or(Place {
+    let place = right.place_of(answer).unwrap_or(ComponentPlace {
         quantity: 0,
         component: 0,
     });
@@ -88,7 +89,11 @@ fn component<'a, 'm>(
     }
 }
 
-fn comparison(answer: &Answer, component: &Component<'_, '_>, explained: Explained) -> Comparison {
+fn comparison(
+    answer: &ForeignQuantity,
+    component: &Component<'_, '_>,
+    explained: Explained,
+) -> Comparison {
     let Explained {
         cause,
         alternatives,
@@ -148,7 +153,7 @@ fn where_it_differs(right: &Right<'_>, differences: &[f64]) -> String {
 }
 
 /// The edits of a cause, each with its place.
-fn edits(right: &Right<'_>, place: Place, cause: &Cause) -> Vec<Edit> {
+fn edits(right: &Right<'_>, place: ComponentPlace, cause: &Cause) -> Vec<Edit> {
     let problem = &right.model.problem;
     let whole = place_of(right, place.quantity);
     let of_all = |old: &str, new: String| {

@@ -1,7 +1,7 @@
 //! The parts of a file that an edit can change: where they are in its trees, and in its text.
 
-use crate::language::tree::{Kind, Tree};
-use crate::problem::{Expression, Problem, Value};
+use crate::language::tree::{Tree, TreeKind};
+use crate::problem::{Expression, Problem, TensorValue};
 
 /// The expression that a part stands in.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -65,17 +65,17 @@ impl Home {
 }
 
 /// The expressions of a value, row by row.
-pub(crate) fn parts(value: &Value) -> Box<dyn Iterator<Item = &Expression> + '_> {
+pub(crate) fn parts(value: &TensorValue) -> Box<dyn Iterator<Item = &Expression> + '_> {
     match value {
-        Value::One(expression) => Box::new(std::iter::once(expression)),
-        Value::List(_, values) => Box::new(values.iter().flat_map(parts)),
+        TensorValue::One(expression) => Box::new(std::iter::once(expression)),
+        TensorValue::List(_, values) => Box::new(values.iter().flat_map(parts)),
     }
 }
 
-fn parts_mut(value: &mut Value) -> Vec<&mut Expression> {
+fn parts_mut(value: &mut TensorValue) -> Vec<&mut Expression> {
     match value {
-        Value::One(expression) => vec![expression],
-        Value::List(_, values) => values.iter_mut().flat_map(parts_mut).collect(),
+        TensorValue::One(expression) => vec![expression],
+        TensorValue::List(_, values) => values.iter_mut().flat_map(parts_mut).collect(),
     }
 }
 
@@ -98,7 +98,7 @@ pub(crate) fn at_mut<'t>(tree: &'t mut Tree, route: &[usize]) -> Option<&'t mut 
 
 /// The names in a tree.
 pub(crate) fn names<'t>(tree: &'t Tree, found: &mut Vec<&'t str>) {
-    if let Kind::Name(name) = &tree.kind {
+    if let TreeKind::Name(name) = &tree.kind {
         found.push(name);
     }
     for child in tree.children() {
@@ -124,8 +124,8 @@ impl Span {
 
 fn start(tree: &Tree) -> usize {
     match &tree.kind {
-        Kind::Binary(_, operands) | Kind::Compare(_, operands) => start(&operands[0]),
-        Kind::Index(of, _) => start(of),
+        TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => start(&operands[0]),
+        TreeKind::Index(of, _) => start(of),
         _ => tree.at,
     }
 }
@@ -133,14 +133,14 @@ fn start(tree: &Tree) -> usize {
 fn end(tree: &Tree, text: &str) -> usize {
     let last = |parts: &[Tree]| parts.last().map_or(tree.at, |part| end(part, text));
     match &tree.kind {
-        Kind::Number(_, written) => tree.at + written.len(),
-        Kind::Name(name) => tree.at + name.len(),
-        Kind::Negate(inner) => end(inner, text),
-        Kind::Binary(_, operands) | Kind::Compare(_, operands) => end(&operands[1], text),
-        Kind::Call(_, parts) | Kind::List(parts) | Kind::Index(_, parts) => {
+        TreeKind::Number(_, written) => tree.at + written.len(),
+        TreeKind::Name(name) => tree.at + name.len(),
+        TreeKind::Negate(inner) => end(inner, text),
+        TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => end(&operands[1], text),
+        TreeKind::Call(_, parts) | TreeKind::List(parts) | TreeKind::Index(_, parts) => {
             closed(text, last(parts))
         }
-        Kind::Bracket(inner) => closed(text, end(inner, text)),
+        TreeKind::Bracket(inner) => closed(text, end(inner, text)),
     }
 }
 

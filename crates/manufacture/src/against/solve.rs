@@ -1,7 +1,7 @@
 //! The unknown factor of an edit, from the values of another program at a few points.
 
 use super::bench::Evaluation;
-use crate::arithmetic::tape::Measured;
+use crate::arithmetic::tape::SizedValue;
 use crate::fit::{self, Column};
 
 /// The values of a component at a few points.
@@ -65,7 +65,7 @@ impl<'c> Curve<'c> {
 }
 
 /// Of each component its values at points.
-pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<Measured>) -> Vec<Column> {
+pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<SizedValue>) -> Vec<Column> {
     let mut columns: Vec<Column> = vec![];
     for point in points {
         let values = at(point);

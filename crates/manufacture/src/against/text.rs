@@ -1,19 +1,24 @@
 //! Edits as texts: what the file has, and what it would have after the edit.
 
 use super::bench::{Alteration, FACTORS, Rewrite};
-use super::candidates::{Candidate, Change, number};
+use super::candidates::{Candidate, EditKind, number};
 use super::cause::{Edit, Named, kind};
 use super::site::{self, Home, Span};
 use super::solve::simple;
 use crate::derive::Basis;
 use crate::language::names::{self, Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
-use crate::problem::{Expression, Place, Problem};
+use crate::language::tree::{Binary, Tree, TreeKind};
+use crate::problem::{Expression, Location, Problem};
 
 /// An edit with the factor that fits, in the words of the file.
 ///
 /// * `whole`: the place of the quantity, for an edit that is about all of it.
-pub(crate) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, factor: f64) -> Named {
+pub(crate) fn named(
+    problem: &Problem,
+    whole: &Location,
+    candidate: &Candidate,
+    factor: f64,
+) -> Named {
     let change = candidate.change;
     let kind = kind(change, factor);
     let about_all = |old: String, new: String| Edit {
@@ -36,7 +41,7 @@ pub(crate) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, fac
             about_all(system.to_owned(), new.to_owned())
         }
         Alteration::Rewrite(rewrite) => {
-            if change == Change::Term
+            if change == EditKind::Term
                 && let Home::Term { equation, term } = rewrite.home
             {
                 label = Some(problem.equations[equation].terms[term].label.clone());
@@ -59,7 +64,7 @@ pub(crate) fn named(problem: &Problem, whole: &Place, candidate: &Candidate, fac
 }
 
 /// An edit that is about all of a quantity.
-pub(super) fn of_whole(problem: &Problem, place: &Place, old: String, new: String) -> Edit {
+pub(super) fn of_whole(problem: &Problem, place: &Location, old: String, new: String) -> Edit {
     let file = &problem.text;
     let before = file.get(..place.start).unwrap_or("");
     let line_start = before.rfind('\n').map_or(0, |end| end + 1);
@@ -79,35 +84,38 @@ struct Texts {
     new: String,
 }
 
-fn rewritten(expression: &Expression, rewrite: &Rewrite, change: Change, factor: f64) -> Edit {
+fn rewritten(expression: &Expression, rewrite: &Rewrite, change: EditKind, factor: f64) -> Edit {
     let part = site::at(&expression.tree, &rewrite.route).unwrap_or(&expression.tree);
     let own = Span::of(part, &expression.text);
     let texts = match change {
-        Change::Term | Change::Summand | Change::Part => {
+        EditKind::Term | EditKind::Summand | EditKind::Part => {
             with_factor(expression, rewrite, part, factor)
         }
-        Change::Exponent => exponent(expression, rewrite, part, factor),
-        Change::Added => Texts {
+        EditKind::Exponent => exponent(expression, rewrite, part, factor),
+        EditKind::Added => Texts {
             span: Span {
                 start: own.end,
                 ..own
             },
             new: added(&rewrite.new, factor),
         },
-        Change::Basis => Texts {
+        EditKind::Basis => Texts {
             span: own,
             new: match &rewrite.new.kind {
-                Kind::Call(Callee::Operator(Operator::Altered(names::Alteration::Flat)), _) => {
+                TreeKind::Call(
+                    Callee::Operator(Operator::Altered(names::OperandAlteration::Flat)),
+                    _,
+                ) => {
                     format!("{part} as in Cartesian coordinates")
                 }
                 _ => format!("{part} without the derivatives of the basis"),
             },
         },
-        Change::Held => Texts {
+        EditKind::Held => Texts {
             span: own,
             new: format!("{part}, held constant"),
         },
-        Change::OneDifferentiated => Texts {
+        EditKind::OneDifferentiated => Texts {
             span: own,
             new: differentiated(&rewrite.new),
         },
@@ -130,7 +138,7 @@ fn rewritten(expression: &Expression, rewrite: &Rewrite, change: Change, factor:
 
 /// A summand with a factor: the last one of a sum, whose own factor is unknown.
 fn added(sum: &Tree, factor: f64) -> String {
-    let Kind::Binary(_, operands) = &sum.kind else {
+    let TreeKind::Binary(_, operands) = &sum.kind else {
         return String::new();
     };
     let summand = operands[1].children().first().map(|name| name.to_string());
@@ -145,13 +153,13 @@ fn added(sum: &Tree, factor: f64) -> String {
 /// The one factor of a product that is not held.
 fn differentiated(tree: &Tree) -> String {
     match &tree.kind {
-        Kind::Call(Callee::Operator(Operator::Altered(names::Alteration::Held)), _)
-        | Kind::Number(..) => String::new(),
-        Kind::Name(name) => name.clone(),
-        Kind::Binary(Binary::Multiply | Binary::Divide, _)
-        | Kind::Negate(_)
-        | Kind::Bracket(_)
-        | Kind::Call(
+        TreeKind::Call(Callee::Operator(Operator::Altered(names::OperandAlteration::Held)), _)
+        | TreeKind::Number(..) => String::new(),
+        TreeKind::Name(name) => name.clone(),
+        TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
+        | TreeKind::Negate(_)
+        | TreeKind::Bracket(_)
+        | TreeKind::Call(
             Callee::Operator(Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross),
             _,
         ) => {
@@ -173,7 +181,7 @@ fn with_factor(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: 
             let parent = site::at(&expression.tree, route).map(|parent| &parent.kind);
             let is_sum = matches!(
                 parent,
-                Some(Kind::Binary(Binary::Add | Binary::Subtract, _))
+                Some(TreeKind::Binary(Binary::Add | Binary::Subtract, _))
             );
             *place == 1 && is_sum
         }
@@ -185,7 +193,7 @@ fn with_factor(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: 
     };
     let is_tight = matches!(parent, Some((_, route))
         if matches!(site::at(&expression.tree, route).map(|tree| &tree.kind),
-            Some(Kind::Binary(Binary::Power, _))));
+            Some(TreeKind::Binary(Binary::Power, _))));
     match sign {
         Some(sign) => {
             let size = times(part, factor.abs());
@@ -241,7 +249,7 @@ fn times(part: &Tree, factor: f64) -> String {
 
 fn bracketed(part: &Tree) -> String {
     match part.kind {
-        Kind::Binary(Binary::Add | Binary::Subtract, _) => format!("({part})"),
+        TreeKind::Binary(Binary::Add | Binary::Subtract, _) => format!("({part})"),
         _ => part.to_string(),
     }
 }
@@ -298,8 +306,8 @@ fn drop_one(tree: &mut Tree, route: &[usize]) {
         return;
     };
     let other = match (&product.kind, place) {
-        (Kind::Binary(Binary::Multiply, operands), place) => operands[1 - place].clone(),
-        (Kind::Binary(Binary::Divide, operands), 1) => operands[0].clone(),
+        (TreeKind::Binary(Binary::Multiply, operands), place) => operands[1 - place].clone(),
+        (TreeKind::Binary(Binary::Divide, operands), 1) => operands[0].clone(),
         _ => return,
     };
     *product = other;
@@ -319,20 +327,20 @@ fn numbers(tree: &Tree, route: &mut Vec<usize>, is_below: bool, found: &mut Vec<
         route.pop();
     };
     match &tree.kind {
-        Kind::Number(value, _) => found.push(Literal {
+        TreeKind::Number(value, _) => found.push(Literal {
             route: route.clone(),
             value: *value,
             is_below,
         }),
-        Kind::Binary(Binary::Multiply, operands) => {
+        TreeKind::Binary(Binary::Multiply, operands) => {
             go(&operands[0], 0, is_below);
             go(&operands[1], 1, is_below);
         }
-        Kind::Binary(Binary::Divide, operands) => {
+        TreeKind::Binary(Binary::Divide, operands) => {
             go(&operands[0], 0, is_below);
             go(&operands[1], 1, !is_below);
         }
-        Kind::Negate(inner) | Kind::Bracket(inner) => go(inner, 0, is_below),
+        TreeKind::Negate(inner) | TreeKind::Bracket(inner) => go(inner, 0, is_below),
         _ => (),
     }
 }
@@ -340,7 +348,7 @@ fn numbers(tree: &Tree, route: &mut Vec<usize>, is_below: bool, found: &mut Vec<
 /// A power with another exponent.
 fn exponent(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: f64) -> Texts {
     let value = match &part.kind {
-        Kind::Number(value, _) => Some(simple(value * factor)),
+        TreeKind::Number(value, _) => Some(simple(value * factor)),
         _ => None,
     };
     let new = match value {
@@ -353,7 +361,7 @@ fn exponent(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: f64
     let power = power.and_then(|(_, route)| site::at(&expression.tree, route));
     let span = |tree: &Tree| Span::of(tree, &expression.text);
     match power.map(|power| (power, &power.kind)) {
-        Some((power, Kind::Binary(_, operands))) => Texts {
+        Some((power, TreeKind::Binary(_, operands))) => Texts {
             span: span(power),
             new: format!("{}{new}", operands[0]),
         },
@@ -378,12 +386,12 @@ pub(super) fn has_simple_number(candidate: &Candidate, factor: f64) -> bool {
         return false;
     };
     // The part times the unknown factor.
-    let Kind::Binary(Binary::Multiply, operands) = &rewrite.new.kind else {
+    let TreeKind::Binary(Binary::Multiply, operands) = &rewrite.new.kind else {
         return false;
     };
-    let is_factor = matches!(&operands[1].kind, Kind::Name(name) if name == FACTORS[0]);
+    let is_factor = matches!(&operands[1].kind, TreeKind::Name(name) if name == FACTORS[0]);
     match (&operands[0].kind, candidate.change) {
-        (Kind::Number(value, _), Change::Exponent) => {
+        (TreeKind::Number(value, _), EditKind::Exponent) => {
             let new = simple(value * factor);
             (new * 12.0 - (new * 12.0).round()).abs() <= 1e-9
         }

@@ -1,7 +1,6 @@
 //! One edit, tried at a few points.
 
-use super::candidates::{Candidate, Change};
-use super::pairs::Effect;
+use super::candidates::{Candidate, EditKind};
 use super::solve::{self, Curve, Sample, Solved, difference};
 use super::text;
 use super::whole::Component;
@@ -47,8 +46,42 @@ pub(super) struct Near {
     pub(super) left: f64,
 }
 
+/// What an edit adds to all components that are wrong, one after the other.
+#[derive(Debug, Clone)]
+pub(super) struct Effect {
+    pub(super) candidate: usize,
+    /// For one more of its factor, or for the edit itself.
+    pub(super) column: Column,
+    pub(super) is_free: bool,
+}
+
+impl Effect {
+    /// Of an edit without a number.
+    fn fixed(column: Column) -> Self {
+        Self {
+            candidate: 0,
+            column,
+            is_free: false,
+        }
+    }
+
+    /// The same, of this candidate.
+    pub(super) fn of(self, candidate: usize) -> Self {
+        Self { candidate, ..self }
+    }
+
+    /// Of an edit whose values are linear in a factor.
+    fn free(column: Column) -> Self {
+        Self {
+            candidate: 0,
+            column,
+            is_free: true,
+        }
+    }
+}
+
 #[derive(Default)]
-pub(super) struct Outcome {
+pub(super) struct TrialResult {
     /// The factors with which a component fits.
     pub(super) factors: Vec<f64>,
     pub(super) effect: Option<Effect>,
@@ -56,8 +89,8 @@ pub(super) struct Outcome {
 }
 
 /// Tries one edit on all components that are wrong.
-pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Trial) -> Outcome {
-    let mut outcome = Outcome::default();
+pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Trial) -> TrialResult {
+    let mut outcome = TrialResult::default();
     if !candidate.has_factor() {
         let columns = curve.at(1.0).to_vec();
         let mut change = vec![];
@@ -102,8 +135,8 @@ pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Tria
     outcome
 }
 
-/// What one more of a factor adds to all components that are wrong; `None` if that is not one number
-/// for all values of the factor.
+/// What one more of a factor adds to all components that are wrong; `None` if that is not one
+/// number for all values of the factor.
 fn slopes(solved: &[Option<Solved>], trial: &Trial) -> Option<Column> {
     let mut all = vec![];
     for (solved, sample) in solved.iter().zip(trial.wrong()) {
@@ -126,22 +159,22 @@ pub(super) fn cost(candidate: &Candidate, factor: f64) -> usize {
     let is_lost = factor == -1.0 || factor == 0.0;
     let is_simple = solve::complexity(factor) < 1000.0;
     match candidate.change {
-        Change::Term | Change::Summand if is_lost => 10,
-        Change::LostFactor | Change::LostDivisor | Change::LostOperator => 10,
-        Change::Normal => 5,
-        Change::TransposedGradient | Change::MissingTranspose | Change::Held => 11,
-        Change::Exponent if text::has_simple_number(candidate, factor) => 11,
-        Change::TimesForOver | Change::Order | Change::Operator | Change::Function => 12,
-        Change::Derivative | Change::Index | Change::Branch | Change::LostBracket => 13,
-        Change::Name => 16,
-        Change::Term | Change::Summand | Change::Part
+        EditKind::Term | EditKind::Summand if is_lost => 10,
+        EditKind::LostFactor | EditKind::LostDivisor | EditKind::LostOperator => 10,
+        EditKind::Normal => 5,
+        EditKind::TransposedGradient | EditKind::MissingTranspose | EditKind::Held => 11,
+        EditKind::Exponent if text::has_simple_number(candidate, factor) => 11,
+        EditKind::TimesForOver | EditKind::Order | EditKind::Operator | EditKind::Function => 12,
+        EditKind::Derivative | EditKind::Index | EditKind::Branch | EditKind::LostBracket => 13,
+        EditKind::Name => 16,
+        EditKind::Term | EditKind::Summand | EditKind::Part
             if text::has_simple_number(candidate, factor) =>
         {
             12
         }
-        Change::Exchange | Change::Parameters | Change::Basis => 13,
-        Change::Part if is_lost => 14,
-        Change::OneDifferentiated | Change::TakenBelow | Change::Square => 15,
+        EditKind::Exchange | EditKind::Parameters | EditKind::Basis => 13,
+        EditKind::Part if is_lost => 14,
+        EditKind::OneDifferentiated | EditKind::TakenBelow | EditKind::Square => 15,
         _ if candidate.has_factor() && is_simple => NEW_NUMBER,
         _ => FAR_FETCHED,
     }

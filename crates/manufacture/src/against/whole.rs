@@ -2,11 +2,11 @@
 //! parameters.
 
 use super::cause::{Cause, TermFactor};
-use super::right::{Place, Right};
+use super::right::{ComponentPlace, Right};
 use super::solve::{difference, simple};
 use crate::derive::Part;
 use crate::fit::{self, Column};
-use crate::model::Rows;
+use crate::model::TensorRows;
 
 /// A term depends on others if less than this share of it is left.
 const DEPENDENT: f64 = 1e-9;
@@ -14,7 +14,7 @@ const DEPENDENT: f64 = 1e-9;
 /// A component of a foreign source beside the right one.
 pub(super) struct Component<'a, 'm> {
     pub(super) right: &'a Right<'m>,
-    pub(super) place: Place,
+    pub(super) place: ComponentPlace,
     pub(super) foreign: &'a [f64],
     pub(super) source: Column,
     /// How close is close enough, at each point.
@@ -151,7 +151,7 @@ impl Component<'_, '_> {
 
     fn column(
         &self,
-        rows: &Rows<'_>,
+        rows: &TensorRows<'_>,
         points: impl Iterator<Item = Vec<f64>>,
         parameters: &[f64],
     ) -> Column {

@@ -1,9 +1,9 @@
 //! What operations need of their arguments to have a value.
 
 use super::graph::Graph;
-use super::guards::Signs;
 use super::interval::Interval;
 use super::node::{Node, NodeId, operate};
+use super::signs::Signs;
 use crate::language::names::Function;
 use crate::language::tree::Binary;
 

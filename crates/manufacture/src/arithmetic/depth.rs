@@ -2,7 +2,7 @@
 
 use super::Algebra;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// An arithmetic whose numbers count the derivatives taken of functions.
 #[derive(Debug, Default)]
@@ -31,13 +31,7 @@ impl Algebra for Depth {
         *argument
     }
 
-    fn choose(
-        &mut self,
-        _: Comparison,
-        compared: [&usize; 2],
-        then: &usize,
-        other: &usize,
-    ) -> usize {
+    fn choose(&mut self, _: Relation, compared: [&usize; 2], then: &usize, other: &usize) -> usize {
         *compared[0].max(compared[1]).max(then).max(other)
     }
 

@@ -7,14 +7,14 @@
 
 use std::collections::HashMap;
 
-use super::conditions::{Condition, Need, conditions_of, needs_of};
+use super::branches::Branches;
+use super::conditions::{Condition, conditions_of, needs_of};
 use super::graph::Graph;
-use super::guards::{Branches, Facts};
 use super::interval::Interval;
 use super::node::{Node, NodeId};
 use super::tape::nodes_below;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// Coordinates and time.
 pub(crate) const MOST_VARIABLES: usize = 4;
@@ -149,7 +149,7 @@ impl Over<'_, '_> {
     }
 
     /// The result of the comparison of a choice, if it is the same all over the box.
-    fn result(&self, node: &Node) -> Option<bool> {
+    pub(super) fn result(&self, node: &Node) -> Option<bool> {
         let Node::Choose(comparison, [left, right, ..]) = node else {
             return None;
         };
@@ -160,43 +160,21 @@ impl Over<'_, '_> {
         self.enclosure.graph.node(id)
     }
 
-    /// Of conditions that stand together, the first that may fail in the box.
-    pub(crate) fn open(&self, conditions: &[Condition]) -> Option<Condition> {
-        let is_open = |condition: &&Condition| match condition.need {
-            Need::OneSide => {
-                let is_used = self.uses[self.enclosure.place(condition.operation)].is_some();
-                is_used && self.result(self.node(condition.argument)).is_none()
-            }
-            need => {
-                !need.holds(self.range(condition.argument)) && self.may_be_used_without(condition)
-            }
-        };
-        conditions.iter().find(is_open).copied()
+    /// Whether an operation takes part in a root somewhere in the box: the branches of undecided
+    /// choices that all ways to it go through.
+    pub(super) fn uses_of(&self, operation: NodeId) -> Option<Branches> {
+        self.uses[self.enclosure.place(operation)]
     }
 
-    /// Whether an operation may be used in the box where its argument lacks what it needs.
-    fn may_be_used_without(&self, condition: &Condition) -> bool {
-        let Some(branches) = self.uses[self.enclosure.place(condition.operation)] else {
-            return false;
-        };
-        if branches == Branches::NONE {
-            return true;
-        }
-        let mut facts = Facts::new(self);
-        for (number, choice) in self.comparisons.iter().take(Branches::MOST).enumerate() {
-            for is_first in [true, false] {
-                if branches.has(number, is_first) {
-                    facts.add(*choice, is_first);
-                }
-            }
-        }
-        !condition.need.holds_for(facts.signs(condition.argument))
+    /// The first choice of each comparison without one result in the box, by its number.
+    pub(super) fn comparisons(&self) -> &[NodeId] {
+        &self.comparisons
     }
 
     /// What a choice is the absolute value of.
     pub(super) fn absolute_of(&self, choice: NodeId) -> Option<NodeId> {
         match *self.node(choice) {
-            Node::Choose(Comparison::Less, operands) => {
+            Node::Choose(Relation::Less, operands) => {
                 is_opposite(self.enclosure.graph, operands).then_some(operands[0])
             }
             _ => None,
@@ -211,7 +189,8 @@ impl Over<'_, '_> {
 
     /// Whether choices that take both branches in the box decide about the use of an operation.
     pub(crate) fn is_guarded(&self, operation: NodeId) -> bool {
-        self.uses[self.enclosure.place(operation)].is_some_and(|uses| uses != Branches::NONE)
+        self.uses_of(operation)
+            .is_some_and(|uses| uses != Branches::NONE)
     }
 
     /// Whether the slopes of a node are bounded: its values have no jump.
@@ -306,7 +285,7 @@ impl Over<'_, '_> {
         }
     }
 
-    fn choice(&self, comparison: Comparison, operands: [NodeId; 4]) -> Enclosed {
+    fn choice(&self, comparison: Relation, operands: [NodeId; 4]) -> Enclosed {
         let [left, right, then, otherwise] = operands.map(|id| *self.of(id));
         let difference = left.range - right.range;
         if let Some(holds) = result(comparison, difference) {
@@ -321,11 +300,11 @@ impl Over<'_, '_> {
         let graph = self.enclosure.graph;
         let is_left = operands[2] == operands[0] || operands[3] == operands[0];
         let kept = match comparison {
-            Comparison::Less if is_left && is_opposite(graph, operands) => Some(left.range.abs()),
-            Comparison::LessOrEqual if operands[..2] == operands[2..] => {
+            Relation::Less if is_left && is_opposite(graph, operands) => Some(left.range.abs()),
+            Relation::LessOrEqual if operands[..2] == operands[2..] => {
                 Some(left.range.min(right.range))
             }
-            Comparison::GreaterOrEqual if operands[..2] == operands[2..] => {
+            Relation::GreaterOrEqual if operands[..2] == operands[2..] => {
                 Some(left.range.max(right.range))
             }
             _ => None,
@@ -344,7 +323,7 @@ impl Over<'_, '_> {
 }
 
 /// What a choice compares.
-fn compared(node: &Node) -> Option<(Comparison, [NodeId; 2])> {
+fn compared(node: &Node) -> Option<(Relation, [NodeId; 2])> {
     match *node {
         Node::Choose(comparison, [left, right, ..]) => Some((comparison, [left, right])),
         _ => None,
@@ -359,17 +338,17 @@ fn is_opposite(graph: &Graph, [left, right, then, otherwise]: [NodeId; 4]) -> bo
 }
 
 /// The result of a comparison of a difference with zero, if it has one.
-fn result(comparison: Comparison, difference: Interval) -> Option<bool> {
+fn result(comparison: Relation, difference: Interval) -> Option<bool> {
     let Interval { lo, hi } = difference;
     match comparison {
-        Comparison::Less if hi < 0.0 => Some(true),
-        Comparison::Less if lo >= 0.0 => Some(false),
-        Comparison::LessOrEqual if hi <= 0.0 => Some(true),
-        Comparison::LessOrEqual if lo > 0.0 => Some(false),
-        Comparison::Greater if lo > 0.0 => Some(true),
-        Comparison::Greater if hi <= 0.0 => Some(false),
-        Comparison::GreaterOrEqual if lo >= 0.0 => Some(true),
-        Comparison::GreaterOrEqual if hi < 0.0 => Some(false),
+        Relation::Less if hi < 0.0 => Some(true),
+        Relation::Less if lo >= 0.0 => Some(false),
+        Relation::LessOrEqual if hi <= 0.0 => Some(true),
+        Relation::LessOrEqual if lo > 0.0 => Some(false),
+        Relation::Greater if lo > 0.0 => Some(true),
+        Relation::Greater if hi <= 0.0 => Some(false),
+        Relation::GreaterOrEqual if lo >= 0.0 => Some(true),
+        Relation::GreaterOrEqual if hi < 0.0 => Some(false),
         _ => None,
     }
 }

@@ -11,7 +11,7 @@ use super::node::{Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
 use super::tape::Tape;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// A node is made of parameters, so its value is not known before they are.
 const PARAMETERS: u8 = 1 << 7;
@@ -322,7 +322,7 @@ impl Algebra for Graph {
 
     fn choose(
         &mut self,
-        comparison: Comparison,
+        comparison: Relation,
         compared: [&NodeId; 2],
         then: &NodeId,
         otherwise: &NodeId,

@@ -1,131 +1,55 @@
 //! What the choices above a node say about it: `where(x > 0, sqrt(x), 0)` needs no root of a
 //! negative number.
 //!
-//! The value of a node takes part in a root only at points where each choice on some way to it takes
-//! the branch that the way goes through. The branches that all ways have in common are taken
+//! The value of a node takes part in a root only at points where each choice on some way to it
+//! takes the branch that the way goes through. The branches that all ways have in common are taken
 //! wherever the node takes part, and so is the result of their comparisons. These give signs to
 //! nodes: left = right + (left - right), where a comparison restricts the sign of the difference.
 //! Signs of other nodes follow by the rules of signs, as theorems about real numbers.
 
+use super::branches::Branches;
+use super::conditions::{Condition, Need};
 use super::enclosure::Over;
-use super::interval::Interval;
 use super::node::{Node, NodeId};
+use super::signs::Signs;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::Binary;
 
 /// A sign is derived through so many operations: the sum over all ways is 2 to this power.
 const DEPTH: usize = 6;
 
-/// Branches of choices that take both in a box. Two bits for each choice: its first branch, and its
-/// second.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Branches(u64);
-
-impl Branches {
-    /// How many choices have bits; a branch of another choice says nothing.
-    pub(super) const MOST: usize = 32;
-
-    pub(super) const NONE: Self = Self(0);
-
-    /// These, and a branch of the choice with this number.
-    pub(super) fn with(self, choice: usize, is_first: bool) -> Self {
-        if choice >= Self::MOST {
-            return self;
-        }
-        Self(self.0 | 1 << (2 * choice + usize::from(!is_first)))
-    }
-
-    /// Those that two ways have in common.
-    pub(super) fn common(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
-
-    pub(super) fn has(self, choice: usize, is_first: bool) -> bool {
-        self.0 & Self::NONE.with(choice, is_first).0 != 0
-    }
-}
-
-/// The signs that a number may have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Signs {
-    pub(super) negative: bool,
-    pub(super) zero: bool,
-    pub(super) positive: bool,
-}
-
-impl Signs {
-    const ANY: Self = Self::of([true; 3]);
-    const POSITIVE: Self = Self::of([false, false, true]);
-    const NOT_NEGATIVE: Self = Self::of([false, true, true]);
-    const NOT_ZERO: Self = Self::of([true, false, true]);
-
-    const fn of([negative, zero, positive]: [bool; 3]) -> Self {
-        Self {
-            negative,
-            zero,
-            positive,
-        }
-    }
-
-    pub(super) fn between(range: Interval) -> Self {
-        Self::of([range.lo < 0.0, range.contains_zero(), range.hi > 0.0])
-    }
-
-    /// Whether only one sign is left, and that is not zero.
-    fn are_one(self) -> bool {
-        !self.zero && self.negative != self.positive
-    }
-
-    fn opposite(self) -> Self {
-        Self::of([self.positive, self.zero, self.negative])
-    }
-
-    fn and(self, other: Self) -> Self {
-        Self::of([
-            self.negative && other.negative,
-            self.zero && other.zero,
-            self.positive && other.positive,
-        ])
-    }
-
-    fn or(self, other: Self) -> Self {
-        Self::of([
-            self.negative || other.negative,
-            self.zero || other.zero,
-            self.positive || other.positive,
-        ])
-    }
-
-    fn plus(self, other: Self) -> Self {
-        let opposite = (self.negative && other.positive) || (self.positive && other.negative);
-        Self::of([
-            self.negative || other.negative,
-            (self.zero && other.zero) || opposite,
-            self.positive || other.positive,
-        ])
-    }
-
-    fn times(self, other: Self) -> Self {
-        Self::of([
-            (self.negative && other.positive) || (self.positive && other.negative),
-            self.zero || other.zero,
-            (self.positive && other.positive) || (self.negative && other.negative),
-        ])
-    }
-
-    /// Of left - right, where their comparison has this result.
-    fn of_difference(comparison: Comparison, holds: bool) -> Self {
-        let signs = match comparison {
-            Comparison::Less => Self::of([true, false, false]),
-            Comparison::LessOrEqual => Self::of([true, true, false]),
-            Comparison::Greater => Self::POSITIVE,
-            Comparison::GreaterOrEqual => Self::NOT_NEGATIVE,
+impl Over<'_, '_> {
+    /// Of conditions that stand together, the first that may fail in the box.
+    pub(crate) fn open(&self, conditions: &[Condition]) -> Option<Condition> {
+        let is_open = |condition: &&Condition| match condition.need {
+            Need::OneSide => {
+                let is_used = self.uses_of(condition.operation).is_some();
+                is_used && self.result(self.node(condition.argument)).is_none()
+            }
+            need => {
+                !need.holds(self.range(condition.argument)) && self.may_be_used_without(condition)
+            }
         };
-        if holds {
-            signs
-        } else {
-            Self::of([!signs.negative, !signs.zero, !signs.positive])
+        conditions.iter().find(is_open).copied()
+    }
+
+    /// Whether an operation may be used in the box where its argument lacks what it needs.
+    fn may_be_used_without(&self, condition: &Condition) -> bool {
+        let Some(branches) = self.uses_of(condition.operation) else {
+            return false;
+        };
+        if branches == Branches::NONE {
+            return true;
         }
+        let mut facts = Facts::new(self);
+        for (number, choice) in self.comparisons().iter().take(Branches::MOST).enumerate() {
+            for is_first in [true, false] {
+                if branches.has(number, is_first) {
+                    facts.add(*choice, is_first);
+                }
+            }
+        }
+        !condition.need.holds_for(facts.signs(condition.argument))
     }
 }
 
@@ -245,7 +169,7 @@ impl<'o, 'e, 'g> Facts<'o, 'e, 'g> {
                 of(above).times(of(below).and(Signs::NOT_ZERO))
             }
             Node::Binary(Binary::Power, [base, exponent]) => {
-                of_power(of(base), self.over.range(exponent))
+                of(base).to_the(self.over.range(exponent))
             }
             Node::Call(Function::Exp | Function::Cosh, _) => Signs::POSITIVE,
             Node::Call(function, argument) if keeps_the_sign(function) => of(argument),
@@ -268,16 +192,4 @@ fn keeps_the_sign(function: Function) -> bool {
         function,
         Function::Sqrt | Function::Sinh | Function::Tanh | Function::Atan | Function::Asin
     )
-}
-
-/// Of a power that has a value.
-fn of_power(base: Signs, exponent: Interval) -> Signs {
-    if !base.negative {
-        let zero = base.zero && exponent.hi > 0.0;
-        // Zero to the power of zero is one.
-        let positive = base.positive || exponent.contains_zero();
-        return Signs::of([false, zero, positive]);
-    }
-    let is_even = exponent.lo == exponent.hi && exponent.lo % 2.0 == 0.0;
-    Signs::of([!is_even, base.zero && exponent.hi >= 0.0, true])
 }

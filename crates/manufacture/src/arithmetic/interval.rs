@@ -16,8 +16,8 @@ const ULPS: usize = 4;
 /// Beyond this angle a sine may have any value between -1 and 1: its period is not resolved.
 const LARGEST_ANGLE: f64 = 1e6;
 
-/// An angle so near to a maximum, or to a pole, over its size, counts as one that has it: a multiple
-/// of pi is computed within three units of the last place.
+/// An angle so near to a maximum, or to a pole, over its size, counts as one that has it: a
+/// multiple of pi is computed within three units of the last place.
 const ANGLE: f64 = 8.0 * f64::EPSILON;
 
 /// The real numbers between two bounds, which may be infinite.

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use super::Algebra;
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// Largest number of variables: three coordinates and time.
 const VARIABLES: usize = 4;
@@ -149,7 +149,8 @@ impl Jets {
             return product;
         }
         if base.value() == 0.0 && base.is_constant() && value > 0.0 {
-            // Zero next to the point as well: so is its power, whatever derivatives that has at zero.
+            // Zero next to the point as well: so is its power, whatever derivatives that has at
+            // zero.
             return base.clone();
         }
         self.compose(base, &binomial(base.value(), value, base.order))
@@ -210,7 +211,7 @@ impl Algebra for Jets {
 
     fn choose(
         &mut self,
-        comparison: Comparison,
+        comparison: Relation,
         compared: [&Jet; 2],
         then: &Jet,
         otherwise: &Jet,

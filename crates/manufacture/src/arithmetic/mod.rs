@@ -1,6 +1,7 @@
 //! Arithmetics that expressions are computed in: a graph with symbolic derivatives, Taylor jets at
 //! a point, and the number of derivatives that a jet needs.
 
+mod branches;
 pub(crate) mod conditions;
 mod depth;
 pub(crate) mod enclosure;
@@ -10,12 +11,13 @@ pub(crate) mod interval;
 pub(crate) mod jet;
 mod node;
 pub(crate) mod quadrature;
+mod signs;
 pub(crate) mod tape;
 #[cfg(test)]
 mod tests;
 
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 pub(crate) use depth::Depth;
 pub(crate) use graph::Graph;
@@ -45,7 +47,7 @@ pub(crate) trait Algebra {
     /// `then` where the comparison holds.
     fn choose(
         &mut self,
-        comparison: Comparison,
+        comparison: Relation,
         compared: [&Self::Number; 2],
         then: &Self::Number,
         otherwise: &Self::Number,

@@ -1,7 +1,7 @@
 //! The nodes of a graph, and what their operations compute.
 
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 
 /// A node's place in its graph. Operands come before what is made of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -18,7 +18,7 @@ pub(crate) enum Node {
     Binary(Binary, [NodeId; 2]),
     Call(Function, NodeId),
     /// The comparison of the first two; where it holds the third, else the fourth.
-    Choose(Comparison, [NodeId; 4]),
+    Choose(Relation, [NodeId; 4]),
     /// Over the interval of a variable, cut into panels.
     Integral {
         body: NodeId,

@@ -10,7 +10,7 @@ use crate::language::tree::Binary;
 /// A sum may cancel to zero; what rounding leaves of it is still small against its size. The size
 /// of f(a) is `|f'(a)|` times the size of a, or `|f(a)|` if that is larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Measured {
+pub(crate) struct SizedValue {
     pub(crate) value: f64,
     pub(crate) size: f64,
 }
@@ -39,7 +39,7 @@ pub(crate) struct Tape<'g> {
 /// The values of the roots of a tape at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Evaluated {
-    pub(crate) roots: Vec<Measured>,
+    pub(crate) roots: Vec<SizedValue>,
     /// What is compared at each switch, as a difference: its sign tells the side.
     pub(crate) switches: Vec<f64>,
 }
@@ -91,7 +91,7 @@ impl<'g> Tape<'g> {
 
     /// The roots at a point.
     pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> Evaluated {
-        let mut values: Vec<Measured> = Vec::with_capacity(self.steps.len());
+        let mut values: Vec<SizedValue> = Vec::with_capacity(self.steps.len());
         let mut switches = vec![];
         let mut integrals = self.integrals.iter();
         for id in &self.steps {
@@ -101,7 +101,7 @@ impl<'g> Tape<'g> {
                 Node::Variable(index) => exactly(point[*index]),
                 Node::Parameter(index) => exactly(parameters[*index]),
                 Node::Held(operand) => of(operand),
-                Node::Negate(operand) => Measured {
+                Node::Negate(operand) => SizedValue {
                     value: -of(operand).value,
                     ..of(operand)
                 },
@@ -146,7 +146,7 @@ impl<'g> Tape<'g> {
         variable: usize,
         panels: usize,
         rule: &[[f64; 2]],
-    ) -> Measured {
+    ) -> SizedValue {
         self.integral_with(point, variable, panels, rule, &self.graph.parameters)
     }
 
@@ -157,7 +157,7 @@ impl<'g> Tape<'g> {
         panels: usize,
         rule: &[[f64; 2]],
         parameters: &[f64],
-    ) -> Measured {
+    ) -> SizedValue {
         let mut total = exactly(0.0);
         for [x, weight] in quadrature::panels(self.graph.intervals[variable], panels, rule) {
             point[variable] = x;
@@ -187,14 +187,14 @@ pub(crate) fn nodes_below(graph: &Nodes, roots: &[NodeId]) -> Vec<NodeId> {
     places.map(|place| NodeId(place as u32)).collect()
 }
 
-fn exactly(value: f64) -> Measured {
-    Measured {
+fn exactly(value: f64) -> SizedValue {
+    SizedValue {
         value,
         size: value.abs(),
     }
 }
 
-fn binary(operator: Binary, left: Measured, right: Measured) -> Measured {
+fn binary(operator: Binary, left: SizedValue, right: SizedValue) -> SizedValue {
     let value = operate(operator, left.value, right.value);
     let size = match operator {
         Binary::Add | Binary::Subtract => left.size + right.size,
@@ -206,7 +206,7 @@ fn binary(operator: Binary, left: Measured, right: Measured) -> Measured {
         Binary::Power if right.value >= 1.0 => left.size.powf(right.value),
         Binary::Power => value.abs() * (left.size / left.value.abs()).max(1.0),
     };
-    Measured {
+    SizedValue {
         value,
         size: finite(size, value),
     }
@@ -221,7 +221,7 @@ fn finite(size: f64, value: f64) -> f64 {
     }
 }
 
-fn call(function: Function, argument: Measured) -> Measured {
+fn call(function: Function, argument: SizedValue) -> SizedValue {
     let x = argument.value;
     let value = apply(function, x);
     let slope = match function {
@@ -237,7 +237,7 @@ fn call(function: Function, argument: Measured) -> Measured {
         Function::Ln | Function::Log10 => 1.0 / x,
         Function::Sqrt => 0.5 / value,
     };
-    Measured {
+    SizedValue {
         value,
         size: finite(slope.abs() * argument.size, value),
     }

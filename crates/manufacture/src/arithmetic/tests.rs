@@ -2,12 +2,13 @@
 //! signs that comparisons imply.
 
 use super::enclosure::Enclosure;
-use super::guards::{Facts, Signs};
+use super::guards::Facts;
 use super::interval::Interval;
+use super::signs::Signs;
 use super::tape::{Tape, nodes_below};
 use super::{Algebra, Graph, NodeId};
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Comparison};
+use crate::language::tree::{Binary, Relation};
 use crate::sample::Random;
 
 const FUNCTIONS: [Function; 13] = [
@@ -53,10 +54,10 @@ fn grown(graph: &mut Graph, nodes: &[NodeId], random: &mut Random) -> NodeId {
         6 => {
             let zero = graph.number(0.0);
             let opposite = graph.negate(&a);
-            graph.choose(Comparison::Less, [&a, &zero], &opposite, &a)
+            graph.choose(Relation::Less, [&a, &zero], &opposite, &a)
         }
-        7 => graph.choose(Comparison::GreaterOrEqual, [&a, &b], &a, &b),
-        8 => graph.choose(Comparison::LessOrEqual, [&a, &b], &c, &d),
+        7 => graph.choose(Relation::GreaterOrEqual, [&a, &b], &a, &b),
+        8 => graph.choose(Relation::LessOrEqual, [&a, &b], &c, &d),
         9 => graph.derivative(&a, below(random, 2)),
         _ => graph.call(FUNCTIONS[below(random, 13)], &a),
     }
@@ -140,11 +141,11 @@ fn values_lie_in_their_enclosures_and_free_boxes_have_all_values() {
     assert!(free > 50_000 && contained > 200_000, "{free} {contained}");
 }
 
-const COMPARISONS: [Comparison; 4] = [
-    Comparison::Less,
-    Comparison::LessOrEqual,
-    Comparison::Greater,
-    Comparison::GreaterOrEqual,
+const COMPARISONS: [Relation; 4] = [
+    Relation::Less,
+    Relation::LessOrEqual,
+    Relation::Greater,
+    Relation::GreaterOrEqual,
 ];
 
 /// The sign of a value that is not rounding alone is one of those that its range and the result of

@@ -10,14 +10,14 @@ use super::{Finding, finding};
 use crate::Sampling;
 use crate::against::{Right, ask, questions};
 use crate::arithmetic::NodeId;
-use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::derive::{Part, Role};
 use crate::emit::{
-    self, Alternative, Answering, Function, Language, OTHERS, accept, emit, functions,
+    self, Alternative, Answering, EmittedFunction, Language, OTHERS, accept, emit, functions,
 };
 use crate::language::tree::Tree;
 use crate::model::Model;
-use crate::problem::{InputError, Setting, mentions};
+use crate::problem::{InputError, ParameterValue, mentions};
 
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
@@ -106,7 +106,7 @@ pub(crate) fn run(
         model,
     } in std::iter::once(&of_file).chain(alternatives)
     {
-        let mut answer = Answer {
+        let mut answer = AnswerProgram {
             program: &mut program,
             variant,
         };
@@ -152,13 +152,13 @@ impl Program {
 }
 
 /// The answering program, for a variant.
-struct Answer<'p> {
+struct AnswerProgram<'p> {
     program: &'p mut Program,
     /// Empty for the solution of the file.
     variant: &'p str,
 }
 
-impl Answer<'_> {
+impl AnswerProgram<'_> {
     fn to(&mut self, arguments: &[String], text: String) -> Result<String, InputError> {
         let variant = self.variant;
         match self.program {
@@ -178,7 +178,7 @@ impl Answer<'_> {
 fn values(
     model: &Model,
     language: Language,
-    answer: &mut Answer<'_>,
+    answer: &mut AnswerProgram<'_>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let Sampling { seed, points, .. } = *sampling;
@@ -211,7 +211,7 @@ fn values(
 fn values_with_settings(
     model: &Model,
     language: Language,
-    answer: &mut Answer<'_>,
+    answer: &mut AnswerProgram<'_>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let settings = settings(model);
@@ -234,11 +234,11 @@ struct Round<'f> {
     /// What asks for them.
     argument: String,
     face: Option<&'f str>,
-    functions: Vec<&'f Function>,
+    functions: Vec<&'f EmittedFunction>,
 }
 
 /// All functions but sources and data.
-fn others(functions: &[Function]) -> Round<'_> {
+fn others(functions: &[EmittedFunction]) -> Round<'_> {
     Round {
         argument: OTHERS.to_owned(),
         face: None,
@@ -247,7 +247,7 @@ fn others(functions: &[Function]) -> Round<'_> {
 }
 
 /// The sources, and the data of each face.
-fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
+fn rounds<'f>(model: &'f Model, functions: &'f [EmittedFunction]) -> Vec<Round<'f>> {
     let mut rounds = vec![Round {
         argument: String::new(),
         face: None,
@@ -257,7 +257,7 @@ fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
             .collect(),
     }];
     for (index, face) in model.problem.faces.iter().enumerate() {
-        let of_face = |f: &&Function| f.role == Role::Datum && f.part == Part::Face(index);
+        let of_face = |f: &&EmittedFunction| f.role == Role::Datum && f.part == Part::Face(index);
         rounds.push(Round {
             argument: face.name.clone(),
             face: Some(&face.name),
@@ -269,7 +269,7 @@ fn rounds<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Round<'f>> {
 }
 
 /// All parameters that depend on no other, a thousandth larger.
-fn settings(model: &Model) -> Vec<Setting> {
+fn settings(model: &Model) -> Vec<ParameterValue> {
     let problem = &model.problem;
     let is_free = |tree: &Tree| {
         let mut others = problem.parameters.iter();
@@ -279,7 +279,7 @@ fn settings(model: &Model) -> Vec<Setting> {
     values
         .enumerate()
         .filter(|(_, (parameter, _))| is_free(&parameter.expression.tree))
-        .map(|(parameter, (_, value))| Setting {
+        .map(|(parameter, (_, value))| ParameterValue {
             parameter,
             value: 1.001 * value,
         })
@@ -292,8 +292,8 @@ impl Round<'_> {
     fn held(
         &self,
         model: &Model,
-        answer: &mut Answer<'_>,
-        settings: &[Setting],
+        answer: &mut AnswerProgram<'_>,
+        settings: &[ParameterValue],
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
         let questions = questions(model, self.face, sampling.seed, sampling.points)?;
@@ -307,7 +307,7 @@ impl Round<'_> {
             .flat_map(|f| f.roots.clone())
             .collect();
         let mut arguments = vec![self.argument.clone()];
-        for Setting { parameter, value } in settings {
+        for ParameterValue { parameter, value } in settings {
             let name = &model.problem.parameters[*parameter].name;
             arguments.push(format!("{name}={value:?}"));
         }
@@ -345,6 +345,10 @@ impl Round<'_> {
     }
 }
 
+fn number_or_nan(word: &str) -> f64 {
+    word.parse().unwrap_or(f64::NAN)
+}
+
 /// A line of these names, then a line of numbers for each point; what is none is NaN.
 fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, String> {
     let mut lines = text.lines();
@@ -352,9 +356,8 @@ fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, Stri
     if head != names {
         return Err(format!("expected the names {names:?}, found {head:?}"));
     }
-    let number = |word: &str| word.parse().unwrap_or(f64::NAN);
     let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split_whitespace().map(number).collect())
+        .map(|line| line.split_whitespace().map(number_or_nan).collect())
         .collect();
     if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
         return Err(format!(
@@ -373,7 +376,7 @@ fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, Stri
 }
 
 /// A difference as a share of the size; 0 if it is rounding.
-fn difference(right: &Measured, found: f64) -> f64 {
+fn difference(right: &SizedValue, found: f64) -> f64 {
     let difference = (right.value - found).abs();
     // Not a difference of zero over a size of zero.
     if difference <= SAME * right.size {
@@ -383,7 +386,11 @@ fn difference(right: &Measured, found: f64) -> f64 {
     }
 }
 
-fn differences(right: &Right<'_>, answers: &[ask::Answer], language: &str) -> Vec<Finding> {
+fn differences(
+    right: &Right<'_>,
+    answers: &[ask::ForeignQuantity],
+    language: &str,
+) -> Vec<Finding> {
     let mut findings = vec![];
     for place in right.places() {
         let name = right.name(place);

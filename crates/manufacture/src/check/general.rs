@@ -2,11 +2,11 @@
 
 use super::{Sampled, is_same, is_zero};
 use crate::against::bench::{Alteration, Bench};
-use crate::arithmetic::tape::Measured;
+use crate::arithmetic::tape::SizedValue;
 use crate::derive::{Part, Role};
 use crate::language::parse;
-use crate::model::{Model, Rows};
-use crate::problem::{Expression, Value};
+use crate::model::{Model, TensorRows};
+use crate::problem::{Expression, TensorValue};
 
 /// Points at which the fields are compared.
 const POINTS: usize = 20;
@@ -83,7 +83,7 @@ fn is_solenoidal(model: &Model, name: &str, points: &[Vec<f64>]) -> bool {
     let Some(rows) = gradient.tensor.square() else {
         return false;
     };
-    let values = Rows::new(&model.graph, std::iter::once(&gradient.tensor));
+    let values = TensorRows::new(&model.graph, std::iter::once(&gradient.tensor));
     points.iter().all(|point| {
         let parts = values.at(point).tensors.remove(0);
         let diagonal = (0..rows).map(|row| parts[row * (rows + 1)]);
@@ -91,7 +91,7 @@ fn is_solenoidal(model: &Model, name: &str, points: &[Vec<f64>]) -> bool {
             [value + part.value, size + part.size]
         });
         let [value, size] = trace;
-        is_zero(&[Measured { value, size }])
+        is_zero(&[SizedValue { value, size }])
     })
 }
 
@@ -127,21 +127,21 @@ impl Fields {
     }
 
     /// Of the same rank and length, where these are written out.
-    fn value(&mut self, value: &Value) -> Value {
+    fn value(&mut self, value: &TensorValue) -> TensorValue {
         match value {
-            Value::One(_) => field(value, &self.function()),
-            Value::List(place, parts) => {
+            TensorValue::One(_) => field(value, &self.function()),
+            TensorValue::List(place, parts) => {
                 let parts = parts.iter().map(|part| self.value(part)).collect();
-                Value::List(place.clone(), parts)
+                TensorValue::List(place.clone(), parts)
             }
         }
     }
 }
 
 /// A text in the place of a value.
-fn field(value: &Value, text: &str) -> Value {
+fn field(value: &TensorValue, text: &str) -> TensorValue {
     match parse(text) {
-        Ok(tree) => Value::One(Expression {
+        Ok(tree) => TensorValue::One(Expression {
             place: value.place().clone(),
             text: text.to_owned(),
             tree,

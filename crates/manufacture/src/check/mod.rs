@@ -15,9 +15,9 @@ use serde::Serialize;
 
 use crate::arithmetic::NodeId;
 use crate::arithmetic::SAME;
-use crate::arithmetic::tape::Measured;
-use crate::derive::{Part, Quantity, Role, components};
-use crate::model::{Model, Rows};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::{DerivedQuantity, Part, Role, components};
+use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -77,16 +77,16 @@ impl Check {
 /// The quantities of a part at its points.
 pub(crate) struct Sampled<'m> {
     pub(crate) part: Part,
-    pub(crate) quantities: &'m [Quantity<NodeId>],
+    pub(crate) quantities: &'m [DerivedQuantity<NodeId>],
     pub(crate) points: Vec<Vec<f64>>,
     /// For each point, for each quantity, its components.
-    pub(crate) values: Vec<Vec<Vec<Measured>>>,
+    pub(crate) values: Vec<Vec<Vec<SizedValue>>>,
 }
 
 impl<'m> Sampled<'m> {
     pub(crate) fn new(model: &'m Model, part: Part, points: Vec<Vec<f64>>) -> Self {
         let quantities = model.part(part);
-        let rows = Rows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
         Self {
             part,
             quantities,
@@ -96,19 +96,19 @@ impl<'m> Sampled<'m> {
     }
 
     /// The values of a quantity over the points.
-    pub(crate) fn over(&self, index: usize) -> impl Iterator<Item = (&[f64], &[Measured])> {
+    pub(crate) fn over(&self, index: usize) -> impl Iterator<Item = (&[f64], &[SizedValue])> {
         let points = self.points.iter().zip(&self.values);
         points.map(move |(point, values)| (point.as_slice(), values[index].as_slice()))
     }
 }
 
 /// Whether it is zero but for rounding.
-pub(crate) fn is_zero(values: &[Measured]) -> bool {
+pub(crate) fn is_zero(values: &[SizedValue]) -> bool {
     values.iter().all(|v| v.value.abs() <= SAME * v.size)
 }
 
 /// Whether two values are equal but for rounding.
-pub(crate) fn is_same(a: &Measured, b: &Measured) -> bool {
+pub(crate) fn is_same(a: &SizedValue, b: &SizedValue) -> bool {
     (a.value - b.value).abs() <= SAME * a.size.max(b.size)
 }
 
@@ -258,7 +258,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
                 .over(index)
                 .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
             let Some((point, _)) = lowest else { continue };
-            let rows = Rows::new(&model.graph, std::iter::once(&quantity.tensor));
+            let rows = TensorRows::new(&model.graph, std::iter::once(&quantity.tensor));
             let Lowest { value, point } = descend(model, sampler, &rows, point);
             if !(value > 0.0) {
                 let at = model.place_in_words(&point);
@@ -279,7 +279,7 @@ struct Lowest {
 }
 
 /// The lowest value near a point, by steps along the axes that are halved when none goes down.
-fn descend(model: &Model, sampler: &Sampler<'_>, rows: &Rows<'_>, start: &[f64]) -> Lowest {
+fn descend(model: &Model, sampler: &Sampler<'_>, rows: &TensorRows<'_>, start: &[f64]) -> Lowest {
     const SMALLEST_STEP: f64 = 1e-7;
     let mut point = start.to_vec();
     let mut value = rows.at(&point).tensors[0][0].value;

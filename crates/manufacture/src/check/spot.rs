@@ -5,7 +5,7 @@ use crate::arithmetic::conditions::Condition;
 use crate::arithmetic::{Graph, NodeId};
 use crate::derive::{Elaborator, Part};
 use crate::language::names::Callee;
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
 use crate::problem::{Expression, InputError, Problem, Surface};
 
@@ -60,9 +60,9 @@ fn inside<'t>(
         }
     }
     let argument = match &tree.kind {
-        Kind::Binary(Binary::Divide, operands) => &operands[1],
-        Kind::Binary(Binary::Power, operands) => &operands[0],
-        Kind::Call(Callee::Function(_) | Callee::Operator(_), parts) => parts.first()?,
+        TreeKind::Binary(Binary::Divide, operands) => &operands[1],
+        TreeKind::Binary(Binary::Power, operands) => &operands[0],
+        TreeKind::Call(Callee::Function(_) | Callee::Operator(_), parts) => parts.first()?,
         _ => return None,
     };
     let mut has = |tree: &Tree| {
@@ -73,7 +73,7 @@ fn inside<'t>(
         return None;
     }
     match &argument.kind {
-        Kind::Bracket(inner) => Some(inner),
+        TreeKind::Bracket(inner) => Some(inner),
         _ => Some(argument),
     }
 }

@@ -3,9 +3,9 @@
 
 use super::{Finding, Sampled, finding, is_same};
 use crate::arithmetic::NodeId;
-use crate::arithmetic::tape::Measured;
-use crate::derive::{Quantity, Role};
-use crate::model::{Model, Rows};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::{DerivedQuantity, Role};
+use crate::model::{Model, TensorRows};
 
 /// A map of the box onto itself.
 #[derive(Debug, Clone, Copy)]
@@ -70,10 +70,10 @@ impl Map {
 }
 
 /// Whether a component is the same at all points and images, or reversed at all.
-fn is_unchanged(pairs: &[(Vec<Measured>, Vec<Measured>)], component: usize) -> bool {
+fn is_unchanged(pairs: &[(Vec<SizedValue>, Vec<SizedValue>)], component: usize) -> bool {
     [1.0, -1.0].into_iter().any(|sign| {
         pairs.iter().all(|(value, image)| {
-            let image = Measured {
+            let image = SizedValue {
                 value: sign * image[component].value,
                 ..image[component]
             };
@@ -82,7 +82,7 @@ fn is_unchanged(pairs: &[(Vec<Measured>, Vec<Measured>)], component: usize) -> b
     })
 }
 
-fn depends(model: &Model, field: &Quantity<NodeId>, axis: usize) -> bool {
+fn depends(model: &Model, field: &DerivedQuantity<NodeId>, axis: usize) -> bool {
     let mut parts = field.tensor.parts.iter();
     parts.any(|part| model.graph.depends_on(*part, axis))
 }
@@ -91,7 +91,7 @@ pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
     let fields = sampled.quantities.iter().enumerate();
     for (index, field) in fields.filter(|entry| entry.1.role == Role::Exact) {
-        let rows = Rows::new(&model.graph, std::iter::once(&field.tensor));
+        let rows = TensorRows::new(&model.graph, std::iter::once(&field.tensor));
         for map in Map::all(model) {
             if !map.axes().iter().all(|axis| depends(model, field, *axis)) {
                 continue;

@@ -1,10 +1,10 @@
 //! The terms of an equation: their shares, and which of them cannot be told apart.
 
 use super::{Finding, Sampled, Share, finding, is_zero};
-use crate::arithmetic::tape::Measured;
+use crate::arithmetic::tape::SizedValue;
 use crate::derive::Role;
 use crate::fit::{self, Column};
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 
 /// A term below this share of the largest term at every point would not be missed.
 const SMALL: f64 = 0.01;
@@ -12,20 +12,20 @@ const SMALL: f64 = 0.01;
 /// A residual below this share of a column means that it depends on the others.
 const DEPENDENT: f64 = 1e-10;
 
-pub(super) struct Terms {
+pub(super) struct TermFindings {
     pub(super) findings: Vec<Finding>,
     pub(super) shares: Vec<Share>,
 }
 
-pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> Terms {
-    let mut terms = Terms {
+pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> TermFindings {
+    let mut terms = TermFindings {
         findings: vec![],
         shares: vec![],
     };
     let sources = sampled.quantities.iter().filter(|q| q.role == Role::Source);
     for source in sources {
         let labels: Vec<&str> = source.terms.iter().map(|term| term.0.as_str()).collect();
-        let rows = Rows::new(&model.graph, source.terms.iter().map(|term| &term.1));
+        let rows = TensorRows::new(&model.graph, source.terms.iter().map(|term| &term.1));
         let values: Vec<_> = sampled
             .points
             .iter()
@@ -69,7 +69,7 @@ pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> Terms {
 }
 
 /// All components of a term at all points; zeros if only rounding is left of it.
-fn column(values: &[Vec<Vec<Measured>>], term: usize) -> Column {
+fn column(values: &[Vec<Vec<SizedValue>>], term: usize) -> Column {
     let is_absent = values.iter().all(|point| is_zero(&point[term]));
     let parts = values.iter().flat_map(|point| &point[term]);
     parts

@@ -6,19 +6,19 @@ use std::collections::HashSet;
 use super::general::General;
 use super::{Finding, Sampled, finding, is_same};
 use crate::against::bench::{Alteration, Bench, Rewrite};
-use crate::against::candidates::{self, Candidate, Change};
+use crate::against::candidates::{self, Candidate, EditKind};
 use crate::against::{cause, site, text};
 use crate::derive::{Part, Role};
 use crate::language::names::{Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
 use crate::problem::Problem;
 
 /// One finding for each equation and kind of edit: the first edit that changes the expression and,
 /// for other fields, the source, but not the source of this solution.
 ///
-/// An edit that changes nothing for any fields, as a gradient transposed inside a symmetric form, is
-/// no mistake.
+/// An edit that changes nothing for any fields, as a gradient transposed inside a symmetric form,
+/// is no mistake.
 pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let problem = &model.problem;
     let Some(mut bench) = Bench::new(model, Part::Interior) else {
@@ -65,8 +65,8 @@ fn is_common(problem: &Problem, candidate: &Candidate, differential: &HashSet<&s
     };
     match candidate.change {
         _ if rewrite.home.is_exact(problem) => false,
-        Change::TransposedGradient | Change::MissingTranspose => true,
-        Change::Held => is_coefficient(problem, rewrite, differential),
+        EditKind::TransposedGradient | EditKind::MissingTranspose => true,
+        EditKind::Held => is_coefficient(problem, rewrite, differential),
         _ => false,
     }
 }
@@ -76,12 +76,6 @@ fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&
     let Some(expression) = rewrite.home.expression(problem) else {
         return false;
     };
-    let is_product = |tree: &Tree| {
-        matches!(
-            tree.kind,
-            Kind::Binary(Binary::Multiply | Binary::Divide, _) | Kind::Negate(_) | Kind::Bracket(_)
-        )
-    };
     let part = |length: usize| site::at(&expression.tree, &rewrite.route[..length]);
     let mut length = rewrite.route.len();
     while length > 0 && part(length - 1).is_some_and(is_product) {
@@ -90,6 +84,16 @@ fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&
     let [factor, product] = [rewrite.route.len(), length].map(part);
     let has = |tree: Option<&Tree>| tree.is_some_and(|tree| has_derivative(tree, differential));
     has(product) && !has(factor)
+}
+
+/// Whether a tree multiplies or divides, or passes on what does.
+fn is_product(tree: &Tree) -> bool {
+    matches!(
+        tree.kind,
+        TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
+            | TreeKind::Negate(_)
+            | TreeKind::Bracket(_)
+    )
 }
 
 /// The definitions with a derivative, their own or that of another definition that they name.
@@ -112,8 +116,8 @@ fn differential(problem: &Problem) -> HashSet<&str> {
 /// Whether a derivative occurs in it, or the name of a definition with one.
 fn has_derivative(tree: &Tree, differential: &HashSet<&str>) -> bool {
     let is_derivative = match &tree.kind {
-        Kind::Name(name) => differential.contains(name.as_str()),
-        Kind::Call(Callee::Operator(operator), _) => matches!(
+        TreeKind::Name(name) => differential.contains(name.as_str()),
+        TreeKind::Call(Callee::Operator(operator), _) => matches!(
             operator,
             Operator::Derivative
                 | Operator::TimeDerivative
@@ -136,7 +140,8 @@ fn is_unseen(
     equation: &str,
 ) -> bool {
     let mut sources = sampled.quantities.iter();
-    let is_source = |q: &crate::derive::Quantity<_>| q.role == Role::Source && q.name == equation;
+    let is_source =
+        |q: &crate::derive::DerivedQuantity<_>| q.role == Role::Source && q.name == equation;
     let Some(index) = sources.position(is_source) else {
         return false;
     };

@@ -7,8 +7,8 @@ use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::MAX_DEPTH;
 use crate::language::names::{CONSTANTS, Callee, Operator, Piecewise, did_you_mean};
-use crate::language::tree::{Binary, Comparison, Kind, Tree, callee_name};
-use crate::problem::{Expression, InputError, Problem, Value};
+use crate::language::tree::{Binary, Relation, Tree, TreeKind, callee_name};
+use crate::problem::{Expression, InputError, Problem, TensorValue};
 
 /// A file whose graph has more nodes is refused.
 const MOST_NODES: usize = 200_000;
@@ -54,10 +54,10 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         self.tree(&expression.tree, expression)
     }
 
-    pub(crate) fn value(&mut self, value: &Value) -> Elaborated<A> {
+    pub(crate) fn value(&mut self, value: &TensorValue) -> Elaborated<A> {
         match value {
-            Value::One(expression) => self.expression(expression),
-            Value::List(place, parts) => {
+            TensorValue::One(expression) => self.expression(expression),
+            TensorValue::List(place, parts) => {
                 let parts: Result<Vec<_>, _> = parts.iter().map(|part| self.value(part)).collect();
                 let stacked = stack(parts?);
                 stacked.map_err(|problem| place.error(problem))
@@ -67,10 +67,10 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
 
     pub(crate) fn tree(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
         match &tree.kind {
-            Kind::Number(value, _) => Ok(Tensor::scalar(self.algebra.number(*value))),
-            Kind::Name(name) => self.name(name, tree, within),
-            Kind::Bracket(inner) => self.tree(inner, within),
-            Kind::Negate(operand) => {
+            TreeKind::Number(value, _) => Ok(Tensor::scalar(self.algebra.number(*value))),
+            TreeKind::Name(name) => self.name(name, tree, within),
+            TreeKind::Bracket(inner) => self.tree(inner, within),
+            TreeKind::Negate(operand) => {
                 let operand = self.tree(operand, within)?;
                 let parts = operand.parts.iter();
                 Ok(Tensor {
@@ -78,8 +78,8 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                     shape: operand.shape.clone(),
                 })
             }
-            Kind::Binary(..) => self.chain(tree, within),
-            Kind::Call(callee, parts) => {
+            TreeKind::Binary(..) => self.chain(tree, within),
+            TreeKind::Call(callee, parts) => {
                 let value = self.call(*callee, parts, tree, within)?;
                 if self.algebra.nodes() > MOST_NODES {
                     let problem =
@@ -88,13 +88,13 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                 }
                 Ok(value)
             }
-            Kind::List(parts) => {
+            TreeKind::List(parts) => {
                 let parts: Result<Vec<_>, _> =
                     parts.iter().map(|part| self.tree(part, within)).collect();
                 stack(parts?).map_err(|problem| refused(within, tree, problem))
             }
-            Kind::Index(of, indices) => self.index(of, indices, within),
-            Kind::Compare(..) => {
+            TreeKind::Index(of, indices) => self.index(of, indices, within),
+            TreeKind::Compare(..) => {
                 let problem = "expected a comparison only as the first argument of `where`";
                 Err(refused(within, tree, problem))
             }
@@ -106,7 +106,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
     fn chain(&mut self, tree: &Tree, within: &Expression) -> Elaborated<A> {
         let mut chain = vec![];
         let mut first = tree;
-        while let Kind::Binary(operator, operands) = &first.kind {
+        while let TreeKind::Binary(operator, operands) = &first.kind {
             chain.push((first, *operator, &operands[1]));
             first = &operands[0];
         }
@@ -170,7 +170,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
     fn defined(
         &mut self,
         name: &str,
-        value: &Value,
+        value: &TensorValue,
         tree: &Tree,
         within: &Expression,
     ) -> Elaborated<A> {
@@ -188,7 +188,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
     }
 
     /// The value of a name, which is evaluated once.
-    pub(super) fn definition(&mut self, name: &str, value: &Value) -> Elaborated<A> {
+    pub(super) fn definition(&mut self, name: &str, value: &TensorValue) -> Elaborated<A> {
         if let Some(known) = self.known.get(name) {
             return Ok(known.clone());
         }
@@ -314,13 +314,13 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         let value = match (function, numbers.as_slice()) {
             (Piecewise::Abs, [a]) => {
                 let opposite = algebra.negate(a);
-                algebra.choose(Comparison::Less, [a, &zero], &opposite, a)
+                algebra.choose(Relation::Less, [a, &zero], &opposite, a)
             }
-            (Piecewise::Min, [a, b]) => algebra.choose(Comparison::LessOrEqual, [a, b], a, b),
-            (Piecewise::Max, [a, b]) => algebra.choose(Comparison::GreaterOrEqual, [a, b], a, b),
+            (Piecewise::Min, [a, b]) => algebra.choose(Relation::LessOrEqual, [a, b], a, b),
+            (Piecewise::Max, [a, b]) => algebra.choose(Relation::GreaterOrEqual, [a, b], a, b),
             (Piecewise::Heaviside, [a]) => {
                 let one = algebra.number(1.0);
-                algebra.choose(Comparison::GreaterOrEqual, [a, &zero], &one, &zero)
+                algebra.choose(Relation::GreaterOrEqual, [a, &zero], &one, &zero)
             }
             _ => {
                 return Err(refused(
@@ -349,7 +349,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         let [condition, then, otherwise] = parts else {
             return Err(refused(within, tree, "expected three arguments"));
         };
-        let Kind::Compare(comparison, operands) = &condition.kind else {
+        let TreeKind::Compare(comparison, operands) = &condition.kind else {
             return Err(refused(within, condition, "expected a comparison"));
         };
         let left = self.scalar(&operands[0], within)?;
@@ -395,10 +395,12 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
     fn place(&self, index: &Tree, length: usize, within: &Expression) -> Result<usize, InputError> {
         let axes = self.problem.axes();
         let place = match &index.kind {
-            Kind::Number(value, _) if value.fract() == 0.0 && *value >= 1.0 => {
+            TreeKind::Number(value, _) if value.fract() == 0.0 && *value >= 1.0 => {
                 Some(*value as usize - 1)
             }
-            Kind::Name(name) if axes.len() == length => axes.iter().position(|axis| axis == name),
+            TreeKind::Name(name) if axes.len() == length => {
+                axes.iter().position(|axis| axis == name)
+            }
             _ => None,
         };
         place.filter(|place| *place < length).ok_or_else(|| {
@@ -415,7 +417,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
     /// The place of a variable that an argument names.
     pub(super) fn variable(&self, tree: &Tree, within: &Expression) -> Result<usize, InputError> {
         let known = self.problem.variables();
-        if let Kind::Name(name) = &tree.kind
+        if let TreeKind::Name(name) = &tree.kind
             && let Some(place) = known.iter().position(|variable| variable == name)
         {
             return Ok(place);
@@ -447,7 +449,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
 pub(super) fn refused(within: &Expression, tree: &Tree, problem: impl Into<String>) -> InputError {
     let problem = problem.into();
     let part = tree.to_string();
-    let is_call = matches!(tree.kind, Kind::Binary(..) | Kind::Call(..));
+    let is_call = matches!(tree.kind, TreeKind::Binary(..) | TreeKind::Call(..));
     let problem = if is_call && part.len() <= 60 {
         format!("`{part}`: {problem}")
     } else {

@@ -41,7 +41,7 @@ pub(crate) enum Role {
 
 /// A quantity of the file.
 #[derive(Debug, Clone)]
-pub(crate) struct Quantity<N> {
+pub(crate) struct DerivedQuantity<N> {
     pub(crate) role: Role,
     pub(crate) name: String,
     /// The path of its key.
@@ -98,7 +98,10 @@ pub(crate) fn components(problem: &Problem, name: &str, shape: &[usize]) -> Vec<
 
 impl<A: Algebra> Elaborator<'_, A> {
     /// All quantities of a part.
-    pub(crate) fn part(&mut self, part: Part) -> Result<Vec<Quantity<A::Number>>, InputError> {
+    pub(crate) fn part(
+        &mut self,
+        part: Part,
+    ) -> Result<Vec<DerivedQuantity<A::Number>>, InputError> {
         match part {
             Part::Interior => self.interior(),
             Part::Face(index) => self.face(index),
@@ -109,7 +112,7 @@ impl<A: Algebra> Elaborator<'_, A> {
         }
     }
 
-    fn interior(&mut self) -> Result<Vec<Quantity<A::Number>>, InputError> {
+    fn interior(&mut self) -> Result<Vec<DerivedQuantity<A::Number>>, InputError> {
         let mut quantities = vec![];
         let problem = self.problem;
         for (name, definition) in &problem.definitions {
@@ -159,7 +162,7 @@ impl<A: Algebra> Elaborator<'_, A> {
     pub(crate) fn source(
         &mut self,
         equation: &Equation,
-    ) -> Result<Quantity<A::Number>, InputError> {
+    ) -> Result<DerivedQuantity<A::Number>, InputError> {
         let mut terms: Vec<(usize, String, Tensor<A::Number>)> = vec![];
         let mut total: Option<Tensor<A::Number>> = None;
         for term in &equation.terms {
@@ -199,13 +202,13 @@ impl<A: Algebra> Elaborator<'_, A> {
         }
         let key = format!("equations.{}", equation.name);
         let terms = terms.into_iter().map(|(_, label, tensor)| (label, tensor));
-        Ok(Quantity {
+        Ok(DerivedQuantity {
             terms: terms.collect(),
             ..quantity(Role::Source, &equation.name, &key, tensor)
         })
     }
 
-    fn face(&mut self, index: usize) -> Result<Vec<Quantity<A::Number>>, InputError> {
+    fn face(&mut self, index: usize) -> Result<Vec<DerivedQuantity<A::Number>>, InputError> {
         let face = &self.problem.faces[index];
         let normal = match &face.surface {
             Surface::Level(expression) => {
@@ -244,7 +247,7 @@ impl<A: Algebra> Elaborator<'_, A> {
         data: &[Datum],
         path: &str,
         [role, condition_role]: [Role; 2],
-    ) -> Result<Vec<Quantity<A::Number>>, InputError> {
+    ) -> Result<Vec<DerivedQuantity<A::Number>>, InputError> {
         let mut quantities = vec![];
         for datum in data {
             let key = format!("{path}.{}", datum.name);
@@ -267,8 +270,13 @@ impl<A: Algebra> Elaborator<'_, A> {
     }
 }
 
-pub(crate) fn quantity<N>(role: Role, name: &str, key: &str, tensor: Tensor<N>) -> Quantity<N> {
-    Quantity {
+pub(crate) fn quantity<N>(
+    role: Role,
+    name: &str,
+    key: &str,
+    tensor: Tensor<N>,
+) -> DerivedQuantity<N> {
+    DerivedQuantity {
         role,
         name: name.to_owned(),
         key: key.to_owned(),

@@ -4,7 +4,7 @@ use super::elaborate::{Elaborated, Elaborator, matrix, refused};
 use super::space::Basis;
 use super::tensor::{self, Tensor, combine, scale, sum_of_products};
 use crate::arithmetic::Algebra;
-use crate::language::names::{Alteration, Operator};
+use crate::language::names::{OperandAlteration, Operator};
 use crate::language::tree::{Binary, Tree};
 use crate::problem::Expression;
 
@@ -51,20 +51,20 @@ impl<A: Algebra> Elaborator<'_, A> {
 
     fn altered(
         &mut self,
-        alteration: Alteration,
+        alteration: OperandAlteration,
         operand: &Tree,
         within: &Expression,
     ) -> Elaborated<A> {
         let basis = match alteration {
-            Alteration::Held => self.space.basis,
-            Alteration::Unturned => Basis::Unturned,
-            Alteration::Flat => Basis::Flat,
+            OperandAlteration::Held => self.space.basis,
+            OperandAlteration::Unturned => Basis::Unturned,
+            OperandAlteration::Flat => Basis::Flat,
         };
         let outside = std::mem::replace(&mut self.space.basis, basis);
         let value = self.tree(operand, within);
         self.space.basis = outside;
         let mut value = value?;
-        if alteration == Alteration::Held {
+        if alteration == OperandAlteration::Held {
             for part in &mut value.parts {
                 *part = self.algebra.held(part);
             }

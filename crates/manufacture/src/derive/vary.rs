@@ -4,13 +4,13 @@ use super::elaborate::{Elaborated, Elaborator};
 use super::tensor::{Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
-use crate::problem::{Bubble, Step};
-use crate::problem::{InputError, Value};
+use crate::problem::{Bubble, VariationStep};
+use crate::problem::{InputError, TensorValue};
 
 impl<A: Algebra> Elaborator<'_, A> {
     /// The value of an exact field. A variant is made of the fields of the file: fields that occur
     /// in the expression are those.
-    pub(super) fn exact(&mut self, name: &str, value: &Value) -> Elaborated<A> {
+    pub(super) fn exact(&mut self, name: &str, value: &TensorValue) -> Elaborated<A> {
         let variation = self.problem.variation.as_ref();
         let variation = variation.filter(|variation| !self.is_plain && variation.concerns(name));
         let Some(variation) = variation else {
@@ -32,21 +32,21 @@ impl<A: Algebra> Elaborator<'_, A> {
     }
 
     /// A function after these steps.
-    fn after(&mut self, steps: &[Step], value: &Value) -> Elaborated<A> {
+    fn after(&mut self, steps: &[VariationStep], value: &TensorValue) -> Elaborated<A> {
         let Some((last, before)) = steps.split_last() else {
             return self.value(value);
         };
         match last {
-            Step::Fix { variable, at } => {
+            VariationStep::Fix { variable, at } => {
                 let mut traces = self.traces(before, value, *variable, *at, 0)?;
                 Ok(traces.remove(0))
             }
-            Step::Flatten {
+            VariationStep::Flatten {
                 variable,
                 end,
                 degree,
             } => self.flattened(*variable, *end, *degree, before, value),
-            Step::Weigh(bubble) => {
+            VariationStep::Weigh(bubble) => {
                 let function = self.after(before, value)?;
                 let weight = self.weight(bubble);
                 Ok(scale(
@@ -65,8 +65,8 @@ impl<A: Algebra> Elaborator<'_, A> {
         variable: usize,
         end: f64,
         degree: usize,
-        before: &[Step],
-        value: &Value,
+        before: &[VariationStep],
+        value: &TensorValue,
     ) -> Elaborated<A> {
         let mut rest = self.after(before, value)?;
         let traces = self.traces(before, value, variable, end, degree)?;
@@ -84,8 +84,8 @@ impl<A: Algebra> Elaborator<'_, A> {
     /// 0 on.
     fn traces(
         &mut self,
-        steps: &[Step],
-        value: &Value,
+        steps: &[VariationStep],
+        value: &TensorValue,
         variable: usize,
         at: f64,
         most: usize,

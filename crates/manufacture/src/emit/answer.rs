@@ -1,8 +1,8 @@
 //! The program that answers questions about points in each language.
 
-use super::functions::{Function, others};
+use super::functions::{EmittedFunction, others};
 use super::texts::{Answer, Texts};
-use super::write::prefix;
+use super::writer::prefix;
 use super::{EmittedFile, Language, fill};
 use crate::derive::{Part, Role};
 use crate::model::Model;
@@ -11,12 +11,12 @@ use crate::model::Model;
 pub(crate) const OTHERS: &str = ":others";
 
 /// The functions that answer for the sources, or for a face.
-struct Group<'f> {
+struct AnswerGroup<'f> {
     face: &'f str,
-    functions: Vec<&'f Function>,
+    functions: Vec<&'f EmittedFunction>,
 }
 
-impl Group<'_> {
+impl AnswerGroup<'_> {
     /// The number of components.
     fn count(&self) -> usize {
         self.functions.iter().map(|f| f.roots.len()).sum()
@@ -43,28 +43,28 @@ impl Group<'_> {
     }
 }
 
-fn functions_of(functions: &[Function], role: Role, part: Part) -> Vec<&Function> {
+fn functions_of(functions: &[EmittedFunction], role: Role, part: Part) -> Vec<&EmittedFunction> {
     let functions = functions.iter();
     functions
         .filter(|f| f.role == role && f.part == part)
         .collect()
 }
 
-fn groups<'f>(model: &'f Model, functions: &'f [Function]) -> Vec<Group<'f>> {
-    let mut groups = vec![Group {
+fn groups<'f>(model: &'f Model, functions: &'f [EmittedFunction]) -> Vec<AnswerGroup<'f>> {
+    let mut groups = vec![AnswerGroup {
         face: "",
         functions: functions_of(functions, Role::Source, Part::Interior),
     }];
     for (index, face) in model.problem.faces.iter().enumerate() {
         let functions = functions_of(functions, Role::Datum, Part::Face(index));
         if !functions.is_empty() {
-            groups.push(Group {
+            groups.push(AnswerGroup {
                 face: &face.name,
                 functions,
             });
         }
     }
-    groups.push(Group {
+    groups.push(AnswerGroup {
         face: OTHERS,
         functions: others(functions),
     });
@@ -75,7 +75,7 @@ pub(super) fn program(
     model: &Model,
     has_alternatives: bool,
     language: Language,
-    functions: &[Function],
+    functions: &[EmittedFunction],
 ) -> Option<EmittedFile> {
     let texts = language.texts().answer.as_ref()?;
     let problem = &model.problem;
@@ -90,7 +90,7 @@ pub(super) fn program(
         names += &fill(texts.names, &[("FACE", group.face), ("NAMES", &all)]);
         calls += &self::calls(language.texts(), texts, group, &prefix);
     }
-    let most = groups.iter().map(Group::count).max().unwrap_or(1);
+    let most = groups.iter().map(AnswerGroup::count).max().unwrap_or(1);
     let has_parameters = !problem.parameters.is_empty();
     let has_time = problem.time.is_some();
     let real = [
@@ -123,8 +123,8 @@ pub(super) fn program(
 }
 
 /// The branch that evaluates the functions of a group.
-fn calls(language: &Texts, texts: &Answer, group: &Group<'_>, prefix: &str) -> String {
-    let Group { face, functions } = group;
+fn calls(language: &Texts, texts: &Answer, group: &AnswerGroup<'_>, prefix: &str) -> String {
+    let AnswerGroup { face, functions } = group;
     let mut place = 0;
     let mut calls = vec![];
     for function in functions {

@@ -2,15 +2,7 @@
 
 use super::fill;
 use super::texts::Choice;
-use super::write::Writer;
-use crate::model::Model;
-
-/// A model whose functions take the place of those of another where its name is chosen.
-#[derive(Debug, Clone)]
-pub(crate) struct Alternative<'m> {
-    pub(crate) name: String,
-    pub(crate) model: &'m Model,
-}
+use super::writer::Writer;
 
 /// Bodies of a function, that of the file first and then those of the alternatives: one where all
 /// are alike, otherwise each in its branch.

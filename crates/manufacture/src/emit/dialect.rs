@@ -2,7 +2,7 @@
 
 use super::{Language, fill};
 use crate::language::names::Function;
-use crate::language::tree::Comparison;
+use crate::language::tree::Relation;
 
 impl Language {
     /// A name with `_` behind it where the language cannot tell it from one of the others: Fortran
@@ -60,14 +60,14 @@ impl Language {
 
     pub(super) fn choose(
         self,
-        comparison: Comparison,
+        comparison: Relation,
         [left, right, then, otherwise]: [&str; 4],
     ) -> String {
         let word = match comparison {
-            Comparison::Less => "lt",
-            Comparison::LessOrEqual => "le",
-            Comparison::Greater => "gt",
-            Comparison::GreaterOrEqual => "ge",
+            Relation::Less => "lt",
+            Relation::LessOrEqual => "le",
+            Relation::Greater => "gt",
+            Relation::GreaterOrEqual => "ge",
         };
         fill(
             self.texts().arithmetic.choose,

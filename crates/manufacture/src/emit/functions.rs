@@ -2,12 +2,13 @@
 
 use super::Language;
 use crate::arithmetic::NodeId;
-use crate::derive::{Part, Quantity, Role, Tensor, components};
+use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
+use crate::language::is_of_name;
 use crate::model::Model;
 
 /// A function of the coordinates and time.
 #[derive(Debug, Clone)]
-pub(crate) struct Function {
+pub(crate) struct EmittedFunction {
     /// Without the prefix of C.
     pub(crate) name: String,
     pub(crate) role: Role,
@@ -23,8 +24,8 @@ pub(crate) struct Function {
 }
 
 /// All functions of a model, in a fixed order.
-pub(crate) fn functions(model: &Model, language: Language) -> Vec<Function> {
-    let mut functions: Vec<Function> = vec![];
+pub(crate) fn functions(model: &Model, language: Language) -> Vec<EmittedFunction> {
+    let mut functions: Vec<EmittedFunction> = vec![];
     for (part, quantities) in &model.parts {
         for quantity in quantities {
             let Some(mut function) = function(model, *part, quantity) else {
@@ -52,8 +53,8 @@ pub(crate) fn functions(model: &Model, language: Language) -> Vec<Function> {
 
 /// Of what sources are made: definitions and terms; and all sources of several equations in one
 /// function, which shares their work.
-fn parts_of_sources(model: &Model) -> Vec<Function> {
-    let mut functions: Vec<Function> = vec![];
+fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
+    let mut functions: Vec<EmittedFunction> = vec![];
     for definition in &model.definitions {
         let name = format!("define_{}", definition.name);
         functions.push(part_of_source(
@@ -66,8 +67,7 @@ fn parts_of_sources(model: &Model) -> Vec<Function> {
     let sources: Vec<_> = model.of_role(Role::Source).collect();
     for source in &sources {
         for (number, (label, tensor)) in source.terms.iter().enumerate() {
-            let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            let is_name = label.chars().all(is_letter) && !label.is_empty();
+            let is_name = label.chars().all(is_of_name) && !label.is_empty();
             let number = (number + 1).to_string();
             // A term of a text has no name: its place in the text stands for one.
             let label = if is_name { label } else { &number };
@@ -90,8 +90,13 @@ fn parts_of_sources(model: &Model) -> Vec<Function> {
     functions
 }
 
-fn part_of_source(model: &Model, role: Role, name: String, tensor: &Tensor<NodeId>) -> Function {
-    Function {
+fn part_of_source(
+    model: &Model,
+    role: Role,
+    name: String,
+    tensor: &Tensor<NodeId>,
+) -> EmittedFunction {
+    EmittedFunction {
         quantity: name.clone(),
         name,
         role,
@@ -104,18 +109,18 @@ fn part_of_source(model: &Model, role: Role, name: String, tensor: &Tensor<NodeI
 }
 
 /// The functions that the answering programs evaluate together, besides sources and data.
-pub(crate) fn others(functions: &[Function]) -> Vec<&Function> {
-    let is_other = |f: &&Function| {
-        let roles = [
-            Role::Exact,
-            Role::Gradient,
-            Role::Definition,
-            Role::Term,
-            Role::Sources,
-        ];
-        roles.contains(&f.role)
-    };
-    functions.iter().filter(is_other).collect()
+pub(crate) fn others(functions: &[EmittedFunction]) -> Vec<&EmittedFunction> {
+    const OTHERS: [Role; 5] = [
+        Role::Exact,
+        Role::Gradient,
+        Role::Definition,
+        Role::Term,
+        Role::Sources,
+    ];
+    functions
+        .iter()
+        .filter(|function| OTHERS.contains(&function.role))
+        .collect()
 }
 
 /// The order of the roles in a file.
@@ -133,7 +138,11 @@ fn place(role: Role) -> usize {
     }
 }
 
-fn function(model: &Model, part: Part, quantity: &Quantity<NodeId>) -> Option<Function> {
+fn function(
+    model: &Model,
+    part: Part,
+    quantity: &DerivedQuantity<NodeId>,
+) -> Option<EmittedFunction> {
     let name = &quantity.name;
     let name = match (quantity.role, part) {
         (Role::Exact, _) => format!("exact_{name}"),
@@ -146,7 +155,7 @@ fn function(model: &Model, part: Part, quantity: &Quantity<NodeId>) -> Option<Fu
         (Role::Initial, _) => format!("initial_{name}"),
         _ => return None,
     };
-    Some(Function {
+    Some(EmittedFunction {
         name,
         role: quantity.role,
         quantity: quantity.name.clone(),

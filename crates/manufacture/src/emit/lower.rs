@@ -24,12 +24,12 @@ enum Binding {
 
 /// A subexpression as text.
 #[derive(Debug, Clone)]
-struct Text {
+struct LoweredText {
     text: String,
     binding: Binding,
 }
 
-impl Text {
+impl LoweredText {
     fn atom(text: String) -> Self {
         Self {
             text,
@@ -48,7 +48,7 @@ impl Text {
 }
 
 /// What names stand for in a function.
-pub(super) struct Names<'n> {
+pub(super) struct LoweringNames<'n> {
     pub(super) language: Language,
     /// The array of the coordinates.
     pub(super) array: &'n str,
@@ -66,10 +66,10 @@ pub(super) struct Lowered {
     pub(super) roots: Vec<String>,
 }
 
-pub(super) fn lower(graph: &Graph, roots: &[NodeId], names: &Names<'_>) -> Lowered {
+pub(super) fn lower(graph: &Graph, roots: &[NodeId], names: &LoweringNames<'_>) -> Lowered {
     let order = nodes_below(graph, roots);
     let is_constant = constants(graph, roots, &order);
-    let mut texts: HashMap<NodeId, Text> = HashMap::new();
+    let mut texts: HashMap<NodeId, LoweredText> = HashMap::new();
     let mut constants: Vec<[String; 2]> = vec![];
     for id in order {
         let text = text(graph, id, &texts, names);
@@ -80,7 +80,7 @@ pub(super) fn lower(graph: &Graph, roots: &[NodeId], names: &Names<'_>) -> Lower
         let text = if !is_leaf && (is_constant.contains(&id) || text.text.len() > LONGEST) {
             let name = format!("c{}", constants.len() + 1);
             constants.push([name.clone(), text.text]);
-            Text::atom(name)
+            LoweredText::atom(name)
         } else {
             text
         };
@@ -123,7 +123,12 @@ fn is_product(exponent: f64) -> bool {
     exponent.fract() == 0.0 && exponent != 0.0 && exponent.abs() <= LARGEST_PRODUCT
 }
 
-fn text(graph: &Graph, id: NodeId, texts: &HashMap<NodeId, Text>, names: &Names<'_>) -> Text {
+fn text(
+    graph: &Graph,
+    id: NodeId,
+    texts: &HashMap<NodeId, LoweredText>,
+    names: &LoweringNames<'_>,
+) -> LoweredText {
     let language = names.language;
     match graph.node(id) {
         Node::Number(bits) => {
@@ -134,12 +139,14 @@ fn text(graph: &Graph, id: NodeId, texts: &HashMap<NodeId, Text>, names: &Names<
             } else {
                 Binding::Atom
             };
-            Text { text, binding }
+            LoweredText { text, binding }
         }
-        Node::Variable(index) if *index == names.coordinates => Text::atom(names.time.to_owned()),
-        Node::Variable(index) => Text::atom(language.coordinate(names.array, *index)),
-        Node::Parameter(index) => Text::atom(names.parameters[*index].clone()),
-        Node::Negate(operand) => Text {
+        Node::Variable(index) if *index == names.coordinates => {
+            LoweredText::atom(names.time.to_owned())
+        }
+        Node::Variable(index) => LoweredText::atom(language.coordinate(names.array, *index)),
+        Node::Parameter(index) => LoweredText::atom(names.parameters[*index].clone()),
+        Node::Negate(operand) => LoweredText {
             text: format!("-{}", texts[operand].within(Binding::Product)),
             binding: Binding::Sum,
         },
@@ -152,27 +159,32 @@ fn text(graph: &Graph, id: NodeId, texts: &HashMap<NodeId, Text>, names: &Names<
             binary(*operator, &texts[left], &texts[right], language)
         }
         Node::Call(function, argument) => {
-            Text::atom(language.call(*function, &texts[argument].text))
+            LoweredText::atom(language.call(*function, &texts[argument].text))
         }
         Node::Choose(comparison, operands) => {
             let operands = operands.map(|operand| texts[&operand].within(Binding::Atom));
-            Text::atom(language.choose(*comparison, operands.each_ref().map(String::as_str)))
+            LoweredText::atom(language.choose(*comparison, operands.each_ref().map(String::as_str)))
         }
-        Node::Integral { .. } => Text::atom((names.integrals)(id)),
+        Node::Integral { .. } => LoweredText::atom((names.integrals)(id)),
         // No file has one.
-        Node::Held(operand) => Text::atom(texts[operand].within(Binding::Atom)),
+        Node::Held(operand) => LoweredText::atom(texts[operand].within(Binding::Atom)),
     }
 }
 
-fn binary(operator: Binary, left: &Text, right: &Text, language: Language) -> Text {
+fn binary(
+    operator: Binary,
+    left: &LoweredText,
+    right: &LoweredText,
+    language: Language,
+) -> LoweredText {
     let symbol = match operator {
         Binary::Add => return sum(left, "+", right),
         Binary::Subtract => return sum(left, "-", right),
         Binary::Multiply => language.texts().arithmetic.times,
         Binary::Divide => language.texts().arithmetic.over,
-        Binary::Power => return Text::atom(language.power(&left.text, &right.text)),
+        Binary::Power => return LoweredText::atom(language.power(&left.text, &right.text)),
     };
-    Text {
+    LoweredText {
         text: format!(
             "{}{symbol}{}",
             left.within(Binding::Product),
@@ -182,21 +194,21 @@ fn binary(operator: Binary, left: &Text, right: &Text, language: Language) -> Te
     }
 }
 
-fn sum(left: &Text, symbol: &str, right: &Text) -> Text {
+fn sum(left: &LoweredText, symbol: &str, right: &LoweredText) -> LoweredText {
     // A sum on the right keeps its brackets: they say in which order it is added.
-    Text {
+    LoweredText {
         text: format!("{} {symbol} {}", left.text, right.within(Binding::Product)),
         binding: Binding::Sum,
     }
 }
 
 /// A small whole power as a product.
-fn product(base: &Text, exponent: f64, language: Language) -> Text {
+fn product(base: &LoweredText, exponent: f64, language: Language) -> LoweredText {
     let base = base.within(Binding::Atom);
     let factors =
         vec![base.as_str(); exponent.abs() as usize].join(language.texts().arithmetic.times);
     if exponent > 0.0 {
-        return Text {
+        return LoweredText {
             text: factors,
             binding: Binding::Product,
         };
@@ -207,7 +219,7 @@ fn product(base: &Text, exponent: f64, language: Language) -> Text {
     } else {
         format!("({factors})")
     };
-    Text {
+    LoweredText {
         text: format!("{one}{}{below}", language.texts().arithmetic.over),
         binding: Binding::Product,
     }

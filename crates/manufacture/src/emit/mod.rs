@@ -12,6 +12,7 @@ mod runtime;
 mod study;
 mod texts;
 mod write;
+mod writer;
 
 use std::path::Path;
 
@@ -20,9 +21,9 @@ use crate::model::Model;
 use crate::problem::InputError;
 
 pub(crate) use answer::OTHERS;
-pub(crate) use choice::Alternative;
-pub(crate) use functions::{Function, functions, others};
+pub(crate) use functions::{EmittedFunction, functions, others};
 pub(crate) use texts::Answering;
+pub(crate) use writer::Alternative;
 
 /// A language that functions are emitted in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::lower::Lowered;
 use super::texts::Parameters;
-use super::write::{Emitted, Writer, declared};
+use super::writer::{Emitted, Writer};
 use super::{choice, fill};
 use crate::model::Model;
 use crate::problem::mentions;
@@ -34,17 +34,6 @@ fn followers(model: &Model, index: usize) -> Vec<usize> {
         }
     }
     changed.split_off(1)
-}
-
-/// How functions read a parameter.
-pub(super) fn read(writer: &Writer<'_>, name: &str) -> String {
-    let texts = &writer.texts().parameters;
-    let read = if writer.changes_parameters() {
-        texts.read_of_variant
-    } else {
-        texts.read
-    };
-    fill(read, &[("NAME", name), ("P", &writer.prefix)])
 }
 
 /// The definitions of all parameters.
@@ -82,13 +71,13 @@ pub(super) fn definitions(writer: &Writer<'_>) -> String {
 }
 
 /// The statements that set a parameter, and those that follow it.
-struct Branch<'w> {
+struct SetterBranch<'w> {
     name: &'w str,
     statements: Vec<String>,
     constants: Vec<[String; 2]>,
 }
 
-fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Branch<'w> {
+fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> SetterBranch<'w> {
     let language = writer.language;
     let texts = &writer.texts().parameters;
     let mut statements = vec![assignment(texts, &writer.parameters[index], "value")];
@@ -110,7 +99,7 @@ fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> Br
         statements.push(assignment(texts, name, &roots[0]));
         statements.extend(block.map(|[_, closing]| closing.to_owned()));
     }
-    Branch {
+    SetterBranch {
         name: &writer.model.problem.parameters[index].name,
         statements,
         constants: all,
@@ -132,7 +121,7 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
     for emitted in &writer.models {
         let mut cases = String::new();
         for index in 0..writer.parameters.len() {
-            let Branch {
+            let SetterBranch {
                 name,
                 statements,
                 constants,
@@ -157,7 +146,7 @@ pub(super) fn functions(writer: &Writer<'_>) -> String {
         texts.setter,
         &[
             ("GLOBALS", &globals),
-            ("DECLARED", &declared(writer.language, &longest)),
+            ("DECLARED", &writer.declared(&longest)),
             ("READY", &choice::ready(writer)),
             ("BODY", &choice::body(writer, &bodies)),
             ("P", &writer.prefix),
@@ -172,7 +161,7 @@ fn getter(writer: &Writer<'_>) -> String {
     let cases = writer.parameters.iter().zip(parameters);
     let cases: String = cases
         .map(|(name, parameter)| {
-            let value = read(writer, name);
+            let value = writer.reading(name);
             fill(
                 texts.getter_case,
                 &[("NAME", &parameter.name), ("VALUE", &value)],

@@ -1,7 +1,7 @@
 //! Names that a file cannot have in a language: its keywords, and what its modules hide.
 
 use super::Language;
-use super::functions::Function;
+use super::functions::EmittedFunction;
 use crate::model::Model;
 use crate::problem::InputError;
 
@@ -9,7 +9,7 @@ use crate::problem::InputError;
 pub(super) fn refuse(
     model: &Model,
     language: Language,
-    functions: &[Function],
+    functions: &[EmittedFunction],
 ) -> Result<(), InputError> {
     let problem = &model.problem;
     let name = &problem.name;

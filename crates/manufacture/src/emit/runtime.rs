@@ -1,12 +1,13 @@
 //! What surrounds the statements: signatures, tables of points, averages and norms.
 
-use super::functions::Function;
+use std::ops::Range;
+
+use super::functions::EmittedFunction;
 use super::texts::{Norm as NormTexts, Norms, Shaped, Time};
-use super::write::Writer;
-use super::{Language, choice, fill};
+use super::writer::Writer;
+use super::{choice, fill};
+use crate::arithmetic::NodeId;
 use crate::arithmetic::quadrature::POINTS;
-use crate::arithmetic::tape::nodes_below;
-use crate::arithmetic::{Node, NodeId};
 use crate::derive::Role;
 use crate::model::Model;
 use crate::problem::Norm;
@@ -14,25 +15,12 @@ use crate::problem::Norm;
 /// Points of the rule for averages, in each coordinate.
 const AVERAGE_POINTS: usize = 8;
 
-/// Time in a list of arguments, and its declaration; empty without time.
-pub(super) fn time(language: Language, has_time: bool) -> &'static Time {
-    const NO_TIME: Time = Time {
-        argument: "",
-        declaration: "",
-    };
-    if has_time {
-        &language.texts().time
-    } else {
-        &NO_TIME
-    }
-}
-
 fn call_time(has_time: bool) -> &'static str {
     if has_time { ", t" } else { "" }
 }
 
 /// What stands before the parameters.
-pub(super) fn opening(writer: &Writer<'_>, functions: &[Function]) -> String {
+pub(super) fn opening(writer: &Writer<'_>, functions: &[EmittedFunction]) -> String {
     let texts = &writer.texts().library;
     let headers = if writer.has_alternatives() {
         texts.for_variants
@@ -98,7 +86,7 @@ fn table(writer: &Writer<'_>, name: &str, count: usize) -> String {
 }
 
 /// The texts that depend on whether a function is a scalar.
-fn shaped(writer: &Writer<'_>, function: &Function) -> &'static Shaped {
+fn shaped(writer: &Writer<'_>, function: &EmittedFunction) -> &'static Shaped {
     if function.shape.is_empty() {
         &writer.texts().scalar
     } else {
@@ -116,7 +104,7 @@ pub(super) fn framed(writer: &Writer<'_>, place: usize, declared: &str, body: &s
     let Time {
         argument,
         declaration,
-    } = time(writer.language, function.has_time);
+    } = writer.time(function.has_time);
     fill(
         shaped(writer, function).function,
         &[
@@ -128,42 +116,12 @@ pub(super) fn framed(writer: &Writer<'_>, place: usize, declared: &str, body: &s
             ("SHAPE", &sides(&function.shape)),
             ("RESULT", &nested(&function.shape)),
             ("DECLARED", declared),
-            ("UNUSED", &unused(writer, &all, function.has_time)),
+            ("UNUSED", &writer.unused(&all, function.has_time)),
             ("READY", &choice::ready(writer)),
             ("BODY", body),
             ("P", &writer.prefix),
         ],
     )
-}
-
-/// Statements for the arguments that the nodes below roots of some models do not use: a compiler
-/// that is strict asks for a use of each.
-pub(super) fn unused(
-    writer: &Writer<'_>,
-    models: &[(&Model, &[NodeId])],
-    has_time: bool,
-) -> String {
-    let time = writer.model.problem.coordinates.len();
-    let uses = |is_time: bool| {
-        models.iter().any(|(model, roots)| {
-            let below = nodes_below(&model.graph, roots);
-            below.iter().any(|id| match model.graph.node(*id) {
-                Node::Variable(index) => (*index == time) == is_time,
-                // Its helper has both arguments.
-                Node::Integral { .. } => true,
-                _ => false,
-            })
-        })
-    };
-    let mut unused = vec![];
-    if !uses(false) {
-        unused.push("x");
-    }
-    if has_time && !uses(true) {
-        unused.push("t");
-    }
-    let statement = |name: &&str| fill(writer.texts().statements.unused, &[("X", *name)]);
-    unused.iter().map(statement).collect()
 }
 
 /// The shape of an array of Fortran.
@@ -179,34 +137,40 @@ fn sides(shape: &[usize]) -> String {
 
 /// The components of a result of UFL.
 fn nested(shape: &[usize]) -> String {
-    let names = |range: std::ops::Range<usize>| {
-        let names: Vec<String> = range.map(|place| format!("r{place}")).collect();
-        names.join(", ")
-    };
     match shape {
         [] => "r0".to_owned(),
         [rows, columns] => {
-            let row = |row: usize| format!("[{}]", names(row * columns..(row + 1) * columns));
-            let rows: Vec<String> = (0..*rows).map(row).collect();
+            let rows: Vec<String> = (0..*rows)
+                .map(|row| row * columns..(row + 1) * columns)
+                .map(|row| format!("[{}]", names_of_roots(row)))
+                .collect();
             format!("ufl.as_tensor([{}])", rows.join(", "))
         }
-        shape => format!("ufl.as_vector([{}])", names(0..shape.iter().product())),
+        shape => {
+            let names = names_of_roots(0..shape.iter().product());
+            format!("ufl.as_vector([{names}])")
+        }
     }
 }
 
+fn names_of_roots(places: Range<usize>) -> String {
+    let names: Vec<String> = places.map(|place| format!("r{place}")).collect();
+    names.join(", ")
+}
+
 /// The part of a function's name behind its role.
-fn suffix(function: &Function) -> &str {
+fn suffix(function: &EmittedFunction) -> &str {
     function.name.split_once('_').map_or("", |parts| parts.1)
 }
 
 /// A norm of the difference from a function.
 struct ErrorNorm<'f> {
     norm: Norm,
-    function: &'f Function,
+    function: &'f EmittedFunction,
 }
 
 /// The norms that the file names.
-fn errors<'f>(writer: &Writer<'_>, functions: &'f [Function]) -> Vec<ErrorNorm<'f>> {
+fn errors<'f>(writer: &Writer<'_>, functions: &'f [EmittedFunction]) -> Vec<ErrorNorm<'f>> {
     let mut errors = vec![];
     for (field, norms) in &writer.model.problem.norms {
         for norm in norms {
@@ -227,7 +191,7 @@ fn errors<'f>(writer: &Writer<'_>, functions: &'f [Function]) -> Vec<ErrorNorm<'
 }
 
 /// Averages of the exact fields, and the norms that the file names.
-pub(super) fn norms(writer: &Writer<'_>, functions: &[Function]) -> String {
+pub(super) fn norms(writer: &Writer<'_>, functions: &[EmittedFunction]) -> String {
     let mut text = String::new();
     let Some(texts) = &writer.texts().norms else {
         return text;
@@ -242,7 +206,7 @@ pub(super) fn norms(writer: &Writer<'_>, functions: &[Function]) -> String {
 }
 
 /// The values of a function at a point, as an array.
-fn array_call(writer: &Writer<'_>, function: &Function, point: &str) -> String {
+fn array_call(writer: &Writer<'_>, function: &EmittedFunction, point: &str) -> String {
     fill(
         shaped(writer, function).values,
         &[
@@ -254,13 +218,13 @@ fn array_call(writer: &Writer<'_>, function: &Function, point: &str) -> String {
     )
 }
 
-fn average(writer: &Writer<'_>, texts: &Norms, function: &Function) -> String {
+fn average(writer: &Writer<'_>, texts: &Norms, function: &EmittedFunction) -> String {
     let dimension = writer.model.problem.coordinates.len();
     let count = function.roots.len().to_string();
     let Time {
         argument,
         declaration,
-    } = time(writer.language, function.has_time);
+    } = writer.time(function.has_time);
     let shaped = shaped(writer, function);
     fill(
         texts.average,
@@ -287,7 +251,7 @@ fn error(writer: &Writer<'_>, texts: &Norms, error: &ErrorNorm<'_>) -> String {
     let Time {
         argument,
         declaration,
-    } = time(writer.language, function.has_time);
+    } = writer.time(function.has_time);
     let NormTexts { add, root } = match norm {
         Norm::L1 => &texts.l1,
         Norm::Linf => &texts.linf,

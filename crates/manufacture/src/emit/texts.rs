@@ -29,7 +29,7 @@ pub(crate) struct Texts {
     pub(super) build: Text,
     /// What builds and runs it here; none where values are not compared.
     pub(crate) tools: Option<Tools>,
-    pub(super) names: Names,
+    pub(super) names: NamingRules,
     pub(super) arithmetic: Arithmetic,
     pub(super) statements: Statements,
     pub(super) time: Time,
@@ -66,7 +66,7 @@ pub(crate) enum Answering {
 }
 
 /// Which names the language can tell apart, and which it has itself.
-pub(super) struct Names {
+pub(super) struct NamingRules {
     pub(super) ignores_case: bool,
     /// Whether the module's name must differ from those of its functions.
     pub(super) has_one_space: bool,
@@ -261,8 +261,8 @@ row! {
 }
 
 row! {
-    /// How a language chooses among bodies. In the texts `P` is the prefix of C, `ALL` the numbers of
-    /// the models that have the body.
+    /// How a language chooses among bodies. In the texts `P` is the prefix of C, `ALL` the numbers
+    /// of the models that have the body.
     Choice {
         /// What precedes all branches.
         before,

@@ -34,12 +34,15 @@ impl fmt::Display for SyntaxError {
     }
 }
 
+fn printable(c: char) -> char {
+    if c.is_control() { ' ' } else { c }
+}
+
 /// Two lines: the text, and a caret below the byte `offset`. A long text is cut to the part around
 /// it.
 pub(crate) fn excerpt(text: &str, offset: usize) -> String {
     const BEFORE: usize = 48;
     const AFTER: usize = 24;
-    let printable = |c: char| if c.is_control() { ' ' } else { c };
     let (left, right) = text.split_at(offset.min(text.len()));
     let left: Vec<char> = left.chars().map(printable).collect();
     let cut = left.len().saturating_sub(BEFORE);

@@ -22,3 +22,4 @@ pub mod tree;
 pub use error::SyntaxError;
 pub(crate) use error::excerpt;
 pub use parser::{MAX_DEPTH, parse};
+pub(crate) use token::is_of_name;

@@ -54,12 +54,12 @@ pub enum Operator {
     Inverse,
     Integral,
     /// What the search for mistakes alone writes; it has no name in the language.
-    Altered(Alteration),
+    Altered(OperandAlteration),
 }
 
 /// What the search for mistakes does to an operand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Alteration {
+pub enum OperandAlteration {
     /// Derivatives take it for a constant.
     Held,
     /// Its own derivatives do not know that the basis turns; along theta they keep the factor 1/r.

@@ -3,11 +3,11 @@
 use super::error::SyntaxError;
 use super::names::{CALLEES, Callee, LEFT_OUT, Piecewise, nearest};
 use super::token::{Token, TokenKind, next_token};
-use super::tree::{Binary, Comparison, Kind, Tree};
+use super::tree::{Binary, Relation, Tree, TreeKind};
 
 /// Largest number of operations one inside the other, where the operands of a sum or a product
-/// without brackets stand beside each other. Parsing and evaluating are recursive: this bounds their
-/// stack.
+/// without brackets stand beside each other. Parsing and evaluating are recursive: this bounds
+/// their stack.
 pub const MAX_DEPTH: usize = 256;
 
 /// Largest height of the syntax tree, in which a sum of n terms has the height n. Walks that print,
@@ -101,7 +101,7 @@ impl Parser<'_> {
                 height: left.reach.height.max(right.reach.height),
             };
             let operands = Box::new([left.tree, right.tree]);
-            left = self.grow(at, reach, Kind::Binary(operator, operands))?;
+            left = self.grow(at, reach, TreeKind::Binary(operator, operands))?;
         }
         self.depth -= 1;
         Ok(left)
@@ -114,7 +114,7 @@ impl Parser<'_> {
             let opened = self.advance().start;
             let indices = self.parts(opened, ']', false)?;
             let reach = operand.reach.max(indices.reach);
-            let kind = Kind::Index(Box::new(operand.tree), indices.trees);
+            let kind = TreeKind::Index(Box::new(operand.tree), indices.trees);
             operand = self.grow(opened, reach, kind)?;
         }
         Ok(operand)
@@ -134,7 +134,7 @@ impl Parser<'_> {
                     let problem = format!("expected a number of at most {most:e}, found {found}");
                     return Err(self.error(at, problem));
                 }
-                let kind = Kind::Number(value, self.slice(token).to_owned());
+                let kind = TreeKind::Number(value, self.slice(token).to_owned());
                 self.grow(at, Reach::NONE, kind)
             }
             TokenKind::Name => {
@@ -148,7 +148,7 @@ impl Parser<'_> {
                 // A bracket adds nothing to the depth: it is one call of `expression` already.
                 Ok(Deep {
                     tree: Tree {
-                        kind: Kind::Bracket(Box::new(inner.tree)),
+                        kind: TreeKind::Bracket(Box::new(inner.tree)),
                         at,
                     },
                     reach: inner.reach,
@@ -157,12 +157,12 @@ impl Parser<'_> {
             TokenKind::Symbol('[') => {
                 self.advance();
                 let parts = self.parts(at, ']', false)?;
-                self.grow(at, parts.reach, Kind::List(parts.trees))
+                self.grow(at, parts.reach, TreeKind::List(parts.trees))
             }
             TokenKind::Symbol('-') => {
                 self.advance();
                 let operand = self.expression(SIGN)?;
-                self.grow(at, operand.reach, Kind::Negate(Box::new(operand.tree)))
+                self.grow(at, operand.reach, TreeKind::Negate(Box::new(operand.tree)))
             }
             TokenKind::Symbol('+') => {
                 self.advance();
@@ -185,7 +185,7 @@ impl Parser<'_> {
             if is_called {
                 return Err(self.no_function(token, &name));
             }
-            return self.grow(token.start, Reach::NONE, Kind::Name(name));
+            return self.grow(token.start, Reach::NONE, TreeKind::Name(name));
         };
         if !is_called {
             return Err(self.unexpected(&format!("`(` after the function `{name}`")));
@@ -203,7 +203,11 @@ impl Parser<'_> {
             let problem = format!("`{name}`: expected {expected} argument(s), found {count}");
             return Err(self.error(token.start, problem));
         }
-        self.grow(token.start, parts.reach, Kind::Call(callee, parts.trees))
+        self.grow(
+            token.start,
+            parts.reach,
+            TreeKind::Call(callee, parts.trees),
+        )
     }
 
     /// The error of a call of `name`, which is neither a function nor an operator.
@@ -266,17 +270,17 @@ impl Parser<'_> {
     fn condition(&mut self) -> Result<Deep, SyntaxError> {
         let left = self.expression(0)?;
         let comparison = match self.token.kind {
-            TokenKind::Symbol('<') => Comparison::Less,
-            TokenKind::Symbol('>') => Comparison::Greater,
-            TokenKind::OrEqual('<') => Comparison::LessOrEqual,
-            TokenKind::OrEqual(_) => Comparison::GreaterOrEqual,
+            TokenKind::Symbol('<') => Relation::Less,
+            TokenKind::Symbol('>') => Relation::Greater,
+            TokenKind::OrEqual('<') => Relation::LessOrEqual,
+            TokenKind::OrEqual(_) => Relation::GreaterOrEqual,
             _ => return Err(self.unexpected("one of < <= > >= in the condition of `where`")),
         };
         let at = self.advance().start;
         let right = self.expression(0)?;
         let reach = left.reach.max(right.reach);
         let operands = Box::new([left.tree, right.tree]);
-        self.grow(at, reach, Kind::Compare(comparison, operands))
+        self.grow(at, reach, TreeKind::Compare(comparison, operands))
     }
 
     /// Consumes the bracket that closes the one at byte `opened`.
@@ -304,7 +308,7 @@ impl Parser<'_> {
     }
 
     /// The tree of `kind`, whose subtrees reach no further than `below`.
-    fn grow(&self, at: usize, below: Reach, kind: Kind) -> Result<Deep, SyntaxError> {
+    fn grow(&self, at: usize, below: Reach, kind: TreeKind) -> Result<Deep, SyntaxError> {
         let reach = Reach {
             depth: below.depth + 1,
             height: below.height + 1,

@@ -46,9 +46,13 @@ pub(super) fn next_token(source: &str, from: usize) -> Token {
     }
 }
 
+/// Whether a character may stand in a name.
+pub(crate) fn is_of_name(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_'
+}
+
 fn name_length(rest: &str) -> usize {
-    rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
-        .unwrap_or(rest.len())
+    rest.find(|c| !is_of_name(c)).unwrap_or(rest.len())
 }
 
 /// Digits, a point and digits, an exponent: `1`, `.5`, `2.`, `1e-3`.

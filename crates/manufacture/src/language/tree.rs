@@ -18,31 +18,31 @@ pub enum Binary {
 /// A comparison of two numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
-pub enum Comparison {
+pub enum Relation {
     Less,
     LessOrEqual,
     Greater,
     GreaterOrEqual,
 }
 
-impl Comparison {
+impl Relation {
     /// As written in the language, and in all languages that are emitted.
     pub fn symbol(self) -> &'static str {
         match self {
-            Comparison::Less => "<",
-            Comparison::LessOrEqual => "<=",
-            Comparison::Greater => ">",
-            Comparison::GreaterOrEqual => ">=",
+            Relation::Less => "<",
+            Relation::LessOrEqual => "<=",
+            Relation::Greater => ">",
+            Relation::GreaterOrEqual => ">=",
         }
     }
 
     /// Whether it is true of the two numbers.
     pub fn holds(self, left: f64, right: f64) -> bool {
         match self {
-            Comparison::Less => left < right,
-            Comparison::LessOrEqual => left <= right,
-            Comparison::Greater => left > right,
-            Comparison::GreaterOrEqual => left >= right,
+            Relation::Less => left < right,
+            Relation::LessOrEqual => left <= right,
+            Relation::Greater => left > right,
+            Relation::GreaterOrEqual => left >= right,
         }
     }
 }
@@ -51,14 +51,14 @@ impl Comparison {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tree {
     /// What it is.
-    pub kind: Kind,
+    pub kind: TreeKind,
     /// Byte offset in the text; that of the operator for an operation on two operands.
     pub at: usize,
 }
 
 /// The kinds of [`Tree`].
 #[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
+pub enum TreeKind {
     /// A number, and its text.
     Number(f64, String),
     /// A name that is not called.
@@ -68,7 +68,7 @@ pub enum Kind {
     /// An operation on two operands.
     Binary(Binary, Box<[Tree; 2]>),
     /// A comparison, which is allowed as the first argument of `where` only.
-    Compare(Comparison, Box<[Tree; 2]>),
+    Compare(Relation, Box<[Tree; 2]>),
     /// A call.
     Call(Callee, Vec<Tree>),
     /// A vector, or rows of a tensor.
@@ -93,7 +93,9 @@ impl Tree {
     pub fn summands(&self) -> Vec<Summand<'_>> {
         let mut summands = vec![];
         let mut rest = self;
-        while let Kind::Binary(operator @ (Binary::Add | Binary::Subtract), operands) = &rest.kind {
+        while let TreeKind::Binary(operator @ (Binary::Add | Binary::Subtract), operands) =
+            &rest.kind
+        {
             summands.push(Summand {
                 is_negative: *operator == Binary::Subtract,
                 tree: &operands[1],
@@ -111,11 +113,13 @@ impl Tree {
     /// The parts directly below.
     pub fn children(&self) -> Vec<&Tree> {
         match &self.kind {
-            Kind::Number(..) | Kind::Name(_) => vec![],
-            Kind::Negate(inner) | Kind::Bracket(inner) => vec![inner],
-            Kind::Binary(_, operands) | Kind::Compare(_, operands) => operands.iter().collect(),
-            Kind::Call(_, parts) | Kind::List(parts) => parts.iter().collect(),
-            Kind::Index(tensor, indices) => std::iter::once(&**tensor).chain(indices).collect(),
+            TreeKind::Number(..) | TreeKind::Name(_) => vec![],
+            TreeKind::Negate(inner) | TreeKind::Bracket(inner) => vec![inner],
+            TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => {
+                operands.iter().collect()
+            }
+            TreeKind::Call(_, parts) | TreeKind::List(parts) => parts.iter().collect(),
+            TreeKind::Index(tensor, indices) => std::iter::once(&**tensor).chain(indices).collect(),
         }
     }
 }
@@ -124,11 +128,15 @@ impl Tree {
     /// The parts directly below, in the order of [`Tree::children`].
     pub(crate) fn children_mut(&mut self) -> Vec<&mut Tree> {
         match &mut self.kind {
-            Kind::Number(..) | Kind::Name(_) => vec![],
-            Kind::Negate(inner) | Kind::Bracket(inner) => vec![inner],
-            Kind::Binary(_, operands) | Kind::Compare(_, operands) => operands.iter_mut().collect(),
-            Kind::Call(_, parts) | Kind::List(parts) => parts.iter_mut().collect(),
-            Kind::Index(tensor, indices) => std::iter::once(&mut **tensor).chain(indices).collect(),
+            TreeKind::Number(..) | TreeKind::Name(_) => vec![],
+            TreeKind::Negate(inner) | TreeKind::Bracket(inner) => vec![inner],
+            TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => {
+                operands.iter_mut().collect()
+            }
+            TreeKind::Call(_, parts) | TreeKind::List(parts) => parts.iter_mut().collect(),
+            TreeKind::Index(tensor, indices) => {
+                std::iter::once(&mut **tensor).chain(indices).collect()
+            }
         }
     }
 }
@@ -142,9 +150,9 @@ pub fn callee_name(callee: Callee) -> &'static str {
 }
 
 /// Parts with commas between them.
-struct Listed<'t>(&'t [Tree]);
+struct CommaList<'t>(&'t [Tree]);
 
-impl fmt::Display for Listed<'_> {
+impl fmt::Display for CommaList<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (number, part) in self.0.iter().enumerate() {
             let comma = if number > 0 { ", " } else { "" };
@@ -157,10 +165,10 @@ impl fmt::Display for Listed<'_> {
 impl fmt::Display for Tree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.kind {
-            Kind::Number(_, text) => f.write_str(text),
-            Kind::Name(name) => f.write_str(name),
-            Kind::Negate(operand) => write!(f, "-{operand}"),
-            Kind::Binary(operator, operands) => {
+            TreeKind::Number(_, text) => f.write_str(text),
+            TreeKind::Name(name) => f.write_str(name),
+            TreeKind::Negate(operand) => write!(f, "-{operand}"),
+            TreeKind::Binary(operator, operands) => {
                 let [left, right] = operands.as_ref();
                 let symbol = match operator {
                     Binary::Add => " + ",
@@ -171,14 +179,16 @@ impl fmt::Display for Tree {
                 };
                 write!(f, "{left}{symbol}{right}")
             }
-            Kind::Compare(comparison, operands) => {
+            TreeKind::Compare(comparison, operands) => {
                 let [left, right] = operands.as_ref();
                 write!(f, "{left} {} {right}", comparison.symbol())
             }
-            Kind::Call(callee, parts) => write!(f, "{}({})", callee_name(*callee), Listed(parts)),
-            Kind::List(parts) => write!(f, "[{}]", Listed(parts)),
-            Kind::Index(tensor, indices) => write!(f, "{tensor}[{}]", Listed(indices)),
-            Kind::Bracket(inner) => write!(f, "({inner})"),
+            TreeKind::Call(callee, parts) => {
+                write!(f, "{}({})", callee_name(*callee), CommaList(parts))
+            }
+            TreeKind::List(parts) => write!(f, "[{}]", CommaList(parts)),
+            TreeKind::Index(tensor, indices) => write!(f, "{tensor}[{}]", CommaList(indices)),
+            TreeKind::Bracket(inner) => write!(f, "({inner})"),
         }
     }
 }

@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use super::{Datum, Problem, Surface, System, Value};
+use super::{Datum, Problem, Surface, System, TensorValue};
 
-impl Value {
+impl TensorValue {
     fn text(&self) -> String {
         match self {
-            Value::One(expression) => expression.tree.to_string(),
-            Value::List(_, parts) => {
-                let parts: Vec<String> = parts.iter().map(Value::text).collect();
+            TensorValue::One(expression) => expression.tree.to_string(),
+            TensorValue::List(_, parts) => {
+                let parts: Vec<String> = parts.iter().map(TensorValue::text).collect();
                 format!("[{}]", parts.join(", "))
             }
         }

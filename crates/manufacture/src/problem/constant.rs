@@ -3,7 +3,7 @@
 use super::{Expression, InputError};
 use crate::arithmetic::{apply, operate};
 use crate::language::names::{CONSTANTS, Callee, Piecewise, did_you_mean};
-use crate::language::tree::{Kind, Tree};
+use crate::language::tree::{Tree, TreeKind};
 
 /// The value of an expression of numbers and these names.
 pub(crate) fn constant(expression: &Expression, known: &[(&str, f64)]) -> Result<f64, InputError> {
@@ -27,8 +27,8 @@ fn evaluate(
             .error_at(&expression.text, tree.at, problem))
     };
     match &tree.kind {
-        Kind::Number(number, _) => Ok(*number),
-        Kind::Name(name) => {
+        TreeKind::Number(number, _) => Ok(*number),
+        TreeKind::Name(name) => {
             let mut names = known.iter().chain(&CONSTANTS);
             match names.find(|entry| entry.0 == name) {
                 Some(entry) => Ok(entry.1),
@@ -40,14 +40,14 @@ fn evaluate(
                 }
             }
         }
-        Kind::Negate(operand) => Ok(-value(operand)?),
-        Kind::Bracket(inner) => value(inner),
-        Kind::Binary(operator, operands) => Ok(operate(
+        TreeKind::Negate(operand) => Ok(-value(operand)?),
+        TreeKind::Bracket(inner) => value(inner),
+        TreeKind::Binary(operator, operands) => Ok(operate(
             *operator,
             value(&operands[0])?,
             value(&operands[1])?,
         )),
-        Kind::Call(callee, parts) => match (callee, parts.as_slice()) {
+        TreeKind::Call(callee, parts) => match (callee, parts.as_slice()) {
             (Callee::Piecewise(Piecewise::Min), [a, b]) => Ok(value(a)?.min(value(b)?)),
             (Callee::Piecewise(Piecewise::Max), [a, b]) => Ok(value(a)?.max(value(b)?)),
             (Callee::Piecewise(Piecewise::Abs), [a]) => Ok(value(a)?.abs()),

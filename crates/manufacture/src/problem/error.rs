@@ -74,7 +74,7 @@ pub(crate) struct LineColumn {
 
 /// A place in the file: whose value, and in which line.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct Location {
     pub(crate) file: String,
     pub(crate) line: usize,
     /// The byte of the file at which the value begins.
@@ -84,7 +84,7 @@ pub(crate) struct Place {
     pub(crate) key: String,
 }
 
-impl Place {
+impl Location {
     pub(crate) fn error(&self, problem: impl Into<String>) -> InputError {
         InputError {
             file: self.file.clone(),

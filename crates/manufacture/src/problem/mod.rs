@@ -15,23 +15,23 @@ use crate::language::tree::Tree;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
-pub(crate) use error::{LineColumn, Place};
+pub(crate) use error::{LineColumn, Location};
 pub use keys::FILE_KEYS;
-pub(crate) use variation::{Bubble, Step, Variation};
+pub(crate) use variation::{Bubble, Variation, VariationStep};
 
 /// A text of the file, parsed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Expression {
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     pub(crate) text: String,
     pub(crate) tree: Tree,
 }
 
 /// A scalar, or a vector, or rows of a tensor.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Value {
+pub(crate) enum TensorValue {
     One(Expression),
-    List(Place, Vec<Value>),
+    List(Location, Vec<TensorValue>),
 }
 
 /// The coordinate systems.
@@ -66,7 +66,7 @@ pub(crate) struct Parameter {
 
 /// Another value of a parameter, by its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Setting {
+pub(crate) struct ParameterValue {
     pub(crate) parameter: usize,
     pub(crate) value: f64,
 }
@@ -74,13 +74,13 @@ pub(crate) struct Setting {
 /// What a name of `[exact]` or `[define]` stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Definition {
-    pub(crate) value: Value,
+    pub(crate) value: TensorValue,
     pub(crate) is_exact: bool,
 }
 
 /// A summand of an equation.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Term {
+pub(crate) struct EquationTerm {
     pub(crate) label: String,
     /// Its place in the file. Terms are added in another order, which does not depend on that of
     /// the keys.
@@ -94,8 +94,8 @@ pub(crate) struct Term {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Equation {
     pub(crate) name: String,
-    pub(crate) place: Place,
-    pub(crate) terms: Vec<Term>,
+    pub(crate) place: Location,
+    pub(crate) terms: Vec<EquationTerm>,
 }
 
 /// Where data are given.
@@ -111,15 +111,15 @@ pub(crate) enum Surface {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Datum {
     pub(crate) name: String,
-    pub(crate) value: Value,
-    pub(crate) condition: Option<Value>,
+    pub(crate) value: TensorValue,
+    pub(crate) condition: Option<TensorValue>,
 }
 
 /// A part of the boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Face {
     pub(crate) name: String,
-    pub(crate) place: Place,
+    pub(crate) place: Location,
     pub(crate) surface: Surface,
     pub(crate) data: Vec<Datum>,
 }
@@ -148,7 +148,7 @@ impl Norm {
 
 /// The study that is written beside the emitted files.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Study {
+pub(crate) struct EmittedStudy {
     pub(crate) command: Vec<String>,
     pub(crate) n: Vec<u64>,
     /// Name of an error, and its order as written.
@@ -161,7 +161,7 @@ pub(crate) struct Problem {
     pub(crate) file: String,
     pub(crate) text: String,
     pub(crate) name: String,
-    pub(crate) name_place: Place,
+    pub(crate) name_place: Location,
     pub(crate) coordinates: Vec<String>,
     pub(crate) time: Option<String>,
     pub(crate) system: System,
@@ -175,7 +175,7 @@ pub(crate) struct Problem {
     pub(crate) positive: Vec<Expression>,
     pub(crate) zero: Vec<Expression>,
     pub(crate) norms: Vec<(String, Vec<Norm>)>,
-    pub(crate) study: Option<Study>,
+    pub(crate) study: Option<EmittedStudy>,
     /// The parameters that variants may set to zero.
     pub(crate) switchable: Vec<String>,
     /// Of a variant: what it does to the exact fields.
@@ -203,7 +203,10 @@ impl Problem {
     }
 
     /// The values of the parameters, with some of them replaced; those that depend on them follow.
-    pub(crate) fn parameter_values(&self, replaced: &[Setting]) -> Result<Vec<f64>, InputError> {
+    pub(crate) fn parameter_values(
+        &self,
+        replaced: &[ParameterValue],
+    ) -> Result<Vec<f64>, InputError> {
         let mut values: Vec<Option<f64>> = vec![None; self.parameters.len()];
         for setting in replaced {
             values[setting.parameter] = Some(setting.value);
@@ -256,7 +259,7 @@ impl Problem {
 
 /// Whether a name occurs in a tree.
 pub(crate) fn mentions(tree: &Tree, name: &str) -> bool {
-    use crate::language::tree::Kind;
-    matches!(&tree.kind, Kind::Name(known) if known == name)
+    use crate::language::tree::TreeKind;
+    matches!(&tree.kind, TreeKind::Name(known) if known == name)
         || tree.children().iter().any(|child| mentions(child, name))
 }

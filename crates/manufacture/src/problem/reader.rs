@@ -4,12 +4,12 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys;
-use super::{Expression, InputError, LineColumn, Place, Value};
+use super::{Expression, InputError, LineColumn, Location, TensorValue};
 use crate::language::names::did_you_mean;
 use crate::language::parse;
 
 /// A table of the file with the path of its keys.
-pub(super) struct Section<'t> {
+pub(super) struct FileSection<'t> {
     pub(super) path: String,
     table: &'t DeTable<'t>,
     reader: &'t Reader<'t>,
@@ -17,9 +17,9 @@ pub(super) struct Section<'t> {
 }
 
 /// A value of the file with its place.
-pub(super) struct Field<'t> {
+pub(super) struct FileField<'t> {
     pub(super) name: String,
-    pub(super) place: Place,
+    pub(super) place: Location,
     /// The byte at which the value begins.
     pub(super) start: usize,
     value: &'t DeValue<'t>,
@@ -72,8 +72,8 @@ impl<'t> Reader<'t> {
         })
     }
 
-    pub(super) fn whole(&'t self, table: &'t DeTable<'t>) -> Section<'t> {
-        Section {
+    pub(super) fn whole(&'t self, table: &'t DeTable<'t>) -> FileSection<'t> {
+        FileSection {
             path: String::new(),
             table,
             reader: self,
@@ -81,12 +81,12 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn field(&'t self, path: &str, name: &str, value: &'t Spanned<DeValue<'t>>) -> Field<'t> {
+    fn field(&'t self, path: &str, name: &str, value: &'t Spanned<DeValue<'t>>) -> FileField<'t> {
         let span = value.span();
-        Field {
+        FileField {
             name: name.to_owned(),
             start: span.start,
-            place: Place {
+            place: Location {
                 file: self.file.to_owned(),
                 line: self.line(span.start),
                 start: span.start,
@@ -108,9 +108,9 @@ fn joined(path: &str, name: &str) -> String {
     }
 }
 
-impl<'t> Section<'t> {
-    pub(super) fn place(&self) -> Place {
-        Place {
+impl<'t> FileSection<'t> {
+    pub(super) fn place(&self) -> Location {
+        Location {
             file: self.reader.file.to_owned(),
             line: self.line,
             start: 0,
@@ -123,8 +123,8 @@ impl<'t> Section<'t> {
     }
 
     /// The keys in alphabetical order: no result depends on their order in the file.
-    pub(super) fn fields(&self) -> Vec<Field<'t>> {
-        let mut fields: Vec<Field<'t>> = self
+    pub(super) fn fields(&self) -> Vec<FileField<'t>> {
+        let mut fields: Vec<FileField<'t>> = self
             .table
             .iter()
             .map(|(key, value)| self.reader.field(&self.path, key.get_ref(), value))
@@ -133,12 +133,12 @@ impl<'t> Section<'t> {
         fields
     }
 
-    pub(super) fn field(&self, name: &str) -> Option<Field<'t>> {
+    pub(super) fn field(&self, name: &str) -> Option<FileField<'t>> {
         let value = self.table.get(name)?;
         Some(self.reader.field(&self.path, name, value))
     }
 
-    pub(super) fn require(&self, name: &str) -> Result<Field<'t>, InputError> {
+    pub(super) fn require(&self, name: &str) -> Result<FileField<'t>, InputError> {
         self.field(name).ok_or_else(|| {
             let meaning = keys::meaning(&self.path, name);
             let meaning = meaning.map_or(String::new(), |meaning| format!(" ({meaning})"));
@@ -147,7 +147,7 @@ impl<'t> Section<'t> {
         })
     }
 
-    pub(super) fn section(&self, name: &str) -> Result<Option<Section<'t>>, InputError> {
+    pub(super) fn section(&self, name: &str) -> Result<Option<FileSection<'t>>, InputError> {
         self.field(name).map(|field| field.section()).transpose()
     }
 
@@ -158,7 +158,7 @@ impl<'t> Section<'t> {
             if !known.contains(&name) {
                 let near = did_you_mean(name, known.iter().copied());
                 let known = known.join(" ");
-                let place = Place {
+                let place = Location {
                     line: self.reader.line(key.span().start),
                     key: joined(&self.path, name),
                     ..self.place()
@@ -171,7 +171,7 @@ impl<'t> Section<'t> {
     }
 }
 
-impl<'t> Field<'t> {
+impl<'t> FileField<'t> {
     fn expected(&self, what: &str) -> InputError {
         let written: String = self.written.chars().take(40).collect();
         self.place
@@ -182,9 +182,9 @@ impl<'t> Field<'t> {
         matches!(self.value, DeValue::Table(_))
     }
 
-    pub(super) fn section(&self) -> Result<Section<'t>, InputError> {
+    pub(super) fn section(&self) -> Result<FileSection<'t>, InputError> {
         match self.value {
-            DeValue::Table(table) => Ok(Section {
+            DeValue::Table(table) => Ok(FileSection {
                 path: self.place.key.clone(),
                 table,
                 reader: self.reader,
@@ -218,11 +218,11 @@ impl<'t> Field<'t> {
         }
     }
 
-    pub(super) fn list(&self) -> Result<Vec<Field<'t>>, InputError> {
+    pub(super) fn list(&self) -> Result<Vec<FileField<'t>>, InputError> {
         match self.value {
             DeValue::Array(values) => {
-                let items = values.iter().map(|value| Field {
-                    place: Place {
+                let items = values.iter().map(|value| FileField {
+                    place: Location {
                         line: self.reader.line(value.span().start),
                         start: value.span().start,
                         text: self.reader.start_of_text(value.span().start),
@@ -253,15 +253,16 @@ impl<'t> Field<'t> {
     }
 
     /// An expression, or a list of them, or a list of lists.
-    pub(super) fn value(&self) -> Result<Value, InputError> {
+    pub(super) fn value(&self) -> Result<TensorValue, InputError> {
         if !matches!(self.value, DeValue::Array(_)) {
-            return Ok(Value::One(self.expression()?));
+            return Ok(TensorValue::One(self.expression()?));
         }
-        let parts: Result<Vec<Value>, _> = self.list()?.iter().map(Field::value).collect();
+        let parts: Result<Vec<TensorValue>, _> =
+            self.list()?.iter().map(FileField::value).collect();
         let parts = parts?;
         if parts.is_empty() {
             return Err(self.expected("at least one component"));
         }
-        Ok(Value::List(self.place.clone(), parts))
+        Ok(TensorValue::List(self.place.clone(), parts))
     }
 }

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use convergence_keys::names;
 
 use super::keys::{FACE, FILE_KEYS, HEAD, HELD, REQUIRE, STUDY, VARIANTS};
-use super::reader::{Field, Reader, Section};
+use super::reader::{FileField, FileSection, Reader};
 use super::{
-    Datum, Definition, Equation, Expression, Face, InputError, Norm, Parameter, Problem, Study,
-    Surface, System, Term, constant,
+    Datum, Definition, EmittedStudy, Equation, EquationTerm, Expression, Face, InputError, Norm,
+    Parameter, Problem, Surface, System, constant,
 };
+use crate::language::is_of_name;
 use crate::language::names::{did_you_mean, reserved};
 
 impl Problem {
@@ -54,7 +55,7 @@ impl Problem {
     }
 
     /// `[variants]`.
-    fn variants(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
+    fn variants(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
         let Some(section) = whole.section("variants")? else {
             return Ok(());
         };
@@ -74,7 +75,7 @@ impl Problem {
         Ok(())
     }
 
-    fn space(&mut self, head: &Section<'_>) -> Result<(), InputError> {
+    fn space(&mut self, head: &FileSection<'_>) -> Result<(), InputError> {
         let field = head.require("coordinates")?;
         self.coordinates = field.list()?.iter().map(name).collect::<Result<_, _>>()?;
         let found = self.coordinates.len();
@@ -102,7 +103,7 @@ impl Problem {
         Ok(())
     }
 
-    fn define(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
+    fn define(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
         for (section, is_exact) in [("exact", true), ("define", false)] {
             let Some(section) = whole.section(section)? else {
                 if is_exact {
@@ -128,8 +129,8 @@ impl Problem {
     }
 
     /// Each name is an identifier, is not reserved, and has one meaning.
-    fn check_names(&self, head: &Section<'_>) -> Result<(), InputError> {
-        let mut names: Vec<(&str, super::Place)> = vec![];
+    fn check_names(&self, head: &FileSection<'_>) -> Result<(), InputError> {
+        let mut names: Vec<(&str, super::Location)> = vec![];
         for variable in self.variables() {
             names.push((variable, head.place()));
         }
@@ -149,7 +150,7 @@ impl Problem {
         Ok(())
     }
 
-    fn domain(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
+    fn domain(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
         let section = whole.require("domain")?.section()?;
         let variables: Vec<String> = self.variables().iter().map(|v| (*v).to_owned()).collect();
         let known: Vec<&str> = variables.iter().map(String::as_str).collect();
@@ -184,7 +185,7 @@ impl Problem {
         Ok(())
     }
 
-    fn boundary(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
+    fn boundary(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
         let Some(boundary) = whole.section("boundary")? else {
             return Ok(());
         };
@@ -216,7 +217,11 @@ impl Problem {
         Ok(())
     }
 
-    fn surface(&self, field: &Field<'_>, section: &Section<'_>) -> Result<Surface, InputError> {
+    fn surface(
+        &self,
+        field: &FileField<'_>,
+        section: &FileSection<'_>,
+    ) -> Result<Surface, InputError> {
         if let Some(level) = section.field("level") {
             if let Some(face) = section.field("face") {
                 let problem = "found `face` and `level`; expected one of them";
@@ -253,7 +258,7 @@ impl Problem {
         }
     }
 
-    fn rest(&mut self, whole: &Section<'_>) -> Result<(), InputError> {
+    fn rest(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
         if let Some(initial) = whole.section("initial")? {
             if self.time.is_none() {
                 let problem = "expected no initial data without `time` in [manufacture]";
@@ -293,14 +298,18 @@ impl Problem {
     }
 }
 
-fn twice(field: &Field<'_>) -> InputError {
+fn twice(field: &FileField<'_>) -> InputError {
     let name = &field.name;
     let problem = format!("found `{name}` twice; expected one meaning of each name");
     field.place.error(problem)
 }
 
 /// One of the known words.
-fn one_of<T: Copy>(field: &Field<'_>, all: &[(&str, T)], known: &[&str]) -> Result<T, InputError> {
+fn one_of<T: Copy>(
+    field: &FileField<'_>,
+    all: &[(&str, T)],
+    known: &[&str],
+) -> Result<T, InputError> {
     let text = field.string()?;
     match all.iter().find(|entry| entry.0 == text) {
         Some(entry) => Ok(entry.1),
@@ -313,22 +322,21 @@ fn one_of<T: Copy>(field: &Field<'_>, all: &[(&str, T)], known: &[&str]) -> Resu
     }
 }
 
-fn name(field: &Field<'_>) -> Result<String, InputError> {
+fn name(field: &FileField<'_>) -> Result<String, InputError> {
     let name = field.string()?;
     check_identifier(&name, &field.place)?;
     Ok(name)
 }
 
-fn check_identifier(name: &str, place: &super::Place) -> Result<(), InputError> {
-    let is_allowed = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_allowed) {
+fn check_identifier(name: &str, place: &super::Location) -> Result<(), InputError> {
+    if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_of_name) {
         return Ok(());
     }
     let problem = format!("found the name `{name}`; expected a letter, then letters, digits and _");
     Err(place.error(problem))
 }
 
-fn check_name(name: &str, place: &super::Place) -> Result<(), InputError> {
+fn check_name(name: &str, place: &super::Location) -> Result<(), InputError> {
     check_identifier(name, place)?;
     if reserved().any(|word| word == name) {
         let meaning = match name {
@@ -343,7 +351,7 @@ fn check_name(name: &str, place: &super::Place) -> Result<(), InputError> {
     Ok(())
 }
 
-fn parameters(whole: &Section<'_>) -> Result<Vec<Parameter>, InputError> {
+fn parameters(whole: &FileSection<'_>) -> Result<Vec<Parameter>, InputError> {
     let Some(section) = whole.section("parameters")? else {
         return Ok(vec![]);
     };
@@ -357,7 +365,7 @@ fn parameters(whole: &Section<'_>) -> Result<Vec<Parameter>, InputError> {
     Ok(parameters)
 }
 
-fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
+fn equations(whole: &FileSection<'_>) -> Result<Vec<Equation>, InputError> {
     let section = whole.require("equations")?.section()?;
     let mut equations = vec![];
     for field in section.fields() {
@@ -385,12 +393,12 @@ fn equations(whole: &Section<'_>) -> Result<Vec<Equation>, InputError> {
 }
 
 /// The terms of a table, in alphabetical order, each with its place in the file.
-fn named_terms(section: &Section<'_>) -> Result<Vec<Term>, InputError> {
+fn named_terms(section: &FileSection<'_>) -> Result<Vec<EquationTerm>, InputError> {
     let fields = section.fields();
     let mut terms = vec![];
     for field in &fields {
         let others = fields.iter();
-        terms.push(Term {
+        terms.push(EquationTerm {
             label: field.name.clone(),
             place: others.filter(|other| other.start < field.start).count(),
             is_negative: false,
@@ -401,8 +409,8 @@ fn named_terms(section: &Section<'_>) -> Result<Vec<Term>, InputError> {
 }
 
 /// A text is cut into terms at its top-level + and -.
-fn terms(expression: &Expression) -> Vec<Term> {
-    let mut terms: Vec<Term> = vec![];
+fn terms(expression: &Expression) -> Vec<EquationTerm> {
+    let mut terms: Vec<EquationTerm> = vec![];
     for summand in expression.tree.summands() {
         let sign = if summand.is_negative { "-" } else { "" };
         let mut label = format!("{sign}{}", summand.tree);
@@ -410,7 +418,7 @@ fn terms(expression: &Expression) -> Vec<Term> {
         while terms.iter().any(|term| term.label == label) {
             label.push('\'');
         }
-        terms.push(Term {
+        terms.push(EquationTerm {
             label,
             place: terms.len(),
             is_negative: summand.is_negative,
@@ -423,7 +431,7 @@ fn terms(expression: &Expression) -> Vec<Term> {
     terms
 }
 
-fn datum(field: &Field<'_>) -> Result<Datum, InputError> {
+fn datum(field: &FileField<'_>) -> Result<Datum, InputError> {
     check_identifier(&field.name, &field.place)?;
     let name = field.name.clone();
     if !field.is_table() {
@@ -442,14 +450,14 @@ fn datum(field: &Field<'_>) -> Result<Datum, InputError> {
     })
 }
 
-fn expressions(section: &Section<'_>, name: &str) -> Result<Vec<Expression>, InputError> {
+fn expressions(section: &FileSection<'_>, name: &str) -> Result<Vec<Expression>, InputError> {
     let Some(field) = section.field(name) else {
         return Ok(vec![]);
     };
-    field.list()?.iter().map(Field::expression).collect()
+    field.list()?.iter().map(FileField::expression).collect()
 }
 
-fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
+fn study(whole: &FileSection<'_>) -> Result<Option<EmittedStudy>, InputError> {
     let Some(section) = whole.section("study")? else {
         return Ok(None);
     };
@@ -457,12 +465,12 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     let command = section.require("command")?.list()?;
     let n = section.require("n")?.list()?;
     let orders = section.require("order")?.section()?.fields();
-    Ok(Some(Study {
+    Ok(Some(EmittedStudy {
         command: command
             .iter()
-            .map(Field::string)
+            .map(FileField::string)
             .collect::<Result<_, _>>()?,
-        n: n.iter().map(Field::count).collect::<Result<_, _>>()?,
+        n: n.iter().map(FileField::count).collect::<Result<_, _>>()?,
         orders: orders
             .iter()
             .map(|field| Ok((field.name.clone(), field.number()?)))
@@ -470,11 +478,11 @@ fn study(whole: &Section<'_>) -> Result<Option<Study>, InputError> {
     }))
 }
 
-impl super::Value {
-    pub(crate) fn place(&self) -> &super::Place {
+impl super::TensorValue {
+    pub(crate) fn place(&self) -> &super::Location {
         match self {
-            super::Value::One(expression) => &expression.place,
-            super::Value::List(place, _) => place,
+            super::TensorValue::One(expression) => &expression.place,
+            super::TensorValue::List(place, _) => place,
         }
     }
 }

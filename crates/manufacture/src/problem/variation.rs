@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 /// Exact fields that are replaced by others made of them, one step after the other.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Variation {
-    pub(crate) steps: Vec<Step>,
+    pub(crate) steps: Vec<VariationStep>,
     /// The one field that is changed; all are without it.
     pub(crate) field: Option<String>,
     /// Added to the components of a field, so that what must be positive stays so.
@@ -14,7 +14,7 @@ pub(crate) struct Variation {
 
 /// A change of a function.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Step {
+pub(crate) enum VariationStep {
     /// A variable set to a value.
     Fix { variable: usize, at: f64 },
     /// A function u becomes u - T u, with the Taylor polynomial T u of this degree at one end of an
@@ -33,8 +33,8 @@ pub(crate) enum Step {
 ///
 /// The product w u vanishes at both ends with its derivatives up to m, and w is at most 1, in the
 /// middle. To subtract Hermite's polynomial at both ends instead leaves a remainder of the size of
-/// the derivative of order 2m+2, far below u: the errors of a program are round-off then, and decide
-/// nothing.
+/// the derivative of order 2m+2, far below u: the errors of a program are round-off then, and
+/// decide nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bubble {
     pub(crate) variable: usize,

@@ -1,8 +1,8 @@
 //! Which variants a file has.
 
 use super::Switch;
-use crate::language::tree::{Kind, Tree};
-use crate::problem::{Bubble, Step, Variation};
+use crate::language::tree::{Tree, TreeKind};
+use crate::problem::{Bubble, Variation, VariationStep};
 use crate::problem::{Problem, Surface};
 
 /// A variable that is held takes the value at this share of its interval: no place of symmetry.
@@ -22,13 +22,13 @@ impl Design {
     /// Whether the fields vanish somewhere.
     pub(super) fn is_flat(&self) -> bool {
         let mut steps = self.variation.steps.iter();
-        steps.any(|step| !matches!(step, Step::Fix { .. }))
+        steps.any(|step| !matches!(step, VariationStep::Fix { .. }))
     }
 }
 
 /// A side of the box that has data.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Side {
+pub(super) struct BoxSide {
     pub(super) coordinate: usize,
     name: String,
     pub(super) at: f64,
@@ -55,14 +55,14 @@ pub(super) fn designs(problem: &Problem) -> Vec<Design> {
     designs.extend(of_several(problem, &sides));
     // A program may take its initial data from the exact solution, without `[initial]`.
     if problem.time.is_some() {
-        let initial = Step::Flatten {
+        let initial = VariationStep::Flatten {
             variable: time,
             end: problem.intervals[time][0],
             degree: degree(problem),
         };
         designs.push(steps(Switch::Initial, vec![initial.clone()]));
         if !sides.is_empty() {
-            let all: Vec<&Side> = sides.iter().collect();
+            let all: Vec<&BoxSide> = sides.iter().collect();
             let mut everywhere = flat(problem, &all);
             everywhere.push(initial);
             designs.push(steps(Switch::AllFacesAndInitial, everywhere));
@@ -76,12 +76,12 @@ pub(super) fn designs(problem: &Problem) -> Vec<Design> {
 }
 
 /// Variants that are flat at several sides.
-fn of_several(problem: &Problem, sides: &[Side]) -> Vec<Design> {
+fn of_several(problem: &Problem, sides: &[BoxSide]) -> Vec<Design> {
     let mut designs = vec![];
     let mut coordinates = 0;
     for (place, name) in problem.coordinates.iter().enumerate() {
-        let of = |side: &&Side| side.coordinate == place;
-        let both: Vec<&Side> = sides.iter().filter(of).collect();
+        let of = |side: &&BoxSide| side.coordinate == place;
+        let both: Vec<&BoxSide> = sides.iter().filter(of).collect();
         coordinates += usize::from(!both.is_empty());
         if both.len() == 2 {
             let switch = Switch::BothFaces(name.clone());
@@ -91,13 +91,13 @@ fn of_several(problem: &Problem, sides: &[Side]) -> Vec<Design> {
     if coordinates < 2 {
         return designs;
     }
-    let all: Vec<&Side> = sides.iter().collect();
+    let all: Vec<&BoxSide> = sides.iter().collect();
     designs.push(steps(Switch::AllFaces, flat(problem, &all)));
     if sides.len() < 3 {
         return designs;
     }
     for side in sides {
-        let others: Vec<&Side> = sides.iter().filter(|other| *other != side).collect();
+        let others: Vec<&BoxSide> = sides.iter().filter(|other| *other != side).collect();
         let switch = Switch::AllFacesBut(side.name.clone());
         designs.push(steps(switch, flat(problem, &others)));
     }
@@ -111,7 +111,7 @@ fn of_fields(problem: &Problem) -> Vec<Design> {
     if fields.len() < 2 {
         return vec![];
     }
-    let all: Vec<Step> = (0..problem.intervals.len())
+    let all: Vec<VariationStep> = (0..problem.intervals.len())
         .map(|variable| fix(problem, variable))
         .collect();
     let design = |field: &&String| {
@@ -122,7 +122,7 @@ fn of_fields(problem: &Problem) -> Vec<Design> {
     fields.iter().map(design).collect()
 }
 
-fn steps(switch: Switch, steps: Vec<Step>) -> Design {
+fn steps(switch: Switch, steps: Vec<VariationStep>) -> Design {
     Design {
         switch,
         variation: Variation {
@@ -132,9 +132,9 @@ fn steps(switch: Switch, steps: Vec<Step>) -> Design {
     }
 }
 
-fn fix(problem: &Problem, variable: usize) -> Step {
+fn fix(problem: &Problem, variable: usize) -> VariationStep {
     let [low, high] = problem.intervals[variable];
-    Step::Fix {
+    VariationStep::Fix {
         variable,
         at: low + MIDDLE * (high - low),
     }
@@ -151,19 +151,19 @@ fn degree(problem: &Problem) -> usize {
 }
 
 /// Flat at these sides: one step for each coordinate.
-fn flat(problem: &Problem, sides: &[&Side]) -> Vec<Step> {
+fn flat(problem: &Problem, sides: &[&BoxSide]) -> Vec<VariationStep> {
     let degree = degree(problem);
     let mut steps = vec![];
     for (variable, interval) in problem.intervals.iter().enumerate() {
         let mut of_variable = sides.iter().filter(|side| side.coordinate == variable);
         steps.extend(match (of_variable.next(), of_variable.next()) {
             (None, _) => None,
-            (Some(side), None) => Some(Step::Flatten {
+            (Some(side), None) => Some(VariationStep::Flatten {
                 variable,
                 end: side.at,
                 degree,
             }),
-            (Some(_), Some(_)) => Some(Step::Weigh(Bubble {
+            (Some(_), Some(_)) => Some(VariationStep::Weigh(Bubble {
                 variable,
                 interval: *interval,
                 degree,
@@ -174,7 +174,7 @@ fn flat(problem: &Problem, sides: &[&Side]) -> Vec<Step> {
 }
 
 /// The sides that have data, in the order of the coordinates.
-pub(super) fn sides(problem: &Problem) -> Vec<Side> {
+pub(super) fn sides(problem: &Problem) -> Vec<BoxSide> {
     let mut sides = vec![];
     for (place, name) in problem.coordinates.iter().enumerate() {
         for (upper, ending) in [(false, "min"), (true, "max")] {
@@ -186,7 +186,7 @@ pub(super) fn sides(problem: &Problem) -> Vec<Side> {
                 face.surface == side && !face.data.is_empty()
             });
             if has_data {
-                sides.push(Side {
+                sides.push(BoxSide {
                     coordinate: place,
                     name: format!("{name}_{ending}"),
                     at: problem.intervals[place][usize::from(upper)],
@@ -230,7 +230,7 @@ pub(super) fn set_to_zero(problem: &mut Problem, name: &str) {
     if let Some(parameter) = parameters.find(|parameter| parameter.name == name) {
         "0".clone_into(&mut parameter.expression.text);
         parameter.expression.tree = Tree {
-            kind: Kind::Number(0.0, "0".to_owned()),
+            kind: TreeKind::Number(0.0, "0".to_owned()),
             at: 0,
         };
     }

@@ -20,13 +20,13 @@ use serde::Serialize;
 use crate::check::Check;
 use crate::derive::{Part, Role};
 use crate::emit::{self, Alternative, EmittedFile, Language};
-use crate::model::{Model, Rows};
+use crate::model::{Model, TensorRows};
 use crate::problem::{InputError, Problem, Variation};
 use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
 pub use described::{DescribedVariant, Description};
-use design::{Design, MIDDLE, Side, designs, sides};
+use design::{BoxSide, Design, MIDDLE, designs, sides};
 pub use switch::Switch;
 
 /// A variant that is right by the check of the file.
@@ -41,7 +41,7 @@ pub struct Variant {
 
 /// A variant that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub struct LeftOutVariant {
     /// What it would switch off.
     #[serde(flatten)]
     pub switch: Switch,
@@ -58,7 +58,7 @@ pub struct Variants<'m> {
     /// Those that can be used.
     pub usable: Vec<Variant>,
     /// The others.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutVariant>,
 }
 
 impl Variants<'_> {
@@ -144,7 +144,7 @@ pub(crate) fn variants<'m>(
     let problem = &base.problem;
     if let Some(level) = design::on_a_level(problem) {
         // Nothing is flat there, so no variant is flat at all faces.
-        variants.left_out.push(LeftOut {
+        variants.left_out.push(LeftOutVariant {
             switch: Switch::AllFaces,
             why: format!("the face {level} lies on a level"),
         });
@@ -157,7 +157,7 @@ pub(crate) fn variants<'m>(
     for design in designs {
         match usable(base, &design, sampling) {
             Ok(variant) => variants.usable.push(variant),
-            Err(why) => variants.left_out.push(LeftOut {
+            Err(why) => variants.left_out.push(LeftOutVariant {
                 switch: design.switch,
                 why,
             }),
@@ -170,7 +170,7 @@ pub(crate) fn variants<'m>(
 fn size(model: &Model, sampling: &Sampling) -> Result<f64, InputError> {
     let points = Sampler::new(model, sampling.seed).points(Part::Interior, sampling.points)?;
     let fields: Vec<_> = model.of_role(Role::Exact).collect();
-    let rows = Rows::new(&model.graph, fields.iter().map(|field| &field.tensor));
+    let rows = TensorRows::new(&model.graph, fields.iter().map(|field| &field.tensor));
     let square = |point: &Vec<f64>| -> f64 {
         let values = rows.at(point).tensors.into_iter().flatten();
         values.map(|part| part.value.powi(2)).sum()
@@ -196,7 +196,7 @@ fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
     }
     base.of_role(Role::Exact)
         .map(|quantity| {
-            let rows = Rows::new(&base.graph, std::iter::once(&quantity.tensor)).at(&point);
+            let rows = TensorRows::new(&base.graph, std::iter::once(&quantity.tensor)).at(&point);
             Values {
                 field: quantity.name.clone(),
                 values: rows.tensors[0].iter().map(|part| part.value).collect(),
@@ -209,15 +209,9 @@ fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
 /// allowed the value at a side, which the file may prescribe; a multiple of the value in the
 /// middle.
 fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
-    let scaled = |values: Vec<Values>, scale: f64| {
-        let values = values.into_iter().map(|Values { field, values }| {
-            (field, values.iter().map(|value| scale * value).collect())
-        });
-        values.collect::<BTreeMap<String, Vec<f64>>>()
-    };
     let mut lifts = vec![BTreeMap::new()];
     if design.is_flat() {
-        for Side { coordinate, at, .. } in sides(&base.problem) {
+        for BoxSide { coordinate, at, .. } in sides(&base.problem) {
             lifts.push(scaled(values(base, Some((coordinate, at))), 1.0));
         }
         for scale in [1.0, 3.0] {
@@ -225,6 +219,17 @@ fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
         }
     }
     lifts
+}
+
+/// The values of each field, times a number.
+fn scaled(values: Vec<Values>, scale: f64) -> BTreeMap<String, Vec<f64>> {
+    let values = values.into_iter();
+    values
+        .map(|Values { field, values }| {
+            let values = values.iter().map(|value| scale * value);
+            (field, values.collect())
+        })
+        .collect()
 }
 
 /// The variant, or in words why it cannot be used.

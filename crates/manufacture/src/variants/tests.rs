@@ -46,7 +46,7 @@ fn at(variant: &Variant, point: [f64; 2]) -> [f64; 2] {
     [Role::Exact, Role::Source].map(|role| {
         let quantity = variant.model.of_role(role).next().unwrap();
         let tensors = std::iter::once(&quantity.tensor);
-        let rows = Rows::new(&variant.model.graph, tensors).at(&point);
+        let rows = TensorRows::new(&variant.model.graph, tensors).at(&point);
         rows.tensors[0][0].value
     })
 }

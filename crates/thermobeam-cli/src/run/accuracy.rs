@@ -2,7 +2,7 @@
 //! a run.
 
 use clap::ValueEnum;
-use convergence_judge::time_limit;
+use convergence_judge::{SpaceTime, time_limit};
 use convergence_study::internal::cli::{exit, running};
 use serde::Serialize;
 use thermobeam_study::predict::choice::{self, Choice, choose, keep_scheme};
@@ -11,14 +11,14 @@ use thermobeam_study::predict::{Cost, MOST_WORK, MOST_WORK_KEPT, Unreachable, Wo
 use thermobeam_study::scene::Scene;
 
 use super::Arguments;
-use super::summary::Line;
+use super::summary::SummaryLine;
 
 /// Ticks of the progress bar over the work limit.
 const TICKS: f64 = 1000.0;
 
 /// The quantity whose error is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(crate) enum Quantity {
+pub(crate) enum QuantityName {
     /// Maximum over [0, T] of the error of u(1, t)
     #[default]
     Tip,
@@ -38,7 +38,7 @@ pub(super) fn target(text: &str) -> Result<f64, String> {
 
 /// The request, and the chosen run.
 pub(crate) struct Planned {
-    quantity: choice::Quantity,
+    quantity: choice::ErrorQuantity,
     target: f64,
     choice: Choice,
     spent: Cost,
@@ -74,8 +74,8 @@ pub(super) fn plan(
     target: f64,
 ) -> Result<Planned, Unreachable> {
     let quantity = match arguments.quantity {
-        Quantity::Tip => choice::Quantity::Tip,
-        Quantity::Theorem34 => choice::Quantity::Norm,
+        QuantityName::Tip => choice::ErrorQuantity::Tip,
+        QuantityName::Theorem34 => choice::ErrorQuantity::Norm,
     };
     let (choose, limit): (fn(&Scene, _, _, &mut Work<'_>) -> _, f64) = if arguments.keep_scheme {
         (keep_scheme, MOST_WORK_KEPT)
@@ -126,7 +126,11 @@ impl Planned {
     pub(super) fn object(&self) -> Object<'_> {
         let Choice {
             scene,
-            parts: [space_error, time_error],
+            parts:
+                SpaceTime {
+                    space: space_error,
+                    time: time_error,
+                },
             run,
             ..
         } = &self.choice;
@@ -147,10 +151,10 @@ impl Planned {
     }
 
     /// Lines of the summary: name, value, meaning.
-    pub(super) fn lines(&self) -> Vec<Line> {
+    pub(super) fn lines(&self) -> Vec<SummaryLine> {
         let Choice {
             scene,
-            parts: [space, time],
+            parts: SpaceTime { space, time },
             parts_by,
             error,
             run,
@@ -201,12 +205,12 @@ impl Planned {
     }
 }
 
-fn line(name: &'static str, value: String, meaning: &str) -> Line {
+fn line(name: &'static str, value: String, meaning: &str) -> SummaryLine {
     (name, value, meaning.to_owned())
 }
 
 /// What a run by dG has that one-step schemes have not.
-fn lines_of_dg(scene: &Scene, growth: f64) -> [Line; 2] {
+fn lines_of_dg(scene: &Scene, growth: f64) -> [SummaryLine; 2] {
     let nodes: Vec<String> = scene
         .mesh
         .nodes()

@@ -16,7 +16,7 @@ use thermobeam_study::run::tally::{EnergySummary, Extremes};
 use thermobeam_study::scene::Scene;
 
 /// A line of the summary: name, value, meaning.
-pub(super) type Line = (&'static str, String, String);
+pub(super) type SummaryLine = (&'static str, String, String);
 
 /// The note on a run whose errors are not known.
 pub(super) const UNKNOWN: &str =
@@ -26,7 +26,7 @@ pub(super) const UNKNOWN: &str =
 pub(super) fn summary(
     scene: &Scene,
     run: &Run,
-    accuracy: Option<Vec<Line>>,
+    accuracy: Option<Vec<SummaryLine>>,
     written: &[PathBuf],
 ) -> String {
     let mut text = headline(scene, run);
@@ -48,7 +48,7 @@ pub(super) fn summary(
         ));
     }
     section(&mut text, "over the whole time", range);
-    let events: Vec<Line> = run
+    let events: Vec<SummaryLine> = run
         .contact
         .iter()
         .flat_map(|contact| &contact.events)
@@ -66,7 +66,7 @@ pub(super) fn summary(
     text
 }
 
-fn event(event: &ContactEvent) -> Line {
+fn event(event: &ContactEvent) -> SummaryLine {
     (
         "",
         format!("{:.12}", event.t),
@@ -84,7 +84,7 @@ fn list(text: &mut String, written: &[PathBuf]) {
     }
 }
 
-fn section(text: &mut String, title: &str, lines: Vec<Line>) {
+fn section(text: &mut String, title: &str, lines: Vec<SummaryLine>) {
     let _ = writeln!(text, "\n{title}");
     for (name, value, meaning) in lines {
         let line = format!("  {name:<18}{value:>20}   {meaning}");
@@ -114,7 +114,7 @@ fn headline(scene: &Scene, run: &Run) -> String {
     text
 }
 
-fn work(scene: &Scene, run: &Run) -> Vec<Line> {
+fn work(scene: &Scene, run: &Run) -> Vec<SummaryLine> {
     let seconds = run.wall.as_secs_f64();
     let steps = run.steps as f64;
     let rate = 1e9 * (1.0 / steps) * seconds / scene.mesh.elements() as f64;
@@ -159,7 +159,7 @@ fn number(value: f64) -> String {
 }
 
 /// The free end, and the temperature in the middle, at one time.
-fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
+fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<SummaryLine> {
     let mut lines = vec![
         (
             "u(1)",
@@ -195,7 +195,7 @@ fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<Line> {
 }
 
 /// The range of the free end.
-fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Line> {
+fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<SummaryLine> {
     let [low, high] = match obstacles {
         Some(obstacles) => [
             format!("lower obstacle at {:?}", obstacles.g1),
@@ -210,7 +210,7 @@ fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<Line> {
 }
 
 /// The energy and the defect of its balance.
-fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<Line> {
+fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<SummaryLine> {
     let mut lines = vec![
         ("initial", number(energy.initial), String::new()),
         ("final", number(energy.last), String::new()),
@@ -245,7 +245,7 @@ fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<Line> {
     lines
 }
 
-fn left_out(scene: &Scene, run: &Run) -> Vec<Line> {
+fn left_out(scene: &Scene, run: &Run) -> Vec<SummaryLine> {
     let mut lines = Vec::new();
     if !run.is_heated {
         lines.push((

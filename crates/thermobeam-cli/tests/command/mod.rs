@@ -13,7 +13,6 @@ mod full_disk;
 mod interrupted;
 mod killed;
 mod places;
-mod rates;
 mod refusals;
 #[cfg(unix)]
 mod run;

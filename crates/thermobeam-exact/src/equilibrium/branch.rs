@@ -1,6 +1,6 @@
 //! The steady states of one state of contact: straight, buckled and loaded.
 
-use super::law::{Law, Support, free_buckling};
+use super::law::{ForceLaw, Support, free_buckling};
 use super::polish::polish;
 use super::scan::{Position, Root};
 use super::shape::Shape;
@@ -26,9 +26,9 @@ pub(super) struct Branch {
     /// The state of contact.
     pub(super) contact: Phase,
     /// The linear problem for given N.
-    pub(super) law: Law,
+    pub(super) law: ForceLaw,
     /// The law of the straight beam if both obstacles hold its tip at 0.
-    pub(super) held_tip: Option<Law>,
+    pub(super) held_tip: Option<ForceLaw>,
 }
 
 impl Branch {
@@ -124,7 +124,7 @@ impl Branch {
 
     /// The free state at N = -1, which exists if `ρ(aθ_A)² = -1 - β` to round-off.
     fn at_minus_one(&self) -> Option<Equilibrium> {
-        let Law { beta, rho, .. } = self.law;
+        let ForceLaw { beta, rho, .. } = self.law;
         let slope = -self.law.moment;
         let defect = -1.0 - beta - rho * slope * slope;
         let exists = self.law.support.is_none()
@@ -135,7 +135,7 @@ impl Branch {
 
     /// The state at a root; an error if it violates `N = β + ρ‖u'‖²`.
     fn state_at(&self, root: &Root) -> Result<Equilibrium, EquilibriumError> {
-        let Law { beta, rho, .. } = self.law;
+        let ForceLaw { beta, rho, .. } = self.law;
         let shape = match root.position {
             Position::Between(s) => self.law.solve(s),
             Position::Buckling(s, sign) => self.buckled(s, sign)?,
@@ -212,13 +212,13 @@ mod tests {
     use super::*;
     use thermobeam::parameters::Beam;
 
-    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<Law>) -> Branch {
+    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<ForceLaw>) -> Branch {
         let contact = if support.is_some() {
             Phase::Upper
         } else {
             Phase::Free
         };
-        let law = Law {
+        let law = ForceLaw {
             moment: beam.a * beam.theta_a,
             beta: beam.beta,
             rho: beam.rho,
@@ -303,7 +303,7 @@ mod tests {
             assert_eq!((shape.moment, shape.is_line()), (0.25, false));
         }
         let branch = Branch {
-            law: Law {
+            law: ForceLaw {
                 beta: 3.0,
                 ..branch.law
             },
@@ -338,10 +338,10 @@ mod tests {
                 position: 0.1,
             }),
         ] {
-            let law = Law {
+            let law = ForceLaw {
                 moment: 0.5,
                 support,
-                ..Law::default()
+                ..ForceLaw::default()
             };
             let size = |q: f64| 1.0 + q + support.map_or(0.0, |support| support.epsilon);
             let excess = |beta: f64| {
@@ -368,10 +368,10 @@ mod tests {
             epsilon: 0.05,
             position: 0.1,
         });
-        let pole = Law {
+        let pole = ForceLaw {
             moment: 0.5,
             support,
-            ..Law::default()
+            ..ForceLaw::default()
         }
         .buckling_below_minus_one()
         .unwrap();
@@ -435,9 +435,9 @@ mod tests {
                 epsilon: 1e-3 * f64::from(1 + k),
                 position: 0.0,
             };
-            let held_tip = Law {
+            let held_tip = ForceLaw {
                 support: Some(support),
-                ..Law::default()
+                ..ForceLaw::default()
             };
             let Some(beta) = beta_at(held_tip.buckling(1)) else {
                 continue;

@@ -21,7 +21,7 @@
 //! least G² times that: it grows like (g + D)²/(2s) for s → 0, and the number of states is finite
 //! unless g = -D.
 
-use super::law::{Law, Support, free_pole};
+use super::law::{ForceLaw, Support, free_pole};
 use super::{BUCKLING_VALUES, laws};
 use crate::interval::Interval;
 use thermobeam::contact::Phase;
@@ -46,7 +46,7 @@ pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness 
     let last = last_value();
     let moment = Interval::from(beam.a) * beam.theta_a;
     let (rest, rho) = (Interval::from(1.0) + beam.beta, beam.rho);
-    let has_none = |(contact, law): &(Phase, Law)| {
+    let has_none = |(contact, law): &(Phase, ForceLaw)| {
         let is_excluded = *contact == Phase::Free
             && obstacles.is_some_and(|obstacles| law.misses(moment, obstacles));
         (rest + law.least_slope_squared(moment) * rho).lo >= last.hi || is_excluded
@@ -70,7 +70,7 @@ fn last_value() -> Interval {
     free_pole(BUCKLING_VALUES + 1)
 }
 
-impl Law {
+impl ForceLaw {
     /// A lower bound of S for all 0 < 1 + N < s*.
     fn least_slope_squared(&self, moment: Interval) -> Interval {
         let last = last_value();

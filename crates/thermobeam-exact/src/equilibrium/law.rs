@@ -10,7 +10,7 @@ use thermobeam::bracket::bisect;
 /// Without a support c = 0. With one, `c = -(u(1) - position)/ε`, in tension as well as in
 /// compression: the caller checks whether the state presses the obstacle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Law {
+pub(super) struct ForceLaw {
     /// The thermal moment aθ_A.
     pub(super) moment: f64,
     /// β.
@@ -56,7 +56,7 @@ fn free_buckling_above(s: f64) -> usize {
     (reach.ceil() as usize).saturating_sub(1)
 }
 
-impl Law {
+impl ForceLaw {
     /// Whether nothing loads the beam: then the straight beam solves the law for every N.
     pub(super) fn homogeneous(&self) -> bool {
         self.moment == 0.0 && self.support.is_none_or(|support| support.position == 0.0)
@@ -219,10 +219,10 @@ mod tests {
             (-0.7, support(0.2)),
             (0.7, support(-0.2)),
         ]
-        .map(|(moment, support)| Law {
+        .map(|(moment, support)| ForceLaw {
             moment,
             support,
-            ..Law::default()
+            ..ForceLaw::default()
         }) {
             for s in (1..=12)
                 .map(|k| law.buckling(k))
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn free_buckling_values_above_a_number_are_counted() {
-        let law = Law::default();
+        let law = ForceLaw::default();
         for k in 1..=40 {
             let s = free_buckling(k);
             assert_eq!(
@@ -262,12 +262,12 @@ mod tests {
     #[test]
     fn supported_buckling_values_interlace_with_the_free_ones() {
         for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
-            let law = Law {
+            let law = ForceLaw {
                 support: Some(Support {
                     epsilon,
                     position: 0.0,
                 }),
-                ..Law::default()
+                ..ForceLaw::default()
             };
             for k in 1..=20 {
                 let s = law.buckling(k);
@@ -290,12 +290,12 @@ mod tests {
     #[test]
     fn below_minus_one_the_tip_flexibility_equals_the_compliance_once() {
         for epsilon in [1e-8, 1e-4, 0.01, 0.3, 1.0, 3.0, 100.0, 1e4, 1e8] {
-            let law = Law {
+            let law = ForceLaw {
                 support: Some(Support {
                     epsilon,
                     position: 0.0,
                 }),
-                ..Law::default()
+                ..ForceLaw::default()
             };
             let s = law.buckling_below_minus_one().unwrap();
             assert!(s * 0.999 < 0.0);
@@ -309,6 +309,6 @@ mod tests {
                 flexibility(s * 1.001) > flexibility(s) && flexibility(s) > flexibility(s * 0.999)
             );
         }
-        assert_eq!(Law::default().buckling_below_minus_one(), None);
+        assert_eq!(ForceLaw::default().buckling_below_minus_one(), None);
     }
 }

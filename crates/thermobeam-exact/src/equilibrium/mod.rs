@@ -89,12 +89,12 @@ mod scan;
 mod shape;
 
 use branch::Branch;
-use law::{Law, Support};
+use law::{ForceLaw, Support};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thiserror::Error;
 
 pub use completeness::{Completeness, completeness};
-pub use proof::{Proof, ProvedState, Reason, Undecided, enclose_change, prove};
+pub use proof::{Proof, ProvedState, Undecided, UndecidedReason, enclose_change, prove};
 pub use shape::Shape;
 pub use thermobeam::contact::Phase;
 
@@ -227,8 +227,8 @@ pub fn equilibria(
     Ok(consistent)
 }
 
-fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
-    let free = Law {
+fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, ForceLaw)> {
+    let free = ForceLaw {
         moment: beam.a * beam.theta_a,
         beta: beam.beta,
         rho: beam.rho,
@@ -238,21 +238,21 @@ fn laws(beam: &Beam, obstacles: Option<&Obstacles>) -> Vec<(Phase, Law)> {
     if let Some(&Obstacles { epsilon, g1, g2 }) = obstacles {
         for (contact, position) in [(Phase::Upper, g2), (Phase::Lower, g1)] {
             let support = Some(Support { epsilon, position });
-            laws.push((contact, Law { support, ..free }));
+            laws.push((contact, ForceLaw { support, ..free }));
         }
     }
     laws
 }
 
 /// The spring that holds the tip at 0 in both directions if both obstacles stand there.
-fn held_tip(obstacles: Option<&Obstacles>) -> Option<Law> {
+fn held_tip(obstacles: Option<&Obstacles>) -> Option<ForceLaw> {
     let touching = obstacles.filter(|o| o.g1 == 0.0 && o.g2 == 0.0)?;
-    Some(Law {
+    Some(ForceLaw {
         support: Some(Support {
             epsilon: touching.epsilon,
             position: 0.0,
         }),
-        ..Law::default()
+        ..ForceLaw::default()
     })
 }
 

@@ -8,7 +8,7 @@
 //! have no poles and are regular at every state that is neither a fold nor a bifurcation. Below
 //! N = -1 the shape satisfies φ(0) = 0 and needs no α: there α = 0 replaces the first condition.
 
-use super::law::{Law, Support};
+use super::law::{ForceLaw, Support};
 use super::shape::Shape;
 
 /// Iteration limit; the convergence is quadratic up to the error of the difference quotients.
@@ -22,7 +22,7 @@ const DIFFERENCE: f64 = 1e-5;
 const LARGEST_FIRST_STEP: f64 = 1e-3;
 
 /// Improves a state by Newton's method; returns it unchanged if the first step is too large.
-pub(super) fn polish(law: &Law, start: Shape) -> Shape {
+pub(super) fn polish(law: &ForceLaw, start: Shape) -> Shape {
     if start.is_line() {
         return start;
     }
@@ -50,7 +50,7 @@ fn relative_size(step: [f64; 3], state: [f64; 3]) -> f64 {
     (step[0] / state[0]).abs() + if change == 0.0 { 0.0 } else { change / bending }
 }
 
-fn unpack(law: &Law, [s, alpha, stress]: [f64; 3]) -> Shape {
+fn unpack(law: &ForceLaw, [s, alpha, stress]: [f64; 3]) -> Shape {
     Shape {
         q: 1.0 / s,
         alpha,
@@ -60,7 +60,7 @@ fn unpack(law: &Law, [s, alpha, stress]: [f64; 3]) -> Shape {
 }
 
 /// The three conditions.
-fn residual(law: &Law, v: [f64; 3]) -> [f64; 3] {
+fn residual(law: &ForceLaw, v: [f64; 3]) -> [f64; 3] {
     let shape = unpack(law, v);
     let [s, alpha, stress] = v;
     let clamped = if s > 0.0 { shape.phi(0.0) } else { alpha };
@@ -75,7 +75,7 @@ fn residual(law: &Law, v: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-fn newton_step(law: &Law, state: [f64; 3]) -> Option<[f64; 3]> {
+fn newton_step(law: &ForceLaw, state: [f64; 3]) -> Option<[f64; 3]> {
     let bending = state[1].abs().max(state[2].abs());
     let mut jacobian = [[0.0; 3]; 3];
     for (column, scale) in [state[0].abs(), bending, bending].into_iter().enumerate() {
@@ -127,13 +127,13 @@ mod tests {
 
     #[test]
     fn the_residual_equals_the_documented_conditions() {
-        let coefficients = Law {
+        let coefficients = ForceLaw {
             moment: 0.5,
             beta: -3.0,
             rho: 2.0,
             support: None,
         };
-        let law = |epsilon, position| Law {
+        let law = |epsilon, position| ForceLaw {
             support: Some(Support { epsilon, position }),
             ..coefficients
         };
@@ -143,7 +143,7 @@ mod tests {
                 assert_eq!(alpha, 0.0);
                 assert_eq!(residual(&law(0.5, 0.125), [s, 0.25, stress])[0], 0.25);
             }
-            let at = |law: &Law| residual(law, [s, alpha, stress]);
+            let at = |law: &ForceLaw| residual(law, [s, alpha, stress]);
             let found = at(&law(0.5, 0.125));
             let balance = s + 2.0 - 2.0 * law(0.5, 0.125).solve(s).slope_squared();
             assert!(
@@ -165,16 +165,16 @@ mod tests {
             epsilon: 0.5,
             position: 0.125,
         });
-        let law = Law {
+        let law = ForceLaw {
             moment: 0.5,
             rho: 2.0,
             support,
-            ..Law::default()
+            ..ForceLaw::default()
         };
         // The β for which s is the state.
         for s in [0.7, 2.0, -0.5] {
             let beta = s - 1.0 - 2.0 * law.solve(s).slope_squared();
-            let at = Law { beta, ..law };
+            let at = ForceLaw { beta, ..law };
             let n = |start: f64| polish(&at, law.solve(start)).n_value();
             assert!(
                 (n(s * (1.0 + 1e-5)) - (s - 1.0)).abs() < 1e-14,

@@ -20,7 +20,7 @@
 //! b bᵀ, so by Sylvester's law it has as many negative directions as there are poles above N, less
 //! one if f' = 1 - ρS' < 0.
 
-use super::law::Law;
+use super::law::ForceLaw;
 use super::maximum::maximize;
 use std::cmp::Ordering;
 use thermobeam::bracket::bisect;
@@ -77,7 +77,7 @@ impl Endpoint {
 }
 
 /// f is a function of `s = 1 + N`; all of this is for ρ > 0.
-impl Law {
+impl ForceLaw {
     /// All roots N > -1 above the `count`-th buckling value, in decreasing order.
     pub(super) fn roots_above_minus_one(&self, count: usize) -> Vec<Root> {
         let rest = 1.0 + self.beta;
@@ -206,7 +206,7 @@ mod tests {
     use super::super::law::Support;
     use super::*;
 
-    fn laws() -> [Law; 4] {
+    fn laws() -> [ForceLaw; 4] {
         let support = |epsilon, position| Some(Support { epsilon, position });
         [
             (0.5, None),
@@ -214,10 +214,10 @@ mod tests {
             (-0.25, support(0.01, -0.5)),
             (0.0, support(2.0, 0.25)),
         ]
-        .map(|(moment, support)| Law {
+        .map(|(moment, support)| ForceLaw {
             moment,
             support,
-            ..Law::default()
+            ..ForceLaw::default()
         })
     }
 
@@ -231,7 +231,7 @@ mod tests {
                 for rho in [0.25, 30.0] {
                     // The β for which s is a root.
                     let beta = s - 1.0 - rho * law.solve(s).slope_squared();
-                    let scan = Law { beta, rho, ..law };
+                    let scan = ForceLaw { beta, rho, ..law };
                     let roots = if s > 0.0 {
                         scan.roots_above_minus_one(BUCKLING_VALUES + 1)
                     } else {
@@ -260,10 +260,10 @@ mod tests {
             .into_iter()
             .flat_map(|law| [0.01, 1.0, 60.0, 1e4].map(|moment| (law, moment)))
         {
-            let law = Law { moment, ..law };
+            let law = ForceLaw { moment, ..law };
             for beta in [-40.0, -1.0, -0.9, -0.3, 0.0, 5.0, 100.0, 1e6] {
                 for rho in [1e-6, 1.0, 400.0, 1e6] {
-                    let scan = Law { beta, rho, ..law };
+                    let scan = ForceLaw { beta, rho, ..law };
                     let pole = law.buckling(1);
                     let end = scan.upper_end(pole);
                     assert!(
@@ -280,7 +280,7 @@ mod tests {
         for law in laws() {
             for beta in [3.0, -0.5, -1.0, -1.0 + f64::EPSILON] {
                 assert_eq!(
-                    Law {
+                    ForceLaw {
                         beta,
                         rho: 1.0,
                         ..law
@@ -314,7 +314,7 @@ mod tests {
             let terms = s + (1.0 + beta).abs() + rho * law.solve(s).slope_squared();
             let allowed = 32.0 * f64::EPSILON * terms;
             for (shift, expected) in [(-1.3, 2), (-0.7, 1), (0.7, 1), (1.3, 0)] {
-                let scan = Law {
+                let scan = ForceLaw {
                     beta: beta + shift * allowed,
                     rho,
                     ..law
@@ -329,7 +329,7 @@ mod tests {
                     "{shift} of {allowed:e}, {law:?}, s = {s}, beta = {beta}"
                 );
             }
-            let fold = Law { beta, rho, ..law }.interval(
+            let fold = ForceLaw { beta, rho, ..law }.interval(
                 Endpoint::Buckling(low),
                 Endpoint::Buckling(high),
                 Some(1),
@@ -345,7 +345,7 @@ mod tests {
                 panic!("{fold:?} of {law:?}");
             };
             assert!((at - s).abs() < 1e-6);
-            let apart = Law {
+            let apart = ForceLaw {
                 beta: beta - 1e-6,
                 rho,
                 ..law

@@ -2,14 +2,14 @@
 //! has more.
 
 use manufacture::language::names::{CONSTANTS, Callee, did_you_mean};
-use manufacture::language::tree::{Binary, Kind, Tree, callee_name};
+use manufacture::language::tree::{Binary, Tree, TreeKind, callee_name};
 use manufacture::language::{SyntaxError, parse as tree_of};
 
 use super::Variable;
-use super::syntax::{FUNCTIONS, Node, Operator};
+use super::syntax::{BinaryOperator, FUNCTIONS, SyntaxNode};
 
 /// Parses all of `source`.
-pub(super) fn parse(source: &str, variable: Variable) -> Result<Node, SyntaxError> {
+pub(super) fn parse(source: &str, variable: Variable) -> Result<SyntaxNode, SyntaxError> {
     let tree = tree_of(source)?;
     Converter { source, variable }.node(&tree)
 }
@@ -20,25 +20,25 @@ struct Converter<'s> {
 }
 
 impl Converter<'_> {
-    fn node(&self, tree: &Tree) -> Result<Node, SyntaxError> {
+    fn node(&self, tree: &Tree) -> Result<SyntaxNode, SyntaxError> {
         match &tree.kind {
-            Kind::Number(value, _) => Ok(Node::Constant(*value)),
-            Kind::Name(name) => self.name(name, tree),
-            Kind::Bracket(inner) => self.node(inner),
-            Kind::Negate(operand) => Ok(Node::negate(self.node(operand)?)),
-            Kind::Binary(operator, operands) => {
+            TreeKind::Number(value, _) => Ok(SyntaxNode::Constant(*value)),
+            TreeKind::Name(name) => self.name(name, tree),
+            TreeKind::Bracket(inner) => self.node(inner),
+            TreeKind::Negate(operand) => Ok(SyntaxNode::negate(self.node(operand)?)),
+            TreeKind::Binary(operator, operands) => {
                 let operator = match operator {
-                    Binary::Add => Operator::Add,
-                    Binary::Subtract => Operator::Subtract,
-                    Binary::Multiply => Operator::Multiply,
-                    Binary::Divide => Operator::Divide,
-                    Binary::Power => Operator::Power,
+                    Binary::Add => BinaryOperator::Add,
+                    Binary::Subtract => BinaryOperator::Subtract,
+                    Binary::Multiply => BinaryOperator::Multiply,
+                    Binary::Divide => BinaryOperator::Divide,
+                    Binary::Power => BinaryOperator::Power,
                 };
                 let left = self.node(&operands[0])?;
-                Ok(Node::binary(operator, left, self.node(&operands[1])?))
+                Ok(SyntaxNode::binary(operator, left, self.node(&operands[1])?))
             }
-            Kind::Call(callee, parts) => self.call(*callee, parts, tree),
-            Kind::List(_) | Kind::Index(..) | Kind::Compare(..) => {
+            TreeKind::Call(callee, parts) => self.call(*callee, parts, tree),
+            TreeKind::List(_) | TreeKind::Index(..) | TreeKind::Compare(..) => {
                 let name = self.variable.name();
                 Err(self.error(
                     tree,
@@ -49,27 +49,27 @@ impl Converter<'_> {
     }
 
     /// The variable or a constant.
-    fn name(&self, name: &str, tree: &Tree) -> Result<Node, SyntaxError> {
+    fn name(&self, name: &str, tree: &Tree) -> Result<SyntaxNode, SyntaxError> {
         if name == self.variable.name() {
-            return Ok(Node::Variable);
+            return Ok(SyntaxNode::Variable);
         }
         match CONSTANTS.iter().find(|known| known.0 == name) {
-            Some(known) => Ok(Node::Constant(known.1)),
+            Some(known) => Ok(SyntaxNode::Constant(known.1)),
             None => Err(self.unknown(name, tree)),
         }
     }
 
-    fn call(&self, callee: Callee, parts: &[Tree], tree: &Tree) -> Result<Node, SyntaxError> {
+    fn call(&self, callee: Callee, parts: &[Tree], tree: &Tree) -> Result<SyntaxNode, SyntaxError> {
         let name = callee_name(callee);
         let Some((_, function)) = FUNCTIONS.iter().find(|known| known.0 == name) else {
             return Err(self.unknown(name, tree));
         };
         // The parser has counted the arguments.
         match parts {
-            [only] => Ok(Node::call1(*function, self.node(only)?)),
+            [only] => Ok(SyntaxNode::call1(*function, self.node(only)?)),
             [first, second] => {
                 let arguments = [self.node(first)?, self.node(second)?];
-                Ok(Node::call2(*function, arguments))
+                Ok(SyntaxNode::call2(*function, arguments))
             }
             _ => Err(self.unknown(name, tree)),
         }

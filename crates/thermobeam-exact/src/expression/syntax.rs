@@ -37,7 +37,7 @@ impl Number for Dual2_64 {
 
 /// An operator between two operands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Operator {
+pub(super) enum BinaryOperator {
     Add,
     Subtract,
     Multiply,
@@ -47,7 +47,7 @@ pub(super) enum Operator {
 
 /// A function, named as in the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Function {
+pub(super) enum ElementaryFunction {
     Sin,
     Cos,
     Tan,
@@ -67,63 +67,63 @@ pub(super) enum Function {
 }
 
 /// All functions by name.
-pub(super) const FUNCTIONS: [(&str, Function); 16] = [
-    ("sin", Function::Sin),
-    ("cos", Function::Cos),
-    ("tan", Function::Tan),
-    ("asin", Function::Asin),
-    ("acos", Function::Acos),
-    ("atan", Function::Atan),
-    ("sinh", Function::Sinh),
-    ("cosh", Function::Cosh),
-    ("tanh", Function::Tanh),
-    ("exp", Function::Exp),
-    ("ln", Function::Ln),
-    ("log10", Function::Log10),
-    ("sqrt", Function::Sqrt),
-    ("abs", Function::Abs),
-    ("min", Function::Min),
-    ("max", Function::Max),
+pub(super) const FUNCTIONS: [(&str, ElementaryFunction); 16] = [
+    ("sin", ElementaryFunction::Sin),
+    ("cos", ElementaryFunction::Cos),
+    ("tan", ElementaryFunction::Tan),
+    ("asin", ElementaryFunction::Asin),
+    ("acos", ElementaryFunction::Acos),
+    ("atan", ElementaryFunction::Atan),
+    ("sinh", ElementaryFunction::Sinh),
+    ("cosh", ElementaryFunction::Cosh),
+    ("tanh", ElementaryFunction::Tanh),
+    ("exp", ElementaryFunction::Exp),
+    ("ln", ElementaryFunction::Ln),
+    ("log10", ElementaryFunction::Log10),
+    ("sqrt", ElementaryFunction::Sqrt),
+    ("abs", ElementaryFunction::Abs),
+    ("min", ElementaryFunction::Min),
+    ("max", ElementaryFunction::Max),
 ];
 
 /// A node of the syntax tree. Subtrees without the variable are constants.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Node {
+pub(super) enum SyntaxNode {
     Constant(f64),
     Variable,
-    Negate(Box<Node>),
-    Binary(Operator, Box<[Node; 2]>),
+    Negate(Box<SyntaxNode>),
+    Binary(BinaryOperator, Box<[SyntaxNode; 2]>),
     /// A power with constant exponent. Exact at 0, unlike exp(n ln x).
-    ConstantPower(Box<Node>, f64),
-    Call1(Function, Box<Node>),
-    Call2(Function, Box<[Node; 2]>),
+    ConstantPower(Box<SyntaxNode>, f64),
+    Call1(ElementaryFunction, Box<SyntaxNode>),
+    Call2(ElementaryFunction, Box<[SyntaxNode; 2]>),
 }
 
-impl Node {
-    pub(super) fn negate(operand: Node) -> Self {
-        Node::Negate(Box::new(operand)).folded()
+impl SyntaxNode {
+    pub(super) fn negate(operand: SyntaxNode) -> Self {
+        SyntaxNode::Negate(Box::new(operand)).folded()
     }
 
-    pub(super) fn binary(operator: Operator, left: Node, right: Node) -> Self {
+    pub(super) fn binary(operator: BinaryOperator, left: SyntaxNode, right: SyntaxNode) -> Self {
         match (operator, &right) {
-            (Operator::Power, &Node::Constant(exponent)) => {
-                Node::ConstantPower(Box::new(left), exponent)
+            (BinaryOperator::Power, &SyntaxNode::Constant(exponent)) => {
+                SyntaxNode::ConstantPower(Box::new(left), exponent)
             }
-            _ => Node::Binary(operator, Box::new([left, right])),
+            _ => SyntaxNode::Binary(operator, Box::new([left, right])),
         }
         .folded()
     }
 
-    pub(super) fn call1(function: Function, argument: Node) -> Self {
-        Node::Call1(function, Box::new(argument)).folded()
+    pub(super) fn call1(function: ElementaryFunction, argument: SyntaxNode) -> Self {
+        SyntaxNode::Call1(function, Box::new(argument)).folded()
     }
 
-    pub(super) fn call2(function: Function, arguments: [Node; 2]) -> Self {
-        Node::Call2(function, Box::new(arguments)).folded()
+    pub(super) fn call2(function: ElementaryFunction, arguments: [SyntaxNode; 2]) -> Self {
+        SyntaxNode::Call2(function, Box::new(arguments)).folded()
     }
 
     fn is_constant(&self) -> bool {
-        matches!(self, Node::Constant(_))
+        matches!(self, SyntaxNode::Constant(_))
     }
 
     /// A constant if all operands are constants.
@@ -131,16 +131,16 @@ impl Node {
     /// Otherwise sqrt(0) would have the derivative 0 · ∞ instead of 0.
     fn folded(self) -> Self {
         let fold = match &self {
-            Node::Constant(_) | Node::Variable => false,
-            Node::Negate(operand) | Node::ConstantPower(operand, _) | Node::Call1(_, operand) => {
-                operand.is_constant()
-            }
-            Node::Binary(_, operands) | Node::Call2(_, operands) => {
-                operands.iter().all(Node::is_constant)
+            SyntaxNode::Constant(_) | SyntaxNode::Variable => false,
+            SyntaxNode::Negate(operand)
+            | SyntaxNode::ConstantPower(operand, _)
+            | SyntaxNode::Call1(_, operand) => operand.is_constant(),
+            SyntaxNode::Binary(_, operands) | SyntaxNode::Call2(_, operands) => {
+                operands.iter().all(SyntaxNode::is_constant)
             }
         };
         if fold {
-            Node::Constant(self.eval(0.0))
+            SyntaxNode::Constant(self.eval(0.0))
         } else {
             self
         }
@@ -149,16 +149,16 @@ impl Node {
     /// The value at `x`, with derivatives if `D` has them.
     pub(super) fn eval<D: Number>(&self, x: D) -> D {
         match self {
-            Node::Constant(value) => D::from(*value),
-            Node::Variable => x,
-            Node::Negate(operand) => -operand.eval(x),
-            Node::Binary(operator, operands) => {
+            SyntaxNode::Constant(value) => D::from(*value),
+            SyntaxNode::Variable => x,
+            SyntaxNode::Negate(operand) => -operand.eval(x),
+            SyntaxNode::Binary(operator, operands) => {
                 let [left, right] = operands.as_ref();
                 operate(*operator, left.eval(x), right.eval(x))
             }
-            Node::ConstantPower(base, exponent) => constant_power(base.eval(x), *exponent),
-            Node::Call1(function, argument) => call(*function, argument.eval(x)),
-            Node::Call2(function, arguments) => {
+            SyntaxNode::ConstantPower(base, exponent) => constant_power(base.eval(x), *exponent),
+            SyntaxNode::Call1(function, argument) => call(*function, argument.eval(x)),
+            SyntaxNode::Call2(function, arguments) => {
                 let [left, right] = arguments.as_ref();
                 choose(*function, left.eval(x), right.eval(x))
             }
@@ -169,20 +169,20 @@ impl Node {
     /// those of `min` and `max`.
     pub(super) fn push_branches(&self, x: f64, branches: &mut Vec<f64>) {
         match self {
-            Node::Constant(_) | Node::Variable => (),
-            Node::Negate(operand) | Node::ConstantPower(operand, _) => {
+            SyntaxNode::Constant(_) | SyntaxNode::Variable => (),
+            SyntaxNode::Negate(operand) | SyntaxNode::ConstantPower(operand, _) => {
                 operand.push_branches(x, branches);
             }
-            Node::Call1(function, argument) => {
-                if *function == Function::Abs {
+            SyntaxNode::Call1(function, argument) => {
+                if *function == ElementaryFunction::Abs {
                     branches.push(argument.eval(x));
                 }
                 argument.push_branches(x, branches);
             }
-            Node::Binary(_, operands) => operands
+            SyntaxNode::Binary(_, operands) => operands
                 .iter()
                 .for_each(|operand| operand.push_branches(x, branches)),
-            Node::Call2(_, arguments) => {
+            SyntaxNode::Call2(_, arguments) => {
                 branches.push(arguments[0].eval(x) - arguments[1].eval(x));
                 arguments
                     .iter()
@@ -192,13 +192,13 @@ impl Node {
     }
 }
 
-fn operate<D: Number>(operator: Operator, left: D, right: D) -> D {
+fn operate<D: Number>(operator: BinaryOperator, left: D, right: D) -> D {
     match operator {
-        Operator::Add => left + right,
-        Operator::Subtract => left - right,
-        Operator::Multiply => left * right,
-        Operator::Divide => left / right,
-        Operator::Power => (right * left.ln()).exp(),
+        BinaryOperator::Add => left + right,
+        BinaryOperator::Subtract => left - right,
+        BinaryOperator::Multiply => left * right,
+        BinaryOperator::Divide => left / right,
+        BinaryOperator::Power => (right * left.ln()).exp(),
     }
 }
 
@@ -219,52 +219,54 @@ fn constant_power<D: Number>(base: D, n: f64) -> D {
     base.chain(x.powf(n), term(n, n - 1.0), term(n * (n - 1.0), n - 2.0))
 }
 
-fn call<D: Number>(function: Function, argument: D) -> D {
+fn call<D: Number>(function: ElementaryFunction, argument: D) -> D {
     let x = argument.value();
     match function {
-        Function::Sin => argument.sin(),
-        Function::Cos => argument.cos(),
+        ElementaryFunction::Sin => argument.sin(),
+        ElementaryFunction::Cos => argument.cos(),
         // As a quotient, tan would round differently from `f64::tan`, and tanh would overflow.
-        Function::Tan => {
+        ElementaryFunction::Tan => {
             let value = x.tan();
             let first = 1.0 + value * value;
             argument.chain(value, first, 2.0 * value * first)
         }
-        Function::Tanh => {
+        ElementaryFunction::Tanh => {
             let value = x.tanh();
             // 1 - tanh² cancels for tanh close to 1.
             let first = x.cosh().powi(-2);
             argument.chain(value, first, -2.0 * value * first)
         }
-        Function::Asin => argument.asin(),
-        Function::Acos => argument.acos(),
-        Function::Atan => argument.atan(),
-        Function::Sinh => argument.sinh(),
-        Function::Cosh => argument.cosh(),
-        Function::Exp => argument.exp(),
-        Function::Ln => argument.ln(),
-        Function::Log10 => argument.log10(),
-        Function::Sqrt => {
+        ElementaryFunction::Asin => argument.asin(),
+        ElementaryFunction::Acos => argument.acos(),
+        ElementaryFunction::Atan => argument.atan(),
+        ElementaryFunction::Sinh => argument.sinh(),
+        ElementaryFunction::Cosh => argument.cosh(),
+        ElementaryFunction::Exp => argument.exp(),
+        ElementaryFunction::Ln => argument.ln(),
+        ElementaryFunction::Log10 => argument.log10(),
+        ElementaryFunction::Sqrt => {
             let root = x.sqrt();
             argument.chain(root, 0.5 / root, -0.25 / (root * x))
         }
-        Function::Abs => {
+        ElementaryFunction::Abs => {
             if x < 0.0 {
                 -argument
             } else {
                 argument
             }
         }
-        Function::Min | Function::Max => unreachable!("the parser gives these two arguments"),
+        ElementaryFunction::Min | ElementaryFunction::Max => {
+            unreachable!("the parser gives these two arguments")
+        }
     }
 }
 
 /// The smaller or the larger of two numbers; NaN if either is NaN, which `f64::min` and `f64::max`
 /// would drop.
-fn choose<D: Number>(function: Function, left: D, right: D) -> D {
+fn choose<D: Number>(function: ElementaryFunction, left: D, right: D) -> D {
     let (a, b) = (left.value(), right.value());
     let take_left = a.is_nan()
-        || if function == Function::Min {
+        || if function == ElementaryFunction::Min {
             a <= b
         } else {
             a >= b

@@ -6,7 +6,7 @@ use thermobeam::parameters::Beam;
 
 /// A space vector of one equation (0: u, 1: φ, 2: θ) and its time coefficient.
 #[derive(Debug, Clone)]
-pub(super) struct Term {
+pub(super) struct SourceTerm {
     pub(super) equation: usize,
     /// The field (0: u, 1: φ, 2: θ) and the index of the product in it.
     pub(super) product: [usize; 2],
@@ -54,7 +54,7 @@ impl TimeWeights {
     };
 }
 
-impl Term {
+impl SourceTerm {
     /// The time coefficient, at the time of the factors.
     pub(super) fn coefficient(&self, factors: &Factors, n_value: f64) -> f64 {
         let TimeWeights {
@@ -82,12 +82,12 @@ impl Term {
 }
 
 /// The terms of all products of a solution.
-pub(super) struct Terms<'b> {
+pub(super) struct ProductTerms<'b> {
     beam: &'b Beam,
-    pub(super) list: Vec<Term>,
+    pub(super) list: Vec<SourceTerm>,
 }
 
-impl<'b> Terms<'b> {
+impl<'b> ProductTerms<'b> {
     pub(super) fn new(beam: &'b Beam) -> Self {
         Self { beam, list: vec![] }
     }
@@ -99,7 +99,7 @@ impl<'b> Terms<'b> {
         weights: TimeWeights,
         vector: Vec<f64>,
     ) {
-        self.list.push(Term {
+        self.list.push(SourceTerm {
             equation,
             product,
             weights,

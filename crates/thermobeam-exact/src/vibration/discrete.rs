@@ -109,7 +109,7 @@ fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
     // The Schur complement of the current node's block after eliminating the elements to the left.
     let mut node = [[0.0; 2]; 2];
     for (i, &h) in lengths.iter().enumerate() {
-        let mut element = Element::new(h, degree, lambda);
+        let mut element = ElementPencil::new(h, degree, lambda);
         negative += element.eliminate_inner();
         // Node 0 is clamped.
         if i > 0 {
@@ -129,12 +129,12 @@ fn count_below(lengths: &[f64], degree: usize, lambda: f64) -> usize {
 
 /// K - λM of one element, in 2 x 2 blocks of (u, φ), one for each function of the basis: the hats,
 /// then degrees 2 to p.
-struct Element {
+struct ElementPencil {
     blocks: usize,
     entries: Vec<[[f64; 2]; 2]>,
 }
 
-impl Element {
+impl ElementPencil {
     fn new(h: f64, degree: usize, lambda: f64) -> Self {
         let blocks = degree + 1;
         let mut entries = Vec::with_capacity(blocks * blocks);

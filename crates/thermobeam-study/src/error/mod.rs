@@ -66,7 +66,7 @@ impl Errors {
     }
 }
 
-enum Answer<'a> {
+enum OneStepAnswer<'a> {
     Exact {
         exact: &'a Manufactured,
         meter: Box<(ErrorMeter, Factors)>,
@@ -77,7 +77,7 @@ enum Answer<'a> {
 
 /// Measures the levels of one mesh.
 pub struct Evaluator<'a> {
-    answer: Answer<'a>,
+    answer: OneStepAnswer<'a>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -93,13 +93,13 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Self, CaseFailure> {
         let mesh = on.mesh();
         if let Some(reference) = reference {
-            let answer = Answer::Computed(OfLinear::new(mesh.clone(), reference));
+            let answer = OneStepAnswer::Computed(OfLinear::new(mesh.clone(), reference));
             return Ok(Self { answer });
         }
         let exact = family.exact().ok_or_else(missing)?;
         let mut meter = ErrorMeter::new(exact, mesh, false);
         meter.lift(mesh, family.beam.theta_a);
-        let answer = Answer::Exact {
+        let answer = OneStepAnswer::Exact {
             exact,
             meter: Box::new((meter, Factors::default())),
             tip: exact.u.iter().map(|product| product.x.eval(1.0)).collect(),
@@ -110,7 +110,7 @@ impl<'a> Evaluator<'a> {
     /// The errors of a level at time t, which is observation number `index` from 0.
     pub fn measure(&mut self, level: &Level, index: usize, t: f64) -> Errors {
         match &mut self.answer {
-            Answer::Exact { exact, meter, tip } => {
+            OneStepAnswer::Exact { exact, meter, tip } => {
                 let (meter, factors) = &mut **meter;
                 factors.at(exact, t);
                 let norm = meter.measure(level, factors)[Norm::Theorem34];
@@ -118,7 +118,7 @@ impl<'a> Evaluator<'a> {
                 let tip = (level.u[level.u.len() - 1] - u).abs();
                 Errors { norm, tip }
             }
-            Answer::Computed(meter) => meter.errors(level, index),
+            OneStepAnswer::Computed(meter) => meter.errors(level, index),
         }
     }
 }

@@ -35,7 +35,7 @@ struct GaussPoint<P> {
     /// Place in the measured run.
     own: P,
     /// Place in the reference.
-    reference: dg::Point,
+    reference: dg::BeamPoint,
 }
 
 /// Place in a linear element.
@@ -82,7 +82,7 @@ impl Polynomials {
 pub(crate) struct OfAnyOrder<'r> {
     space: &'r dg::Space,
     reference: &'r Polynomials,
-    points: Vec<GaussPoint<dg::Point>>,
+    points: Vec<GaussPoint<dg::BeamPoint>>,
 }
 
 impl<'r> OfAnyOrder<'r> {
@@ -197,7 +197,7 @@ impl Polynomials {
     }
 }
 
-fn integrands(space: &dg::Space, level: &DgLevel, point: &dg::Point) -> Integrands {
+fn integrands(space: &dg::Space, level: &DgLevel, point: &dg::BeamPoint) -> Integrands {
     let [(_, u_x), (phi, phi_x), (v, _), (w, _), (theta, _)] =
         level.values_and_slopes_at(space, point);
     [v, u_x - phi, w, phi_x, theta]

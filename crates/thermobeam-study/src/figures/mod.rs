@@ -43,9 +43,9 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     ]
 }
 
-/// The [`look`](convergence_study::internal::plots::look::look) of each scene of a figure: an experiment of
-/// the paper has its own; any other scene gets, by its place in the figure, one that no experiment
-/// has.
+/// The [`look`](convergence_study::internal::plots::look::look) of each scene of a figure: an
+/// experiment of the paper has its own; any other scene gets, by its place in the figure, one that
+/// no experiment has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
     let mut looks = vec![];
     for (place, name) in scenes.into_iter().enumerate() {
@@ -58,8 +58,8 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
 /// The values of β in the paper's experiments.
 const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
 
-/// The [`look`](convergence_study::internal::plots::look::look) of a value of β, the same in all figures
-/// whose curves are its values; of other values the next one.
+/// The [`look`](convergence_study::internal::plots::look::look) of a value of β, the same in all
+/// figures whose curves are its values; of other values the next one.
 pub(crate) fn look_of_beta(beta: f64) -> usize {
     BETAS
         .iter()
@@ -80,7 +80,7 @@ pub fn energy_at_rest(beam: &Beam) -> Option<f64> {
 
 /// A family of equilibria, all stable or all unstable.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Branch {
+pub struct EquilibriumBranch {
     /// Contact state; branches with the same label share a colour and a legend entry.
     pub label: String,
     /// `(parameter, tip displacement)`, along the branch.
@@ -95,7 +95,7 @@ pub struct Bifurcation {
     /// What the reader should see.
     pub title: String,
     /// Families of equilibria.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<EquilibriumBranch>,
     /// A line for each obstacle.
     pub obstacles: Vec<Guide>,
     /// Those in which simulations ended.
@@ -143,7 +143,7 @@ pub fn bifurcation(figure: &Bifurcation) -> String {
     .draw()
 }
 
-fn branch_curve(branch: &Branch, look: Look) -> Curve {
+fn branch_curve(branch: &EquilibriumBranch, look: Look) -> Curve {
     // A single point would be invisible as a line.
     let marks = match (branch.points.len(), branch.stable) {
         (2.., _) => Marks::None,

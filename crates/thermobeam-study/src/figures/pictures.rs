@@ -31,7 +31,7 @@ impl Run {
     }
 
     fn displacement(&self, scene: &Scene, history: &RunHistory) -> String {
-        let curve = Quantity {
+        let curve = PlottedNumber {
             title: "displacement of the free end",
             axis: "displacement u(1, t)",
             label: "u(1, t)",
@@ -75,14 +75,14 @@ fn motion(scene: &Scene, frames: &Frames) -> String {
 }
 
 /// A number of each step, and its words.
-struct Quantity {
+struct PlottedNumber {
     title: &'static str,
     axis: &'static str,
     label: &'static str,
     value: fn(&Sample) -> f64,
 }
 
-impl Quantity {
+impl PlottedNumber {
     fn over_time(&self, scene: &Scene, history: &RunHistory) -> Xy {
         let series = [Series::new(self.label, history.over_time(self.value))];
         let axis = Axis::linear(format!("{} (dimensionless)", self.axis));
@@ -94,7 +94,7 @@ impl Quantity {
 }
 
 fn rotation(scene: &Scene, history: &RunHistory) -> String {
-    Quantity {
+    PlottedNumber {
         title: "rotation of the free end",
         axis: "rotation φ(1, t)",
         label: "φ(1, t)",
@@ -105,7 +105,7 @@ fn rotation(scene: &Scene, history: &RunHistory) -> String {
 }
 
 fn energy(scene: &Scene, history: &RunHistory) -> String {
-    let curve = Quantity {
+    let curve = PlottedNumber {
         title: "energy",
         axis: "energy E",
         label: "E",

@@ -4,13 +4,13 @@ use super::prelude::*;
 
 /// Two ends, ascending; positive on a logarithmic scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Interval {
+pub(crate) struct SampledInterval {
     pub(crate) low: f64,
     pub(crate) high: f64,
     is_logarithmic: bool,
 }
 
-impl Interval {
+impl SampledInterval {
     /// # Errors
     /// The key is not a list of two ascending numbers, or one is not positive on a logarithmic
     /// scale.
@@ -56,13 +56,13 @@ impl Interval {
 
 #[cfg(test)]
 mod tests {
-    use super::Interval;
+    use super::SampledInterval;
 
     #[test]
     fn values_are_equally_spaced_on_the_scale_of_the_interval() {
         let [linear, logarithmic] = [false, true].map(|is_logarithmic| {
             let [low, high] = [1.0, 100.0];
-            let interval = Interval {
+            let interval = SampledInterval {
                 low,
                 high,
                 is_logarithmic,

@@ -22,7 +22,7 @@ use convergence_study::{
     InputError, KindRow, Study,
     internal::{program, study::StudyFile},
 };
-use orders::Source;
+use orders::ErrorSource;
 use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;
 use orders::manufactured::Convergence;

@@ -8,7 +8,7 @@ mod places;
 
 use convergence_study::{
     Axis, Header, Subject,
-    internal::study::header::{Setting, study},
+    internal::study::header::{SettingWords, study},
 };
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -141,7 +141,7 @@ impl Integration {
     }
 
     /// Method, scheme and solver; a method without a choice of these is named instead.
-    fn settings(self) -> [Setting; 3] {
+    fn settings(self) -> [SettingWords; 3] {
         let keys = ["method", "scheme", "solver"];
         match self {
             Self::Exact => keys.map(|key| setting(key, "no time steps")),
@@ -168,7 +168,7 @@ impl Integration {
 
 /// The terms of the equations that are active.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Terms {
+pub(crate) struct ActiveTerms {
     is_coupled: bool,
     is_nonlinear: bool,
     is_hot: bool,
@@ -176,7 +176,7 @@ pub(crate) struct Terms {
     has_obstacles: bool,
 }
 
-impl Terms {
+impl ActiveTerms {
     /// All but a small ζ, as in random scenes with moderate coefficients.
     pub(crate) const MODERATE: Self = Self {
         is_coupled: true,
@@ -214,7 +214,7 @@ impl Terms {
         }
     }
 
-    fn settings(self) -> [Setting; 5] {
+    fn settings(self) -> [SettingWords; 5] {
         [
             either("coupling", self.is_coupled, "coupling a > 0", "no coupling"),
             either(
@@ -284,7 +284,7 @@ pub struct Exercise {
     /// What is refined, in words.
     axis: Option<&'static str>,
     integration: Integration,
-    terms: Terms,
+    terms: ActiveTerms,
     nodes: Nodes,
 }
 
@@ -292,7 +292,7 @@ impl Exercise {
     /// On uniform meshes, without refinement.
     ///
     /// * `topic`: what is put to the test, in words that can stand alone.
-    pub(crate) fn new(topic: &'static str, integration: Integration, terms: Terms) -> Self {
+    pub(crate) fn new(topic: &'static str, integration: Integration, terms: ActiveTerms) -> Self {
         Self {
             topic,
             axis: None,
@@ -304,7 +304,7 @@ impl Exercise {
 
     /// Beam and mesh of a scene.
     pub(crate) fn of_scene(topic: &'static str, integration: Integration, scene: &Scene) -> Self {
-        let terms = Terms::of(&scene.beam, scene.obstacles.as_ref());
+        let terms = ActiveTerms::of(&scene.beam, scene.obstacles.as_ref());
         Self::new(topic, integration, terms).on(Nodes::of_scene(scene))
     }
 
@@ -315,7 +315,7 @@ impl Exercise {
         scenes: impl IntoIterator<Item = &'s Scene>,
         case: Option<&str>,
     ) -> Self {
-        let mut all = Self::new(topic, integration, Terms::default());
+        let mut all = Self::new(topic, integration, ActiveTerms::default());
         for (place, scene) in scenes.into_iter().enumerate() {
             let one = Self::of_scene(topic, integration, scene);
             if Some(&*scene.name) == case {
@@ -353,7 +353,7 @@ impl Exercise {
     }
 
     /// The settings of an item, which may have a method of its own.
-    pub(crate) fn settings(self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    pub(crate) fn settings(self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let mut settings = vec![study(header), setting("kind", self.topic)];
         let quantity = subject.quantity.as_str();
         if Norm::ALL.iter().any(|norm| norm.name() == quantity) {
@@ -380,24 +380,24 @@ pub(crate) fn axis_in_words(axis: Axis) -> &'static str {
     }
 }
 
-fn setting(key: &str, value: &str) -> Setting {
+fn setting(key: &str, value: &str) -> SettingWords {
     (key.to_owned(), value.to_owned())
 }
 
-fn either(key: &str, holds: bool, value: &str, otherwise: &str) -> Setting {
+fn either(key: &str, holds: bool, value: &str, otherwise: &str) -> SettingWords {
     setting(key, if holds { value } else { otherwise })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Exercise, Integration, ItemMethod, Nodes, Setting, Terms};
+    use super::{ActiveTerms, Exercise, Integration, ItemMethod, Nodes, SettingWords};
     use crate::kinds::KINDS;
     use crate::scene::Scene;
     use convergence_study::internal::study::StudyFile;
     use convergence_study::{Header, Subject};
     use std::path::Path;
 
-    fn values(settings: Vec<Setting>) -> Vec<String> {
+    fn values(settings: Vec<SettingWords>) -> Vec<String> {
         settings.into_iter().map(|(_, value)| value).collect()
     }
 
@@ -420,7 +420,7 @@ mod tests {
 
     #[test]
     fn the_method_of_an_item_replaces_that_of_its_study() {
-        let exercise = Exercise::new("steady states", Integration::Exact, Terms::default());
+        let exercise = Exercise::new("steady states", Integration::Exact, ActiveTerms::default());
         let of = |subject: Subject| values(exercise.settings(&Header::new("a", "b"), &subject));
         let state = Subject::of("steady state");
         has(&of(state.clone()), &["no time steps"]);

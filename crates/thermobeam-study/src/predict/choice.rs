@@ -7,23 +7,24 @@
 //! space and time in its error, and the larger part is halved until the target is met.
 //!
 //! ```
-//! use thermobeam_study::predict::choice::{Quantity, choose};
+//! use thermobeam_study::predict::choice::{ErrorQuantity, choose};
 //! use thermobeam_study::predict::{MOST_WORK, Work};
 //! use thermobeam_study::scene::Scene;
 //!
 //! let scene = Scene::parse("[initial]\nu_t = \"x\"\n[time]\ndt = 0.01\nt_end = 1.0", "swing.toml")?;
-//! let choice = choose(&scene, Quantity::Tip, 1e-7, &mut Work::new(MOST_WORK, &mut |_| ()))?;
+//! let choice = choose(&scene, ErrorQuantity::Tip, 1e-7, &mut Work::new(MOST_WORK, &mut |_| ()))?;
 //! assert!(choice.error <= 1e-7 && choice.scene.method.name() == "dg");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use convergence_judge::SpaceTime;
 use thermobeam::solve::Stopping;
 
-use super::curves::{Apart, Curves, Rows, Wanted, curves};
+use super::curves::{Apart, CurveRows, Curves, Wanted, curves};
 use super::first::impact;
 use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::{Cost, Reason, Unreachable, Work};
+use super::{Cost, StopReason, Unreachable, Work};
 use crate::scene::{Method, Scene, resampled};
 
 /// Elements of the coarsest run by the scene's own scheme.
@@ -40,14 +41,14 @@ const FAILURES: usize = 4;
 
 /// The quantity whose error is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ErrorQuantity {
     /// Maximum over [0, T] of the error of u(1, t).
     Tip,
     /// Maximum over [0, T] of the norm of Theorem 3.4.
     Norm,
 }
 
-impl Quantity {
+impl ErrorQuantity {
     /// The name in JSON and on the command line.
     pub fn name(self) -> &'static str {
         match self {
@@ -65,10 +66,10 @@ impl Quantity {
     }
 
     /// * `nodes`: for the norm, which is exact for linear functions between them.
-    fn rows(self, nodes: &[f64]) -> Rows {
+    fn rows(self, nodes: &[f64]) -> CurveRows {
         match self {
-            Self::Tip => Rows::Tip,
-            Self::Norm => Rows::of_norm(nodes, 2),
+            Self::Tip => CurveRows::Tip,
+            Self::Norm => CurveRows::of_norm(nodes, 2),
         }
     }
 
@@ -87,7 +88,7 @@ pub struct Choice {
     /// The scene with the chosen mesh, method and steps.
     pub scene: Scene,
     /// The parts of space and time in the error.
-    pub parts: [f64; 2],
+    pub parts: SpaceTime<f64>,
     /// The origin of these parts, in words.
     pub parts_by: String,
     /// The cost of the run itself.
@@ -106,7 +107,7 @@ pub struct Choice {
 /// [`Unreachable`]: why there is no such run, and the error reached.
 pub fn choose(
     scene: &Scene,
-    quantity: Quantity,
+    quantity: ErrorQuantity,
     target: f64,
     work: &mut Work<'_>,
 ) -> Result<Choice, Unreachable> {
@@ -126,7 +127,10 @@ pub fn choose(
     )?;
     Ok(Choice {
         scene: chosen,
-        parts: [space[0], time[0]],
+        parts: SpaceTime {
+            space: space[0],
+            time: time[0],
+        },
         parts_by: format!("differences to {finer_space}, and to half the steps"),
         error: space[0] + time[0],
         is_kept: false,
@@ -141,7 +145,7 @@ pub fn choose(
 /// As [`choose`].
 pub fn keep_scheme(
     scene: &Scene,
-    quantity: Quantity,
+    quantity: ErrorQuantity,
     target: f64,
     work: &mut Work<'_>,
 ) -> Result<Choice, Unreachable> {
@@ -155,14 +159,17 @@ pub fn keep_scheme(
         &Policy::default(),
         work,
     )?;
-    let mut search = Search {
+    let mut search = OneStepSearch {
         quantity,
         target,
         reference,
         parts: None,
         best: Best {
             error: f64::INFINITY,
-            parts: [f64::NAN; 2],
+            parts: SpaceTime {
+                space: f64::NAN,
+                time: f64::NAN,
+            },
         },
         failures: 0,
     };
@@ -170,19 +177,19 @@ pub fn keep_scheme(
         match search.round(&scene, work) {
             Next::Reached(choice) => return Ok(*choice),
             Next::Refine(factors) => {
-                let [elements, steps] = size(&scene);
-                scene = resized(&scene, [factors[0] * elements, factors[1] * steps])
-                    .ok_or_else(|| search.not_reached(Reason::Finest))?;
+                let finer = Size::of(&scene).times(factors);
+                scene =
+                    resized(&scene, finer).ok_or_else(|| search.not_reached(StopReason::Finest))?;
             }
             Next::GiveUp(reason) => return Err(search.not_reached(reason)),
         }
     }
-    Err(search.not_reached(Reason::Rounds))
+    Err(search.not_reached(StopReason::Rounds))
 }
 
 /// A search for the elements and steps of the scene's own scheme.
-struct Search {
-    quantity: Quantity,
+struct OneStepSearch {
+    quantity: ErrorQuantity,
     target: f64,
     reference: Reference,
     /// The parts of space and time, once they are known.
@@ -196,7 +203,7 @@ struct Search {
 /// An error and its parts of space and time.
 struct Best {
     error: f64,
-    parts: [f64; 2],
+    parts: SpaceTime<f64>,
 }
 
 /// What a search does after a round.
@@ -204,28 +211,31 @@ enum Next {
     /// The error is small enough.
     Reached(Box<Choice>),
     /// By these factors of elements and of steps.
-    Refine([f64; 2]),
+    Refine(Size),
     /// The target cannot be reached.
-    GiveUp(Reason),
+    GiveUp(StopReason),
 }
 
-impl Search {
+impl OneStepSearch {
     /// Runs a scene, and decides what is next.
     fn round(&mut self, scene: &Scene, work: &mut Work<'_>) -> Next {
         match self.measure(scene, work) {
             Ok((own, error)) => self.after(scene, &own, error, work),
             // Coarse steps may fail although finer ones succeed.
-            Err(Reason::Run(_)) if self.failures < FAILURES => {
+            Err(StopReason::Run(_)) if self.failures < FAILURES => {
                 self.failures += 1;
-                Next::Refine([2.0; 2])
+                Next::Refine(Size {
+                    elements: 2.0,
+                    steps: 2.0,
+                })
             }
             Err(reason) => Next::GiveUp(reason),
         }
     }
 
     /// A run and its error; the parts of the error too, if they are needed.
-    fn measure(&mut self, scene: &Scene, work: &mut Work<'_>) -> Result<(Own, f64), Reason> {
-        work.leaves(size(scene).iter().product())?;
+    fn measure(&mut self, scene: &Scene, work: &mut Work<'_>) -> Result<(Own, f64), StopReason> {
+        work.leaves(Size::of(scene).product())?;
         let nodes = self.reference.scene.mesh.nodes();
         let own = Own::run(scene, self.quantity, nodes, work)?;
         let error = own.error(&self.reference, work)?;
@@ -238,7 +248,7 @@ impl Search {
     /// What follows from a run with this error.
     fn after(&mut self, scene: &Scene, own: &Own, error: f64, work: &Work<'_>) -> Next {
         let Some(parts) = &mut self.parts else {
-            return Next::GiveUp(Reason::NotFinite);
+            return Next::GiveUp(StopReason::NotFinite);
         };
         if error <= self.target {
             return Next::Reached(Box::new(Choice {
@@ -257,15 +267,15 @@ impl Search {
             };
         }
         // A run that is clearly too expensive is not started.
-        let least: f64 = size(scene).iter().product();
+        let least = Size::of(scene).product();
         if let Err(reason) = work.leaves(0.5 * least * parts.growth(0.5 * self.target)) {
             return Next::GiveUp(reason);
         }
         Next::Refine(parts.halve_larger())
     }
 
-    fn not_reached(&self, reason: Reason) -> Unreachable {
-        let [space, time] = self.best.parts;
+    fn not_reached(&self, reason: StopReason) -> Unreachable {
+        let SpaceTime { space, time } = self.best.parts;
         Unreachable::NotReached {
             target: self.target,
             reached: self.best.error,
@@ -290,16 +300,42 @@ fn coarsest(scene: &Scene, target: f64) -> Option<Scene> {
             method: Method::OneStep(stepping),
             ..scene.clone()
         },
-        [ELEMENTS, steps],
+        Size {
+            elements: ELEMENTS,
+            steps,
+        },
     )
 }
 
-fn size(scene: &Scene) -> [f64; 2] {
-    [scene.mesh.elements() as f64, scene.steps() as f64]
+/// Numbers of elements and of steps, or factors of these.
+#[derive(Debug, Clone, Copy)]
+struct Size {
+    elements: f64,
+    steps: f64,
+}
+
+impl Size {
+    fn of(scene: &Scene) -> Self {
+        Self {
+            elements: scene.mesh.elements() as f64,
+            steps: scene.steps() as f64,
+        }
+    }
+
+    fn times(self, factors: Self) -> Self {
+        Self {
+            elements: factors.elements * self.elements,
+            steps: factors.steps * self.steps,
+        }
+    }
+
+    fn product(self) -> f64 {
+        self.elements * self.steps
+    }
 }
 
 /// The scene with at least these numbers of elements and steps; `None` if there is no such mesh.
-fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
+fn resized(scene: &Scene, Size { elements, steps }: Size) -> Option<Scene> {
     // A multiple of the listed elements keeps their nodes.
     let listed = scene.listed.len().saturating_sub(1).max(1);
     let mesh = resampled(
@@ -312,7 +348,7 @@ fn resized(scene: &Scene, [elements, steps]: [f64; 2]) -> Option<Scene> {
 
 /// A run by the scene's own scheme.
 struct Own {
-    rows: Rows,
+    rows: CurveRows,
     curves: Curves,
 }
 
@@ -321,11 +357,12 @@ impl Own {
     ///   coarse.
     fn run(
         scene: &Scene,
-        quantity: Quantity,
+        quantity: ErrorQuantity,
         nodes: &[f64],
         work: &mut Work<'_>,
-    ) -> Result<Self, Reason> {
-        let finer = resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(Reason::of_run)?;
+    ) -> Result<Self, StopReason> {
+        let finer =
+            resampled(&scene.mesh, 2 * scene.mesh.elements()).map_err(StopReason::of_run)?;
         let mut nodes = [finer.nodes(), nodes].concat();
         nodes.sort_by(f64::total_cmp);
         nodes.dedup();
@@ -335,12 +372,12 @@ impl Own {
     }
 
     /// Its error, including that of the reference.
-    fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, Reason> {
+    fn error(&self, reference: &Reference, work: &mut Work<'_>) -> Result<f64, StopReason> {
         Ok(self.apart(&self.other(&reference.scene, work)?) + reference.error(0))
     }
 
     /// Another run, read at the same times.
-    fn other(&self, scene: &Scene, work: &mut Work<'_>) -> Result<Curves, Reason> {
+    fn other(&self, scene: &Scene, work: &mut Work<'_>) -> Result<Curves, StopReason> {
         curves(scene, &self.rows, Some(&self.curves.own_times()), work)
     }
 
@@ -352,44 +389,59 @@ impl Own {
 /// The parts of space and time in the error of a one-step scheme.
 #[derive(Debug, Clone, Copy)]
 struct Parts {
-    errors: [f64; 2],
+    errors: SpaceTime<f64>,
     /// The orders in h and in dt at which they fall.
-    orders: [f64; 2],
+    orders: SpaceTime<f64>,
 }
 
 impl Parts {
     /// From two runs: one with twice the elements, one with dt/2.
-    fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, Reason> {
+    fn of(scene: &Scene, own: &Own, work: &mut Work<'_>) -> Result<Self, StopReason> {
         let [space, time] = Policy::default()
             .finer(scene)
             .map(|finer| own.other(&finer?, work));
         let (space, time) = (own.apart(&space?), own.apart(&time?));
-        let order = scene.one_step().map_err(Reason::of_run)?.scheme.order;
+        let order = scene.one_step().map_err(StopReason::of_run)?.scheme.order;
         // In the norm, the error of the mesh is orthogonal to that of a finer one, so squares add.
         let (p, left) = match own.rows {
-            Rows::Norm(_) => (1.0, 0.75_f64.sqrt()),
+            CurveRows::Norm(_) => (1.0, 0.75_f64.sqrt()),
             _ => (2.0, 0.75),
         };
         Ok(Self {
-            errors: [space / left, time / (1.0 - 0.5_f64.powf(order))],
-            orders: [p, order],
+            errors: SpaceTime {
+                space: space / left,
+                time: time / (1.0 - 0.5_f64.powf(order)),
+            },
+            orders: SpaceTime {
+                space: p,
+                time: order,
+            },
         })
     }
 
     /// Halves h or dt, whichever has the larger part: the factors of elements and steps. The part
     /// that remains follows from its order until it is measured again.
-    fn halve_larger(&mut self) -> [f64; 2] {
-        let larger = usize::from(self.errors[1] > self.errors[0]);
-        self.errors[larger] *= 0.5_f64.powf(self.orders[larger]);
-        let mut factors = [1.0; 2];
-        factors[larger] = 2.0;
-        factors
+    fn halve_larger(&mut self) -> Size {
+        let Self { errors, orders } = self;
+        if errors.time > errors.space {
+            errors.time *= 0.5_f64.powf(orders.time);
+            Size {
+                elements: 1.0,
+                steps: 2.0,
+            }
+        } else {
+            errors.space *= 0.5_f64.powf(orders.space);
+            Size {
+                elements: 2.0,
+                steps: 1.0,
+            }
+        }
     }
 
     /// By how much the product of elements and steps must grow until each part is at most `target`.
     fn growth(&self, target: f64) -> f64 {
         let mut growth = 1.0;
-        for (error, order) in self.errors.iter().zip(&self.orders) {
+        for (error, order) in self.errors.both().into_iter().zip(self.orders.both()) {
             growth *= (error / target).max(1.0).powf(order.recip());
         }
         growth

@@ -10,7 +10,7 @@ use convergence_judge::text::number::{max_or_nan, min_or_nan};
 use thermobeam::dg::Space;
 use thermobeam::motion::TipRange;
 
-use super::{Cost, Reason, Work};
+use super::{Cost, StopReason, Work};
 use crate::run::{ObservableMotion, Report, run};
 use crate::scene::{Method, Scene};
 
@@ -22,13 +22,13 @@ const MOST_KEPT: usize = 4_000_000;
 /// norm.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Wanted {
-    pub(super) rows: Rows,
+    pub(super) rows: CurveRows,
     pub(super) tolerance: [f64; 3],
 }
 
 /// The row of numbers read from a run at one time.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Rows {
+pub(super) enum CurveRows {
     /// u(1).
     Tip,
     /// u(1), φ(1) and the energy.
@@ -45,7 +45,7 @@ pub(super) struct NormPoint {
     root_weight: f64,
 }
 
-impl Rows {
+impl CurveRows {
     /// The points for the norm: `count` Gauss points in each element.
     pub(super) fn of_norm(nodes: &[f64], count: usize) -> Self {
         let gauss = Space::gauss(count);
@@ -127,7 +127,7 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    fn new(rows: &Rows, u_tip: TipRange) -> Self {
+    fn new(rows: &CurveRows, u_tip: TipRange) -> Self {
         Self {
             width: rows.width(),
             range: u_tip,
@@ -168,10 +168,10 @@ impl Curves {
 /// The scene is refused, a step fails, or the time limit or the work limit is reached.
 pub(super) fn curves(
     scene: &Scene,
-    rows: &Rows,
+    rows: &CurveRows,
     times: Option<&[f64]>,
     work: &mut Work<'_>,
-) -> Result<Curves, Reason> {
+) -> Result<Curves, StopReason> {
     let curves = match scene.method {
         Method::OneStep(_) => one_step::curves(scene, rows, times, work),
         Method::Dg(stepping) => any_order::curves(scene, stepping, rows, times, work),
@@ -184,8 +184,8 @@ pub(super) fn curves(
 fn run_within<M: ObservableMotion>(
     motion: &mut M,
     until: f64,
-    read: &mut dyn FnMut(&mut M) -> Result<(), Reason>,
-) -> Result<(), Reason> {
+    read: &mut dyn FnMut(&mut M) -> Result<(), StopReason>,
+) -> Result<(), StopReason> {
     let mut reason = None;
     let mut watch = |motion: &mut M, _: &Report| {
         reason = read(motion).err();
@@ -198,7 +198,7 @@ fn run_within<M: ObservableMotion>(
     let outcome = run(motion, until, &[], &mut [&mut watch]);
     match reason {
         Some(reason) => Err(reason),
-        None => outcome.map_err(Reason::of_run),
+        None => outcome.map_err(StopReason::of_run),
     }
 }
 
@@ -218,7 +218,7 @@ pub(super) struct Apart {
 impl Apart {
     /// Differences between `own` and `other`, read at the times of `own`; NaN if the curves do not
     /// match.
-    pub(super) fn of(rows: &Rows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
+    pub(super) fn of(rows: &CurveRows, own: &Curves, other: &Curves, tolerance: &[f64; 3]) -> Self {
         if own.values.len() != other.values.len() || own.values.is_empty() {
             return Self {
                 early: f64::NAN,

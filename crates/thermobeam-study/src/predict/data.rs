@@ -32,8 +32,8 @@
 use thermobeam::dg::{Dg, Field};
 use thermobeam::mesh::Mesh;
 
-use super::curves::{Rows, Wanted};
-use super::{Reason, Unreachable};
+use super::curves::{CurveRows, Wanted};
+use super::{StopReason, Unreachable};
 use crate::expression::Expression;
 use crate::scene::{Initial, Scene};
 
@@ -62,13 +62,13 @@ const STEEP: f64 = 8.0;
 const SHORTEST: f64 = 1e-7;
 
 /// A field that is not zero.
-struct Datum {
+struct NonzeroField {
     name: &'static str,
     field: Field,
     function: Expression,
 }
 
-impl Datum {
+impl NonzeroField {
     /// Whether errors of its slope count.
     fn counts_slope(&self) -> bool {
         matches!(self.field, Field::U | Field::Phi)
@@ -112,7 +112,7 @@ impl Datum {
 
 /// The differences on one element.
 #[derive(Clone)]
-struct Element {
+struct ElementDifferences {
     from: f64,
     to: f64,
     /// The integral of each field's difference, or of its square.
@@ -123,7 +123,7 @@ struct Element {
 
 /// The initial data of a scene.
 pub(super) struct Data {
-    fields: Vec<Datum>,
+    fields: Vec<NonzeroField>,
     theta_a: f64,
     /// Nodes of the scene.
     nodes: Vec<f64>,
@@ -149,10 +149,10 @@ impl Data {
             ("phi_t", Field::W, phi_t),
             ("theta", Field::Theta, theta),
         ];
-        let fields: Vec<Datum> = fields
+        let fields: Vec<NonzeroField> = fields
             .into_iter()
             .filter_map(|(name, field, function)| {
-                Some(Datum {
+                Some(NonzeroField {
                     name,
                     field,
                     function: function.clone()?,
@@ -212,7 +212,7 @@ impl Data {
             nodes.push(1.0);
             scene = on(&scene, nodes, wanted)?;
         }
-        if let Rows::Norm(_) = wanted.rows {
+        if let CurveRows::Norm(_) = wanted.rows {
             self.refuse_jumps(&elements, wanted.tolerance[0])?;
         }
         let is_finer = scene.mesh.elements() > first;
@@ -229,7 +229,11 @@ impl Data {
     /// Refuses u_t, φ_t and θ that jump, for the norm: in the first steps the front of a jump J
     /// leaves an error of about J (ζ dt)^¼ in it. That falls so slowly that the difference to
     /// shorter steps is a third of the error.
-    fn refuse_jumps(&self, elements: &[Element], allowed: f64) -> Result<(), Unreachable> {
+    fn refuse_jumps(
+        &self,
+        elements: &[ElementDifferences],
+        allowed: f64,
+    ) -> Result<(), Unreachable> {
         for (k, datum) in self
             .fields
             .iter()
@@ -255,11 +259,11 @@ impl Data {
     fn compare(
         &self,
         scene: &Scene,
-        before: &[Element],
+        before: &[ElementDifferences],
         wanted: &Wanted,
-    ) -> Result<Vec<Element>, Unreachable> {
+    ) -> Result<Vec<ElementDifferences>, Unreachable> {
         let simulation = Dg::new(scene.dg_problem(), scene.dg_stepping()).map_err(|error| {
-            Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
+            Unreachable::without_comparison(wanted.tolerance[0], StopReason::of_run(error))
         })?;
         let mut before = before.iter().peekable();
         let mut elements = vec![];
@@ -273,7 +277,7 @@ impl Data {
                 None => self.element(
                     &simulation,
                     [x[0], x[1]],
-                    matches!(wanted.rows, Rows::Norm(_)),
+                    matches!(wanted.rows, CurveRows::Norm(_)),
                 ),
             });
         }
@@ -281,7 +285,12 @@ impl Data {
     }
 
     /// The differences on one element.
-    fn element(&self, simulation: &Dg, [from, to]: [f64; 2], is_squared: bool) -> Element {
+    fn element(
+        &self,
+        simulation: &Dg,
+        [from, to]: [f64; 2],
+        is_squared: bool,
+    ) -> ElementDifferences {
         let (space, level) = (simulation.space(), simulation.level());
         let (mut integrals, mut largest) = (
             vec![0.0; self.fields.len()],
@@ -325,7 +334,7 @@ impl Data {
             }
             left = right;
         }
-        Element {
+        ElementDifferences {
             from,
             to,
             integrals,
@@ -336,7 +345,7 @@ impl Data {
     /// Which elements to halve; `None` if every field is resolved.
     fn coarse(
         &self,
-        elements: &[Element],
+        elements: &[ElementDifferences],
         wanted: &Wanted,
     ) -> Result<Option<Vec<bool>>, Unreachable> {
         let mut coarse = vec![false; elements.len()];
@@ -350,13 +359,13 @@ impl Data {
                 .map(|element| element.largest[k])
                 .fold(0.0, f64::max);
             let wanted = match rows {
-                Rows::Numbers => u.min(*phi).min(energy / largest),
-                Rows::Tip | Rows::Norm(_) => *u,
+                CurveRows::Numbers => u.min(*phi).min(energy / largest),
+                CurveRows::Tip | CurveRows::Norm(_) => *u,
             };
             let allowed = (SHARE * wanted).max(ROUNDING * largest);
             let sum: f64 = elements.iter().map(|element| element.integrals[k]).sum();
             let [error, share] = match rows {
-                Rows::Norm(_) => [sum.sqrt(), allowed * allowed],
+                CurveRows::Norm(_) => [sum.sqrt(), allowed * allowed],
                 _ => [sum, allowed],
             };
             if error <= allowed {
@@ -368,7 +377,7 @@ impl Data {
                     continue;
                 }
                 *is_coarse = true;
-                let Element { from, to, .. } = *element;
+                let ElementDifferences { from, to, .. } = *element;
                 if to - from < 2.0 * SHORTEST || elements.len() >= MOST_ELEMENTS {
                     return Err(Unreachable::Unresolved {
                         field: datum.name,
@@ -386,7 +395,7 @@ impl Data {
 /// The scene on a mesh with these nodes.
 fn on(scene: &Scene, nodes: Vec<f64>, wanted: &Wanted) -> Result<Scene, Unreachable> {
     let mesh = Mesh::from_nodes(nodes).map_err(|error| {
-        Unreachable::without_comparison(wanted.tolerance[0], Reason::of_run(error))
+        Unreachable::without_comparison(wanted.tolerance[0], StopReason::of_run(error))
     })?;
     Ok(Scene {
         mesh,

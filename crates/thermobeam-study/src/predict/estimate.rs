@@ -10,12 +10,12 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::curves::{Curves, Rows, Wanted, curves};
+use super::curves::{CurveRows, Curves, Wanted, curves};
 use super::data::Data;
 use super::first::first;
 use super::policy::Policy;
 use super::reference::{Reference, reference};
-use super::{Reason, Unreachable, Work};
+use super::{StopReason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::Scene;
 
@@ -51,7 +51,7 @@ pub enum Source {
 /// The kind of quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum QuantityKind {
     /// A curve: the largest error over time; for dG also inside steps, for a one-step scheme at its
     /// time levels.
     Curve,
@@ -69,7 +69,7 @@ pub struct Estimate {
     /// Name of the quantity.
     pub name: &'static str,
     /// A number or a curve.
-    pub kind: Kind,
+    pub kind: QuantityKind,
     /// The number itself, or the largest absolute value of a curve.
     pub value: f64,
     /// The error: the difference to the reference, plus the reference's own error.
@@ -96,43 +96,43 @@ pub struct Budget {
 /// A number or curve whose error is estimated.
 struct Observable {
     name: &'static str,
-    kind: Kind,
+    kind: QuantityKind,
     /// The curve that it is, or belongs to.
     curve: usize,
 }
 
 impl Observable {
     const ALL: [Self; 8] = [
-        Self::new("u(1) at the end", Kind::End, 0),
-        Self::new("largest u(1)", Kind::Largest, 0),
-        Self::new("smallest u(1)", Kind::Smallest, 0),
-        Self::new("u(1) over time", Kind::Curve, 0),
-        Self::new("phi(1) at the end", Kind::End, 1),
-        Self::new("phi(1) over time", Kind::Curve, 1),
-        Self::new("energy at the end", Kind::End, 2),
-        Self::new("energy over time", Kind::Curve, 2),
+        Self::new("u(1) at the end", QuantityKind::End, 0),
+        Self::new("largest u(1)", QuantityKind::Largest, 0),
+        Self::new("smallest u(1)", QuantityKind::Smallest, 0),
+        Self::new("u(1) over time", QuantityKind::Curve, 0),
+        Self::new("phi(1) at the end", QuantityKind::End, 1),
+        Self::new("phi(1) over time", QuantityKind::Curve, 1),
+        Self::new("energy at the end", QuantityKind::End, 2),
+        Self::new("energy over time", QuantityKind::Curve, 2),
     ];
 
-    const fn new(name: &'static str, kind: Kind, curve: usize) -> Self {
+    const fn new(name: &'static str, kind: QuantityKind, curve: usize) -> Self {
         Self { name, kind, curve }
     }
 
     /// Compares a run with the reference.
-    fn compare(&self, own: &Curves, exact: &Curves) -> Comparison {
+    fn compare(&self, own: &Curves, exact: &Curves) -> ReferenceDifference {
         let curve = own.column(self.curve);
         let truth = exact.column(self.curve);
         let (value, truth) = match self.kind {
-            Kind::Curve => {
-                return Comparison {
+            QuantityKind::Curve => {
+                return ReferenceDifference {
                     value: largest(&curve),
                     difference: distance_of_curves(&curve, &truth),
                 };
             }
-            Kind::Largest => (own.range.high, exact.range.high),
-            Kind::Smallest => (own.range.low, exact.range.low),
-            Kind::End => (last(&curve), last(&truth)),
+            QuantityKind::Largest => (own.range.high, exact.range.high),
+            QuantityKind::Smallest => (own.range.low, exact.range.low),
+            QuantityKind::End => (last(&curve), last(&truth)),
         };
-        Comparison {
+        ReferenceDifference {
             value,
             difference: (value - truth).abs(),
         }
@@ -140,7 +140,7 @@ impl Observable {
 }
 
 /// The value of a number or curve, and its difference to the reference.
-struct Comparison {
+struct ReferenceDifference {
     value: f64,
     difference: f64,
 }
@@ -151,16 +151,16 @@ struct Comparison {
 /// [`Unreachable`]: the scene's own run fails, no reference is accurate enough, or a finer run
 /// contradicts it.
 pub fn estimate(scene: &Scene, work: &mut Work<'_>) -> Result<Budget, Unreachable> {
-    let own = curves(scene, &Rows::Numbers, None, work).map_err(Unreachable::Own)?;
+    let own = curves(scene, &CurveRows::Numbers, None, work).map_err(Unreachable::Own)?;
     let times = own.own_times();
     let Truth { reference, exact } = against(scene, &own, &times, work)?;
     let finer = Policy::default()
         .finer(scene)
-        .map(|finer| curves(&finer?, &Rows::Numbers, Some(&times), work));
+        .map(|finer| curves(&finer?, &CurveRows::Numbers, Some(&times), work));
     let mut quantities = vec![];
     for observable in Observable::ALL {
-        let Comparison { value, difference } = observable.compare(&own, &exact);
-        let error = if observable.kind == Kind::End {
+        let ReferenceDifference { value, difference } = observable.compare(&own, &exact);
+        let error = if observable.kind == QuantityKind::End {
             reference.end * largest(&exact.column(observable.curve))
         } else {
             reference.error(observable.curve)
@@ -213,7 +213,7 @@ fn against(
 ) -> Result<Truth, Unreachable> {
     let scales = scales(scene, own, times, work)?;
     let mut wanted = Wanted {
-        rows: Rows::Numbers,
+        rows: CurveRows::Numbers,
         tolerance: scales.map(|scale| ROUGH * scale),
     };
     let policy = Policy::default();
@@ -222,7 +222,7 @@ fn against(
     for _ in 0..ROUNDS {
         let start = last.as_ref().map(|(truth, _)| &truth.reference.scene);
         let outcome = reference(scene, start, &wanted, &policy, work).and_then(|reference| {
-            let exact = curves(&reference.scene, &Rows::Numbers, Some(times), work)
+            let exact = curves(&reference.scene, &CurveRows::Numbers, Some(times), work)
                 .map_err(|reason| Unreachable::without_comparison(wanted.tolerance[0], reason))?;
             Ok(Truth { reference, exact })
         });
@@ -247,7 +247,7 @@ fn against(
     }
     Err(Unreachable::without_comparison(
         wanted.tolerance[0],
-        Reason::Rounds,
+        StopReason::Rounds,
     ))
 }
 
@@ -261,7 +261,7 @@ fn scales(
 ) -> Result<[f64; 3], Unreachable> {
     let own_scales = largest_values(own);
     let wanted = Wanted {
-        rows: Rows::Numbers,
+        rows: CurveRows::Numbers,
         tolerance: [ROUGH; 3],
     };
     let data = Data::of(scene);
@@ -269,7 +269,7 @@ fn scales(
     if !is_narrow {
         return Ok(own_scales);
     }
-    let rough = curves(&first, &Rows::Numbers, Some(times), work)
+    let rough = curves(&first, &CurveRows::Numbers, Some(times), work)
         .map_err(|reason| Unreachable::without_comparison(ROUGH, reason))?;
     let rough_scales = largest_values(&rough);
     Ok(std::array::from_fn(|k| own_scales[k].max(rough_scales[k])))
@@ -320,7 +320,7 @@ fn contradiction(quantities: &[Estimate]) -> Option<Unreachable> {
 fn curves_among(quantities: &[Estimate]) -> impl Iterator<Item = &Estimate> {
     quantities
         .iter()
-        .filter(|estimate| estimate.kind == Kind::Curve)
+        .filter(|estimate| estimate.kind == QuantityKind::Curve)
 }
 
 /// The part of the curves' errors that a refinement removes, on average; `finer` gives the error
@@ -403,21 +403,24 @@ mod tests {
             finer_steps,
         };
         let refused = |of| contradiction(&[of]).map(|error| error.to_string());
-        assert_eq!(refused(of(Kind::Curve, Some(4.2e-4), Some(4.2e-4))), None);
-        assert_eq!(refused(of(Kind::Curve, None, None)), None);
+        assert_eq!(
+            refused(of(QuantityKind::Curve, Some(4.2e-4), Some(4.2e-4))),
+            None
+        );
+        assert_eq!(refused(of(QuantityKind::Curve, None, None)), None);
         // A single number may have a small error by chance.
-        assert_eq!(refused(of(Kind::End, Some(0.79), None)), None);
+        assert_eq!(refused(of(QuantityKind::End, Some(0.79), None)), None);
         for (finer_space, finer_steps, words) in [
             (Some(0.79), None, "a finer space"),
             (None, Some(0.79), "finer steps"),
         ] {
-            let message =
-                refused(of(Kind::Curve, finer_space, finer_steps)).expect("a contradiction");
+            let message = refused(of(QuantityKind::Curve, finer_space, finer_steps))
+                .expect("a contradiction");
             assert!(
                 message.contains("4.3e-5") && message.contains("7.9e-1") && message.contains(words),
                 "{message}"
             );
         }
-        assert!(refused(of(Kind::Curve, Some(f64::NAN), None)).is_some());
+        assert!(refused(of(QuantityKind::Curve, Some(f64::NAN), None)).is_some());
     }
 }

@@ -75,19 +75,19 @@ impl<'a> Work<'a> {
         self.spent
     }
 
-    fn add(&mut self, work: f64) -> Result<(), Reason> {
+    fn add(&mut self, work: f64) -> Result<(), StopReason> {
         self.done += work;
         (self.progress)(self.done / self.limit);
         self.leaves(0.0)
     }
 
     /// Refuses a run that needs more work than is left.
-    fn leaves(&self, work: f64) -> Result<(), Reason> {
+    fn leaves(&self, work: f64) -> Result<(), StopReason> {
         let Self { limit, done, .. } = *self;
         if done + work <= limit {
             Ok(())
         } else {
-            Err(Reason::Work { limit })
+            Err(StopReason::Work { limit })
         }
     }
 
@@ -98,7 +98,7 @@ impl<'a> Work<'a> {
 
 /// The reason why a search stops.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum Reason {
+pub enum StopReason {
     /// Finer elements are not possible.
     #[error("the elements are as fine as they get")]
     Finest,
@@ -122,7 +122,7 @@ pub enum Reason {
     Run(String),
 }
 
-impl Reason {
+impl StopReason {
     fn of_run(failure: impl ToString) -> Self {
         Self::Run(failure.to_string())
     }
@@ -139,7 +139,7 @@ pub enum Unreachable {
     },
     /// The scene's own run did not finish.
     #[error("the scene itself: {0}")]
-    Own(Reason),
+    Own(StopReason),
     /// Refinement stopped.
     #[error("an error of {target:.3e} was not reached: {reason}{}", reachable(*reached, *space, *time))]
     NotReached {
@@ -152,7 +152,7 @@ pub enum Unreachable {
         /// The part of time in it.
         time: f64,
         /// The reason for stopping.
-        reason: Reason,
+        reason: StopReason,
     },
     /// No mesh of a search resolves the initial data.
     #[error(
@@ -188,7 +188,7 @@ pub enum Unreachable {
 
 impl Unreachable {
     /// The result if no comparison was made.
-    fn without_comparison(target: f64, reason: Reason) -> Self {
+    fn without_comparison(target: f64, reason: StopReason) -> Self {
         Self::NotReached {
             target,
             reached: f64::INFINITY,

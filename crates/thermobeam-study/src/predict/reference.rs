@@ -30,12 +30,12 @@
 
 use thermobeam::dg::DgStepping;
 
-use super::curves::{Apart, Curves, Rows, Wanted, curves};
+use super::curves::{Apart, CurveRows, Curves, Wanted, curves};
 use super::data::Data;
 use super::first::first;
 use super::policy::Policy;
 use super::refine::elements_and_degree;
-use super::{Cost, Reason, Unreachable, Work};
+use super::{Cost, StopReason, Unreachable, Work};
 use crate::error::reference::distance_of_curves;
 use crate::scene::{Method, Scene};
 
@@ -89,7 +89,7 @@ pub(super) fn reference(
         .cloned()
         .unwrap_or_else(|| first(scene, wanted, &data.kept));
     let (first, _) = data.resolve(first, wanted)?;
-    let mut search = Search {
+    let mut search = ReferenceSearch {
         wanted,
         policy,
         data,
@@ -124,7 +124,7 @@ struct Compared {
 }
 
 /// The state of a search for a discretisation.
-struct Search<'s, 'w> {
+struct ReferenceSearch<'s, 'w> {
     wanted: &'s Wanted,
     policy: &'s Policy,
     data: Data,
@@ -135,13 +135,13 @@ struct Search<'s, 'w> {
     best: [f64; 2],
 }
 
-impl Search<'_, '_> {
+impl ReferenceSearch<'_, '_> {
     /// Refines for the first two steps only, which cost little: the start often needs the shortest
     /// steps of all.
     ///
     /// # Errors
-    /// [`Reason`]: a run fails, or refinement ends before the differences are small enough.
-    fn begin(&mut self, first: &Scene) -> Result<Scene, Reason> {
+    /// [`StopReason`]: a run fails, or refinement ends before the differences are small enough.
+    fn begin(&mut self, first: &Scene) -> Result<Scene, StopReason> {
         let mut scene = first.clone();
         for _ in 0..self.policy.rounds {
             let DgStepping { dt, restart_dt, .. } = scene.dg_stepping();
@@ -164,11 +164,11 @@ impl Search<'_, '_> {
             }
             scene = self.refined(&scene, &space, &time)?;
         }
-        Err(Reason::Rounds)
+        Err(StopReason::Rounds)
     }
 
     /// Refines a discretisation until both differences are small enough.
-    fn refine(&mut self, mut scene: Scene) -> Result<Reference, Reason> {
+    fn refine(&mut self, mut scene: Scene) -> Result<Reference, StopReason> {
         for _ in 0..self.policy.rounds {
             let rows = self.wanted.rows.on(&scene);
             let base = self.run(&scene, &rows, None)?;
@@ -180,7 +180,7 @@ impl Search<'_, '_> {
             self.judge(space.most(), time.most())?;
             scene = self.refined(&scene, space, time)?;
         }
-        Err(Reason::Rounds)
+        Err(StopReason::Rounds)
     }
 
     /// Whether both differences have at most their share of the target.
@@ -189,10 +189,10 @@ impl Search<'_, '_> {
     }
 
     /// The next discretisation.
-    fn refined(&self, scene: &Scene, space: &Apart, time: &Apart) -> Result<Scene, Reason> {
+    fn refined(&self, scene: &Scene, space: &Apart, time: &Apart) -> Result<Scene, StopReason> {
         self.policy
             .refined(scene, space, time, &self.data.kinks)
-            .ok_or(Reason::Finest)
+            .ok_or(StopReason::Finest)
     }
 
     /// The result of a search that ends with this scene.
@@ -207,7 +207,7 @@ impl Search<'_, '_> {
             end: 0.0,
             run: base.cost,
         };
-        if !matches!(self.wanted.rows, Rows::Norm(_)) {
+        if !matches!(self.wanted.rows, CurveRows::Norm(_)) {
             for k in 0..base.width {
                 let [own, finer, shorter] =
                     [base, &compared.finer, &compared.shorter].map(|run| run.column(k));
@@ -223,7 +223,12 @@ impl Search<'_, '_> {
     }
 
     /// The two comparisons of a scene; `base` is its run.
-    fn compare(&mut self, scene: &Scene, rows: &Rows, base: &Curves) -> Result<Compared, Reason> {
+    fn compare(
+        &mut self,
+        scene: &Scene,
+        rows: &CurveRows,
+        base: &Curves,
+    ) -> Result<Compared, StopReason> {
         let times = base.own_times();
         let [finer, shorter] = self.policy.finer(scene);
         let finer = self.run(&finer?, rows, Some(&times))?;
@@ -239,7 +244,12 @@ impl Search<'_, '_> {
     }
 
     /// Runs a scene; `times` are those of the run that it is compared with.
-    fn run(&mut self, scene: &Scene, rows: &Rows, times: Option<&[f64]>) -> Result<Curves, Reason> {
+    fn run(
+        &mut self,
+        scene: &Scene,
+        rows: &CurveRows,
+        times: Option<&[f64]>,
+    ) -> Result<Curves, StopReason> {
         // A run has at most four times the steps of its predecessor; higher degrees cost more on
         // top.
         self.work.leaves(2.0 * self.last)?;
@@ -249,7 +259,7 @@ impl Search<'_, '_> {
     }
 
     /// Records the result of a round; stops if refinement has reached round-off.
-    fn judge(&mut self, space: f64, time: f64) -> Result<(), Reason> {
+    fn judge(&mut self, space: f64, time: f64) -> Result<(), StopReason> {
         let [best_space, best_time] = self.best;
         let sum = space + time;
         let stalled = !(sum <= self.policy.stalled * (best_space + best_time));
@@ -257,10 +267,10 @@ impl Search<'_, '_> {
             self.best = [space, time];
         }
         if !sum.is_finite() {
-            return Err(Reason::NotFinite);
+            return Err(StopReason::NotFinite);
         }
         if stalled && sum * self.wanted.tolerance[0] <= self.policy.round_off {
-            Err(Reason::RoundOff)
+            Err(StopReason::RoundOff)
         } else {
             Ok(())
         }
@@ -276,7 +286,7 @@ mod tests {
         let text = "[initial]\nu_t = \"x\"\n[time]\nscheme = \"dg\"\nt_end = 0.2";
         let scene = Scene::parse(text, "swing.toml").expect("a scene");
         let wanted = Wanted {
-            rows: Rows::Tip,
+            rows: CurveRows::Tip,
             tolerance: [1e-5; 3],
         };
         let mut no_progress = |_: f64| ();

@@ -3,7 +3,7 @@
 use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::mesh::Mesh;
 
-use super::Reason;
+use super::StopReason;
 use super::curves::Apart;
 use super::data::{GRADING, MOST_ELEMENTS};
 use super::policy::Policy;
@@ -45,11 +45,11 @@ impl Policy {
     /// For dG: p + 4 or the longest elements halved, and all steps halved, with even shorter first
     /// steps, since the error there falls more slowly. For a one-step scheme: twice the elements,
     /// and dt/2.
-    pub(super) fn finer(&self, scene: &Scene) -> [Result<Scene, Reason>; 2] {
+    pub(super) fn finer(&self, scene: &Scene) -> [Result<Scene, StopReason>; 2] {
         let Method::Dg(stepping) = scene.method else {
             let (elements, steps) = (scene.mesh.elements(), scene.steps());
             return [(2 * elements, steps), (elements, 2 * steps)].map(|(elements, steps)| {
-                let mesh = resampled(&scene.mesh, elements).map_err(Reason::of_run)?;
+                let mesh = resampled(&scene.mesh, elements).map_err(StopReason::of_run)?;
                 Ok(scene.with_steps(mesh, steps, scene.t_end))
             });
         };
@@ -68,7 +68,7 @@ impl Policy {
             ..half
         });
         [
-            space.ok_or(Reason::Finest),
+            space.ok_or(StopReason::Finest),
             Ok(Scene {
                 method,
                 ..scene.clone()

@@ -3,8 +3,8 @@
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its
 //! loads, or a free vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step.
-//! The caller steps the [`ObservableMotion`], so that several can proceed together and be compared at common
-//! times. Its cost is counted: [`Spent`].
+//! The caller steps the [`ObservableMotion`], so that several can proceed together and be compared
+//! at common times. Its cost is counted: [`Spent`].
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::exact::sources::{Nodal, Sources};
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
-use crate::run::{ObservableMotion, Work};
+use crate::run::{MotionProgress, ObservableMotion};
 use crate::scene::{Coefficients, Scene, resampled};
 use convergence_study::CaseFailure;
 use thermobeam::dg::DgStepping;
@@ -38,7 +38,7 @@ impl Spent {
     /// The cost of a motion by a one-step scheme so far.
     pub(crate) fn of(motion: &impl ObservableMotion, elements: usize) -> Self {
         let elements = elements as f64;
-        let Work { steps, solves, .. } = motion.work();
+        let MotionProgress { steps, solves, .. } = motion.work();
         Self {
             node_steps: elements * steps as f64,
             node_solves: elements * (solves.passes + solves.factorizations) as f64,

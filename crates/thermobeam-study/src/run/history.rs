@@ -12,7 +12,7 @@ const FRAMES: usize = 440;
 
 /// A row of the history.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct HistoryRow {
     /// The state.
     pub sample: Sample,
     /// The terms of the energy's balance, summed over the steps since the previous row; zeros at
@@ -35,7 +35,7 @@ pub struct Frames {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunHistory {
     /// The rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<HistoryRow>,
     /// The displacement; empty without pictures.
     pub frames: Frames,
     t_end: f64,
@@ -53,7 +53,7 @@ impl RunHistory {
         parts: Option<usize>,
         first: Sample,
     ) -> Self {
-        let rows = vec![Row {
+        let rows = vec![HistoryRow {
             sample: first,
             balance: Balance::default(),
         }];
@@ -86,7 +86,7 @@ impl RunHistory {
     }
 
     fn push_row(&mut self, sample: Sample) {
-        self.rows.push(Row {
+        self.rows.push(HistoryRow {
             sample,
             balance: std::mem::take(&mut self.since_row),
         });
@@ -116,7 +116,7 @@ impl RunHistory {
             "t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy,\
              energy_change,viscous,thermal,inertial,contact_gap,residual\n",
         );
-        for Row {
+        for HistoryRow {
             sample: s,
             balance: d,
         } in &self.rows
@@ -148,7 +148,7 @@ impl RunHistory {
     pub(super) fn contact_phases(&self) -> Vec<(f64, f64)> {
         let mut phases: Vec<(f64, f64)> = Vec::new();
         let mut touching = false;
-        for Row { sample, .. } in &self.rows {
+        for HistoryRow { sample, .. } in &self.rows {
             match (sample.contact_force != 0.0, phases.last_mut()) {
                 (true, Some(phase)) if touching => phase.1 = sample.t,
                 (true, _) => phases.push((sample.t, sample.t)),

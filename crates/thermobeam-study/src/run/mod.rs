@@ -195,7 +195,7 @@ const BALANCE: &str = "a balance of the energy";
 
 /// Where a motion stands, and counts of the work done so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Work {
+pub struct MotionProgress {
     /// The current time.
     pub t: f64,
     /// Steps done.
@@ -250,9 +250,9 @@ pub trait ObservableMotion {
     fn wall(&self) -> Duration;
 
     /// Where it stands, and the work so far.
-    fn work(&self) -> Work {
+    fn work(&self) -> MotionProgress {
         let motion = self.motion();
-        Work {
+        MotionProgress {
             t: motion.t(),
             steps: motion.steps(),
             solves: motion.work().into(),
@@ -338,7 +338,7 @@ pub fn run<M: ObservableMotion + ?Sized>(
             is_ended |= watch.see(motion, &report)?.is_break();
         }
         if let Some(unsound) = report.unsound {
-            let Work { t, steps, .. } = motion.work();
+            let MotionProgress { t, steps, .. } = motion.work();
             return Err(RunError::unsound(steps, t, report.dt, unsound));
         }
         if is_ended {

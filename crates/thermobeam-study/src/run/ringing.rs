@@ -49,8 +49,8 @@ fn ringing(scene: &Scene, run: &Run) -> Option<String> {
 
 /// σ = dt/(2 ε R): the step resolves the contact for σ <= 1.
 ///
-/// R is the resistance of the free end to a velocity during a step: the force for velocity 1, by the
-/// matrix (2/dt) M + (ζ + dt/2) K of the first equation of (3.7) without the other fields.
+/// R is the resistance of the free end to a velocity during a step: the force for velocity 1, by
+/// the matrix (2/dt) M + (ζ + dt/2) K of the first equation of (3.7) without the other fields.
 fn resolution(scene: &Scene, obstacles: Obstacles, dt: f64) -> f64 {
     let mut matrix = mass(&scene.mesh);
     let stiff = stiffness(&scene.mesh);

@@ -32,7 +32,7 @@ use super::dg::DgMotion;
 use super::driver::Driver;
 use super::history::RunHistory;
 pub use super::tally::{Contact, Run};
-use super::{AnyMotion, Report, RunError, Watch, Work, run};
+use super::{AnyMotion, MotionProgress, Report, RunError, Watch, run};
 use crate::expression::Expression;
 use crate::scene::{Initial, Method, Scene};
 
@@ -127,7 +127,7 @@ impl Simulator {
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
         let mut watch = |motion: &mut AnyMotion, _: &Report| {
-            let Work { t, steps, .. } = motion.work();
+            let MotionProgress { t, steps, .. } = motion.work();
             progress(steps, t);
             Ok(ControlFlow::Continue(()))
         };
@@ -179,7 +179,7 @@ impl Simulator {
         }
         .err();
         let last = motion.sample();
-        let Work { solves, wall, .. } = motion.work();
+        let MotionProgress { solves, wall, .. } = motion.work();
         let end = motion.snapshot();
         if let Some(history) = &mut history {
             history.finish(&end, last);

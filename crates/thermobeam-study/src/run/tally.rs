@@ -12,7 +12,7 @@ use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
 use super::snapshot::EnergySize;
-use super::{AnyMotion, Report, RunError, Sample, Solves, Unsound, Watch, Work};
+use super::{AnyMotion, MotionProgress, Report, RunError, Sample, Solves, Unsound, Watch};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -316,7 +316,7 @@ impl Watch for Run {
         match outcome {
             Ok(()) => Ok(ControlFlow::Continue(())),
             Err(unsound) => {
-                let Work { t, steps, .. } = motion.work();
+                let MotionProgress { t, steps, .. } = motion.work();
                 Err(RunError::unsound(steps, t, report.dt, unsound))
             }
         }

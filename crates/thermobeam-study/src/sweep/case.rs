@@ -10,7 +10,7 @@ use convergence_study::internal::store::content_hash;
 
 /// A numeric key of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Key {
+pub struct SceneKey {
     /// The table, such as `beam`.
     pub table: &'static str,
     /// The key in it, such as `beta`.
@@ -19,8 +19,8 @@ pub struct Key {
     pub is_whole: bool,
 }
 
-const fn key(table: &'static str, name: &'static str, is_whole: bool) -> Key {
-    Key {
+const fn key(table: &'static str, name: &'static str, is_whole: bool) -> SceneKey {
+    SceneKey {
         table,
         name,
         is_whole,
@@ -28,7 +28,7 @@ const fn key(table: &'static str, name: &'static str, is_whole: bool) -> Key {
 }
 
 /// All keys, in the order in which a case lists them.
-pub(super) const KEYS: [Key; 17] = [
+pub(super) const KEYS: [SceneKey; 17] = [
     key("beam", "zeta", false),
     key("beam", "a", false),
     key("beam", "rho", false),
@@ -51,7 +51,7 @@ pub(super) const KEYS: [Key; 17] = [
 /// The tables that have numeric keys.
 pub(super) const TABLES: [&str; 4] = ["beam", "obstacles", "mesh", "time"];
 
-impl Key {
+impl SceneKey {
     /// The dotted name, such as `beam.beta`.
     pub fn path(self) -> String {
         format!("{}.{}", self.table, self.name)
@@ -77,12 +77,12 @@ impl Key {
 pub struct SweepCase<'s> {
     /// Its number, from 0.
     pub index: usize,
-    keys: &'s [Key],
+    keys: &'s [SceneKey],
     values: Vec<f64>,
 }
 
 impl<'s> SweepCase<'s> {
-    pub(super) fn new(index: usize, keys: &'s [Key], values: Vec<f64>) -> Self {
+    pub(super) fn new(index: usize, keys: &'s [SceneKey], values: Vec<f64>) -> Self {
         Self {
             index,
             keys,
@@ -91,7 +91,7 @@ impl<'s> SweepCase<'s> {
     }
 
     /// The varied keys, each with this case's value.
-    pub fn parameters(&self) -> impl Iterator<Item = (Key, f64)> + '_ {
+    pub fn parameters(&self) -> impl Iterator<Item = (SceneKey, f64)> + '_ {
         self.keys.iter().copied().zip(self.values.iter().copied())
     }
 
@@ -126,26 +126,26 @@ impl Serialize for SweepCase<'_> {
 
 /// Share k of n, k from 1 to n; 1/1 is the whole sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Share {
+pub struct SweepShare {
     number: u64,
     count: u64,
 }
 
-impl Share {
+impl SweepShare {
     /// The whole sweep.
     pub const ALL: Self = Self {
         number: 1,
         count: 1,
     };
 
-    /// Whether it holds a case with this [`content_hash`](convergence_study::internal::store::content_hash):
-    /// exactly one share does.
+    /// Whether it holds a case with this
+    /// [`content_hash`](convergence_study::internal::store::content_hash): exactly one share does.
     pub fn holds(self, hash: u64) -> bool {
         hash % self.count == self.number - 1
     }
 }
 
-impl FromStr for Share {
+impl FromStr for SweepShare {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -160,7 +160,7 @@ impl FromStr for Share {
     }
 }
 
-impl fmt::Display for Share {
+impl fmt::Display for SweepShare {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.number, self.count)
     }
@@ -200,10 +200,10 @@ mod tests {
     #[test]
     fn a_share_is_written_as_it_is_read_and_nonsense_is_refused() {
         for text in ["1/1", "3/8", "8/8"] {
-            assert_eq!(text.parse::<Share>().unwrap().to_string(), text);
+            assert_eq!(text.parse::<SweepShare>().unwrap().to_string(), text);
         }
         for text in ["", "1", "0/8", "9/8", "1/0", "-1/8", "a/b", "1/2/3"] {
-            assert!(text.parse::<Share>().is_err(), "{text}");
+            assert!(text.parse::<SweepShare>().is_err(), "{text}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The values of each key in the sweep file, and their combination into cases.
 
-use super::{Key, MOST_CASES};
+use super::{MOST_CASES, SceneKey};
 use crate::scene::limits::SWEEP_VALUES;
 use convergence_judge::judge::random::SplitMix;
 use convergence_study::{Field, InputError, internal::store::content_hash};
@@ -33,7 +33,7 @@ impl Design {
     }
 
     /// The values of case `index`, one for each key.
-    pub(super) fn values(&self, index: usize, keys: &[Key]) -> Vec<f64> {
+    pub(super) fn values(&self, index: usize, keys: &[SceneKey]) -> Vec<f64> {
         match self {
             Self::Grid(values) => {
                 let (mut rest, mut chosen) = (index, vec![0.0; values.len()]);
@@ -55,7 +55,7 @@ impl Design {
 }
 
 /// Rounds a drawn dt, or t_end if only t_end varies, so that dt divides t_end.
-fn with_whole_steps(mut values: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64)) -> Vec<f64> {
+fn with_whole_steps(mut values: Vec<f64>, keys: &[SceneKey], (dt, t_end): (f64, f64)) -> Vec<f64> {
     let dt_place = keys.iter().position(|key| key.is("time", "dt"));
     let t_end_place = keys.iter().position(|key| key.is("time", "t_end"));
     match (dt_place, t_end_place) {
@@ -73,7 +73,7 @@ fn with_whole_steps(mut values: Vec<f64>, keys: &[Key], (dt, t_end): (f64, f64))
 ///
 /// The order depends only on the seed and the key: a new key does not change the numbers of the
 /// others.
-pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
+pub(super) fn stratified(samples: usize, seed: u64, key: SceneKey) -> Vec<f64> {
     let mut random =
         SplitMix::new(SplitMix::new(seed).next_u64() ^ content_hash(key.path().as_bytes()));
     let mut slices: Vec<usize> = (0..samples).collect();
@@ -88,14 +88,14 @@ pub(super) fn stratified(samples: usize, seed: u64, key: Key) -> Vec<f64> {
 }
 
 /// `{ from, to, scale }`.
-struct Range {
+struct ParameterRange {
     from: f64,
     to: f64,
     is_log: bool,
 }
 
-impl Range {
-    fn read(field: &Field<'_>, key: Key, others: &[&str]) -> Result<Self, InputError> {
+impl ParameterRange {
+    fn read(field: &Field<'_>, key: SceneKey, others: &[&str]) -> Result<Self, InputError> {
         let section = field.section()?;
         section.allow(&[&["from", "to", "scale"], others].concat())?;
         let is_log = section.get("scale").map_or(Ok(false), |field| {
@@ -118,7 +118,7 @@ impl Range {
     }
 
     /// The value at the fraction `share` of the range, from 0 to 1.
-    fn at(&self, share: f64, key: Key) -> f64 {
+    fn at(&self, share: f64, key: SceneKey) -> f64 {
         let Self { from, to, is_log } = *self;
         let value = if is_log {
             from * (to / from).powf(share)
@@ -134,7 +134,7 @@ impl Range {
     }
 }
 
-fn number(field: &Field<'_>, key: Key) -> Result<f64, InputError> {
+fn number(field: &Field<'_>, key: SceneKey) -> Result<f64, InputError> {
     if key.is_whole {
         // The scene refuses larger numbers; these are exact as f64.
         return Ok(field.count(1..=1 << 53)? as f64);
@@ -145,14 +145,14 @@ fn number(field: &Field<'_>, key: Key) -> Result<f64, InputError> {
 
 /// A varied key, its values, and their place in the file.
 pub(super) struct VariedKey<'a> {
-    pub(super) key: Key,
+    pub(super) key: SceneKey,
     pub(super) values: Vec<f64>,
     /// Values that a scene must accept, with the fields to name otherwise.
     pub(super) probes: Vec<(f64, Field<'a>)>,
 }
 
 /// A list, or `{ from, to, count, scale }`.
-pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, InputError> {
+pub(super) fn grid<'a>(field: Field<'a>, key: SceneKey) -> Result<VariedKey<'a>, InputError> {
     let allowed = "a list of at least one number, or { from, to, count }";
     if field.is_list() {
         let items = field.items(allowed)?;
@@ -182,7 +182,7 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, Inpu
     if !field.is_table() {
         return Err(field.refuse_as_written(allowed));
     }
-    let range = Range::read(&field, key, &["count"])?;
+    let range = ParameterRange::read(&field, key, &["count"])?;
     let count = field.section()?.require("count", "a whole number >= 2")?;
     let number = count.count(2..=SWEEP_VALUES)?;
     let mut values: Vec<f64> = (0..number)
@@ -205,14 +205,14 @@ pub(super) fn grid<'a>(field: Field<'a>, key: Key) -> Result<VariedKey<'a>, Inpu
 /// `{ from, to, scale }`, and the values of a Latin hypercube in it.
 pub(super) fn latin<'a>(
     field: Field<'a>,
-    key: Key,
+    key: SceneKey,
     samples: usize,
     seed: u64,
 ) -> Result<VariedKey<'a>, InputError> {
     if !field.is_table() {
         return Err(field.refuse_as_written("a range { from, to }"));
     }
-    let range = Range::read(&field, key, &[])?;
+    let range = ParameterRange::read(&field, key, &[])?;
     let values = stratified(samples, seed, key)
         .into_iter()
         .map(|share| range.at(share, key))

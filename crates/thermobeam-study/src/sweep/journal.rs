@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::lines::{self, Place};
-use super::{Line, Share, Sweep, SweepError};
+use super::lines::{self, LinePosition};
+use super::{CaseLine, Sweep, SweepError, SweepShare};
 use convergence_study::internal::store::atomic;
 
 /// Identifies the sweep of the folder.
@@ -50,7 +50,7 @@ pub struct Manifest {
 
 impl Manifest {
     /// The manifest of a share of a sweep.
-    pub fn new(sweep: &Sweep, share: Share) -> Self {
+    pub fn new(sweep: &Sweep, share: SweepShare) -> Self {
         Self {
             sweep: sweep.name.clone(),
             fingerprint: format!("{:016x}", sweep.fingerprint()),
@@ -151,7 +151,7 @@ impl Journal {
     pub fn open(
         folder: &Path,
         sweep: &Sweep,
-        share: Share,
+        share: SweepShare,
         resume: bool,
     ) -> Result<Self, SweepError> {
         let manifest = &Manifest::new(sweep, share);
@@ -198,7 +198,7 @@ impl Journal {
     }
 
     /// Reads which cases are completed, and removes an incomplete last line.
-    fn read_done(&mut self, sweep: &Sweep, share: Share) -> Result<(), SweepError> {
+    fn read_done(&mut self, sweep: &Sweep, share: SweepShare) -> Result<(), SweepError> {
         let is_complete = self.results.exists();
         let source = if is_complete {
             &self.results
@@ -240,7 +240,7 @@ impl Journal {
     ///
     /// # Errors
     /// The error of the operating system.
-    pub fn append(&mut self, line: &Line) -> Result<(), std::io::Error> {
+    pub fn append(&mut self, line: &CaseLine) -> Result<(), std::io::Error> {
         let whole = format!("{}\n", line.json);
         let _writing = atomic::begin_write();
         self.file
@@ -276,7 +276,12 @@ pub struct Merged {
 }
 
 /// Refuses a line of another sweep, or of a case outside the share.
-fn check_share(sweep: &Sweep, share: Share, place: &Place, line: &[u8]) -> Result<(), String> {
+fn check_share(
+    sweep: &Sweep,
+    share: SweepShare,
+    place: &LinePosition,
+    line: &[u8],
+) -> Result<(), String> {
     let case = sweep.case(place.case);
     place.is_of(line, &case)?;
     if share.holds(case.hash()) {
@@ -299,8 +304,8 @@ fn source_of_lines(folder: &Path) -> PathBuf {
 /// would have written.
 ///
 /// # Errors
-/// [`SweepError`]: folders of different sweeps, a missing or repeated case, `out` among `folders`, a file that cannot be read or written. Nothing
-/// is written then.
+/// [`SweepError`]: folders of different sweeps, a missing or repeated case, `out` among `folders`,
+/// a file that cannot be read or written. Nothing is written then.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
     let manifests = folders
         .iter()
@@ -349,7 +354,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, SweepError> {
 }
 
 /// Refuses sorted places unless every case has one.
-fn none_missing(found: &[Place], cases: usize, shares: &str) -> Result<(), SweepError> {
+fn none_missing(found: &[LinePosition], cases: usize, shares: &str) -> Result<(), SweepError> {
     if found.len() == cases {
         return Ok(());
     }

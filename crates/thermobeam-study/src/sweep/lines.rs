@@ -87,7 +87,7 @@ impl SweepError {
 
 /// The position of a line.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct LinePosition {
     pub(super) case: usize,
     pub(super) passed: bool,
     file: usize,
@@ -143,7 +143,7 @@ fn is_as_written(line: &[u8]) -> Result<(), String> {
     ))
 }
 
-impl Place {
+impl LinePosition {
     /// Refuses a line of another case: its varied numbers must be those of the sweep.
     pub(super) fn is_of(&self, line: &[u8], case: &SweepCase<'_>) -> Result<(), String> {
         let parameters = serde_json::to_string(case).map_err(|error| error.to_string())?;
@@ -173,8 +173,8 @@ impl Place {
 pub(super) fn places(
     files: &[PathBuf],
     cases: usize,
-    check: impl Fn(&Place, &[u8]) -> Result<(), String>,
-) -> Result<(Vec<Place>, u64), SweepError> {
+    check: impl Fn(&LinePosition, &[u8]) -> Result<(), String>,
+) -> Result<(Vec<LinePosition>, u64), SweepError> {
     let (mut places, mut end) = (vec![], 0);
     for (index, file) in files.iter().enumerate() {
         end = read(file, index, cases, &check, &mut places)?;
@@ -196,8 +196,8 @@ fn read(
     path: &Path,
     file: usize,
     cases: usize,
-    check: impl Fn(&Place, &[u8]) -> Result<(), String>,
-    places: &mut Vec<Place>,
+    check: impl Fn(&LinePosition, &[u8]) -> Result<(), String>,
+    places: &mut Vec<LinePosition>,
 ) -> Result<u64, SweepError> {
     let mut reader = BufReader::new(File::open(path).map_err(atomic::naming(path))?);
     let (mut offset, mut line) = (0, vec![]);
@@ -210,7 +210,7 @@ fn read(
             break;
         }
         let place = LineHead::read(&line, cases)
-            .map(|head| Place {
+            .map(|head| LinePosition {
                 case: head.case,
                 passed: head.status == "done",
                 file,
@@ -234,7 +234,7 @@ fn read(
 }
 
 /// Writes the lines at `places` in that order.
-pub(super) fn copy(places: &[Place], files: &[PathBuf], out: &Path) -> io::Result<()> {
+pub(super) fn copy(places: &[LinePosition], files: &[PathBuf], out: &Path) -> io::Result<()> {
     let mut readers = vec![];
     for path in files {
         let file = File::open(path).map_err(atomic::naming(path))?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::case::{KEYS, TABLES};
 use super::design::{self, Design, VariedKey};
-use super::{Base, Key, MOST_CASES, Sweep};
+use super::{Base, MOST_CASES, SceneKey, Sweep};
 use crate::scene::{Scene, limits, stem};
 use convergence_study::{
     Complaint, Field, InputError, Section,
@@ -69,7 +69,7 @@ pub(super) fn read(
         .map(|value| format!("{} = {}\n", value.path, value.text))
         .collect();
     let first = probe(&base, &common, &varied, latin.is_some())?;
-    let keys: Vec<Key> = varied.iter().map(|varied| varied.key).collect();
+    let keys: Vec<SceneKey> = varied.iter().map(|varied| varied.key).collect();
     let values = varied.iter().map(|varied| varied.values.clone()).collect();
     let design = match latin {
         Some(latin) => {
@@ -189,7 +189,7 @@ fn varied_keys<'a>(root: &Section<'a>) -> Result<(Vec<VariedKey<'a>>, Option<Lat
         let Some(inner) = section.section(table)? else {
             continue;
         };
-        let keys: Vec<Key> = KEYS.into_iter().filter(|key| key.table == table).collect();
+        let keys: Vec<SceneKey> = KEYS.into_iter().filter(|key| key.table == table).collect();
         inner.allow(&keys.iter().map(|key| key.name).collect::<Vec<_>>())?;
         for key in keys {
             let Some(field) = inner.get(key.name) else {
@@ -256,7 +256,7 @@ fn probe(
             return Err(field.refuse_as_written("numbers > 0"));
         }
     }
-    let mut values: Vec<(Key, f64)> = others
+    let mut values: Vec<(SceneKey, f64)> = others
         .iter()
         .map(|varied| (varied.key, varied.probes[0].0))
         .collect();

@@ -25,7 +25,7 @@ const BATCH: usize = 16;
 
 /// The result of one case: a line of JSON without its newline.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
+pub struct CaseLine {
     /// The case's number.
     pub case: usize,
     /// Whether it completed.
@@ -46,7 +46,7 @@ struct Content<'a> {
     result: Option<Object<'a>>,
 }
 
-impl Line {
+impl CaseLine {
     fn failed(case: &SweepCase<'_>, reason: String) -> Self {
         Self::of(&Content {
             case: case.index,
@@ -83,42 +83,42 @@ impl Line {
 }
 
 /// The scene of a case, or the line of its failure.
-fn scene(sweep: &Sweep, index: usize) -> Result<Scene, Line> {
+fn scene(sweep: &Sweep, index: usize) -> Result<Scene, CaseLine> {
     let case = sweep.case(index);
     // A panic is a failure of its case, so that the others are not lost.
-    let read = catch(|| sweep.scene(&case)).map_err(|reason| Line::failed(&case, reason))?;
+    let read = catch(|| sweep.scene(&case)).map_err(|reason| CaseLine::failed(&case, reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
         let field = error
             .field
             .map(|field| format!("{field}: "))
             .unwrap_or_default();
-        Line::failed(&case, format!("{field}{}", error.complaint))
+        CaseLine::failed(&case, format!("{field}{}", error.complaint))
     })
 }
 
 /// A case on its own.
-fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> Line {
+fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> CaseLine {
     let simulated = || match Simulator::new(scene) {
-        Ok(simulator) => Line::of_run(
+        Ok(simulator) => CaseLine::of_run(
             sweep,
             index,
             scene,
             &simulator.run(Recording::Summary, &mut |_, _| ()),
         ),
-        Err(error) => Line::failed(&sweep.case(index), error.to_string()),
+        Err(error) => CaseLine::failed(&sweep.case(index), error.to_string()),
     };
-    catch(simulated).unwrap_or_else(|reason| Line::failed(&sweep.case(index), reason))
+    catch(simulated).unwrap_or_else(|reason| CaseLine::failed(&sweep.case(index), reason))
 }
 
 /// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
-struct Group {
+struct CaseGroup {
     together: Option<Together>,
     cases: Vec<usize>,
     scenes: Vec<Scene>,
 }
 
-impl Group {
+impl CaseGroup {
     /// Whether a scene can be added; `None` stands for a scene that runs on its own.
     fn has_room_for(&self, together: Option<Together>) -> bool {
         together.is_some() && self.cases.len() < LANES && self.together == together
@@ -126,8 +126,8 @@ impl Group {
 }
 
 /// Groups cases, and returns the lines of cases without a scene.
-fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
-    let mut groups: Vec<Group> = vec![];
+fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<CaseGroup>, Vec<CaseLine>) {
+    let mut groups: Vec<CaseGroup> = vec![];
     let mut failed = vec![];
     for &index in indices {
         match scene(sweep, index) {
@@ -139,7 +139,7 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
                         group.cases.push(index);
                         group.scenes.push(scene);
                     }
-                    None => groups.push(Group {
+                    None => groups.push(CaseGroup {
                         together,
                         cases: vec![index],
                         scenes: vec![scene],
@@ -152,7 +152,7 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<Group>, Vec<Line>) {
 }
 
 /// The lines of a group: its cases together, or one after the other if that fails.
-fn lines(sweep: &Sweep, group: &Group) -> Vec<Line> {
+fn lines(sweep: &Sweep, group: &CaseGroup) -> Vec<CaseLine> {
     if let Some(lines) = catch(|| lines_together(sweep, group)).ok().flatten() {
         return lines;
     }
@@ -163,14 +163,17 @@ fn lines(sweep: &Sweep, group: &Group) -> Vec<Line> {
 }
 
 /// The lines of a group of several cases; `None` if they cannot run together.
-fn lines_together(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Option<Vec<Line>> {
+fn lines_together(
+    sweep: &Sweep,
+    CaseGroup { cases, scenes, .. }: &CaseGroup,
+) -> Option<Vec<CaseLine>> {
     if scenes.len() == 1 {
         return None;
     }
     let runs = run_together(scenes).ok()?;
     let mut lines = vec![];
     for ((&index, scene), run) in cases.iter().zip(scenes).zip(&runs) {
-        lines.push(Line::of_run(sweep, index, scene, run));
+        lines.push(CaseLine::of_run(sweep, index, scene, run));
     }
     Some(lines)
 }
@@ -179,7 +182,7 @@ fn lines_together(sweep: &Sweep, Group { cases, scenes, .. }: &Group) -> Option<
 fn run_batch(
     sweep: &Sweep,
     cases: &[usize],
-    sink: &impl Fn(Line) -> io::Result<()>,
+    sink: &impl Fn(CaseLine) -> io::Result<()>,
 ) -> io::Result<()> {
     let (groups, failed) = groups(sweep, cases);
     failed.into_iter().try_for_each(sink)?;
@@ -205,7 +208,7 @@ pub fn run(
     cases: &[usize],
     jobs: usize,
     limit: Option<Duration>,
-    sink: impl Fn(Line) -> io::Result<()> + Sync,
+    sink: impl Fn(CaseLine) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(jobs)
@@ -250,7 +253,7 @@ impl<W: Write> InOrder<W> {
     ///
     /// # Errors
     /// The error of the output.
-    pub fn add(&mut self, line: Line) -> io::Result<()> {
+    pub fn add(&mut self, line: CaseLine) -> io::Result<()> {
         self.early.insert(line.case, line.json);
         while let Some(json) = self
             .expected

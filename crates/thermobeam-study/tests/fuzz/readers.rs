@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
-use thermobeam_study::sweep::{self, Journal, Line, Manifest, Share, Sweep};
+use thermobeam_study::sweep::{self, CaseLine, Journal, Manifest, Sweep, SweepShare};
 
 use crate::read_study;
 
@@ -176,13 +176,13 @@ impl Bench {
     }
 
     fn manifest(&self) -> String {
-        serde_json::to_string(&Manifest::new(&self.small(), Share::ALL)).expect("JSON")
+        serde_json::to_string(&Manifest::new(&self.small(), SweepShare::ALL)).expect("JSON")
     }
 
     /// The lines of two cases.
     fn journal(&self) -> String {
         let lines = std::sync::Mutex::new(String::new());
-        let kept = |line: Line| {
+        let kept = |line: CaseLine| {
             *lines.lock().expect("a text") += &(line.json + "\n");
             Ok(())
         };
@@ -254,7 +254,7 @@ impl Bench {
         fs::create_dir(self.share()).expect("a folder");
         fs::write(self.share().join("sweep.json"), manifest).expect("a manifest");
         fs::write(self.share().join("journal.jsonl"), journal).expect("a journal");
-        let journal = Journal::open(&self.share(), &self.small(), Share::ALL, true)
+        let journal = Journal::open(&self.share(), &self.small(), SweepShare::ALL, true)
             .map_err(|error| error.to_string())?;
         journal
             .finish()

@@ -4,8 +4,8 @@
 use convergence_study::{
     CaseFailure, FromFile, Kind, Verdict, internal::study::run_cases_here, run_one,
 };
-use thermobeam_study::kinds::orders::any_order::{self, Errors};
-use thermobeam_study::kinds::orders::{Orders, Source};
+use thermobeam_study::kinds::orders::any_order::{self, JudgedErrors};
+use thermobeam_study::kinds::orders::{ErrorSource, Orders};
 
 type AnyOrder = Orders<any_order::AnyOrder>;
 
@@ -107,7 +107,7 @@ fn orders_in_space_fail_where_slopes_or_fields_lose_an_order() {
 fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off() {
     let study = read("any-order-degree.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let with = |change: &dyn Fn(usize, &mut Errors)| {
+    let with = |change: &dyn Fn(usize, &mut JudgedErrors)| {
         let runs = changed::<AnyOrder>(&sound, |index, found| change(index, found));
         study.judge(&runs).verdict
     };
@@ -123,7 +123,7 @@ fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off() {
         "a bump"
     );
     let algebraic =
-        |index: usize, found: &mut Errors| found.named[0].1 = ((index + 1) as f64).powi(-6);
+        |index: usize, found: &mut JudgedErrors| found.named[0].1 = ((index + 1) as f64).powi(-6);
     assert_eq!(with(&algebraic), Verdict::Fail, "an algebraic fall");
     let last = sound.len() - 1;
     assert_eq!(

@@ -89,9 +89,9 @@ fn a_budget_ends_a_study_without_a_verdict() {
         (spent.verdict, spent.levels.len()),
         (Verdict::Inconclusive, 4)
     );
-    let told = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
+    let ending = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
     assert!(
-        spent.summary.to_string().ends_with(told),
+        spent.summary.to_string().ends_with(ending),
         "{}",
         spent.summary
     );

@@ -5,7 +5,7 @@ use convergence_study::internal::study::kind::run_cases_here;
 use convergence_study::{FromFile, Kind, Outcome, Verdict};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::projection::{Projected, Target};
-use thermobeam_study::kinds::orders::{Orders, Source as _, projection};
+use thermobeam_study::kinds::orders::{ErrorSource as _, Orders, projection};
 
 type Projection = Orders<projection::Projection>;
 

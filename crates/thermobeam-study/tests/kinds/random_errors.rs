@@ -1,5 +1,5 @@
 use convergence_study::{FromFile, Kind, Verdict, internal::study::kind::run_cases_here};
-use thermobeam_study::kinds::random_errors::{Found, ROW, RandomErrors, Refusal};
+use thermobeam_study::kinds::random_errors::{AbandonedSearch, PredictedErrors, ROW, RandomErrors};
 
 use super::refused::refusal;
 use super::text;
@@ -13,8 +13,8 @@ fn study() -> RandomErrors {
     RandomErrors::parse(&small, "small.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn abandoned(is_of_features: bool) -> Refusal {
-    Refusal {
+fn abandoned(is_of_features: bool) -> AbandonedSearch {
+    AbandonedSearch {
         words: "given up".to_owned(),
         is_of_features,
     }
@@ -25,7 +25,7 @@ fn a_part_of_the_file_passes_and_each_check_can_fail() {
     let study = study();
     passes_but_not_without_each_case(&study);
     let sound = run_cases_here(&study);
-    let verdict = |change: &dyn Fn(&mut Found)| {
+    let verdict = |change: &dyn Fn(&mut PredictedErrors)| {
         let planted = changed::<RandomErrors>(&sound, |case, found| {
             if case == 0 {
                 change(found);

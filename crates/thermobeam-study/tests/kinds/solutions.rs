@@ -1,6 +1,6 @@
 use convergence_study::{FromFile, Verdict, internal::study::run_cases_here};
 use thermobeam_study::kinds::runs::RunStudy;
-use thermobeam_study::kinds::runs::solutions::{self, Found, ROW};
+use thermobeam_study::kinds::runs::solutions::{self, ROW, StepSolutions};
 
 use super::planted::verdict_with;
 use super::refused::refusal;
@@ -20,7 +20,7 @@ fn a_step_beyond_buckling_has_three_solutions_and_every_claim_can_fail() {
         .map(|ran| ran.ok().expect("a result").tips.len())
         .collect();
     assert_eq!(counts, [1, 1, 1, 3, 3]);
-    type Defect = fn(&mut Found);
+    type Defect = fn(&mut StepSolutions);
     let planted: [(usize, Defect); 4] = [
         (4, |found| found.tips[0] = -0.0100014),
         (4, |found| found.tips.truncate(2)),

@@ -5,7 +5,7 @@ use super::typed::{Runs, changed, counted, leaves_one_out, passes_but_not_withou
 use super::{file, text};
 use convergence_study::{FromFile, Kind, Outcome, Verdict, run_one};
 use thermobeam_study::kinds::solvers::{
-    Agreement, Boundary, Contraction, FixedPointStep, Found, Point, Solvers,
+    Agreement, Boundary, Contraction, FixedPointStep, MapPoint, SolverResult, Solvers,
 };
 
 fn map() -> Solvers {
@@ -16,32 +16,32 @@ fn fixed_point() -> Solvers {
     Solvers::read(file("fixed-point.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn row(found: &mut Found) -> &mut Vec<Point> {
-    if let Found::Row(row) = found {
+fn row(found: &mut SolverResult) -> &mut Vec<MapPoint> {
+    if let SolverResult::Row(row) = found {
         &mut row.points
     } else {
         panic!("no row: {found:?}")
     }
 }
 
-fn boundary(found: &mut Found) -> &mut Boundary {
-    if let Found::Boundary(line) = found {
+fn boundary(found: &mut SolverResult) -> &mut Boundary {
+    if let SolverResult::Boundary(line) = found {
         line
     } else {
         panic!("no boundary: {found:?}")
     }
 }
 
-fn contraction(found: &mut Found) -> &mut Contraction {
-    if let Found::Contraction(contraction) = found {
+fn contraction(found: &mut SolverResult) -> &mut Contraction {
+    if let SolverResult::Contraction(contraction) = found {
         contraction
     } else {
         panic!("no contraction: {found:?}")
     }
 }
 
-fn agreement(found: &mut Found) -> &mut Agreement {
-    if let Found::Comparison(agreement) = found {
+fn agreement(found: &mut SolverResult) -> &mut Agreement {
+    if let SolverResult::Comparison(agreement) = found {
         agreement
     } else {
         panic!("no comparison: {found:?}")
@@ -53,10 +53,10 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     let study = map();
     let sound = passes_but_not_without_each_case(&study);
     // The first row is the stiffest; its shortest step converges, its longest does not.
-    let with_point = |at: usize, change: &dyn Fn(&mut Point)| {
+    let with_point = |at: usize, change: &dyn Fn(&mut MapPoint)| {
         verdict_with(&study, &sound, 0, |found| change(&mut row(found)[at]))
     };
-    let with_all = |change: &dyn Fn(&mut Point)| {
+    let with_all = |change: &dyn Fn(&mut MapPoint)| {
         verdict_with(&study, &sound, 0, |found| {
             row(found).iter_mut().for_each(change);
         })
@@ -173,7 +173,7 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     });
     // Where α decides nowhere, there is no distance to it.
     let nowhere = changed::<Solvers>(&sound, |_, found| {
-        if let Found::Boundary(line) = found {
+        if let SolverResult::Boundary(line) = found {
             line.found.as_mut().expect("a boundary").gamma = 0.02;
         }
     });
@@ -217,7 +217,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
     let mut compared = 0;
     for index in 0..sound.len() {
         let found = sound[index].found.as_mut().expect("a result");
-        if let Found::Comparison(_) = found {
+        if let SolverResult::Comparison(_) = found {
             compared += 1;
             for wrong in [1e-4, f64::NAN] {
                 let verdict = verdict_with(&study, &sound, index, |found| {
@@ -285,7 +285,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
     }
     // No point with a known factor: no distance of the factor.
     let unsettled = changed::<Solvers>(&sound, |_, found| {
-        if let Found::Contraction(point) = found {
+        if let SolverResult::Contraction(point) = found {
             point.iterations = 4;
         }
     });

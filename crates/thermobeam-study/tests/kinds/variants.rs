@@ -2,7 +2,7 @@
 //! in the solver is named by them, and nothing else is.
 
 use convergence_study::internal::where_lost::located;
-use convergence_study::variants::{Part, Variants};
+use convergence_study::variants::{SolverPart, Variants};
 use convergence_study::{FromFile, Kind, NamedRate, Outcome, Reason, Verdict, run_one};
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::Convergence;
@@ -71,7 +71,7 @@ fn each_variant_of_a_right_solver_has_the_orders_of_its_study() {
 
 #[test]
 fn a_wrong_coefficient_is_named_and_no_other_part() {
-    let parameter = |name: &str| vec![Part::Parameter(name.to_owned())];
+    let parameter = |name: &str| vec![SolverPart::Parameter(name.to_owned())];
     for (name, control, named) in [
         ("theorem-3.4-space.toml", "a = 0.6", parameter("a")),
         ("theorem-3.4-space.toml", "rho = 2.3", parameter("rho")),
@@ -80,12 +80,12 @@ fn a_wrong_coefficient_is_named_and_no_other_part() {
         (
             "theorem-3.4-space.toml",
             "zeta = 0.12",
-            vec![Part::Time("t".to_owned())],
+            vec![SolverPart::Time("t".to_owned())],
         ),
         (
             "contact-throughout-space.toml",
             "epsilon = 0.012",
-            vec![Part::Face("x_max".to_owned())],
+            vec![SolverPart::Face("x_max".to_owned())],
         ),
     ] {
         let study = study(name, &format!("\n[control]\n{control}\n"));

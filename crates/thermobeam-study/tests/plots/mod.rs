@@ -82,7 +82,7 @@ fn a_long_animation_stays_small() {
 }
 
 /// Without obstacles and simulations.
-fn with(branches: Vec<Branch>) -> Bifurcation {
+fn with(branches: Vec<EquilibriumBranch>) -> Bifurcation {
     Bifurcation {
         branches,
         ..Bifurcation::default()
@@ -163,7 +163,7 @@ fn extreme_data_are_no_reason_to_panic() {
                 points: points.clone(),
             }];
             parse(&contraction(&measured(series)));
-            let branches = vec![Branch {
+            let branches = vec![EquilibriumBranch {
                 label: "b".into(),
                 points,
                 stable: true,
@@ -187,7 +187,7 @@ fn extreme_data_are_no_reason_to_panic() {
 #[test]
 fn stable_branches_are_solid_and_unstable_ones_dashed() {
     let points = vec![(0.0, 0.0), (1.0, 1.0)];
-    let branch = |stable| Branch {
+    let branch = |stable| EquilibriumBranch {
         label: "free".into(),
         points: points.clone(),
         stable,

@@ -1,10 +1,10 @@
 //! `--target-error`: runs that are chosen by their error.
 
-use convergence_judge::time_limit;
+use convergence_judge::{SpaceTime, time_limit};
 use thermobeam::scheme::SCHEMES;
 use thermobeam_study::error::{Evaluator, free_vibration};
-use thermobeam_study::predict::choice::{Choice, Quantity};
-use thermobeam_study::predict::{self, Reason, Unreachable, Work};
+use thermobeam_study::predict::choice::{Choice, ErrorQuantity};
+use thermobeam_study::predict::{self, StopReason, Unreachable, Work};
 use thermobeam_study::run::ObservableMotion;
 use thermobeam_study::run::family::Family;
 use thermobeam_study::run::simulate::{Recording, Simulator};
@@ -21,7 +21,7 @@ fn the_error_asked_for_is_made_inside_steps_too_and_the_checks_cost_a_few_runs()
         let exact = reference(&scene);
         for target in [1e-4, 1e-6, 1e-8] {
             let (choice, spent) =
-                limited(|work| predict::choice::choose(&scene, Quantity::Tip, target, work));
+                limited(|work| predict::choice::choose(&scene, ErrorQuantity::Tip, target, work));
             let choice = choice.unwrap_or_else(|error| panic!("{target:e}: {error}"));
             let made = largest_difference(&run(&choice.scene, TIMES), &exact);
             assert!(
@@ -84,7 +84,7 @@ fn what_cannot_be_reached_is_refused_with_what_can() {
     match choose(&scene, 1e-17) {
         Err(Unreachable::NotReached {
             reached,
-            reason: Reason::RoundOff,
+            reason: StopReason::RoundOff,
             ..
         }) => {
             assert!(reached > 1e-17 && reached < 1e-10, "{reached:e}");
@@ -92,12 +92,12 @@ fn what_cannot_be_reached_is_refused_with_what_can() {
         other => panic!("{other:?}"),
     }
     // Enough work for two rounds: the message gives the error reached and the limit.
-    let mut told = |_: f64| ();
-    let mut work = Work::new(2e6, &mut told);
-    let error = predict::choice::choose(&scene, Quantity::Tip, 1e-12, &mut work).unwrap_err();
+    let mut progress = |_: f64| ();
+    let mut work = Work::new(2e6, &mut progress);
+    let error = predict::choice::choose(&scene, ErrorQuantity::Tip, 1e-12, &mut work).unwrap_err();
     let Unreachable::NotReached {
         reached,
-        reason: Reason::Work { limit: 2e6 },
+        reason: StopReason::Work { limit: 2e6 },
         ..
     } = error
     else {
@@ -112,7 +112,7 @@ fn what_cannot_be_reached_is_refused_with_what_can() {
     let (stopped, _) = time_limit::within(Some(std::time::Duration::ZERO), || choose(&scene, 1e-6));
     let error = stopped.unwrap_err();
     assert!(
-        matches!(&error, Unreachable::NotReached { reason: Reason::Run(run), .. } if run.contains("limit")),
+        matches!(&error, Unreachable::NotReached { reason: StopReason::Run(run), .. } if run.contains("limit")),
         "{error}"
     );
 }
@@ -162,9 +162,9 @@ fn a_scheme_that_is_kept_makes_the_error_asked_for_at_little_cost() {
             [1e-2, 1e-3]
         };
         for (quantity, target, which) in [
-            (Quantity::Tip, targets[0], 0),
-            (Quantity::Tip, targets[1], 0),
-            (Quantity::Norm, 0.02, 1),
+            (ErrorQuantity::Tip, targets[0], 0),
+            (ErrorQuantity::Tip, targets[1], 0),
+            (ErrorQuantity::Norm, 0.02, 1),
         ] {
             let choice = keep(&scene, quantity, target);
             let error = made(&choice)[which];
@@ -182,11 +182,12 @@ fn a_scheme_that_is_kept_makes_the_error_asked_for_at_little_cost() {
             );
             // Neither space nor time takes nearly all of the error: that would cost more. (Coarser
             // runs are not tried.)
-            let ([space, time], is_coarsest) = (choice.parts, choice.scene.mesh.elements() == 16);
+            let SpaceTime { space, time } = choice.parts;
+            let is_coarsest = choice.scene.mesh.elements() == 16;
             let is_balanced =
                 (0.2..=0.8).contains(&(space / (space + time))) && space + time <= 1.5 * target;
             assert!(
-                is_coarsest || is_balanced || quantity == Quantity::Norm,
+                is_coarsest || is_balanced || quantity == ErrorQuantity::Norm,
                 "{context}: {space:e}, {time:e}"
             );
         }
@@ -197,7 +198,7 @@ fn a_scheme_that_is_kept_makes_the_error_asked_for_at_little_cost() {
 fn a_scheme_that_is_kept_makes_the_error_asked_for_in_contact() {
     for (scheme, target) in [("midpoint", 1e-4), ("euler-crank-nicolson", 1e-3)] {
         let text = format!("{CONTACT}[time]\ndt = 0.01\nt_end = 1.0\nscheme = \"{scheme}\"\n");
-        let choice = keep(&parsed(&text), Quantity::Tip, target);
+        let choice = keep(&parsed(&text), ErrorQuantity::Tip, target);
         let own = Simulator::new(&choice.scene)
             .expect("a scene")
             .run(Recording::History, &mut |_, _| ());
@@ -224,7 +225,7 @@ fn the_cheapest_is_dg_and_costs_less_than_the_scenes_own_scheme() {
     let (_, scene) = vibration(0, "[time]\ndt = 0.1\nt_end = 2.0\nscheme = \"midpoint\"\n");
     let choice = choose(&scene, 1e-5).expect("a run");
     assert!(choice.scene.method.name() == "dg" && !choice.is_kept && choice.error <= 1e-5);
-    let kept = keep(&scene, Quantity::Tip, 1e-5);
+    let kept = keep(&scene, ErrorQuantity::Tip, 1e-5);
     assert!(kept.is_kept && choice.run.work < kept.run.work);
     let again = choose(&choice.scene, 1e-5).expect("a run");
     assert_eq!(again.scene, choice.scene);
@@ -233,9 +234,11 @@ fn the_cheapest_is_dg_and_costs_less_than_the_scenes_own_scheme() {
 #[test]
 fn in_the_norm_dg_makes_the_error_asked_for() {
     let scene = parsed(&format!("{CONTACT}[time]\ndt = 0.01\nt_end = 0.5\n"));
-    let (found, _) = limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-3, work));
+    let (found, _) =
+        limited(|work| predict::choice::choose(&scene, ErrorQuantity::Norm, 1e-3, work));
     let choice = found.expect("a run");
-    let (finer, _) = limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-5, work));
+    let (finer, _) =
+        limited(|work| predict::choice::choose(&scene, ErrorQuantity::Norm, 1e-5, work));
     let finer = finer.expect("a run");
     // The norm bounds the shear, and so the free end's distance except for the rotation's part.
     let [one, other] = [&choice, &finer].map(|choice| run(&choice.scene, TIMES));
@@ -250,7 +253,7 @@ fn in_the_norm_dg_makes_the_error_asked_for() {
 #[test]
 fn a_scheme_that_is_kept_keeps_the_listed_nodes() {
     let listed = "[initial]\nu_t = \"x\"\n[mesh]\nnodes = [0.0, 0.3, 0.45, 1.0]\n[time]\nscheme = \"midpoint\"\ndt = 0.1\nt_end = 0.5\n";
-    let choice = keep(&parsed(listed), Quantity::Tip, 1e-3);
+    let choice = keep(&parsed(listed), ErrorQuantity::Tip, 1e-3);
     let nodes = choice.scene.mesh.nodes();
     assert!(
         [0.3, 0.45].iter().all(|x| nodes.contains(x)) && nodes.len() > 4,

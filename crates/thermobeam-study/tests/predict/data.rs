@@ -3,7 +3,7 @@
 use thermobeam::dg::{self, Dg, DgStepping};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
-use thermobeam_study::predict::choice::Quantity;
+use thermobeam_study::predict::choice::ErrorQuantity;
 use thermobeam_study::predict::{self, Unreachable};
 use thermobeam_study::scene::{Method, Scene};
 
@@ -222,7 +222,8 @@ fn a_blow_between_the_nodes_is_in_every_error() {
         );
     }
     let [(scene, exact), _] = blows();
-    let (found, _) = limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-2, work));
+    let (found, _) =
+        limited(|work| predict::choice::choose(&scene, ErrorQuantity::Norm, 1e-2, work));
     let choice = found.expect("a run");
     // The blow spreads within 5e-6.
     let from_the_start = DgStepping {
@@ -253,7 +254,7 @@ fn kinks_are_nodes_and_what_they_cost_is_in_the_error() {
     let exact = crowded(&scene, &[0.0, 0.37, 0.5, 1.0], 1e-5, 9, stepping);
     for target in [1e-1, 1e-2] {
         let (found, _) =
-            limited(|work| predict::choice::choose(&scene, Quantity::Norm, target, work));
+            limited(|work| predict::choice::choose(&scene, ErrorQuantity::Norm, target, work));
         let choice = found.unwrap_or_else(|error| panic!("{error}"));
         assert!(
             [0.37, 0.5]
@@ -354,7 +355,7 @@ fn a_jump_is_resolved_for_the_free_end_and_refused_for_the_norm() {
         ));
         assert!(chosen(&scene, 1e-4).error <= 1e-4);
         let (found, _) =
-            limited(|work| predict::choice::choose(&scene, Quantity::Norm, 1e-2, work));
+            limited(|work| predict::choice::choose(&scene, ErrorQuantity::Norm, 1e-2, work));
         let Err(
             error @ Unreachable::Unresolved {
                 field: "u_t", x, ..

@@ -91,7 +91,7 @@ fn the_parts_of_an_error_are_what_much_finer_elements_and_much_shorter_steps_tak
             ..choice.scene.clone()
         };
         let own = run(&choice.scene, TIMES);
-        for (part, other) in choice.parts.iter().zip([finer, shorter]) {
+        for (part, other) in choice.parts.both().into_iter().zip([finer, shorter]) {
             let made = largest_difference(&own, &run(&other, TIMES));
             assert!(
                 made <= 1.5 * part && *part <= 20.0 * made,

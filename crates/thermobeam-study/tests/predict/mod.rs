@@ -8,7 +8,7 @@ mod estimate;
 use thermobeam::dg::DgStepping;
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::vibration::Mode;
-use thermobeam_study::predict::choice::{Choice, Quantity};
+use thermobeam_study::predict::choice::{Choice, ErrorQuantity};
 use thermobeam_study::predict::estimate::{Budget, Estimate};
 use thermobeam_study::predict::{self, Cost, MOST_WORK, Unreachable, Work};
 use thermobeam_study::run::Sample;
@@ -17,17 +17,17 @@ use thermobeam_study::scene::{Method, Scene};
 
 /// Runs a search with the usual work limit.
 fn limited<T>(find: impl FnOnce(&mut Work<'_>) -> T) -> (T, Cost) {
-    let mut told = |part: f64| assert!((0.0..=1.0).contains(&part));
-    let mut work = Work::new(MOST_WORK, &mut told);
+    let mut progress = |part: f64| assert!((0.0..=1.0).contains(&part));
+    let mut work = Work::new(MOST_WORK, &mut progress);
     let found = find(&mut work);
     (found, work.spent())
 }
 
 fn choose(scene: &Scene, target: f64) -> Result<Choice, Unreachable> {
-    limited(|work| predict::choice::choose(scene, Quantity::Tip, target, work)).0
+    limited(|work| predict::choice::choose(scene, ErrorQuantity::Tip, target, work)).0
 }
 
-fn keep(scene: &Scene, quantity: Quantity, target: f64) -> Choice {
+fn keep(scene: &Scene, quantity: ErrorQuantity, target: f64) -> Choice {
     let (found, _) = limited(|work| predict::choice::keep_scheme(scene, quantity, target, work));
     found.unwrap_or_else(|error| panic!("{target:e}: {error}"))
 }

@@ -48,7 +48,7 @@ struct Inside<const S: usize> {
 
 /// A node.
 #[derive(Debug, Clone)]
-struct Node<const S: usize> {
+struct FactorNode<const S: usize> {
     inverse: Matrix<S>,
     /// The matrix in the row of this node and the column of the one on its left.
     left: Matrix<S>,
@@ -63,7 +63,7 @@ pub(super) struct Factor<const S: usize> {
     insides: Vec<Inside<S>>,
     /// Index in `insides` for each element.
     kinds: Vec<usize>,
-    nodes: Vec<Node<S>>,
+    nodes: Vec<FactorNode<S>>,
     tip: [Matrix<S>; 2],
 }
 
@@ -80,7 +80,7 @@ impl<const S: usize> Factor<S> {
             });
             kinds.push(kind);
         }
-        let node = Node {
+        let node = FactorNode {
             inverse: zero(),
             left: zero(),
             right: zero(),
@@ -161,7 +161,7 @@ impl<const S: usize> Factor<S> {
             } else {
                 invert(&mut pivot).map_err(indefinite(node, n_value))?;
             }
-            self.nodes[node] = Node {
+            self.nodes[node] = FactorNode {
                 inverse: pivot,
                 left,
                 right: matrix_product(&pivot, &right),

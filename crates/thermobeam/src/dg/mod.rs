@@ -72,7 +72,7 @@ pub use crate::contact::Phase;
 pub use element::MAX_DEGREE;
 pub use problem::{DgProblem, DgStepping, InitialFunctions};
 pub use simulation::Dg;
-pub use space::{Field, Point, Space};
+pub use space::{BeamPoint, Field, Space};
 pub use time::Load;
 
 /// The highest degree in time.
@@ -116,7 +116,7 @@ impl DgLevel {
     pub fn values_and_slopes_at(
         &self,
         space: &Space,
-        point: &Point,
+        point: &BeamPoint,
     ) -> [(f64, f64); Field::ALL.len()] {
         space.evaluate_all(point, |u, phi| {
             let (places, rates) = (&self.places, &self.rates);

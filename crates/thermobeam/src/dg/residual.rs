@@ -10,7 +10,7 @@ use crate::parameters::{Beam, Obstacles};
 
 /// u and φ in a block during the step, and the combinations of them in the equations.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Terms<const S: usize> {
+pub(super) struct BlockTerms<const S: usize> {
     /// u(t) and φ(t).
     pub(super) places: [Path<S>; 2],
     /// `∫ y_t L_i + (y(0+) - y_0) L_i(0)` of v, w, θ~.
@@ -25,7 +25,7 @@ pub(super) struct Terms<const S: usize> {
     heat: [f64; S],
 }
 
-impl<const S: usize> Terms<S> {
+impl<const S: usize> BlockTerms<S> {
     pub(super) const ZERO: Self = Self {
         places: [Path {
             low: [0.0; S],
@@ -63,7 +63,7 @@ pub(super) struct Equations<'a> {
 
 impl Equations<'_> {
     /// `u(t) = u_0 + ∫ v`, `φ(t) = φ_0 + ∫ w` for the velocities in `x`.
-    pub(super) fn displace<const S: usize>(&self, x: &[Block<S>], terms: &mut [Terms<S>]) {
+    pub(super) fn displace<const S: usize>(&self, x: &[Block<S>], terms: &mut [BlockTerms<S>]) {
         for ((terms, x), places) in terms.iter_mut().zip(x).zip(&self.level.places) {
             for field in 0..2 {
                 terms.places[field] = TimeForms::integrate(places[field], self.h, &x[field]);
@@ -75,7 +75,7 @@ impl Equations<'_> {
     pub(super) fn axial_force<const S: usize>(
         &self,
         forms: &TimeForms<S>,
-        terms: &[Terms<S>],
+        terms: &[BlockTerms<S>],
     ) -> AxialForce<S> {
         let mut force = AxialForce {
             low: [[0.0; S]; S],
@@ -120,7 +120,7 @@ impl Equations<'_> {
         forms: &TimeForms<S>,
         forcing: Option<&Forcing<S>>,
         x: &[Block<S>],
-        terms: &mut [Terms<S>],
+        terms: &mut [BlockTerms<S>],
         axial: &AxialForce<S>,
         residual: &mut [Block<S>],
     ) -> [f64; S] {
@@ -163,7 +163,7 @@ impl Equations<'_> {
         &self,
         forms: &TimeForms<S>,
         forcing: Option<&Forcing<S>>,
-        terms: &[Terms<S>],
+        terms: &[BlockTerms<S>],
         residual: &mut [Block<S>],
     ) {
         let tip = self.space.tip();
@@ -199,7 +199,7 @@ impl Equations<'_> {
         x: &Block<S>,
         start: &[f64; 3],
         axial: &AxialForce<S>,
-        terms: &mut Terms<S>,
+        terms: &mut BlockTerms<S>,
     ) {
         for field in 0..3 {
             let mut sum = forms.start.map(|sign| -sign * start[field]);
@@ -231,7 +231,7 @@ pub(super) struct Gram<const S: usize> {
 
 impl<const S: usize> Gram<S> {
     /// For the displacement in `terms`.
-    pub(super) fn of(space: &Space, terms: &[Terms<S>]) -> Self {
+    pub(super) fn of(space: &Space, terms: &[BlockTerms<S>]) -> Self {
         let mut gram = Self {
             entries: [[0.0; MAX_STAGES + 1]; MAX_STAGES + 1],
         };

@@ -69,7 +69,7 @@ pub(super) fn degrees(block: usize, degree: usize) -> [Option<usize>; 2] {
 
 /// A point of the beam: its element, and the basis there. Located once, it serves all levels of a
 /// space.
-pub struct Point {
+pub struct BeamPoint {
     element: usize,
     basis: Basis,
 }
@@ -242,14 +242,14 @@ impl Space {
 
     /// The element that holds x, and its basis there. Points beyond the ends belong to the
     /// outermost elements.
-    pub fn locate(&self, x: f64) -> Point {
+    pub fn locate(&self, x: f64) -> BeamPoint {
         let nodes = self.mesh.nodes();
         let element = nodes
             .partition_point(|node| *node <= x)
             .clamp(1, self.lengths.len())
             - 1;
         let xi = (2.0 * x - nodes[element] - nodes[element + 1]) / self.lengths[element];
-        Point {
+        BeamPoint {
             element,
             basis: Basis::at(xi, self.degree),
         }
@@ -260,7 +260,7 @@ impl Space {
     pub(super) fn evaluate(
         &self,
         field: Field,
-        Point { element, basis }: &Point,
+        BeamPoint { element, basis }: &BeamPoint,
         coefficient: impl Fn(usize, usize) -> f64,
     ) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
@@ -279,7 +279,7 @@ impl Space {
     /// * `coefficients`: in that order, from a block of u and one of φ.
     pub(super) fn evaluate_all(
         &self,
-        Point { element, basis }: &Point,
+        BeamPoint { element, basis }: &BeamPoint,
         coefficients: impl Fn(usize, usize) -> [f64; Field::ALL.len()],
     ) -> [(f64, f64); Field::ALL.len()] {
         let mut sums = [(0.0, 0.0); Field::ALL.len()];

@@ -5,7 +5,7 @@ use super::contact_event::Polynomial;
 use super::factor::Factor;
 use super::iteration::Iteration;
 use super::operator::Operator;
-use super::residual::{Equations, Terms};
+use super::residual::{BlockTerms, Equations};
 use super::space::{Field, Space};
 use super::time::{Forcing, Load, MAX_STAGES, Path, TimeForms};
 use super::{DgLevel, DgStepping};
@@ -91,14 +91,14 @@ struct Polynomials<const S: usize> {
     /// v, w, θ~.
     x: Vec<Block<S>>,
     /// u and φ, among others.
-    terms: Vec<Terms<S>>,
+    terms: Vec<BlockTerms<S>>,
 }
 
 impl<const S: usize> Polynomials<S> {
     fn zero(blocks: usize) -> Self {
         Self {
             x: vec![[[0.0; S]; 3]; blocks],
-            terms: vec![Terms::ZERO; blocks],
+            terms: vec![BlockTerms::ZERO; blocks],
         }
     }
 }

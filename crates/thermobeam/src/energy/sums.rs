@@ -132,11 +132,11 @@ impl<T: Lane> Sums<T> {
         let product = |p: [T; 2], q: [T; 2]| element_product(sixth, p, q);
         let slope = |y: [T; 2]| (y[1] - y[0]) * inverse;
         let shear = |u: [T; 2], phi: [T; 2]| [slope(u) - phi[0], slope(u) - phi[1]];
-        let u = Change::new(old.map(|end| end.u), new.map(|end| end.u));
-        let phi = Change::new(old.map(|end| end.phi), new.map(|end| end.phi));
-        let v = Change::new(old.map(|end| end.v), new.map(|end| end.v));
-        let w = Change::new(old.map(|end| end.w), new.map(|end| end.w));
-        let theta = Change::new(old.map(|end| end.theta), new.map(|end| end.theta));
+        let u = FieldChange::new(old.map(|end| end.u), new.map(|end| end.u));
+        let phi = FieldChange::new(old.map(|end| end.phi), new.map(|end| end.phi));
+        let v = FieldChange::new(old.map(|end| end.v), new.map(|end| end.v));
+        let w = FieldChange::new(old.map(|end| end.w), new.map(|end| end.w));
+        let theta = FieldChange::new(old.map(|end| end.theta), new.map(|end| end.theta));
 
         let kinetic_and_thermal =
             product(v.mean, v.jump) + product(w.mean, w.jump) + product(theta.mean, theta.jump);
@@ -161,12 +161,12 @@ impl<T: Lane> Sums<T> {
 
 /// Mean and difference of a field's two levels at both ends of an element: `½ (‖y‖² - ‖y0‖²)` is
 /// their product, without cancellation.
-struct Change<T> {
+struct FieldChange<T> {
     mean: [T; 2],
     jump: [T; 2],
 }
 
-impl<T: Lane> Change<T> {
+impl<T: Lane> FieldChange<T> {
     #[inline(always)]
     fn new(old: [T; 2], new: [T; 2]) -> Self {
         let half = T::splat(0.5);

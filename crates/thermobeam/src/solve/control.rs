@@ -27,18 +27,18 @@ pub(super) struct Scalars<T> {
 
 /// An element.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Element<T> {
+pub(super) struct ElementLengths<T> {
     /// 1/h.
     pub(super) inverse: T,
     /// h/6, the unit of the consistent mass matrix.
     pub(super) sixth: T,
 }
 
-impl<T: Lane> Element<T> {
+impl<T: Lane> ElementLengths<T> {
     /// That of case k.
     #[inline(always)]
-    pub(super) fn of_lane(&self, k: usize) -> Element<f64> {
-        Element {
+    pub(super) fn of_lane(&self, k: usize) -> ElementLengths<f64> {
+        ElementLengths {
             inverse: self.inverse.lane(k),
             sixth: self.sixth.lane(k),
         }

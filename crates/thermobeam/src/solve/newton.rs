@@ -17,12 +17,12 @@
 //! with F'(m) from one more solve (Kirchhoff term as a rank-one change, contact as a change of the
 //! tip's pivot), and bisection if an iterate leaves the bracket.
 
-use crate::block_tridiagonal::{Node, factorize, uninitialised};
+use crate::block_tridiagonal::{NodeFactors, factorize, uninitialised};
 use crate::error::StepFailure;
 use crate::lanes::{Kernel, Lane, MultiplyAdd, run_kernel};
 use crate::motion::{StepReport, Work};
 use crate::scheme::Case;
-use crate::solve::control::{Control, Element, Progress, Scalars};
+use crate::solve::control::{Control, ElementLengths, Progress, Scalars};
 use crate::solve::stepper::{Batch, Stepper};
 use crate::solve::{Level, Settings, Start};
 
@@ -61,9 +61,9 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) max_iterations: usize,
     first_iterate: Start,
     pub(super) scalars: Scalars<T>,
-    pub(super) elements: Vec<Element<T>>,
+    pub(super) elements: Vec<ElementLengths<T>>,
     /// The factorisation.
-    pub(super) nodes: Vec<Node<T, B>>,
+    pub(super) nodes: Vec<NodeFactors<T, B>>,
     /// (u, φ, θ~) at the old level.
     pub(super) old: Vec<[T; B]>,
     /// (u, φ, θ~) of the iterate.
@@ -106,8 +106,8 @@ fn in_lanes<T: Lane, C>(cases: &[C], value: impl Fn(&C) -> f64) -> T {
 }
 
 /// Element i of the cases.
-fn element<T: Lane>(cases: &[Case], i: usize) -> Element<T> {
-    Element {
+fn element<T: Lane>(cases: &[Case], i: usize) -> ElementLengths<T> {
+    ElementLengths {
         inverse: in_lanes(cases, |case| 1.0 / case.lengths[i]),
         sixth: in_lanes(cases, |case| case.lengths[i] / 6.0),
     }

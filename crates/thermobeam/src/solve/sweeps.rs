@@ -21,7 +21,7 @@
 
 use crate::block_tridiagonal::{Block, minus_times, minus_transpose_times, times};
 use crate::lanes::{Lane, MultiplyAdd};
-use crate::solve::control::{Element, Scalars};
+use crate::solve::control::{ElementLengths, Scalars};
 use crate::solve::newton::Newton;
 
 impl Scalars<f64> {
@@ -30,11 +30,11 @@ impl Scalars<f64> {
     pub(super) fn blocks<const B: usize>(
         &self,
         m: f64,
-        left: Element<f64>,
-        right: Option<Element<f64>>,
+        left: ElementLengths<f64>,
+        right: Option<ElementLengths<f64>>,
     ) -> (Block<f64, B>, Block<f64, B>) {
         let tip = right.is_none();
-        let right = right.unwrap_or(Element {
+        let right = right.unwrap_or(ElementLengths {
             inverse: 0.0,
             sixth: 0.0,
         });
@@ -197,7 +197,7 @@ fn nodal<A: MultiplyAdd, T: Lane, const B: usize>(
 #[inline(always)]
 fn element<A: MultiplyAdd, T: Lane, const B: usize>(
     s: &Scalars<T>,
-    e: Element<T>,
+    e: ElementLengths<T>,
     left: &Nodal<T, B>,
     right: &Nodal<T, B>,
 ) -> ([T; B], [T; B]) {

@@ -61,7 +61,7 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
     let finest_ratio = x[m - 2] - x[m - 1];
     let finest_rate = (y[m - 2] - y[m - 1]) / finest_ratio;
     let [log_h, log_e] = [&x, &y].map(|values| centred(values));
-    let mut line = Line::fit(&log_h, &log_e, round_off, None);
+    let mut line = RegressionLine::fit(&log_h, &log_e, round_off, None);
     let half = if m == 3 {
         // Pollution h^r makes the two rates p + c h^r at the middles of their pairs, in log h.
         let apart = (0.5 * SLOWEST_POLLUTION * (x[0] - x[2])).exp_m1();
@@ -72,7 +72,7 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
         let polluted_lines = POLLUTION_EXPONENTS.map(|r| {
             let powers: Vec<f64> = x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect();
             let column = centred(&powers);
-            Line::fit(
+            RegressionLine::fit(
                 &project_out(&column, &log_h),
                 &project_out(&column, &log_e),
                 round_off,
@@ -86,7 +86,7 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
             FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction);
         half.max(line.farthest_rate(&polluted_lines))
     };
-    let Line {
+    let RegressionLine {
         rate,
         pollution,
         dof,
@@ -105,7 +105,7 @@ pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
 
 /// One model of the logarithms: `y = a + q x`, or `y = a + q x + c (h / h_1)^r`.
 #[derive(Clone, Copy)]
-struct Line {
+struct RegressionLine {
     pollution: Option<f64>,
     /// q.
     rate: f64,
@@ -118,7 +118,7 @@ struct Line {
     square: f64,
 }
 
-impl Line {
+impl RegressionLine {
     /// Least squares.
     ///
     /// * `x`, `y`: what the projection on the other columns leaves of them (Frisch-Waugh).

@@ -4,7 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use thiserror::Error;
 
-use super::{Gci, Value, growth, observed_order};
+use super::{Gci, StepValue, growth, observed_order};
 use crate::interval::Interval;
 use crate::judge::fit::{FLOOR_MARGIN, Level};
 use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
@@ -29,7 +29,7 @@ pub(crate) const RATES: Interval = Interval {
 /// Why there is no error bar.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum NoErrorBar {
     /// Fewer than three.
     #[error("{0} values; three are the fewest that tell an order")]
     TooFewValues(usize),
@@ -93,18 +93,18 @@ pub struct Estimate {
     /// the values k and k + 1.
     pub judged: RateVerdict,
     /// The bar of the finest value.
-    pub bar: Result<Bar, Refusal>,
+    pub bar: Result<Bar, NoErrorBar>,
     /// Roache's index for it.
-    pub gci: Result<Gci, Refusal>,
+    pub gci: Result<Gci, NoErrorBar>,
 }
 
 /// The rule for values, with its settings.
 ///
 /// ```
-/// use convergence_judge::{Estimator, JudgeError, Value};
+/// use convergence_judge::{Estimator, JudgeError, StepValue};
 ///
 /// // They tend to 1 with the order 2.
-/// let values = [0.4, 0.2, 0.1, 0.05].map(|step| Value { step, value: 1.0 + 0.3 * step * step });
+/// let values = [0.4, 0.2, 0.1, 0.05].map(|step| StepValue { step, value: 1.0 + 0.3 * step * step });
 /// let estimate = Estimator::new(0.1)?.estimate(&values, 2.0);
 /// let bar = estimate.bar.expect("the differences fall");
 /// assert!(estimate.judged.verdict.is_pass());
@@ -150,7 +150,7 @@ impl Estimator {
     /// Estimates the error of the finest of the values, coarsest first.
     ///
     /// * `order`: claimed by theory.
-    pub fn estimate(&self, values: &[Value], order: f64) -> Estimate {
+    pub fn estimate(&self, values: &[StepValue], order: f64) -> Estimate {
         let judge = self.judge_of(values);
         let floor = judge.floor();
         let levels = differences(&judge, values, order);
@@ -160,7 +160,7 @@ impl Estimator {
         let usable = if order > 0.0 && order.is_finite() {
             check_difference(values, floor)
         } else {
-            Err(Refusal::NotAsymptotic(Reason::ClaimUnusable))
+            Err(NoErrorBar::NotAsymptotic(Reason::ClaimUnusable))
         };
         let bar = usable.and_then(|()| bar(values, &judged, scatter, floor / FLOOR_MARGIN));
         let gci = usable.and_then(|()| Gci::of(values, order, judge.tolerance()));
@@ -169,7 +169,7 @@ impl Estimator {
 
     /// The same without a claimed order: limit and index use the observed one, and nothing is
     /// confirmed.
-    pub fn estimate_unclaimed(&self, values: &[Value]) -> Estimate {
+    pub fn estimate_unclaimed(&self, values: &[StepValue]) -> Estimate {
         let judge = self.judge_of(values);
         let judged = observe(&differences(&judge, values, 1.0), judge.as_floor());
         let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
@@ -180,7 +180,7 @@ impl Estimator {
     }
 
     /// The rule with the floor that is set, or else that of these values.
-    fn judge_of(&self, values: &[Value]) -> Judge {
+    fn judge_of(&self, values: &[StepValue]) -> Judge {
         let largest = values
             .iter()
             .map(|level| level.value.abs())
@@ -194,9 +194,9 @@ impl Estimator {
 }
 
 /// Whether there is a difference to extrapolate from.
-fn check_difference(values: &[Value], floor: f64) -> Result<(), Refusal> {
+fn check_difference(values: &[StepValue], floor: f64) -> Result<(), NoErrorBar> {
     let [.., before, finest] = values else {
-        return Err(Refusal::TooFewValues(values.len()));
+        return Err(NoErrorBar::TooFewValues(values.len()));
     };
     let difference = (before.value - finest.value).abs();
     let steps_are_positive = values
@@ -204,15 +204,15 @@ fn check_difference(values: &[Value], floor: f64) -> Result<(), Refusal> {
         .all(|level| level.step > 0.0 && level.step.is_finite());
     let some_step_grows = values.windows(2).any(|pair| pair[1].step >= pair[0].step);
     if values.iter().any(|level| !level.value.is_finite()) {
-        Err(Refusal::NotFinite)
+        Err(NoErrorBar::NotFinite)
     } else if !steps_are_positive || some_step_grows {
-        Err(Refusal::Steps)
+        Err(NoErrorBar::Steps)
     } else if values.len() < FEWEST_LEVELS {
-        Err(Refusal::TooFewValues(values.len()))
+        Err(NoErrorBar::TooFewValues(values.len()))
     } else if difference == 0.0 {
-        Err(Refusal::NoChange)
+        Err(NoErrorBar::NoChange)
     } else if difference <= floor {
-        Err(Refusal::RoundOff { difference, floor })
+        Err(NoErrorBar::RoundOff { difference, floor })
     } else {
         Ok(())
     }
@@ -220,7 +220,7 @@ fn check_difference(values: &[Value], floor: f64) -> Result<(), Refusal> {
 
 /// The differences as if all ratios equalled the last one, each at the finer of its steps; see the
 /// [module](super).
-pub(super) fn reduce(values: &[Value], rate: f64) -> Vec<Level> {
+pub(super) fn reduce(values: &[StepValue], rate: f64) -> Vec<Level> {
     let ratios = step_ratios(values);
     let mut levels = vec![];
     for (pair, ratio) in values.windows(2).zip(&ratios) {
@@ -240,13 +240,13 @@ pub(super) fn reduce(values: &[Value], rate: f64) -> Vec<Level> {
 }
 
 /// The ratio of each step to the next.
-fn step_ratios(values: &[Value]) -> Vec<f64> {
+fn step_ratios(values: &[StepValue]) -> Vec<f64> {
     let pairs = values.windows(2);
     pairs.map(|pair| pair[0].step / pair[1].step).collect()
 }
 
 /// The reduced differences, reduced with the rate that they then have.
-fn differences(judge: &Judge, values: &[Value], order: f64) -> Vec<Level> {
+fn differences(judge: &Judge, values: &[StepValue], order: f64) -> Vec<Level> {
     let ratios = step_ratios(values);
     let start = if order > 0.0 { order } else { 1.0 };
     if ratios
@@ -288,16 +288,16 @@ pub(crate) fn crossing(f: impl Fn(f64) -> Option<f64>, within: Interval) -> Opti
 
 /// Whether the interval of the rule means something: its reason may concern the claim, but not the
 /// levels.
-fn check_reason(reason: Reason) -> Result<(), Refusal> {
+fn check_reason(reason: Reason) -> Result<(), NoErrorBar> {
     match reason {
         Reason::Agrees
         | Reason::TooLow
         | Reason::TooHigh
         | Reason::IntervalTooWide
         | Reason::AtTheEdge => Ok(()),
-        Reason::ErrorGrows => Err(Refusal::Diverging),
-        Reason::ZeroError => Err(Refusal::NoChange),
-        other => Err(Refusal::NotAsymptotic(other)),
+        Reason::ErrorGrows => Err(NoErrorBar::Diverging),
+        Reason::ZeroError => Err(NoErrorBar::NoChange),
+        other => Err(NoErrorBar::NotAsymptotic(other)),
     }
 }
 
@@ -314,18 +314,18 @@ fn have_one_sign(differences: &[f64]) -> bool {
 }
 
 /// The rate of differences that fall as the rule requires, without a change of sign.
-fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate, Refusal> {
+fn observed_rate(values: &[StepValue], judged: &RateVerdict) -> Result<ObservedRate, NoErrorBar> {
     let differences: Vec<f64> = values
         .windows(2)
         .map(|pair| pair[0].value - pair[1].value)
         .collect();
     if !have_one_sign(&differences[differences.len() - 2..]) {
-        return Err(Refusal::Oscillating);
+        return Err(NoErrorBar::Oscillating);
     }
     let Some(interval) = judged.interval else {
         if values.len() > FEWEST_LEVELS {
             check_reason(judged.kind)?;
-            return Err(Refusal::NotAsymptotic(judged.kind));
+            return Err(NoErrorBar::NotAsymptotic(judged.kind));
         }
         let rate = observed_order(values)?;
         let order = judged.order().unwrap_or(rate);
@@ -339,7 +339,7 @@ fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate,
     };
     check_reason(judged.kind)?;
     if !have_one_sign(&differences[judged.used.clone()]) {
-        return Err(Refusal::Oscillating);
+        return Err(NoErrorBar::Oscillating);
     }
     Ok(ObservedRate {
         rate: 0.5 * (interval.low + interval.high),
@@ -352,17 +352,17 @@ fn observed_rate(values: &[Value], judged: &RateVerdict) -> Result<ObservedRate,
 /// * `scatter`: of the logarithm of the last difference, at the confidence of the interval.
 /// * `round_off`: of a value.
 fn bar(
-    values: &[Value],
+    values: &[StepValue],
     judged: &RateVerdict,
     scatter: f64,
     round_off: f64,
-) -> Result<Bar, Refusal> {
+) -> Result<Bar, NoErrorBar> {
     let ObservedRate {
         rate,
         interval: rate_interval,
     } = observed_rate(values, judged)?;
     if rate_interval.low <= 0.0 {
-        return Err(Refusal::RateMayBeZero(rate_interval.low));
+        return Err(NoErrorBar::RateMayBeZero(rate_interval.low));
     }
     let [before, finest] = [values[values.len() - 2], values[values.len() - 1]];
     let difference = before.value - finest.value;

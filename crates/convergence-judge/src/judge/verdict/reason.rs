@@ -99,7 +99,8 @@ impl Reason {
         self.row().verdict
     }
 
-    /// Whether what the errors tend to says more than the reason: where they do not fall as claimed.
+    /// Whether what the errors tend to says more than the reason: where they do not fall as
+    /// claimed.
     pub(super) fn is_about_the_errors(self) -> bool {
         self.wants_a_level()
             || matches!(
@@ -113,8 +114,8 @@ impl Reason {
         self.row().wants_a_level
     }
 
-    /// Whether a failure for this reason is none of the rule's estimates, so that no finer level can
-    /// take it back.
+    /// Whether a failure for this reason is none of the rule's estimates, so that no finer level
+    /// can take it back.
     pub fn is_final(self) -> bool {
         matches!(
             self,
@@ -153,13 +154,13 @@ impl Reason {
     }
 
     /// The rows are in the order of the enumeration.
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static ReasonRow {
         &ROWS[self as usize]
     }
 }
 
 /// What is said about a reason.
-struct Row {
+struct ReasonRow {
     reason: Reason,
     verdict: Verdict,
     wants_a_level: bool,
@@ -169,8 +170,8 @@ struct Row {
     mathematics: &'static str,
 }
 
-static ROWS: [Row; 28] = [
-    Row {
+static ROWS: [ReasonRow; 28] = [
+    ReasonRow {
         reason: Reason::Agrees,
         verdict: Verdict::Pass,
         wants_a_level: false,
@@ -179,7 +180,7 @@ static ROWS: [Row; 28] = [
         advice: "The whole interval of the rate lies within the tolerance of the order.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::NoResult,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -189,7 +190,7 @@ static ROWS: [Row; 28] = [
               one; it decides nothing. Mend that case.",
         mathematics: NO_ERROR,
     },
-    Row {
+    ReasonRow {
         reason: Reason::NonFiniteError,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -199,7 +200,7 @@ static ROWS: [Row; 28] = [
               case.",
         mathematics: NO_ERROR,
     },
-    Row {
+    ReasonRow {
         reason: Reason::NegativeError,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -208,7 +209,7 @@ static ROWS: [Row; 28] = [
         advice: "An error is negative, which no norm can be: a sign was lost, or a difference was given.",
         mathematics: NO_ERROR,
     },
-    Row {
+    ReasonRow {
         reason: Reason::ErrorGrows,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -219,7 +220,7 @@ static ROWS: [Row; 28] = [
               problem?",
         mathematics: LOST_ORDER,
     },
-    Row {
+    ReasonRow {
         reason: Reason::FallsAway,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -230,7 +231,7 @@ static ROWS: [Row; 28] = [
               reference, the solver's tolerance, round-off (set a floor), the error of the other axis.",
         mathematics: PLATEAU,
     },
-    Row {
+    ReasonRow {
         reason: Reason::WrongLimit,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -241,7 +242,7 @@ static ROWS: [Row; 28] = [
               third step.",
         mathematics: PLATEAU,
     },
-    Row {
+    ReasonRow {
         reason: Reason::TooLow,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -252,7 +253,7 @@ static ROWS: [Row; 28] = [
               wrong time.",
         mathematics: LOST_ORDER,
     },
-    Row {
+    ReasonRow {
         reason: Reason::TooHigh,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -262,7 +263,7 @@ static ROWS: [Row; 28] = [
               error not the one that was meant.",
         mathematics: TOO_FAST,
     },
-    Row {
+    ReasonRow {
         reason: Reason::ConstantOff,
         verdict: Verdict::Fail,
         wants_a_level: false,
@@ -272,7 +273,7 @@ static ROWS: [Row; 28] = [
               scheme's own order, such as a factor in a term or in the norm.",
         mathematics: OTHER_CONSTANT,
     },
-    Row {
+    ReasonRow {
         reason: Reason::ZeroError,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -282,7 +283,7 @@ static ROWS: [Row; 28] = [
               Choose another one, or claim that it is exact.",
         mathematics: TOO_FAST,
     },
-    Row {
+    ReasonRow {
         reason: Reason::StepsNotDecreasing,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -291,7 +292,7 @@ static ROWS: [Row; 28] = [
         advice: "Levels must be given coarse to fine, each once.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::NotClaimed,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -300,7 +301,7 @@ static ROWS: [Row; 28] = [
         advice: "Where no order is claimed, none is confirmed. Claim what theory says.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::ClaimUnusable,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -309,7 +310,7 @@ static ROWS: [Row; 28] = [
         advice: "The order and the tolerance must be positive numbers.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::ToleranceTooWide,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -318,7 +319,7 @@ static ROWS: [Row; 28] = [
         advice: "Half an order or more on either side accepts two integer orders. Claim more narrowly.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::TooFewLevels,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -328,7 +329,7 @@ static ROWS: [Row; 28] = [
               the interval narrow.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::NotAsymptotic,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -338,7 +339,7 @@ static ROWS: [Row; 28] = [
               does not change its sign.",
         mathematics: LOST_ORDER,
     },
-    Row {
+    ReasonRow {
         reason: Reason::Departs,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -349,7 +350,7 @@ static ROWS: [Row; 28] = [
               solver's tolerance, the error of the other axis.",
         mathematics: PLATEAU,
     },
-    Row {
+    ReasonRow {
         reason: Reason::LowerOrderLikely,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -360,7 +361,7 @@ static ROWS: [Row; 28] = [
               the solver, the mean over shifted meshes.",
         mathematics: LOST_ORDER,
     },
-    Row {
+    ReasonRow {
         reason: Reason::Jump,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -370,7 +371,7 @@ static ROWS: [Row; 28] = [
               unit changes, or a level is wrong. Judge the parts by themselves, or mend that level.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::RoundOffFloor,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -380,7 +381,7 @@ static ROWS: [Row; 28] = [
               they are known better.",
         mathematics: ROUND_OFF,
     },
-    Row {
+    ReasonRow {
         reason: Reason::Digits,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -390,7 +391,7 @@ static ROWS: [Row; 28] = [
               them.",
         mathematics: ROUND_OFF,
     },
-    Row {
+    ReasonRow {
         reason: Reason::ConstantUnsure,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -399,7 +400,7 @@ static ROWS: [Row; 28] = [
         advice: "The order agrees, and the interval of the constant holds an end of the one claimed. Add a finer level, or claim less narrowly.",
         mathematics: OTHER_CONSTANT,
     },
-    Row {
+    ReasonRow {
         reason: Reason::Value,
         verdict: Verdict::Inconclusive,
         wants_a_level: false,
@@ -409,7 +410,7 @@ static ROWS: [Row; 28] = [
               the exact value.",
         mathematics: PLATEAU,
     },
-    Row {
+    ReasonRow {
         reason: Reason::LeftOver,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -419,7 +420,7 @@ static ROWS: [Row; 28] = [
               limit that is not zero, or the rates are not known well enough.",
         mathematics: PLATEAU,
     },
-    Row {
+    ReasonRow {
         reason: Reason::LevelsTooClose,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -429,7 +430,7 @@ static ROWS: [Row; 28] = [
               show. Refine further.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::IntervalTooWide,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,
@@ -439,7 +440,7 @@ static ROWS: [Row; 28] = [
               it slowly. Add levels, take an error that does not change its sign, or claim less narrowly.",
         mathematics: NEXT_TERM,
     },
-    Row {
+    ReasonRow {
         reason: Reason::AtTheEdge,
         verdict: Verdict::Inconclusive,
         wants_a_level: true,

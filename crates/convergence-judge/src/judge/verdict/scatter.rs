@@ -19,13 +19,13 @@ const LEAST_CHANGE: f64 = 1.0 / 60.0;
 /// Squares of residuals below this are round-off of logarithms.
 const ROUND_OFF: f64 = 1e-24;
 
-/// Whether a term of lower order explains the errors, with the order claimed, at least five times as
-/// well as any pollution of it.
+/// Whether a term of lower order explains the errors, with the order claimed, at least five times
+/// as well as any pollution of it.
 ///
 /// With p the order claimed, `y - p x = log(e / h^p)` is fitted by a constant a, by a + b h^r with
-/// the exponents r of pollution, and by a + b h^-d, d = 1/2, 1 and p, with b > 0. The sum of squares
-/// of the constant is scaled by its degrees of freedom. Scatter of one size leaves as much to all
-/// of them; a lower order leaves less to the last kind.
+/// the exponents r of pollution, and by a + b h^-d, d = 1/2, 1 and p, with b > 0. The sum of
+/// squares of the constant is scaled by its degrees of freedom. Scatter of one size leaves as much
+/// to all of them; a lower order leaves less to the last kind.
 ///
 /// A coarser level never removes the reason: the finest four, five, ... levels are looked at one
 /// after another.

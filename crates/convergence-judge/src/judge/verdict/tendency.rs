@@ -2,7 +2,7 @@
 //! of the verdict.
 
 use crate::judge::fit::{Level, pairwise_rates};
-use crate::judge::three_values::{Value, correction, observed_order};
+use crate::judge::three_values::{StepValue, correction, observed_order};
 use crate::text::number::{error_text, plain_text};
 
 /// Rates below this are those of errors that have stopped falling.
@@ -72,8 +72,8 @@ impl Tendency {
         }
     }
 
-    /// What these errors, coarsest first and above the round-off, tend to; `None` for errors that go
-    /// on falling, or scatter.
+    /// What these errors, coarsest first and above the round-off, tend to; `None` for errors that
+    /// go on falling, or scatter.
     pub(super) fn of(levels: &[Level]) -> Option<Self> {
         let (finest, coarser) = levels.split_last()?;
         if finest.error == 0.0 && coarser.iter().all(|level| level.error > 0.0) {
@@ -137,7 +137,7 @@ fn constant(levels: &[Level]) -> Option<Tendency> {
     let limit = if middle.error == fine.error {
         fine.error
     } else {
-        let value = |level: &Level| Value {
+        let value = |level: &Level| StepValue {
             step: level.step,
             value: level.error,
         };

@@ -30,8 +30,8 @@ const NEAR: f64 = 0.1;
 /// Least distance of a rate from both its neighbours that no error law explains.
 const JUMP: f64 = 3.0;
 
-/// Rates that differ by less are clean. (Rates of 2.66, 6.38 and 3.15 are those of meshes that are too
-/// coarse.)
+/// Rates that differ by less are clean. (Rates of 2.66, 6.38 and 3.15 are those of meshes that are
+/// too coarse.)
 const CLEAN: f64 = 0.25;
 
 /// Whether the second change has the sign of the first and is larger by more than the factor.
@@ -80,8 +80,8 @@ pub fn departs(rates: &[f64], tolerance: f64) -> bool {
 }
 
 /// Whether rates that [`departs`] refuses come nearer to the order and have hardly anything left:
-/// the last four lie within a tenth of the tolerance of it, on one side, and each is nearer than the
-/// one before.
+/// the last four lie within a tenth of the tolerance of it, on one side, and each is nearer than
+/// the one before.
 ///
 /// The rates 1.9872, 1.9888, 1.9917, 1.9961 rise at a growing pace, towards 2. Rates that move away
 /// from the order, however little, stay a reason: h² (1 + s h_min/h) has them.

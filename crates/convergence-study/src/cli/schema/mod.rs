@@ -7,7 +7,7 @@ mod page;
 
 use serde_json::{Map, Value, json};
 
-use super::exit::{Outcome, Unusable};
+use super::exit::{CommandOutcome, Unusable};
 use super::screen;
 use crate::input::{Form, Key, Keys};
 use crate::judge::verdict::Verdict;
@@ -39,7 +39,7 @@ pub struct Arguments {
 }
 
 /// Runs the command.
-pub(super) fn run(project: &Project, arguments: &Arguments) -> Outcome {
+pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let others = other_files(project);
     let schema = match others.iter().find(|(name, _)| *name == arguments.files) {
         Some((name, set)) => of_tables_file(name, set),

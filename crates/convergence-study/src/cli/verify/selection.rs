@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Arguments;
-use crate::cli::exit::{Outcome, Unusable};
+use crate::cli::exit::{CommandOutcome, Unusable};
 use crate::cli::{screen, workspace};
 use crate::judge::verdict::Verdict;
 use crate::store::Record;
@@ -83,7 +83,7 @@ pub(super) fn dry_run(
     root: &Path,
     all: &[StudyFile],
     mask: &[bool],
-) -> Outcome {
+) -> CommandOutcome {
     let last = workspace::last_seconds(root)?;
     let mut rows = vec![];
     let mut studies = vec![];

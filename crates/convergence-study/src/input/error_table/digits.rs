@@ -2,7 +2,7 @@
 
 use crate::judge::claims::Claim;
 use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
-use crate::judge::richardson::{Estimate, Estimator, Value};
+use crate::judge::richardson::{Estimate, Estimator, StepValue};
 use crate::judge::verdict::{self, Cause, Floor, RateVerdict, Reason, Verdict};
 use crate::text::number::counted;
 
@@ -186,10 +186,10 @@ fn with_change(lists: &[Vec<Level>], k: usize, change: f64) -> Vec<Vec<Level>> {
 }
 
 /// Levels that hold values in place of errors.
-fn as_values(levels: &[Level]) -> Vec<Value> {
+fn as_values(levels: &[Level]) -> Vec<StepValue> {
     levels
         .iter()
-        .map(|level| Value {
+        .map(|level| StepValue {
             step: level.step,
             value: level.error,
         })

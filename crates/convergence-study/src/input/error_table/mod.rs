@@ -54,7 +54,7 @@ mod turned;
 use std::io;
 use std::path::Path;
 
-use super::advice::{Argument, Setting, Surface, Value};
+use super::advice::{Argument, ArgumentValue, Setting, Surface};
 use crate::input::{self, InputError};
 
 pub use digits::Column;
@@ -218,16 +218,16 @@ impl Choice {
         let values = [
             (
                 Argument::Names,
-                self.names.as_deref().and_then(Value::names),
+                self.names.as_deref().and_then(ArgumentValue::names),
             ),
-            (Argument::Step, self.step.clone().map(Value::Name)),
-            (Argument::Dim, self.dim.map(Value::Number)),
-            (Argument::Ratio, self.ratio.map(Value::Number)),
+            (Argument::Step, self.step.clone().map(ArgumentValue::Name)),
+            (Argument::Dim, self.dim.map(ArgumentValue::Number)),
+            (Argument::Ratio, self.ratio.map(ArgumentValue::Number)),
             (
                 Argument::Columns,
-                self.columns.as_deref().and_then(Value::names),
+                self.columns.as_deref().and_then(ArgumentValue::names),
             ),
-            (Argument::Values, Value::names(&self.values)),
+            (Argument::Values, ArgumentValue::names(&self.values)),
         ];
         let mut settings = vec![];
         for (argument, value) in values {

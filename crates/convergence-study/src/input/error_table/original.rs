@@ -1,7 +1,7 @@
 //! The text of a table, and complaints about its pieces.
 
 use crate::input::advice::Text;
-use crate::input::{Complaint, InputError, Source, failed};
+use crate::input::{Complaint, InputError, SourceText, failed};
 
 /// A table to be read.
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +77,7 @@ impl<'t> Original<'t> {
                 failed(&format!("{field}[{row}]"), complaint(expected, found))
             }
             (Rows::Lines, _) if !self.text.trim().is_empty() => {
-                let source = Source {
+                let source = SourceText {
                     file: self.name,
                     text: self.text,
                 };

@@ -15,13 +15,13 @@ pub struct Inset {
     /// The small figure.
     pub xy: Box<Xy>,
     /// Where it lies.
-    pub place: Place,
+    pub place: InsetFrame,
 }
 
 /// A part of a plot, with the labels of its axes, in fractions of the plot from its upper left
 /// corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct InsetFrame {
     /// Left edge.
     pub left: f64,
     /// Upper edge; less than `bottom`.
@@ -38,7 +38,7 @@ const TOP: f64 = 30.0;
 const RIGHT: f64 = 14.0;
 const BOTTOM: f64 = 34.0;
 
-impl Place {
+impl InsetFrame {
     /// Height of the small plot, in heights of the larger one.
     pub fn height(&self) -> f64 {
         self.bottom - self.top - (TOP + BOTTOM) / style::PLOT_HEIGHT

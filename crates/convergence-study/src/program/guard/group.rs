@@ -9,9 +9,9 @@ use nix::unistd::Pid;
 
 /// The group, which the program leads.
 #[derive(Debug)]
-pub(super) struct Group;
+pub(super) struct ProcessGroup;
 
-impl Group {
+impl ProcessGroup {
     /// A group is made by the program that leads it: this cannot fail, as the job of Windows can.
     #[expect(clippy::unnecessary_wraps, reason = "as on Windows")]
     pub(super) fn new() -> io::Result<Self> {

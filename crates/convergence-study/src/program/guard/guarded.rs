@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use nix::sys::signal::Signal;
 
-use super::message::{Reply, Request, receive, send};
+use super::message::{Reply, StartRequest, receive, send};
 use super::{COMMAND, Ending, IS_GUARD, NotStarted, group};
 
 /// A guard whose program runs. When it is dropped, the guard ends the program.
@@ -44,7 +44,7 @@ impl Guarded {
             socket: BufReader::new(own),
             group: 0,
         };
-        let _ = send(started.socket.get_ref(), &Request::new(program, input));
+        let _ = send(started.socket.get_ref(), &StartRequest::new(program, input));
         // What is no guard has ended, or answers nothing that is a reply.
         match receive(&mut started.socket) {
             Ok(Some(Reply::Started { group })) => started.group = group,

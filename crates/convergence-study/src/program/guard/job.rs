@@ -1,9 +1,9 @@
 //! The processes of a case on Windows: a job object.
 //!
 //! Whatever a process of the job starts is in the job as well. Windows ends all of them when the
-//! last handle of the job is closed: by [`Group::end`], or when this process ends, however it ends.
-//! What a program starts in the instant between its own start and its entry into the job stays
-//! outside.
+//! last handle of the job is closed: by [`ProcessGroup::end`], or when this process ends, however
+//! it ends. What a program starts in the instant between its own start and its entry into the job
+//! stays outside.
 
 use std::io;
 use std::os::windows::io::AsRawHandle;
@@ -13,12 +13,12 @@ use win32job::{ExtendedLimitInfo, Job};
 
 /// The job of one case.
 #[derive(Debug)]
-pub(in crate::program) struct Group {
+pub(in crate::program) struct ProcessGroup {
     /// Empty once the case has ended.
     job: Option<Job>,
 }
 
-impl Group {
+impl ProcessGroup {
     /// A job whose processes end with its last handle.
     pub(in crate::program) fn new() -> io::Result<Self> {
         let mut limits = ExtendedLimitInfo::new();

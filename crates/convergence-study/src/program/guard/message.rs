@@ -12,18 +12,18 @@ use super::IS_GUARD;
 
 /// What the guard is to start.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Request {
+pub(super) struct StartRequest {
     program: OsString,
     arguments: Vec<OsString>,
     directory: Option<OsString>,
     /// Variables of its environment beside those of the harness.
-    variables: Vec<Variable>,
+    variables: Vec<EnvironmentVariable>,
     /// Its standard input; may be empty.
     pub(super) input: String,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-struct Variable {
+struct EnvironmentVariable {
     name: OsString,
     value: OsString,
 }
@@ -39,10 +39,10 @@ pub(super) enum Reply {
     Ended { status: i32 },
 }
 
-impl Request {
+impl StartRequest {
     pub(super) fn new(command: &Command, input: String) -> Self {
         let variables = command.get_envs().filter_map(|(name, value)| {
-            Some(Variable {
+            Some(EnvironmentVariable {
                 name: name.to_owned(),
                 value: value?.to_owned(),
             })
@@ -60,7 +60,7 @@ impl Request {
     pub(super) fn command(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.args(&self.arguments).env_remove(IS_GUARD);
-        for Variable { name, value } in &self.variables {
+        for EnvironmentVariable { name, value } in &self.variables {
             command.env(name, value);
         }
         if let Some(directory) = &self.directory {

@@ -11,7 +11,7 @@ use nix::sys::signal::{SigSet, Signal};
 
 #[cfg(target_os = "linux")]
 use super::descendants;
-use super::message::{Reply, Request, receive, send};
+use super::message::{Reply, StartRequest, receive, send};
 use super::{GRACE, fed, group};
 
 /// Starts the program that the harness asks for, and answers when it has ended and nothing of it is
@@ -26,7 +26,7 @@ pub(super) fn serve() -> io::Result<()> {
     nix::sys::prctl::set_child_subreaper(true)?;
     let socket = UnixStream::from(io::stdin().as_fd().try_clone_to_owned()?);
     let mut from_harness = BufReader::new(socket.try_clone()?);
-    let Some(request) = receive::<Request>(&mut from_harness)? else {
+    let Some(request) = receive::<StartRequest>(&mut from_harness)? else {
         return Ok(());
     };
     let mut program = match start(request, &signals) {
@@ -56,7 +56,7 @@ fn outlived() -> SigSet {
 /// Starts the program in a group of its own: what it sends to its group does not reach the guard.
 ///
 /// * `signals`: blocked by this thread; a program would inherit that.
-fn start(request: Request, signals: &SigSet) -> io::Result<Child> {
+fn start(request: StartRequest, signals: &SigSet) -> io::Result<Child> {
     let mut command = request.command();
     command.process_group(0);
     signals.thread_unblock()?;

@@ -15,7 +15,7 @@ use crate::text::number::{pair_text, plain_text};
 
 /// A guarded number or a claim that changed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Change {
+pub struct GuardedChange {
     /// The study.
     pub study: String,
     /// The quantity, or the dotted path of the claim.
@@ -24,7 +24,7 @@ pub struct Change {
     pub movement: Movement,
 }
 
-impl Change {
+impl GuardedChange {
     pub(super) fn new(study: &str, name: &str, movement: Movement) -> Self {
         Self {
             study: study.to_owned(),
@@ -170,7 +170,7 @@ impl Movement {
 
 /// How many numbers there are to accept if the baseline has nothing of the studies that were run;
 /// `None` if it has some of it, or if something else has changed.
-pub(crate) fn without_baseline(finished: &[Finished], changes: &[Change]) -> Option<usize> {
+pub(crate) fn without_baseline(finished: &[Finished], changes: &[GuardedChange]) -> Option<usize> {
     let of_new_files = changes
         .iter()
         .filter(|change| matches!(change.movement, Movement::NewFile { guarded: 0, .. }));
@@ -201,7 +201,7 @@ pub(super) fn of_numbers(
     study: &str,
     expected: &BTreeMap<String, Guarded>,
     found: &[Quantity],
-) -> Vec<Change> {
+) -> Vec<GuardedChange> {
     let mut changes = Vec::new();
     for quantity in found {
         let movement = match expected.get(&quantity.name) {
@@ -210,7 +210,8 @@ pub(super) fn of_numbers(
                 value: quantity.value,
             }),
         };
-        changes.extend(movement.map(|movement| Change::new(study, &quantity.name, movement)));
+        changes
+            .extend(movement.map(|movement| GuardedChange::new(study, &quantity.name, movement)));
     }
     let names: HashSet<&str> = found
         .iter()
@@ -221,7 +222,11 @@ pub(super) fn of_numbers(
         .filter(|(name, _)| !names.contains(name.as_str()));
     for (name, guarded) in vanished {
         let value = guarded.value;
-        changes.push(Change::new(study, name, Movement::Vanished { value }));
+        changes.push(GuardedChange::new(
+            study,
+            name,
+            Movement::Vanished { value },
+        ));
     }
     changes
 }
@@ -243,7 +248,7 @@ fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
     }
 }
 
-impl fmt::Display for Change {
+impl fmt::Display for GuardedChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let colon = if self.movement.is_of_one_claim() {
             ":"
@@ -347,11 +352,15 @@ pub(super) type Claims = BTreeMap<String, BlessedClaim>;
 /// Differences between the blessed claims and the current file, by path; a new file is one change.
 ///
 /// * `guarded`: how many numbers of the study are guarded.
-pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usize) -> Vec<Change> {
+pub(super) fn of_claims(
+    header: &Header,
+    blessed: Option<&Claims>,
+    guarded: usize,
+) -> Vec<GuardedChange> {
     let Header { id, settings, .. } = header;
     let standing = standing(blessed);
     if standing.is_empty() {
-        let new = Change::new(
+        let new = GuardedChange::new(
             id,
             WHOLE_FILE,
             Movement::NewFile {
@@ -380,7 +389,7 @@ pub(super) fn of_claims(header: &Header, blessed: Option<&Claims>, guarded: usiz
                 to: to.map(str::to_owned),
                 entry: entry(path, &paths),
             };
-            changes.push(Change::new(id, path, movement));
+            changes.push(GuardedChange::new(id, path, movement));
         }
     }
     changes
@@ -403,9 +412,9 @@ fn entry(path: &str, paths: &BTreeMap<&str, [Option<&str>; 2]>) -> Option<String
 }
 
 /// The change of a study whose file has vanished; `None` if its claims were withdrawn earlier.
-pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<Change> {
+pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<GuardedChange> {
     let values = standing(Some(blessed)).len();
-    (values > 0).then(|| Change::new(id, WHOLE_FILE, Movement::VanishedFile { values }))
+    (values > 0).then(|| GuardedChange::new(id, WHOLE_FILE, Movement::VanishedFile { values }))
 }
 
 /// The values that have not been withdrawn.
@@ -443,8 +452,8 @@ mod tests {
             ("kept".to_owned(), guarded(1.0)),
             ("gone".to_owned(), guarded(2.0)),
         ]);
-        let gone = Change::new("study", "gone", Movement::Vanished { value: 2.0 });
-        let kept = Change::new("study", "kept", Movement::Vanished { value: 1.0 });
+        let gone = GuardedChange::new("study", "gone", Movement::Vanished { value: 2.0 });
+        let kept = GuardedChange::new("study", "kept", Movement::Vanished { value: 1.0 });
         let found = Quantity::new("kept", 1.0, 1e-3);
         assert_eq!(of_numbers("study", &expected, &[]), [gone.clone(), kept]);
         assert_eq!(of_numbers("study", &expected, &[found]), [gone]);

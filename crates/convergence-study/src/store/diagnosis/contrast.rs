@@ -8,7 +8,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::study::header::{STUDY, Setting};
+use crate::study::header::{STUDY, SettingWords};
 
 /// Subtracted for a second setting: it must explain more than it costs to read.
 const SECOND: f64 = 0.02;
@@ -38,7 +38,7 @@ const SHARED: usize = 3;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Vote {
     /// The settings that they exercise.
-    pub(super) settings: Vec<Setting>,
+    pub(super) settings: Vec<SettingWords>,
     /// Whether any of them fails, or has moved.
     pub(super) fails: bool,
     /// Those that fail, of how many there are.
@@ -89,7 +89,7 @@ pub struct Others {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Contrast {
     /// The settings; empty if none separates.
-    pub settings: Vec<Setting>,
+    pub settings: Vec<SettingWords>,
     /// The kind of the study that is named, if one is, and others are of another kind: it says
     /// where to look.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -101,7 +101,7 @@ pub struct Contrast {
     pub failing: PartOf,
     /// Other settings that every failing item has, but not most of all items: the rarest first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub shared: Vec<Setting>,
+    pub shared: Vec<SettingWords>,
     /// Items without them, by their alternative settings.
     pub others: Vec<Others>,
 }
@@ -114,7 +114,7 @@ impl Contrast {
     }
 
     /// A setting in words: `ID alone (KIND)`, or its value.
-    pub(super) fn words(&self, (key, value): &Setting) -> String {
+    pub(super) fn words(&self, (key, value): &SettingWords) -> String {
         match &self.kind {
             Some(kind) if key == STUDY => format!("{value} ({kind})"),
             _ => value.clone(),
@@ -124,13 +124,13 @@ impl Contrast {
 
 /// A set of votes, and how well it agrees with the failing ones.
 struct Set<'v> {
-    settings: Vec<&'v Setting>,
+    settings: Vec<&'v SettingWords>,
     holds: Vec<bool>,
     score: f64,
 }
 
 /// Votes that share these settings, and their score.
-fn set<'v>(votes: &[Vote], settings: Vec<&'v Setting>, holds: Vec<bool>) -> Set<'v> {
+fn set<'v>(votes: &[Vote], settings: Vec<&'v SettingWords>, holds: Vec<bool>) -> Set<'v> {
     let failing = votes.iter().filter(|vote| vote.fails).count() as f64;
     let with = holds.iter().filter(|holds| **holds).count() as f64;
     let both = votes
@@ -230,7 +230,7 @@ fn contrast_of(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
     others.sort_by_key(|known| std::cmp::Reverse(known.passing.part));
     others.truncate(GROUPS);
     others.retain(|known| known.passing.part > 0);
-    let settings: Vec<Setting> = best
+    let settings: Vec<SettingWords> = best
         .settings
         .iter()
         .map(|setting| (*setting).clone())
@@ -253,7 +253,7 @@ fn contrast_of(votes: &[Vote], best: &Set<'_>, nothing: f64) -> Contrast {
 }
 
 /// The kind of the study among these settings, unless all studies are of that kind.
-fn kind_of_study(votes: &[Vote], settings: &[Setting]) -> Option<String> {
+fn kind_of_study(votes: &[Vote], settings: &[SettingWords]) -> Option<String> {
     let study = settings.iter().find(|(key, _)| key == STUDY)?;
     let vote = votes.iter().find(|vote| vote.settings.contains(study))?;
     let kind = vote.settings.iter().find(|(key, _)| key == KIND)?;
@@ -263,7 +263,7 @@ fn kind_of_study(votes: &[Vote], settings: &[Setting]) -> Option<String> {
 
 /// The settings of all failing votes, except those that the contrast names and those that most of
 /// all items have.
-fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
+fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<SettingWords> {
     let failing: Vec<&Vote> = votes.iter().filter(|vote| vote.fails).collect();
     // One item shares everything with itself.
     let [first, others @ ..] = &failing[..] else {
@@ -296,12 +296,12 @@ fn shared(votes: &[Vote], contrast: &Contrast) -> Vec<Setting> {
 
 /// A setting of all failing votes, and the share of all items that has it.
 struct RareSetting<'v> {
-    setting: &'v Setting,
+    setting: &'v SettingWords,
     share: f64,
 }
 
 /// The share of items that have a setting.
-fn share_with(votes: &[Vote], setting: &Setting) -> f64 {
+fn share_with(votes: &[Vote], setting: &SettingWords) -> f64 {
     let items = |vote: &Vote| vote.failing.of;
     let with = votes.iter().filter(|vote| vote.settings.contains(setting));
     let all: usize = votes.iter().map(items).sum();

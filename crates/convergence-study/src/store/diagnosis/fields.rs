@@ -1,8 +1,8 @@
 //! Which fields moved, and how much of the movement each has.
 
-use super::{Field, WrongRate, moved_numbers, subject_of_number};
+use super::{WrongField, WrongRate, moved_numbers, subject_of_number};
 use crate::run::Finished;
-use crate::store::{Change, Movement};
+use crate::store::{GuardedChange, Movement};
 use crate::study::{NamedRate, Sort};
 
 /// The share of a field is this power of its weight over the largest of its study: half the weight
@@ -14,8 +14,8 @@ const ALONE: f64 = 0.1;
 
 /// Fields by their share of the movement: within a study each is measured by its tolerance, on its
 /// finest level, where its own error has had the least time to mix with those of others.
-pub(super) fn first(finished: &[Finished], changes: &[Change]) -> Vec<Field> {
-    let mut fields: Vec<Field> = vec![];
+pub(super) fn first(finished: &[Finished], changes: &[GuardedChange]) -> Vec<WrongField> {
+    let mut fields: Vec<WrongField> = vec![];
     for study in finished {
         let moved = moved_fields(study, changes);
         let most = moved
@@ -48,11 +48,11 @@ struct MovedField {
 }
 
 /// The fields of a study whose errors moved, then those of which only the rate does not pass.
-fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
+fn moved_fields(study: &Finished, changes: &[GuardedChange]) -> Vec<MovedField> {
     // Levels are in order: the last number of a field belongs to its finest level.
     let mut moved: Vec<MovedField> = vec![];
     let outcome = &study.outcome;
-    for Change { name, movement, .. } in moved_numbers(changes, &study.header.id) {
+    for GuardedChange { name, movement, .. } in moved_numbers(changes, &study.header.id) {
         let Movement::Moved { from, to, .. } = movement else {
             continue;
         };
@@ -102,11 +102,11 @@ fn moved_fields(study: &Finished, changes: &[Change]) -> Vec<MovedField> {
 }
 
 /// Adds what one study says about a field to what the others say.
-fn add(fields: &mut Vec<Field>, moved: &MovedField, share: f64) {
+fn add(fields: &mut Vec<WrongField>, moved: &MovedField, share: f64) {
     let known = fields.iter().position(|field| field.name == moved.name);
     let place = known.unwrap_or(fields.len());
     if known.is_none() {
-        fields.push(Field {
+        fields.push(WrongField {
             name: moved.name.clone(),
             share: 0.0,
             rate: None,

@@ -7,11 +7,16 @@ struct Setting {
     coordinates: &'static [&'static str],
     faces: &'static [&'static str],
     has_time: bool,
-    others: Vec<Part>,
+    others: Vec<SolverPart>,
 }
 
 fn settings() -> Vec<Setting> {
-    let others = || vec![Part::Parameter("p".to_owned()), Part::Field("u".to_owned())];
+    let others = || {
+        vec![
+            SolverPart::Parameter("p".to_owned()),
+            SolverPart::Field("u".to_owned()),
+        ]
+    };
     vec![
         Setting {
             coordinates: &["x", "y"],
@@ -60,9 +65,9 @@ fn owned(names: &[&str]) -> Vec<String> {
 
 impl Setting {
     /// The variants of such a file.
-    fn parts(&self) -> Vec<Part> {
+    fn parts(&self) -> Vec<SolverPart> {
         let mut parts = self.inner();
-        parts.extend(owned(self.faces).into_iter().map(Part::Face));
+        parts.extend(owned(self.faces).into_iter().map(SolverPart::Face));
         let mut with_faces = 0;
         for name in owned(self.coordinates) {
             let sides = self
@@ -72,30 +77,30 @@ impl Setting {
                 .count();
             with_faces += usize::from(sides > 0);
             if sides == 2 {
-                parts.push(Part::BothFaces(name));
+                parts.push(SolverPart::BothFaces(name));
             }
         }
         if with_faces > 1 {
-            parts.push(Part::AllFaces);
-            parts.extend(owned(self.faces).into_iter().map(Part::AllFacesBut));
+            parts.push(SolverPart::AllFaces);
+            parts.extend(owned(self.faces).into_iter().map(SolverPart::AllFacesBut));
         }
         if self.has_time {
-            parts.push(Part::Initial);
+            parts.push(SolverPart::Initial);
             if !self.faces.is_empty() {
-                parts.push(Part::AllFacesAndInitial);
+                parts.push(SolverPart::AllFacesAndInitial);
             }
         }
         parts
     }
 
     /// The variants that switch off what acts inside the domain.
-    fn inner(&self) -> Vec<Part> {
-        let mut inner: Vec<Part> = owned(self.coordinates)
+    fn inner(&self) -> Vec<SolverPart> {
+        let mut inner: Vec<SolverPart> = owned(self.coordinates)
             .into_iter()
-            .map(Part::Coordinate)
+            .map(SolverPart::Coordinate)
             .collect();
         if self.has_time {
-            inner.push(Part::Time("t".to_owned()));
+            inner.push(SolverPart::Time("t".to_owned()));
         }
         inner.extend(self.others.iter().cloned());
         inner
@@ -104,7 +109,7 @@ impl Setting {
     /// All single mistakes.
     fn mistakes(&self) -> Vec<Mistake> {
         let inner = self.inner();
-        let subsets = |parts: &[Part]| -> Vec<Vec<Part>> {
+        let subsets = |parts: &[SolverPart]| -> Vec<Vec<SolverPart>> {
             let count = 1usize << parts.len();
             let subset = |bits: usize| {
                 let chosen = parts
@@ -138,18 +143,23 @@ impl Setting {
     }
 }
 
-/// A mistake: seen only where the solution is not flat at each of some faces, and at the first time;
-/// and where the solution changes in each part of `hidden_by`.
+/// A mistake: seen only where the solution is not flat at each of some faces, and at the first
+/// time; and where the solution changes in each part of `hidden_by`.
 #[derive(Debug, Clone, PartialEq)]
 struct Mistake {
     faces: Vec<String>,
     is_initial: bool,
-    hidden_by: Vec<Part>,
+    hidden_by: Vec<SolverPart>,
     is_inside: bool,
 }
 
 impl Mistake {
-    fn new(faces: &[&&'static str], is_initial: bool, hidden_by: &[Part], is_inside: bool) -> Self {
+    fn new(
+        faces: &[&&'static str],
+        is_initial: bool,
+        hidden_by: &[SolverPart],
+        is_inside: bool,
+    ) -> Self {
         Self {
             faces: faces.iter().map(|face| (**face).to_owned()).collect(),
             is_initial,
@@ -158,31 +168,31 @@ impl Mistake {
         }
     }
 
-    fn is_hidden_in(&self, variant: &Part) -> bool {
+    fn is_hidden_in(&self, variant: &SolverPart) -> bool {
         let at = |is_flat: &dyn Fn(&str) -> bool| self.faces.iter().any(|face| is_flat(face));
         match variant {
-            Part::Face(name) => at(&|face| face == name),
-            Part::BothFaces(name) => at(&|face| is_side(face, name)),
-            Part::AllFaces => at(&|_| true),
-            Part::AllFacesBut(name) => at(&|face| face != name),
-            Part::Initial => self.is_initial,
-            Part::AllFacesAndInitial => self.is_initial || at(&|_| true),
+            SolverPart::Face(name) => at(&|face| face == name),
+            SolverPart::BothFaces(name) => at(&|face| is_side(face, name)),
+            SolverPart::AllFaces => at(&|_| true),
+            SolverPart::AllFacesBut(name) => at(&|face| face != name),
+            SolverPart::Initial => self.is_initial,
+            SolverPart::AllFacesAndInitial => self.is_initial || at(&|_| true),
             inner => self.hidden_by.contains(inner),
         }
     }
 
     /// Whether a part that is named is one of the mistake.
-    fn has(&self, part: &Part) -> bool {
+    fn has(&self, part: &SolverPart) -> bool {
         match part {
-            Part::Face(name) => self.faces.contains(name),
-            Part::Initial => self.is_initial,
+            SolverPart::Face(name) => self.faces.contains(name),
+            SolverPart::Initial => self.is_initial,
             inner => self.hidden_by.contains(inner),
         }
     }
 }
 
-fn fates(parts: &[Part], mistakes: &[&Mistake]) -> Vec<Examined> {
-    let examined = |part: &Part| {
+fn fates(parts: &[SolverPart], mistakes: &[&Mistake]) -> Vec<Examined> {
+    let examined = |part: &SolverPart| {
         let is_seen = mistakes.iter().any(|mistake| !mistake.is_hidden_in(part));
         Examined {
             part: part.clone(),
@@ -268,22 +278,24 @@ fn what_is_unknown_or_round_off_names_nothing_that_is_right() {
 }
 
 /// The name of the variant of a part.
-fn name(part: &Part) -> String {
+fn name(part: &SolverPart) -> String {
     match part {
-        Part::Coordinate(name) | Part::Time(name) | Part::Field(name) => format!("constant_{name}"),
-        Part::Face(name) | Part::BothFaces(name) => format!("flat_{name}"),
-        Part::AllFaces => "flat_faces".to_owned(),
-        Part::AllFacesBut(name) => format!("flat_but_{name}"),
-        Part::Initial => "flat_initial".to_owned(),
-        Part::AllFacesAndInitial => "flat_everywhere".to_owned(),
-        Part::Parameter(name) => format!("zero_{name}"),
+        SolverPart::Coordinate(name) | SolverPart::Time(name) | SolverPart::Field(name) => {
+            format!("constant_{name}")
+        }
+        SolverPart::Face(name) | SolverPart::BothFaces(name) => format!("flat_{name}"),
+        SolverPart::AllFaces => "flat_faces".to_owned(),
+        SolverPart::AllFacesBut(name) => format!("flat_but_{name}"),
+        SolverPart::Initial => "flat_initial".to_owned(),
+        SolverPart::AllFacesAndInitial => "flat_everywhere".to_owned(),
+        SolverPart::Parameter(name) => format!("zero_{name}"),
     }
 }
 
 /// The fates of a plane problem in time with these variants back, and all others lost.
 fn back(names: &[&str]) -> Vec<Examined> {
     let parts = settings()[0].parts();
-    let examined = |part: &Part| Examined {
+    let examined = |part: &SolverPart| Examined {
         part: part.clone(),
         fate: if names.contains(&name(part).as_str()) {
             Fate::Back
@@ -323,14 +335,14 @@ fn rows() -> Vec<Row> {
         conclusion: Conclusion::Faces(owned(names)),
         back: back.to_vec(),
     };
-    let inside = |parts: Vec<Part>, back: &[&'static str]| Row {
+    let inside = |parts: Vec<SolverPart>, back: &[&'static str]| Row {
         conclusion: Conclusion::Inside(parts),
         back: back.to_vec(),
     };
     let at_x_max = |more: &'static str| [AT_X_MAX.as_slice(), &[more]].concat();
-    let y = Part::Coordinate("y".to_owned());
-    let t = Part::Time("t".to_owned());
-    let p = Part::Parameter("p".to_owned());
+    let y = SolverPart::Coordinate("y".to_owned());
+    let t = SolverPart::Time("t".to_owned());
+    let p = SolverPart::Parameter("p".to_owned());
     let pair = ["flat_faces", "flat_everywhere"];
     let with_pair = |more: &[&'static str]| [pair.as_slice(), more].concat();
     vec![
@@ -465,10 +477,11 @@ fn a_contradiction_or_a_gap_names_nothing() {
 
 #[test]
 fn at_rest_a_term_is_named_only_if_the_order_is_lost_where_both_faces_are_flat() {
-    let parameter = Part::Parameter("p".to_owned());
+    let parameter = SolverPart::Parameter("p".to_owned());
     let fates = |of_both| {
-        let faces = ["x_min", "x_max"].map(|face| (Part::Face(face.to_owned()), Fate::Unknown));
-        let both = (Part::BothFaces("x".to_owned()), of_both);
+        let faces =
+            ["x_min", "x_max"].map(|face| (SolverPart::Face(face.to_owned()), Fate::Unknown));
+        let both = (SolverPart::BothFaces("x".to_owned()), of_both);
         let examined = faces
             .into_iter()
             .chain([both, (parameter.clone(), Fate::Back)]);

@@ -19,7 +19,7 @@ use walk::{Role, Walk};
 
 /// What an edit does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Change {
+pub(crate) enum EditKind {
     /// An unknown factor at a whole term of an equation, or at a whole datum.
     Term,
     /// An unknown factor at a summand.
@@ -75,7 +75,7 @@ pub(crate) enum Change {
 /// An edit that is tried.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Candidate {
-    pub(crate) change: Change,
+    pub(crate) change: EditKind,
     pub(crate) alteration: Alteration,
     /// How far it is from a top-level term.
     pub(crate) depth: usize,
@@ -83,10 +83,10 @@ pub(crate) struct Candidate {
     pub(crate) is_rare: bool,
 }
 
-impl Change {
+impl EditKind {
     /// Whether a number belongs to it.
     pub(crate) fn has_factor(self) -> bool {
-        use Change::{Added, Exponent, Part, Summand, Term};
+        use EditKind::{Added, Exponent, Part, Summand, Term};
         matches!(self, Term | Summand | Part | Exponent | Added)
     }
 }
@@ -171,24 +171,24 @@ fn in_expressions(problem: &Problem, alike: &[[String; 2]], homes: &[Home]) -> V
 /// Edits that are about all of a quantity.
 fn of_all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
     let mut found = vec![];
-    let mut add = |change: Change, alteration: Alteration| {
+    let mut add = |change: EditKind, alteration: Alteration| {
         found.push(Candidate {
             change,
             alteration,
             depth: 0,
-            is_rare: change == Change::Exchange,
+            is_rare: change == EditKind::Exchange,
         });
     };
     if problem.system != System::Cartesian {
         for basis in [Basis::Unturned, Basis::Flat] {
-            add(Change::Basis, Alteration::Basis(basis));
+            add(EditKind::Basis, Alteration::Basis(basis));
         }
     }
     if part != Part::Interior {
-        add(Change::Normal, Alteration::Normal);
+        add(EditKind::Normal, Alteration::Normal);
     }
     for names in alike {
-        add(Change::Exchange, Alteration::Exchange(names.clone()));
+        add(EditKind::Exchange, Alteration::Exchange(names.clone()));
     }
     found
 }
@@ -202,7 +202,7 @@ pub(crate) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<
     let home = Home::Term { equation, term };
     let new = times_factor(&home.expression(problem)?.tree);
     Some(Candidate {
-        change: Change::Term,
+        change: EditKind::Term,
         alteration: Alteration::Rewrite(Rewrite {
             home,
             route: vec![],

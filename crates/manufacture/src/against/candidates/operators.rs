@@ -1,21 +1,21 @@
 //! Functions, and operators on tensors, by their neighbours.
 
 use super::super::site::Route;
-use super::Change;
+use super::EditKind;
 use super::trees::{binary, gradient, name, node, number, operator};
 use super::walk::Walk;
 use crate::language::names::{self, Callee, Function, Operator, Piecewise};
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::System;
 
 impl Walk<'_> {
     pub(super) fn call(&mut self, callee: Callee, parts: &[Tree], route: &Route) {
-        let call = |callee: Callee| node(Kind::Call(callee, parts.to_vec()));
+        let call = |callee: Callee| node(TreeKind::Call(callee, parts.to_vec()));
         match callee {
             Callee::Function(function) => {
-                self.add(Change::LostOperator, route, parts[0].clone());
+                self.add(EditKind::LostOperator, route, parts[0].clone());
                 if let Some(other) = neighbour(function) {
-                    self.add(Change::Function, route, call(Callee::Function(other)));
+                    self.add(EditKind::Function, route, call(Callee::Function(other)));
                 }
             }
             Callee::Piecewise(function) => {
@@ -25,11 +25,11 @@ impl Walk<'_> {
                     _ => None,
                 };
                 if let Some(other) = other {
-                    self.add(Change::Function, route, call(Callee::Piecewise(other)));
+                    self.add(EditKind::Function, route, call(Callee::Piecewise(other)));
                 }
-                let is_choice = |part: &&Tree| !matches!(part.kind, Kind::Compare(..));
+                let is_choice = |part: &&Tree| !matches!(part.kind, TreeKind::Compare(..));
                 for branch in parts.iter().filter(is_choice) {
-                    self.add(Change::Branch, route, branch.clone());
+                    self.add(EditKind::Branch, route, branch.clone());
                 }
             }
             Callee::Operator(operator) => self.operator(operator, parts, route),
@@ -45,42 +45,42 @@ impl Walk<'_> {
             Operator::TimeDerivative => {
                 let is_first = !matches!(
                     first.kind,
-                    Kind::Call(Callee::Operator(Operator::TimeDerivative), _)
+                    TreeKind::Call(Callee::Operator(Operator::TimeDerivative), _)
                 );
                 if !is_first {
-                    self.add(Change::Derivative, route, first.clone());
+                    self.add(EditKind::Derivative, route, first.clone());
                 }
             }
             Operator::Gradient => {
                 let whole = operator(of, &[first]);
-                self.add(Change::TransposedGradient, route, transposed(&whole));
+                self.add(EditKind::TransposedGradient, route, transposed(&whole));
             }
-            Operator::Transpose => self.add(Change::MissingTranspose, route, first.clone()),
+            Operator::Transpose => self.add(EditKind::MissingTranspose, route, first.clone()),
             Operator::Symmetric => self.symmetric(first, route),
             Operator::Skew => {
-                self.add(Change::LostOperator, route, first.clone());
+                self.add(EditKind::LostOperator, route, first.clone());
                 let other = operator(Operator::Symmetric, &[first]);
-                self.add(Change::Operator, route, other);
+                self.add(EditKind::Operator, route, other);
             }
             Operator::Inverse | Operator::Trace | Operator::Determinant => {
-                self.add(Change::LostOperator, route, first.clone());
+                self.add(EditKind::LostOperator, route, first.clone());
             }
             Operator::Divergence => {
                 let other = operator(of, &[&transposed(first)]);
-                self.add(Change::Order, route, other);
+                self.add(EditKind::Order, route, other);
             }
             Operator::Laplacian => {
                 let inner = operator(Operator::Divergence, &[first]);
                 let other = operator(Operator::Gradient, &[&inner]);
-                self.add(Change::Operator, route, other);
+                self.add(EditKind::Operator, route, other);
             }
             Operator::Dot | Operator::Outer => {
                 let other = operator(of, &[&parts[1], first]);
-                self.add(Change::Order, route, other);
+                self.add(EditKind::Order, route, other);
                 if let (Operator::Dot, Some(of)) = (of, gradient(first)) {
                     let product = operator(Operator::Outer, &[of, &parts[1]]);
                     let other = operator(Operator::Divergence, &[&product]);
-                    self.add(Change::Operator, route, other);
+                    self.add(EditKind::Operator, route, other);
                 }
             }
             _ => (),
@@ -98,22 +98,25 @@ impl Walk<'_> {
         }
         let parts: Vec<&Tree> = parts.iter().collect();
         let whole = operator(of, &parts);
-        for basis in [names::Alteration::Unturned, names::Alteration::Flat] {
+        for basis in [
+            names::OperandAlteration::Unturned,
+            names::OperandAlteration::Flat,
+        ] {
             let new = operator(Operator::Altered(basis), &[&whole]);
-            self.add(Change::Basis, route, new);
+            self.add(EditKind::Basis, route, new);
         }
     }
 
     /// `A`, `A/2` or `skew(A)` for `sym(A)`.
     fn symmetric(&mut self, of: &Tree, route: &Route) {
-        self.add(Change::MissingTranspose, route, of.clone());
+        self.add(EditKind::MissingTranspose, route, of.clone());
         let bracket = match of.kind {
-            Kind::Binary(..) => node(Kind::Bracket(Box::new(of.clone()))),
+            TreeKind::Binary(..) => node(TreeKind::Bracket(Box::new(of.clone()))),
             _ => of.clone(),
         };
         let half = binary(Binary::Divide, &bracket, &number("2", 2.0));
-        self.add(Change::MissingTranspose, route, half);
-        self.add(Change::Operator, route, operator(Operator::Skew, &[of]));
+        self.add(EditKind::MissingTranspose, route, half);
+        self.add(EditKind::Operator, route, operator(Operator::Skew, &[of]));
     }
 
     /// A derivative by one variable fewer, or by another.
@@ -125,7 +128,7 @@ impl Walk<'_> {
                 fewer.remove(place);
                 let fewer = fewer.iter().collect::<Vec<_>>();
                 self.add(
-                    Change::Derivative,
+                    EditKind::Derivative,
                     route,
                     operator(Operator::Derivative, &fewer),
                 );
@@ -137,7 +140,7 @@ impl Walk<'_> {
                     by[place] = other;
                     let by = by.iter().collect::<Vec<_>>();
                     self.add_rare(
-                        Change::Derivative,
+                        EditKind::Derivative,
                         route,
                         operator(Operator::Derivative, &by),
                     );

@@ -1,36 +1,36 @@
 //! Products: factors that are lost or stand elsewhere, and what derivatives act on.
 
 use super::super::site::{self, Route};
-use super::Change;
+use super::EditKind;
 use super::trees::{binary, gradient, held, is_chain, node, number, operator};
 use super::walk::Walk;
 use crate::language::names::{Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 
 impl Walk<'_> {
     pub(super) fn binary(&mut self, operator: Binary, operands: &[Tree; 2], route: &Route) {
         let [left, right] = operands;
         match operator {
             Binary::Multiply => {
-                self.add(Change::LostFactor, route, left.clone());
+                self.add(EditKind::LostFactor, route, left.clone());
                 self.add(
-                    Change::TimesForOver,
+                    EditKind::TimesForOver,
                     route,
                     binary(Binary::Divide, left, right),
                 );
                 self.brackets(operator, operands, route);
                 if !is_chain(left) {
-                    self.add(Change::LostFactor, route, right.clone());
+                    self.add(EditKind::LostFactor, route, right.clone());
                 }
             }
             Binary::Divide => {
-                self.add(Change::LostDivisor, route, left.clone());
+                self.add(EditKind::LostDivisor, route, left.clone());
                 self.brackets(operator, operands, route);
                 let product = binary(Binary::Multiply, left, right);
-                self.add(Change::TimesForOver, route, product);
-                if !is_chain(left) && !matches!(left.kind, Kind::Number(..)) {
+                self.add(EditKind::TimesForOver, route, product);
+                if !is_chain(left) && !matches!(left.kind, TreeKind::Number(..)) {
                     let inverse = binary(Binary::Divide, &number("1", 1.0), right);
-                    self.add(Change::LostFactor, route, inverse);
+                    self.add(EditKind::LostFactor, route, inverse);
                 }
             }
             _ => (),
@@ -39,36 +39,26 @@ impl Walk<'_> {
 
     /// `a*b + c` for `a*(b + c)`, `a + b/c` for `(a + b)/c`.
     fn brackets(&mut self, of: Binary, [left, right]: &[Tree; 2], route: &Route) {
-        let sum = |tree: &Tree| match &tree.kind {
-            Kind::Bracket(inner) => match &inner.kind {
-                Kind::Binary(sign @ (Binary::Add | Binary::Subtract), parts) => {
-                    Some((*sign, (**parts).clone()))
-                }
-                _ => None,
-            },
-            _ => None,
-        };
-        let bracket = |tree: Tree| node(Kind::Bracket(Box::new(tree)));
-        if let Some((sign, [first, last])) = sum(left) {
-            let last = binary(of, &last, right);
+        if let Some(Sum { sign, first, last }) = Sum::in_bracket(left) {
+            let last = binary(of, last, right);
             self.add(
-                Change::LostBracket,
+                EditKind::LostBracket,
                 route,
-                bracket(binary(sign, &first, &last)),
+                in_bracket(binary(sign, first, &last)),
             );
         }
-        if let (Binary::Multiply, Some((sign, [first, last]))) = (of, sum(right)) {
-            let first = binary(of, left, &first);
+        if let (Binary::Multiply, Some(Sum { sign, first, last })) = (of, Sum::in_bracket(right)) {
+            let first = binary(of, left, first);
             self.add(
-                Change::LostBracket,
+                EditKind::LostBracket,
                 route,
-                bracket(binary(sign, &first, &last)),
+                in_bracket(binary(sign, &first, last)),
             );
         }
     }
 
-    /// Products: all factors but one are constants for derivatives; a factor goes below a derivative
-    /// that it stands before.
+    /// Products: all factors but one are constants for derivatives; a factor goes below a
+    /// derivative that it stands before.
     pub(super) fn chain(&mut self, tree: &Tree, route: &Route) {
         let mut factors = vec![];
         collect(tree, &mut vec![], &mut factors);
@@ -80,7 +70,7 @@ impl Walk<'_> {
                         *part = held(part);
                     }
                 }
-                self.add(Change::OneDifferentiated, route, new);
+                self.add(EditKind::OneDifferentiated, route, new);
             }
         }
         for factor in &factors {
@@ -88,7 +78,7 @@ impl Walk<'_> {
                 continue;
             };
             if let Some(new) = below(tree, factor, part) {
-                self.add(Change::TakenBelow, route, new);
+                self.add(EditKind::TakenBelow, route, new);
             }
         }
     }
@@ -96,7 +86,7 @@ impl Walk<'_> {
 
 /// The same product with the derivative, which is one of its factors, acting on all of it.
 fn below(tree: &Tree, factor: &Route, derivative: &Tree) -> Option<Tree> {
-    let Kind::Call(callee @ Callee::Operator(of), parts) = &derivative.kind else {
+    let TreeKind::Call(callee @ Callee::Operator(of), parts) = &derivative.kind else {
         return None;
     };
     let mut inside = tree.clone();
@@ -111,31 +101,31 @@ fn below(tree: &Tree, factor: &Route, derivative: &Tree) -> Option<Tree> {
         _ => return None,
     };
     let inner = match inner.kind {
-        Kind::Binary(..) | Kind::Negate(_) => node(Kind::Bracket(Box::new(inner))),
+        TreeKind::Binary(..) | TreeKind::Negate(_) => node(TreeKind::Bracket(Box::new(inner))),
         _ => inner,
     };
     *site::at_mut(&mut inside, factor)? = inner;
     let parts = std::iter::once(inside).chain(marks.to_vec()).collect();
-    Some(node(Kind::Call(callee, parts)))
+    Some(node(TreeKind::Call(callee, parts)))
 }
 
 /// The factors of a product that are no numbers: of quotients, and of products of tensors, too.
 fn collect(tree: &Tree, route: &mut Route, found: &mut Vec<Route>) {
     let is_product = match &tree.kind {
-        Kind::Binary(Binary::Multiply | Binary::Divide, _) => true,
-        Kind::Call(Callee::Operator(of), parts) => {
+        TreeKind::Binary(Binary::Multiply | Binary::Divide, _) => true,
+        TreeKind::Call(Callee::Operator(of), parts) => {
             let is_gradient = gradient(&parts[0]).is_some();
             matches!(
                 of,
                 Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross
             ) && !is_gradient
         }
-        Kind::Bracket(inner) => is_chain(inner),
-        Kind::Negate(_) => true,
+        TreeKind::Bracket(inner) => is_chain(inner),
+        TreeKind::Negate(_) => true,
         _ => false,
     };
     if !is_product {
-        if !matches!(tree.kind, Kind::Number(..)) {
+        if !matches!(tree.kind, TreeKind::Number(..)) {
             found.push(route.clone());
         }
         return;
@@ -145,4 +135,33 @@ fn collect(tree: &Tree, route: &mut Route, found: &mut Vec<Route>) {
         collect(child, route, found);
         route.pop();
     }
+}
+
+/// A sum or a difference of two.
+struct Sum<'t> {
+    sign: Binary,
+    first: &'t Tree,
+    last: &'t Tree,
+}
+
+impl<'t> Sum<'t> {
+    /// What a bracket holds, if that is a sum.
+    fn in_bracket(tree: &'t Tree) -> Option<Self> {
+        let TreeKind::Bracket(inner) = &tree.kind else {
+            return None;
+        };
+        let TreeKind::Binary(sign @ (Binary::Add | Binary::Subtract), parts) = &inner.kind else {
+            return None;
+        };
+        let [first, last] = &**parts;
+        Some(Self {
+            sign: *sign,
+            first,
+            last,
+        })
+    }
+}
+
+fn in_bracket(tree: Tree) -> Tree {
+    node(TreeKind::Bracket(Box::new(tree)))
 }

@@ -2,22 +2,22 @@
 
 use super::super::bench::FACTORS;
 use crate::language::names::{self, Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 
-pub(super) fn node(kind: Kind) -> Tree {
+pub(super) fn node(kind: TreeKind) -> Tree {
     Tree { kind, at: 0 }
 }
 
 pub(super) fn name(name: &str) -> Tree {
-    node(Kind::Name(name.to_owned()))
+    node(TreeKind::Name(name.to_owned()))
 }
 
 pub(crate) fn number(text: &str, value: f64) -> Tree {
-    node(Kind::Number(value, text.to_owned()))
+    node(TreeKind::Number(value, text.to_owned()))
 }
 
 pub(super) fn binary(operator: Binary, left: &Tree, right: &Tree) -> Tree {
-    node(Kind::Binary(
+    node(TreeKind::Binary(
         operator,
         Box::new([left.clone(), right.clone()]),
     ))
@@ -25,11 +25,11 @@ pub(super) fn binary(operator: Binary, left: &Tree, right: &Tree) -> Tree {
 
 pub(super) fn operator(operator: Operator, parts: &[&Tree]) -> Tree {
     let parts = parts.iter().map(|part| (*part).clone()).collect();
-    node(Kind::Call(Callee::Operator(operator), parts))
+    node(TreeKind::Call(Callee::Operator(operator), parts))
 }
 
 pub(super) fn held(tree: &Tree) -> Tree {
-    operator(Operator::Altered(names::Alteration::Held), &[tree])
+    operator(Operator::Altered(names::OperandAlteration::Held), &[tree])
 }
 
 /// A part times an unknown factor.
@@ -41,14 +41,14 @@ pub(super) fn times_factor(tree: &Tree) -> Tree {
 pub(super) fn is_chain(tree: &Tree) -> bool {
     matches!(
         tree.kind,
-        Kind::Binary(Binary::Multiply | Binary::Divide, _)
+        TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
     )
 }
 
 /// The operand of a gradient.
 pub(super) fn gradient(tree: &Tree) -> Option<&Tree> {
     match &tree.kind {
-        Kind::Call(Callee::Operator(Operator::Gradient), parts) => parts.first(),
+        TreeKind::Call(Callee::Operator(Operator::Gradient), parts) => parts.first(),
         _ => None,
     }
 }

@@ -3,9 +3,9 @@
 use super::super::bench::{Alteration, Rewrite};
 use super::super::site::{self, Home, Route};
 use super::trees::{binary, held, is_chain, name, node, number, times_factor};
-use super::{Candidate, Change};
+use super::{Candidate, EditKind};
 use crate::language::names::{Callee, Operator};
-use crate::language::tree::{Binary, Kind, Tree};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::Problem;
 
 /// How a part stands in the expression around it.
@@ -36,14 +36,14 @@ pub(super) struct Walk<'c> {
 /// The roles of the parts directly below.
 fn roles(tree: &Tree) -> Vec<Role> {
     match &tree.kind {
-        Kind::Number(..) | Kind::Name(_) => vec![],
-        Kind::Negate(_) | Kind::Bracket(_) => vec![Role::Linear],
-        Kind::Binary(operator, _) => match operator {
+        TreeKind::Number(..) | TreeKind::Name(_) => vec![],
+        TreeKind::Negate(_) | TreeKind::Bracket(_) => vec![Role::Linear],
+        TreeKind::Binary(operator, _) => match operator {
             Binary::Add | Binary::Subtract => vec![Role::Summand; 2],
             Binary::Multiply | Binary::Divide => vec![Role::Factor; 2],
             Binary::Power => vec![Role::Argument, Role::Exponent],
         },
-        Kind::Call(callee, parts) => match callee {
+        TreeKind::Call(callee, parts) => match callee {
             Callee::Operator(Operator::Derivative | Operator::Integral) => {
                 let marks = std::iter::repeat_n(Role::Mark, parts.len() - 1);
                 std::iter::once(Role::Linear).chain(marks).collect()
@@ -55,9 +55,9 @@ fn roles(tree: &Tree) -> Vec<Role> {
             Callee::Operator(_) => vec![Role::Linear; parts.len()],
             Callee::Function(_) | Callee::Piecewise(_) => vec![Role::Argument; parts.len()],
         },
-        Kind::Compare(..) => vec![Role::Argument; 2],
-        Kind::List(parts) => vec![Role::Argument; parts.len()],
-        Kind::Index(_, indices) => {
+        TreeKind::Compare(..) => vec![Role::Argument; 2],
+        TreeKind::List(parts) => vec![Role::Argument; parts.len()],
+        TreeKind::Index(_, indices) => {
             let marks = std::iter::repeat_n(Role::Mark, indices.len());
             std::iter::once(Role::Linear).chain(marks).collect()
         }
@@ -65,7 +65,7 @@ fn roles(tree: &Tree) -> Vec<Role> {
 }
 
 impl Walk<'_> {
-    pub(super) fn add(&mut self, change: Change, route: &Route, new: Tree) {
+    pub(super) fn add(&mut self, change: EditKind, route: &Route, new: Tree) {
         self.found.push(Candidate {
             change,
             alteration: Alteration::Rewrite(Rewrite {
@@ -79,7 +79,7 @@ impl Walk<'_> {
     }
 
     /// An edit that is tried only if others do not explain the values.
-    pub(super) fn add_rare(&mut self, change: Change, route: &Route, new: Tree) {
+    pub(super) fn add_rare(&mut self, change: EditKind, route: &Route, new: Tree) {
         self.add(change, route, new);
         if let Some(last) = self.found.last_mut() {
             last.is_rare = true;
@@ -91,31 +91,32 @@ impl Walk<'_> {
             return;
         }
         self.factor(tree, route, role);
-        if role == Role::Factor && !matches!(tree.kind, Kind::Number(..) | Kind::Negate(_)) {
-            self.add(Change::Held, route, held(tree));
+        if role == Role::Factor && !matches!(tree.kind, TreeKind::Number(..) | TreeKind::Negate(_))
+        {
+            self.add(EditKind::Held, route, held(tree));
         }
         if role == Role::Root && matches!(self.home, Home::Definition { .. }) {
-            self.add(Change::Held, route, held(tree));
+            self.add(EditKind::Held, route, held(tree));
         }
         if is_chain(tree) && role != Role::Factor {
             self.chain(tree, route);
         }
         match &tree.kind {
-            Kind::Binary(operator, operands) => self.binary(*operator, operands, route),
-            Kind::Call(callee, parts) => self.call(*callee, parts, route),
-            Kind::Name(named) => {
+            TreeKind::Binary(operator, operands) => self.binary(*operator, operands, route),
+            TreeKind::Call(callee, parts) => self.call(*callee, parts, route),
+            TreeKind::Name(named) => {
                 if role == Role::Factor {
                     let two = number("2", 2.0);
-                    self.add(Change::Square, route, binary(Binary::Power, tree, &two));
+                    self.add(EditKind::Square, route, binary(Binary::Power, tree, &two));
                 }
                 for other in self.others(named) {
-                    self.add_rare(Change::Name, route, name(&other));
+                    self.add_rare(EditKind::Name, route, name(&other));
                 }
             }
-            Kind::Index(of, indices) => self.index(of, indices, route),
+            TreeKind::Index(of, indices) => self.index(of, indices, route),
             _ => (),
         }
-        let is_signed_factor = role == Role::Factor && matches!(tree.kind, Kind::Negate(_));
+        let is_signed_factor = role == Role::Factor && matches!(tree.kind, TreeKind::Negate(_));
         for (place, (child, role)) in tree.children().into_iter().zip(roles(tree)).enumerate() {
             let role = if is_signed_factor { Role::Factor } else { role };
             route.push(place);
@@ -157,8 +158,8 @@ impl Walk<'_> {
                     exchange(&mut new, first, &second);
                     let mut parameters = self.problem.parameters.iter();
                     let change = match parameters.any(|parameter| parameter.name == **first) {
-                        true => Change::Parameters,
-                        false => Change::Exchange,
+                        true => EditKind::Parameters,
+                        false => EditKind::Exchange,
                     };
                     self.add_rare(change, &vec![], new);
                 }
@@ -172,20 +173,20 @@ impl Walk<'_> {
         for named in names {
             let summand = times_factor(&name(&named));
             let sum = binary(Binary::Add, tree, &summand);
-            self.add_rare(Change::Added, &vec![], sum);
+            self.add_rare(EditKind::Added, &vec![], sum);
         }
     }
 
     /// Another component.
     pub(super) fn index(&mut self, of: &Tree, indices: &[Tree], route: &Route) {
-        let indexed = |indices: Vec<Tree>| node(Kind::Index(Box::new(of.clone()), indices));
+        let indexed = |indices: Vec<Tree>| node(TreeKind::Index(Box::new(of.clone()), indices));
         if let [first, second] = indices {
             let swapped = indexed(vec![second.clone(), first.clone()]);
-            self.add(Change::Index, route, swapped);
+            self.add(EditKind::Index, route, swapped);
         }
         for (place, index) in indices.iter().enumerate() {
             let others: Vec<Tree> = match index.kind {
-                Kind::Number(..) => (1..=3)
+                TreeKind::Number(..) => (1..=3)
                     .map(|other| number(&other.to_string(), f64::from(other)))
                     .collect(),
                 _ => self.problem.axes().iter().map(|axis| name(axis)).collect(),
@@ -193,7 +194,7 @@ impl Walk<'_> {
             for other in others.into_iter().filter(|other| other.kind != index.kind) {
                 let mut indices = indices.to_vec();
                 indices[place] = other;
-                self.add_rare(Change::Index, route, indexed(indices));
+                self.add_rare(EditKind::Index, route, indexed(indices));
             }
         }
     }
@@ -201,24 +202,27 @@ impl Walk<'_> {
     /// An unknown factor, where it is not that of another part as well.
     pub(super) fn factor(&mut self, tree: &Tree, route: &Route, role: Role) {
         let change = match role {
-            Role::Root if matches!(self.home, Home::Term { .. }) => Change::Term,
-            Role::Root | Role::Argument => Change::Part,
-            Role::Summand => Change::Summand,
-            Role::Exponent => Change::Exponent,
+            Role::Root if matches!(self.home, Home::Term { .. }) => EditKind::Term,
+            Role::Root | Role::Argument => EditKind::Part,
+            Role::Summand => EditKind::Summand,
+            Role::Exponent => EditKind::Exponent,
             Role::Factor | Role::Linear | Role::Mark => return,
         };
-        let is_sum = matches!(tree.kind, Kind::Binary(Binary::Add | Binary::Subtract, _));
+        let is_sum = matches!(
+            tree.kind,
+            TreeKind::Binary(Binary::Add | Binary::Subtract, _)
+        );
         if is_sum && role == Role::Summand {
             return;
         }
-        if !matches!(tree.kind, Kind::Compare(..) | Kind::List(_)) {
+        if !matches!(tree.kind, TreeKind::Compare(..) | TreeKind::List(_)) {
             self.add(change, route, times_factor(tree));
         }
     }
 }
 
 fn exchange(tree: &mut Tree, first: &str, second: &str) {
-    if let Kind::Name(name) = &mut tree.kind {
+    if let TreeKind::Name(name) = &mut tree.kind {
         if name == first {
             second.clone_into(name);
         } else if name == second {

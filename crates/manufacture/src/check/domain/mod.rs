@@ -14,16 +14,16 @@ use super::{Finding, finding, role_words};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::conditions::{Condition, Need};
 use crate::arithmetic::tape::nodes_below;
-use crate::derive::{Part, Quantity, Role};
+use crate::derive::{DerivedQuantity, Part, Role};
 use crate::model::Model;
 use crate::problem::InputError;
 
-use search::Search;
+use search::DomainSearch;
 use words::{place_of, words};
 
 /// What is known of an operation in a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum DomainFinding {
     /// It has no value there.
     Missing,
     /// Numerator and divisor are both zero.
@@ -38,9 +38,16 @@ enum Kind {
 #[derive(Debug)]
 struct Trouble {
     condition: Condition,
-    kind: Kind,
+    kind: DomainFinding,
     point: Vec<f64>,
     is_on_boundary: bool,
+}
+
+impl Trouble {
+    /// Whether a function has no derivative there.
+    fn is_kink(&self) -> bool {
+        self.condition.need == Need::OneSide
+    }
 }
 
 /// What the search says about a domain: poles inside as an error, all else as notes.
@@ -50,13 +57,12 @@ struct Trouble {
 pub(super) fn examine(model: &Model) -> Result<Vec<Finding>, InputError> {
     let mut notes = vec![];
     for (part, quantities) in &model.parts {
-        let search = Search::new(model, *part, quantities);
+        let search = DomainSearch::new(model, *part, quantities);
         let mut troubles = search.run();
         troubles.sort_by_key(|trouble| trouble.condition.operation);
-        let is_kink = |trouble: &Trouble| trouble.condition.need == Need::OneSide;
-        for trouble in troubles.iter().filter(|trouble| !is_kink(trouble)) {
+        for trouble in troubles.iter().filter(|trouble| !trouble.is_kink()) {
             let user = user(model, quantities, trouble.condition.operation);
-            let fails = trouble.kind == Kind::Missing
+            let fails = trouble.kind == DomainFinding::Missing
                 && match user.map(|quantity| quantity.role) {
                     Some(Role::Exact) => true,
                     Some(Role::Gradient) => false,
@@ -68,7 +74,7 @@ pub(super) fn examine(model: &Model) -> Result<Vec<Finding>, InputError> {
                 return Err(refusal(model, user, spot.as_ref(), &words));
             }
             let code = match trouble.kind {
-                Kind::Missing => "pole",
+                DomainFinding::Missing => "pole",
                 _ => "undecided",
             };
             let Some(user) = user else { continue };
@@ -85,11 +91,12 @@ pub(super) fn examine(model: &Model) -> Result<Vec<Finding>, InputError> {
 /// The first quantity that has an operation: the exact solution before others, gradients last.
 fn user<'q>(
     model: &Model,
-    quantities: &'q [Quantity<NodeId>],
+    quantities: &'q [DerivedQuantity<NodeId>],
     operation: NodeId,
-) -> Option<&'q Quantity<NodeId>> {
-    let has =
-        |q: &&Quantity<NodeId>| nodes_below(&model.graph, &q.tensor.parts).contains(&operation);
+) -> Option<&'q DerivedQuantity<NodeId>> {
+    let has = |q: &&DerivedQuantity<NodeId>| {
+        nodes_below(&model.graph, &q.tensor.parts).contains(&operation)
+    };
     let users = quantities.iter().filter(has);
     users.min_by_key(|quantity| match quantity.role {
         Role::Exact => 0,
@@ -100,7 +107,7 @@ fn user<'q>(
 
 fn refusal(
     model: &Model,
-    user: Option<&Quantity<NodeId>>,
+    user: Option<&DerivedQuantity<NodeId>>,
     spot: Option<&Spot<'_>>,
     words: &str,
 ) -> InputError {
@@ -114,7 +121,11 @@ fn refusal(
 }
 
 /// Switches inside the domain, for each quantity that has some.
-fn kinks(model: &Model, quantities: &[Quantity<NodeId>], troubles: &[Trouble]) -> Vec<Finding> {
+fn kinks(
+    model: &Model,
+    quantities: &[DerivedQuantity<NodeId>],
+    troubles: &[Trouble],
+) -> Vec<Finding> {
     let mut findings = vec![];
     for quantity in quantities {
         if !matches!(quantity.role, Role::Source | Role::Exact) {
@@ -123,11 +134,11 @@ fn kinks(model: &Model, quantities: &[Quantity<NodeId>], troubles: &[Trouble]) -
         let below = nodes_below(&model.graph, &quantity.tensor.parts);
         let inside: Vec<&Trouble> = troubles
             .iter()
-            .filter(|trouble| trouble.condition.need == Need::OneSide && !trouble.is_on_boundary)
+            .filter(|trouble| trouble.is_kink() && !trouble.is_on_boundary)
             .filter(|trouble| below.contains(&trouble.condition.operation))
             .collect();
-        let is_located = |trouble: &&&Trouble| trouble.kind == Kind::Missing;
-        let located = inside.iter().find(is_located);
+        let mut troubles = inside.iter();
+        let located = troubles.find(|trouble| trouble.kind == DomainFinding::Missing);
         let Some(first) = located.or(inside.first()) else {
             continue;
         };

@@ -1,12 +1,12 @@
 //! Floating-point values at the points of a smallest box.
 
-use super::Kind;
+use super::DomainFinding;
 use super::sides::{middle, snapped};
 use crate::arithmetic::Node;
 use crate::arithmetic::conditions::{Condition, Need};
 use crate::arithmetic::enclosure::Over;
 use crate::arithmetic::interval::Interval;
-use crate::arithmetic::tape::{Measured, Tape};
+use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::model::Model;
 
 /// A value so small against its size is zero but for rounding.
@@ -18,7 +18,7 @@ pub(super) fn kind(
     condition: Condition,
     over: &Over<'_, '_>,
     sides: &[Interval],
-) -> Kind {
+) -> DomainFinding {
     let probe = Probe::new(model, condition);
     let is_guarded = over.is_guarded(condition.operation);
     let mut values = vec![];
@@ -36,7 +36,6 @@ pub(super) fn kind(
             values.push(probe.at(&point));
         }
     }
-    let is_zero = |v: &Measured| v.value.abs() <= ZERO * v.size;
     let zero = values.iter().find(|v| is_zero(&v.argument));
     let has = |test: fn(f64) -> bool| values.iter().any(|v| test(v.argument.value));
     let changes_sign = has(|v| v > 0.0) && has(|v| v < 0.0);
@@ -55,11 +54,11 @@ pub(super) fn kind(
     let zeros = values.iter().filter(|v| is_zero(&v.argument));
     let mut numerators = zeros.map(|v| v.numerator.as_ref().is_some_and(is_zero));
     match (is_missing, zero) {
-        (true, Some(_)) if numerators.all(|is_zero| is_zero) => Kind::ZeroOverZero,
-        (true, _) => Kind::Missing,
-        (false, Some(_)) => Kind::Touching,
-        (false, None) if touches => Kind::Touching,
-        (false, None) => Kind::Undecided,
+        (true, Some(_)) if numerators.all(|is_zero| is_zero) => DomainFinding::ZeroOverZero,
+        (true, _) => DomainFinding::Missing,
+        (false, Some(_)) => DomainFinding::Touching,
+        (false, None) if touches => DomainFinding::Touching,
+        (false, None) => DomainFinding::Undecided,
     }
 }
 
@@ -71,8 +70,8 @@ struct Probe<'m> {
 
 struct Probed {
     /// Zero, or less, where the condition fails.
-    argument: Measured,
-    numerator: Option<Measured>,
+    argument: SizedValue,
+    numerator: Option<SizedValue>,
 }
 
 impl<'m> Probe<'m> {
@@ -94,15 +93,15 @@ impl<'m> Probe<'m> {
         let values = self.tape.at(point).roots;
         let first = values[0];
         let argument = match self.need {
-            Need::OneSide => Measured {
+            Need::OneSide => SizedValue {
                 value: first.value - values[1].value,
                 size: first.size + values[1].size,
             },
-            Need::Unit => Measured {
+            Need::Unit => SizedValue {
                 value: 1.0 - first.value.abs(),
                 size: 1.0 + first.size,
             },
-            Need::Tangent => Measured {
+            Need::Tangent => SizedValue {
                 value: first.value.cos(),
                 size: first.size.max(1.0),
             },
@@ -130,4 +129,9 @@ fn candidates(sides: &[Interval]) -> Vec<Vec<f64>> {
     }
     corners.extend([middle(sides), snapped(sides)]);
     corners
+}
+
+/// Whether a value is zero but for rounding.
+fn is_zero(value: &SizedValue) -> bool {
+    value.value.abs() <= ZERO * value.size
 }

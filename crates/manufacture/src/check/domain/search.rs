@@ -1,13 +1,13 @@
 //! The search for places where a condition fails, by halving the box.
 
 use super::sides::{middle, snapped};
-use super::{Kind, Trouble, probe};
+use super::{DomainFinding, Trouble, probe};
 use crate::arithmetic::conditions::{Condition, Need};
 use crate::arithmetic::enclosure::{Enclosure, Over};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::tape::Tape;
 use crate::arithmetic::{Node, NodeId};
-use crate::derive::{Part, Quantity, Role};
+use crate::derive::{DerivedQuantity, Part, Role};
 use crate::model::Model;
 use crate::problem::{Surface, System};
 use crate::sample::FROM_AXIS;
@@ -39,21 +39,25 @@ struct Cell {
 }
 
 /// A level: its root, and whether the part lies on it.
-struct Level {
+struct LevelSet {
     root: NodeId,
     is_own: bool,
 }
 
 /// A part of the domain, and the nodes of its quantities.
-pub(super) struct Search<'m> {
+pub(super) struct DomainSearch<'m> {
     model: &'m Model,
     enclosure: Enclosure<'m>,
-    levels: Vec<Level>,
+    levels: Vec<LevelSet>,
     domain: Vec<Interval>,
 }
 
-impl<'m> Search<'m> {
-    pub(super) fn new(model: &'m Model, part: Part, quantities: &[Quantity<NodeId>]) -> Self {
+impl<'m> DomainSearch<'m> {
+    pub(super) fn new(
+        model: &'m Model,
+        part: Part,
+        quantities: &[DerivedQuantity<NodeId>],
+    ) -> Self {
         let mut roots: Vec<NodeId> = vec![];
         for quantity in quantities {
             roots.extend(&quantity.tensor.parts);
@@ -68,7 +72,7 @@ impl<'m> Search<'m> {
         let mut levels = vec![];
         for level in model.of_role(Role::Level) {
             roots.extend(&level.tensor.parts);
-            levels.push(Level {
+            levels.push(LevelSet {
                 root: level.tensor.parts[0],
                 is_own: own == Some(level.name.as_str()),
             });
@@ -99,7 +103,12 @@ impl<'m> Search<'m> {
             if budget == 0 {
                 for place in &cell.open {
                     let condition = conditions[*place][0];
-                    self.record(&mut states[*place], condition, Kind::Undecided, &cell);
+                    self.record(
+                        &mut states[*place],
+                        condition,
+                        DomainFinding::Undecided,
+                        &cell,
+                    );
                 }
                 continue;
             }
@@ -169,7 +178,7 @@ impl<'m> Search<'m> {
             state.is_settled = true;
             state.trouble = Some(Trouble {
                 condition,
-                kind: Kind::Missing,
+                kind: DomainFinding::Missing,
                 is_on_boundary: self.is_on_boundary(&point),
                 point: point.clone(),
             });
@@ -222,11 +231,8 @@ impl<'m> Search<'m> {
 
     /// Whether a point lies on the boundary of the part.
     fn is_on_boundary(&self, point: &[f64]) -> bool {
-        let is_at_end = |(x, side): (&f64, &Interval)| {
-            let near = AT_END * side.width();
-            near > 0.0 && ((x - side.lo).abs() <= near || (side.hi - x).abs() <= near)
-        };
-        if point.iter().zip(&self.domain).any(is_at_end) {
+        let mut coordinates = point.iter().zip(&self.domain);
+        if coordinates.any(|(x, side)| is_at_end(*x, *side)) {
             return true;
         }
         let levels = self.levels.iter().filter(|level| !level.is_own);
@@ -243,11 +249,11 @@ impl<'m> Search<'m> {
         self.record(state, condition, kind, cell);
     }
 
-    fn record(&self, state: &mut State, condition: Condition, kind: Kind, cell: &Cell) {
+    fn record(&self, state: &mut State, condition: Condition, kind: DomainFinding, cell: &Cell) {
         let point = snapped(&cell.sides);
         state.open += 1;
-        state.is_settled = kind == Kind::Missing || state.open == MOST_OPEN;
-        let is_worse = kind == Kind::Missing || state.trouble.is_none();
+        state.is_settled = kind == DomainFinding::Missing || state.open == MOST_OPEN;
+        let is_worse = kind == DomainFinding::Missing || state.trouble.is_none();
         if is_worse {
             state.trouble = Some(Trouble {
                 condition,
@@ -304,4 +310,10 @@ fn integrands(model: &Model) -> Vec<NodeId> {
 
 fn points(point: &[f64]) -> Vec<Interval> {
     point.iter().map(|x| Interval::point(*x)).collect()
+}
+
+/// Whether a coordinate lies on an end of its interval, but for rounding.
+fn is_at_end(x: f64, side: Interval) -> bool {
+    let near = AT_END * side.width();
+    near > 0.0 && ((x - side.lo).abs() <= near || (side.hi - x).abs() <= near)
 }

@@ -1,6 +1,6 @@
 //! Sentences about places where an operation has no value.
 
-use super::{Kind, Trouble};
+use super::{DomainFinding, Trouble};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::conditions::{Condition, Need};
 use crate::check::spot::Spot;
@@ -42,19 +42,19 @@ pub(super) fn words(
         "inside"
     };
     match trouble.kind {
-        Kind::Missing if need == Need::NonZero => format!(
+        DomainFinding::Missing if need == Need::NonZero => format!(
             "a pole {side} the domain{part_words}: `{shown}` {value} at about {at}; expected {expected}"
         ),
-        Kind::Missing => format!(
+        DomainFinding::Missing => format!(
             "no value {side} the domain{part_words}: `{shown}` {value} at about {at}; expected {expected}"
         ),
-        Kind::ZeroOverZero => format!(
+        DomainFinding::ZeroOverZero => format!(
             "0/0{part_words} at about {at}, where `{shown}` {value}: a limit is not looked for; expected {expected}"
         ),
-        Kind::Touching => format!(
+        DomainFinding::Touching => format!(
             "`{shown}` reaches the last number that has a value{part_words}, at about {at}: by rounding it may lack one"
         ),
-        Kind::Undecided => format!(
+        DomainFinding::Undecided => format!(
             "not decided whether `{shown}` {value}{part_words}, at about {at}, within the work of the search; expected {expected}"
         ),
     }

@@ -21,7 +21,7 @@ pub(super) const C: Texts = Texts {
         builds: &["cc -std=c99 -O2 -o @IN@@NAME@_answer_c @IN@@NAME@.c @IN@@NAME@_answer.c -lm"],
         answering: Answering::Alone("@IN@@NAME@_answer_c"),
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

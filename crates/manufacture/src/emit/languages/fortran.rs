@@ -40,7 +40,7 @@ pub(super) const FORTRAN: Texts = Texts {
         ],
         answering: Answering::Alone("@IN@@NAME@_answer_fortran"),
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: true,
         has_one_space: true,
         taken: &TAKEN,

@@ -42,7 +42,7 @@ pub(super) const OCTAVE: Texts = Texts {
         builds: &[],
         answering: Answering::Alone("octave --quiet --no-history --path @IN@ @IN@@NAME@_answer.m"),
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

@@ -56,7 +56,7 @@ pub(super) const PYTHON: Texts = Texts {
             text: include_str!("../templates/session.py"),
         },
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

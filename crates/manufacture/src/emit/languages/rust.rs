@@ -28,7 +28,7 @@ pub(super) const RUST: Texts = Texts {
         builds: &["rustc --edition 2021 -O -o @IN@@NAME@_answer_rust @IN@@NAME@_answer.rs"],
         answering: Answering::Alone("@IN@@NAME@_answer_rust"),
     }),
-    names: Names {
+    names: NamingRules {
         ignores_case: false,
         has_one_space: false,
         taken: &TAKEN,

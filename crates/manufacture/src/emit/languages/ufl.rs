@@ -13,7 +13,7 @@ pub(super) const UFL: Texts = Texts {
     build: "import @NAME@_ufl",
     tools: None,
     // Its module is NAME_ufl.
-    names: Names {
+    names: NamingRules {
         taken: &[],
         ..PYTHON.names
     },

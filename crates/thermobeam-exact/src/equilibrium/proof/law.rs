@@ -1,8 +1,8 @@
 //! f, f', u(1) and the stress of one law in intervals, by formulas with one transcendental
 //! function.
 //!
-//! With `x = 1/s - 1`, `τ = tan √x/√x` and `D = aθ_A`, the solution is `u' = A (cos √x y/cos √x - s) -
-//! D`, see `completeness`. There `A = P/x`, and with `σ = (τ - 1)/x`, `R = σ' - σ² = V(τ)/x²`,
+//! With `x = 1/s - 1`, `τ = tan √x/√x` and `D = aθ_A`, the solution is `u' = A (cos √x y/cos √x -
+//! s) - D`, see `completeness`. There `A = P/x`, and with `σ = (τ - 1)/x`, `R = σ' - σ² = V(τ)/x²`,
 //!
 //! ```text
 //! S = u(1)² + P² R,
@@ -11,11 +11,11 @@
 //!             h = s + σ + εs².
 //! ```
 //!
-//! They hold for all s ≠ 0: below 0, and above 1, τ = tanh κ/κ with κ² = -x. σ and R have no pole at
-//! x = 0, where N = 0. For |x| <= 1 they are quotients of Stumpff functions, and beyond they follow
-//! from τ by `2xτ' = 1 + xτ² - τ`.
+//! They hold for all s ≠ 0: below 0, and above 1, τ = tanh κ/κ with κ² = -x. σ and R have no pole
+//! at x = 0, where N = 0. For |x| <= 1 they are quotients of Stumpff functions, and beyond they
+//! follow from τ by `2xτ' = 1 + xτ² - τ`.
 
-use super::super::law::{Law, Support};
+use super::super::law::{ForceLaw, Support};
 use crate::interval::{Interval, sin_cos, stumpff, tanh};
 
 /// A law in intervals.
@@ -52,7 +52,7 @@ pub(super) struct Solution {
 
 impl IntervalLaw {
     /// The law of the solver's numbers; aθ_A is the exact product of the two doubles.
-    pub(super) fn new(law: &Law, moment: Interval) -> Self {
+    pub(super) fn new(law: &ForceLaw, moment: Interval) -> Self {
         Self {
             moment,
             rest: Interval::from(1.0) + law.beta,

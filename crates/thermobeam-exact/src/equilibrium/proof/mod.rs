@@ -5,8 +5,8 @@
 //!
 //! 1. Poles. Those of the free law are `1/(1 + κ²)`, those of a support are enclosed by signs of h.
 //! 2. Between two poles f is concave, `scan`. Signs at three points prove two roots, a tangent
-//!    proves none, and above the largest pole there is one. The sign of the determinant must be that
-//!    of the number of poles above: a pole that was left out changes it.
+//!    proves none, and above the largest pole there is one. The sign of the determinant must be
+//!    that of the number of poles above: a pole that was left out changes it.
 //! 3. Interval Newton sharpens.
 //! 4. The inequality of the contact, at the enclosure.
 //! 5. What is no root of f: the straight beam and the buckled pairs at poles, N = -1, and ρ = 0.
@@ -18,14 +18,14 @@ mod law;
 mod roots;
 mod undecided;
 
-use super::law::{Law, Support, free_kappa, free_pole};
+use super::law::{ForceLaw, Support, free_kappa, free_pole};
 use super::{BUCKLING_VALUES, Completeness, Equilibrium, completeness, laws};
 use crate::interval::Interval;
 use law::IntervalLaw;
 use roots::{poles_above, supported_pole};
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
-pub use undecided::{Reason, Undecided};
+pub use undecided::{Undecided, UndecidedReason};
 
 /// A listed state belongs to a proved one if their N and u(1) agree to this, relative to one plus
 /// their size.
@@ -164,7 +164,7 @@ pub fn enclose_change(
 /// The proof of the states of one law.
 struct ProvedBranch<'p> {
     contact: Phase,
-    law: Law,
+    law: ForceLaw,
     intervals: IntervalLaw,
     obstacles: Option<Obstacles>,
     proof: &'p mut Proof,
@@ -193,12 +193,12 @@ impl ProvedBranch<'_> {
         let reaches = |pole: &Interval| pole.hi < self.intervals.rest.lo;
         if poles.len() <= BUCKLING_VALUES && !poles.last().is_some_and(reaches) {
             let s = self.intervals.rest;
-            return self.give_up(Undecided::new(Reason::Pole, s, s.width()));
+            return self.give_up(Undecided::new(UndecidedReason::Pole, s, s.width()));
         }
         let mut upper: Option<Interval> = None;
         for (above, pole) in poles.into_iter().enumerate() {
             if self.intervals.load(pole).contains(0.0) {
-                return self.give_up(Undecided::new(Reason::Pole, pole, pole.width()));
+                return self.give_up(Undecided::new(UndecidedReason::Pole, pole, pole.width()));
             }
             let high = upper.map_or(f64::INFINITY, |upper| upper.lo);
             let roots = match upper {
@@ -206,7 +206,7 @@ impl ProvedBranch<'_> {
                 Some(upper) => self.intervals.roots_between(pole, upper),
             };
             if !self.has_parity(above, pole.hi, high) {
-                return self.give_up(Undecided::new(Reason::Pole, pole, high - pole.hi));
+                return self.give_up(Undecided::new(UndecidedReason::Pole, pole, high - pole.hi));
             }
             self.take(roots);
             upper = Some(pole);
@@ -249,10 +249,10 @@ impl ProvedBranch<'_> {
         };
         let Some(pole) = self.pole_below(support) else {
             let s = Interval { lo: left, hi: 0.0 };
-            return self.give_up(Undecided::new(Reason::Pole, s, s.width()));
+            return self.give_up(Undecided::new(UndecidedReason::Pole, s, s.width()));
         };
         if self.intervals.load(pole).contains(0.0) {
-            return self.give_up(Undecided::new(Reason::Pole, pole, pole.width()));
+            return self.give_up(Undecided::new(UndecidedReason::Pole, pole, pole.width()));
         }
         if rest.lo <= pole.hi {
             let far = left.min(2.0 * pole.lo);
@@ -296,7 +296,11 @@ impl ProvedBranch<'_> {
                 Some(pole) => self.buckled(pole, |squared| {
                     IntervalLaw::squared_tip_of_mode(support.epsilon, pole, squared)
                 }),
-                None => self.give_up(Undecided::new(Reason::Pole, self.intervals.rest, 1.0)),
+                None => self.give_up(Undecided::new(
+                    UndecidedReason::Pole,
+                    self.intervals.rest,
+                    1.0,
+                )),
             }
         }
     }
@@ -314,7 +318,11 @@ impl ProvedBranch<'_> {
             return;
         }
         if !excess.is_positive() {
-            return self.give_up(Undecided::new(Reason::Bifurcation, s, excess.width()));
+            return self.give_up(Undecided::new(
+                UndecidedReason::Bifurcation,
+                s,
+                excess.width(),
+            ));
         }
         let tip = squared_tip(excess / self.law.rho).sqrt();
         for tip in [tip, -tip] {
@@ -336,7 +344,7 @@ impl ProvedBranch<'_> {
             || determinant.is_positive()
             || determinant.is_negative();
         if !is_regular {
-            return self.give_up(Undecided::new(Reason::Bifurcation, s, s.width()));
+            return self.give_up(Undecided::new(UndecidedReason::Bifurcation, s, s.width()));
         }
         if self.law.homogeneous() {
             if self.law.support.is_none() {
@@ -369,7 +377,7 @@ impl ProvedBranch<'_> {
         let defect = self.defect_at_minus_one();
         if self.law.support.is_none() && moves && defect.contains(0.0) {
             let s = Interval::from(0.0);
-            self.give_up(Undecided::new(Reason::MinusOne, s, defect.width()));
+            self.give_up(Undecided::new(UndecidedReason::MinusOne, s, defect.width()));
         }
     }
 
@@ -386,7 +394,7 @@ impl ProvedBranch<'_> {
                 continue;
             }
             if s.lo > 0.0 && s.lo <= last.hi {
-                self.give_up(Undecided::new(Reason::Pole, s, s.width()));
+                self.give_up(Undecided::new(UndecidedReason::Pole, s, s.width()));
                 continue;
             }
             let solution = self.intervals.at(s);
@@ -436,7 +444,7 @@ impl ProvedBranch<'_> {
         self.proof.undecided.push(Undecided {
             contact: self.contact,
             n_value,
-            reason: Reason::Touch,
+            reason: UndecidedReason::Touch,
             width: u_tip.width(),
         });
     }

@@ -2,7 +2,7 @@
 //! their place by interval Newton.
 
 use super::law::{IntervalLaw, pole_function};
-use super::{Reason, Undecided};
+use super::{Undecided, UndecidedReason};
 use crate::equilibrium::law::{free_buckling, free_pole};
 use crate::interval::Interval;
 
@@ -47,10 +47,10 @@ impl IntervalLaw {
         let scale = pole.max(self.rest.hi.abs());
         let far = (1..HALVINGS).map(|j| scale * 2.0_f64.powi(j));
         let Some(high) = far.into_iter().find(|&s| self.sign_is(s, 1.0)) else {
-            return Err(self.undecided(Reason::Pole, pole, f64::INFINITY));
+            return Err(self.undecided(UndecidedReason::Pole, pole, f64::INFINITY));
         };
         let Some(low) = self.negative_towards(high, pole) else {
-            return Err(self.undecided(Reason::Pole, pole, high));
+            return Err(self.undecided(UndecidedReason::Pole, pole, high));
         };
         self.crossing(low, high).map(|root| vec![root])
     }
@@ -74,7 +74,7 @@ impl IntervalLaw {
             let before = self.negative_towards(top, left.hi);
             let after = self.negative_towards(top, right.lo);
             let (Some(before), Some(after)) = (before, after) else {
-                return Err(self.undecided(Reason::Pole, left.lo, right.hi));
+                return Err(self.undecided(UndecidedReason::Pole, left.lo, right.hi));
             };
             return Ok(vec![
                 self.crossing(before, top)?,
@@ -85,7 +85,7 @@ impl IntervalLaw {
         if is_below(left) && is_below(right) {
             Ok(vec![])
         } else {
-            Err(self.undecided_by(Reason::Fold, left.lo, right.hi, solution.f.width()))
+            Err(self.undecided_by(UndecidedReason::Fold, left.lo, right.hi, solution.f.width()))
         }
     }
 
@@ -95,7 +95,7 @@ impl IntervalLaw {
         let left = 2.0 * self.rest.lo;
         let near = (1..HALVINGS).map(|j| self.rest.lo * 2.0_f64.powi(-j));
         let Some(right) = near.into_iter().find(|&s| self.sign_is(s, 1.0)) else {
-            return Err(self.undecided(Reason::MinusOne, self.rest.lo, 0.0));
+            return Err(self.undecided(UndecidedReason::MinusOne, self.rest.lo, 0.0));
         };
         self.crossing(left, right).map(|root| vec![root])
     }
@@ -160,7 +160,7 @@ impl IntervalLaw {
             hi: below.max(above),
         };
         self.sharpened(bracket)
-            .ok_or_else(|| self.undecided(Reason::Fold, negative, positive))
+            .ok_or_else(|| self.undecided(UndecidedReason::Fold, negative, positive))
     }
 
     /// Interval Newton, `X ∩ (m - f(m)/f'(X))`; `None` if nothing is left, which contradicts the
@@ -181,11 +181,11 @@ impl IntervalLaw {
     }
 
     /// What is given up between two values of s.
-    fn undecided(&self, reason: Reason, from: f64, to: f64) -> Undecided {
+    fn undecided(&self, reason: UndecidedReason, from: f64, to: f64) -> Undecided {
         self.undecided_by(reason, from, to, (to - from).abs())
     }
 
-    fn undecided_by(&self, reason: Reason, from: f64, to: f64, width: f64) -> Undecided {
+    fn undecided_by(&self, reason: UndecidedReason, from: f64, to: f64, width: f64) -> Undecided {
         let s = Interval {
             lo: from.min(to),
             hi: from.max(to),
@@ -196,7 +196,7 @@ impl IntervalLaw {
 
 /// The poles of a law above N = -1, in decreasing order: one for each free value.
 pub(super) fn poles_above(
-    law: &crate::equilibrium::law::Law,
+    law: &crate::equilibrium::law::ForceLaw,
     count: usize,
 ) -> Result<Vec<Interval>, Undecided> {
     let mut poles = Vec::new();
@@ -210,7 +210,7 @@ pub(super) fn poles_above(
                 };
                 let s = Interval::from(free_buckling(k));
                 supported_pole(support.epsilon, law.buckling(k), bounds)
-                    .ok_or_else(|| Undecided::new(Reason::Pole, s, bounds.width()))?
+                    .ok_or_else(|| Undecided::new(UndecidedReason::Pole, s, bounds.width()))?
             }
         };
         poles.push(pole);

@@ -43,7 +43,7 @@ fn paper() -> Option<Obstacles> {
 }
 
 /// What is undecided about a beam without obstacles.
-fn reasons(beam: &Beam) -> Vec<Reason> {
+fn reasons(beam: &Beam) -> Vec<UndecidedReason> {
     let undecided = prove(beam, None).unwrap().undecided;
     undecided.iter().map(|undecided| undecided.reason).collect()
 }
@@ -164,7 +164,7 @@ fn what_no_enclosure_decides_is_named() {
     let [undecided] = proof.undecided[..] else {
         panic!("{proof:?}")
     };
-    assert_eq!(undecided.reason, Reason::Fold);
+    assert_eq!(undecided.reason, UndecidedReason::Fold);
     assert!(
         undecided.width > 0.0 && undecided.width < 1e-12,
         "{undecided:?}"
@@ -174,15 +174,24 @@ fn what_no_enclosure_decides_is_named() {
     let lift_off: f64 = LIFT_OFF.parse().unwrap();
     let touch = prove(&beam(lift_off, 20.0), paper().as_ref()).unwrap();
     assert!(
-        touch.undecided.iter().any(|u| u.reason == Reason::Touch),
+        touch
+            .undecided
+            .iter()
+            .any(|u| u.reason == UndecidedReason::Touch),
         "{touch:?}"
     );
 
     let buckling: f64 = BUCKLING.trim_end().parse().unwrap();
-    assert_eq!(reasons(&beam(buckling, 0.0)), [Reason::Bifurcation]);
+    assert_eq!(
+        reasons(&beam(buckling, 0.0)),
+        [UndecidedReason::Bifurcation]
+    );
 
     // ρ(aθ_A)² = -1 - β: the free state at N = -1.
-    assert_eq!(reasons(&loaded(-2.0, 1.0, 1.0)), [Reason::MinusOne]);
+    assert_eq!(
+        reasons(&loaded(-2.0, 1.0, 1.0)),
+        [UndecidedReason::MinusOne]
+    );
 }
 
 #[test]
@@ -221,7 +230,7 @@ fn the_interval_law_encloses_the_law() {
         position: 0.125,
     });
     for support in [None, support] {
-        let law = Law {
+        let law = ForceLaw {
             moment: 0.5,
             beta: -0.25,
             rho: 2.0,

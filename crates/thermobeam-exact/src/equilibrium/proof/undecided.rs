@@ -5,7 +5,7 @@ use thermobeam::contact::Phase;
 
 /// Why a number of states is not decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reason {
+pub enum UndecidedReason {
     /// The maximum of f between two poles cannot be told from 0.
     Fold,
     /// u(1) of a state cannot be told from the position of an obstacle.
@@ -18,7 +18,7 @@ pub enum Reason {
     Bifurcation,
 }
 
-impl Reason {
+impl UndecidedReason {
     /// The reason in words.
     pub fn words(self) -> &'static str {
         match self {
@@ -39,13 +39,13 @@ pub struct Undecided {
     /// Encloses N of the states.
     pub n_value: Interval,
     /// Why.
-    pub reason: Reason,
+    pub reason: UndecidedReason,
     /// The width of the enclosure at which it was given up.
     pub width: f64,
 }
 
 impl Undecided {
-    pub(super) fn new(reason: Reason, s: Interval, width: f64) -> Self {
+    pub(super) fn new(reason: UndecidedReason, s: Interval, width: f64) -> Self {
         Self {
             // The prover of a law does not know its contact: `prove` sets it.
             contact: Phase::Free,

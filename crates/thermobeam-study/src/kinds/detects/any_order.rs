@@ -17,8 +17,8 @@ use crate::kinds::prelude::*;
 use crate::{
     exact::defect::Defect,
     kinds::orders::{
-        Orders, Source,
-        any_order::{AnyOrder, Errors, Resolution},
+        ErrorSource, Orders,
+        any_order::{AnyOrder, AnyOrderRun, JudgedErrors},
         planted::{
             fault::{Fault, Planted, RELATIVE, relative},
             plantable::Plantable,
@@ -35,22 +35,22 @@ impl Plantable for AnyOrder {
         self.theory
     }
 
-    fn share(&self, _: &Resolution) -> Result<&AnyOrder, CaseFailure> {
+    fn share(&self, _: &AnyOrderRun) -> Result<&AnyOrder, CaseFailure> {
         Ok(self)
     }
 
     fn run_planted(
         study: &mut &AnyOrder,
-        resolution: &Resolution,
+        resolution: &AnyOrderRun,
         Planted { solver, defect }: Planted,
-    ) -> Result<Errors, CaseFailure> {
+    ) -> Result<JudgedErrors, CaseFailure> {
         let mut study = study.clone();
         study.solver = solver;
         study.defect = defect;
         study.run(resolution)
     }
 
-    fn errors(errors: &Errors) -> Vec<(&'static str, f64)> {
+    fn errors(errors: &JudgedErrors) -> Vec<(&'static str, f64)> {
         errors.named.clone()
     }
 }

@@ -1,7 +1,7 @@
 //! Every study under every fault: runs, verdicts, and the rule that judges them.
 
 use crate::kinds::orders::{
-    Orders, Source,
+    ErrorSource, Orders,
     planted::{
         fault::Fault,
         plantable::{Plantable, verdict},
@@ -10,7 +10,7 @@ use crate::kinds::orders::{
 use crate::kinds::prelude::*;
 use convergence_study::{
     Coverage,
-    internal::study::{Described, coverage::NO_RESULT, header::Setting},
+    internal::study::{Described, coverage::NO_RESULT, header::SettingWords},
 };
 
 /// Relative change of an error that the baseline tolerates.
@@ -50,30 +50,30 @@ pub struct RunOf<D> {
 pub type UnderFaults<F> = Vec<(Fault, Result<F, CaseFailure>)>;
 
 /// The runs of a study of planted faults.
-type RanOf<S> = Ran<RunOf<<S as Source>::Data>, UnderFaults<<S as Source>::Found>>;
+type RanOf<S> = Ran<RunOf<<S as ErrorSource>::Data>, UnderFaults<<S as ErrorSource>::Found>>;
 
 /// Why a study is not judged under a fault.
 const LACKS_THE_TERM: &str = "the study lacks the term";
 
 /// What a study says under a fault.
-struct Judged {
+struct FaultVerdict {
     verdict: Verdict,
     /// The first error of its finest run; NaN if it broke down.
     error: f64,
 }
 
 /// All studies under a fault.
-struct Row {
+struct FaultRow {
     fault: Fault,
     /// One for each study, or why there is none.
-    judged: Vec<Result<Judged, &'static str>>,
+    judged: Vec<Result<FaultVerdict, &'static str>>,
 }
 
 impl<S: Plantable> Kind for Detects<S> {
     type Data = RunOf<S::Data>;
     type Found = UnderFaults<S::Found>;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         super::exercise(&self.studies, subject).settings(header, subject)
     }
 
@@ -111,7 +111,7 @@ impl<S: Plantable> Kind for Detects<S> {
     }
 
     fn judge(&self, ran: &[RanOf<S>]) -> Outcome {
-        let rows: Vec<Row> = self
+        let rows: Vec<FaultRow> = self
             .faults
             .iter()
             .map(|&fault| self.row(fault, ran))
@@ -141,9 +141,9 @@ impl<S: Plantable> Kind for Detects<S> {
 }
 
 impl<S: Plantable> Detects<S> {
-    fn row(&self, fault: Fault, ran: &[RanOf<S>]) -> Row {
+    fn row(&self, fault: Fault, ran: &[RanOf<S>]) -> FaultRow {
         let studies = 0..self.studies.len();
-        Row {
+        FaultRow {
             fault,
             judged: studies
                 .map(|study| self.judged(study, fault, ran))
@@ -152,7 +152,12 @@ impl<S: Plantable> Detects<S> {
     }
 
     /// The verdict of one study under one fault, or why there is none.
-    fn judged(&self, study: usize, fault: Fault, ran: &[RanOf<S>]) -> Result<Judged, &'static str> {
+    fn judged(
+        &self,
+        study: usize,
+        fault: Fault,
+        ran: &[RanOf<S>],
+    ) -> Result<FaultVerdict, &'static str> {
         let source = &self.studies[study].kind.0;
         fault
             .plant(source.theory(), self.relative)
@@ -170,14 +175,14 @@ impl<S: Plantable> Detects<S> {
         };
         let errors = finest.ok().map(S::errors);
         let first = errors.and_then(|errors| errors.first().map(|(_, error)| *error));
-        Ok(Judged {
+        Ok(FaultVerdict {
             verdict: verdict(source, &runs),
             error: first.unwrap_or(f64::NAN),
         })
     }
 
     /// Whether enough studies fail; a run without a fault is none.
-    fn is_detected(&self, row: &Row) -> bool {
+    fn is_detected(&self, row: &FaultRow) -> bool {
         let failed = row.count(Verdict::Fail);
         row.fault != Fault::None
             && match self.needed {
@@ -187,7 +192,7 @@ impl<S: Plantable> Detects<S> {
     }
 
     /// Without a fault every study passes; with one, enough of them fail.
-    fn check(&self, row: &Row) -> Check {
+    fn check(&self, row: &FaultRow) -> Check {
         let all = self.studies.len();
         if row.fault != Fault::None {
             let by = match self.needed {
@@ -233,14 +238,14 @@ impl<S: Plantable> Detects<S> {
     }
 
     /// A row of the table.
-    fn cells(&self, row: &Row) -> Vec<String> {
+    fn cells(&self, row: &FaultRow) -> Vec<String> {
         let mut cells = vec![row.fault.name().to_owned()];
         for judged in &row.judged {
             cells.push(match (judged, self.needed) {
                 (Err(reason), _) if *reason == NO_RESULT => "missing".to_owned(),
                 (Err(_), _) => "n/a".to_owned(),
-                (Ok(Judged { verdict, .. }), Needed::One) => verdict.name().to_owned(),
-                (Ok(Judged { verdict, error }), Needed::Every) => {
+                (Ok(FaultVerdict { verdict, .. }), Needed::One) => verdict.name().to_owned(),
+                (Ok(FaultVerdict { verdict, error }), Needed::Every) => {
                     format!("{verdict} ({error:.1e})")
                 }
             });
@@ -249,7 +254,7 @@ impl<S: Plantable> Detects<S> {
     }
 
     /// The errors under a fault that every study must notice.
-    fn guarded(&self, row: &Row) -> Vec<Quantity> {
+    fn guarded(&self, row: &FaultRow) -> Vec<Quantity> {
         let mut quantities = vec![];
         if self.needed == Needed::One || row.fault == Fault::None {
             return quantities;
@@ -267,7 +272,7 @@ impl<S: Plantable> Detects<S> {
     }
 
     /// The rest of the summary.
-    fn details_of(&self, rows: &[Row]) -> String {
+    fn details_of(&self, rows: &[FaultRow]) -> String {
         let off = format!("coefficients being off by {:e}", self.relative);
         if self.needed == Needed::One {
             return off;
@@ -279,7 +284,7 @@ impl<S: Plantable> Detects<S> {
     }
 }
 
-impl Row {
+impl FaultRow {
     /// The number of studies with this verdict.
     fn count(&self, verdict: Verdict) -> usize {
         let judged = self.judged.iter().flatten();

@@ -13,9 +13,9 @@
 //! means.
 //!
 //! For `[controls]` each coefficient of the solver in turn is perturbed by a relative amount, while
-//! the sources keep the exact one; each [`Defect`](crate::exact::defect::Defect) in turn is planted in the sources. Sources and
-//! solver share no function, so it stands for the same mistake in the solver. Without a fault every
-//! study must pass, since otherwise its failures would prove nothing.
+//! the sources keep the exact one; each [`Defect`](crate::exact::defect::Defect) in turn is planted
+//! in the sources. Sources and solver share no function, so it stands for the same mistake in the
+//! solver. Without a fault every study must pass, since otherwise its failures would prove nothing.
 //!
 //! ```toml
 //! [controls]
@@ -34,9 +34,9 @@ pub use super::orders::planted::plantable::Plantable;
 pub use matrix::{Detects, RunOf, UnderFaults};
 pub use smallest::Sensitivity;
 
-use super::orders::{Orders, Source, any_order::AnyOrder, manufactured::Convergence};
+use super::orders::{ErrorSource, Orders, any_order::AnyOrder, manufactured::Convergence};
 use super::prelude::*;
-use crate::kinds::settings::{Exercise, Integration, MANUFACTURED, Terms};
+use crate::kinds::settings::{ActiveTerms, Exercise, Integration, MANUFACTURED};
 use convergence_study::{Study, internal::study::Described};
 
 /// The row of the table of kinds.
@@ -75,7 +75,7 @@ const ELEMENTS: Key = Key::new(
 .or("those of the studies");
 
 /// What an item exercises: what the study does that it is about, or all of them.
-fn exercise<S: Source>(studies: &[Described<Orders<S>>], subject: &Subject) -> Exercise {
+fn exercise<S: ErrorSource>(studies: &[Described<Orders<S>>], subject: &Subject) -> Exercise {
     let case = subject.case.as_deref();
     let named = studies.iter().find(|study| Some(&*study.header.id) == case);
     let all = match named {
@@ -84,7 +84,7 @@ fn exercise<S: Source>(studies: &[Described<Orders<S>>], subject: &Subject) -> E
     };
     let all = all.iter().map(|study| study.kind.exercise());
     all.reduce(Exercise::and)
-        .unwrap_or_else(|| Exercise::new(MANUFACTURED, Integration::PAPER, Terms::default()))
+        .unwrap_or_else(|| Exercise::new(MANUFACTURED, Integration::PAPER, ActiveTerms::default()))
 }
 
 /// Reads a study of planted faults, or of the smallest detected faults, depending on the table in

@@ -24,7 +24,7 @@ use crate::{
 use convergence_judge::text::number::min_or_nan;
 use convergence_study::{
     Coverage,
-    internal::study::{Described, coverage::NO_RESULT, header::Setting},
+    internal::study::{Described, coverage::NO_RESULT, header::SettingWords},
 };
 
 /// Bisections of the logarithm: seven decades to within 4 percent.
@@ -82,7 +82,7 @@ impl Kind for Sensitivity {
     /// The smallest relative error detected; `None` if the range does not bracket it.
     type Found = Option<f64>;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         super::exercise(&self.studies, subject).settings(header, subject)
     }
 

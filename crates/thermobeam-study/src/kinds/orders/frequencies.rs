@@ -20,11 +20,11 @@ use convergence_study::{
 };
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
-use super::{Measured, Orders, Runs, Series, Source};
+use super::{ErrorSource, Orders, Runs, Series, SourceResult};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
-        settings::{Exercise, FREE_VIBRATIONS, Integration, Terms},
+        settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration},
         tables::{Layout, MAP, increasing, mean_width, tolerance},
     },
     scene::{limits, tables},
@@ -86,7 +86,7 @@ const KEYS: [Key; 7] = [
     MAP,
 ];
 
-impl Source for Frequencies {
+impl ErrorSource for Frequencies {
     const ROW: KindRow = KindRow {
         name: "orders/frequencies",
         keys: &[&[&[Key::new(
@@ -133,7 +133,7 @@ impl Source for Frequencies {
     }
 
     fn exercise(&self) -> Exercise {
-        let linear = Terms::default();
+        let linear = ActiveTerms::default();
         Exercise::new(FREE_VIBRATIONS, Integration::Exact, linear).on(self.layout.nodes())
     }
 
@@ -168,7 +168,7 @@ impl Source for Frequencies {
         }
     }
 
-    fn measured(&self, runs: &Runs<Self>) -> Measured {
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let levels = self.levels(runs);
         let mut checks = vec![self.equation_holds(), self.lie_above(&levels)];
         if self.first > 1 {
@@ -179,11 +179,11 @@ impl Source for Frequencies {
             self.first, self.count, self.degree
         );
         let series = Series::new(levels).drawn("errors", Some("Frequencies ωₕ − ω"), &caption);
-        Measured {
+        SourceResult {
             checks,
             tables: vec![self.table(&series)],
             series: vec![series],
-            ..Measured::default()
+            ..SourceResult::default()
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Orders of convergence: a source measures errors on levels of refinement, and how they are
 //! judged, drawn and guarded is the same for all sources.
 //!
-//! A [`Source`] says what it runs and which errors over which levels its claims are about.
+//! A [`ErrorSource`] says what it runs and which errors over which levels its claims are about.
 //! [`Orders`] makes a kind of study of it. A new source is a file here and a row in
 //! [`KINDS`](super::KINDS).
 
@@ -20,7 +20,7 @@ use convergence_study::{
     Grid, LevelErrors, Prose, Untested,
     internal::study::{
         allow_only,
-        header::Setting,
+        header::SettingWords,
         over_levels::{Levels, rate_table, summary},
         until_decided::{self, Looks, Next},
     },
@@ -31,7 +31,7 @@ use super::prelude::*;
 use crate::kinds::settings::Exercise;
 
 /// Where the errors of a study come from.
-pub trait Source: Send + Sync + Sized + 'static {
+pub trait ErrorSource: Send + Sync + Sized + 'static {
     /// The row of the table of kinds.
     const ROW: KindRow;
 
@@ -64,7 +64,7 @@ pub trait Source: Send + Sync + Sized + 'static {
     fn not_finite(&self, found: &Self::Found) -> Vec<String>;
 
     /// The errors that are judged by their rates, and what is checked and shown beside them.
-    fn measured(&self, runs: &Runs<Self>) -> Measured;
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult;
 
     /// The next finer run, for a study that adds levels until its rates are decided.
     fn finer(&self, _runs: &Runs<Self>) -> Option<Finer<Self::Data>> {
@@ -93,11 +93,11 @@ pub trait Source: Send + Sync + Sized + 'static {
 }
 
 /// The results of a source.
-pub type Runs<S> = [Ran<<S as Source>::Data, <S as Source>::Found>];
+pub type Runs<S> = [Ran<<S as ErrorSource>::Data, <S as ErrorSource>::Found>];
 
 /// What the runs of a source say.
 #[derive(Default)]
-pub struct Measured {
+pub struct SourceResult {
     /// Errors that are judged by their rates.
     pub series: Vec<Series>,
     /// Checks beside the rates and completion.
@@ -167,7 +167,7 @@ impl<S> DerefMut for Orders<S> {
     }
 }
 
-impl<S: Source> FromFile for Orders<S> {
+impl<S: ErrorSource> FromFile for Orders<S> {
     // The reader checks the kind first: a file of another kind has other keys.
     const KEYS: &'static [Keys] = &[];
 
@@ -191,7 +191,7 @@ impl<S: Source> FromFile for Orders<S> {
     }
 }
 
-impl<S: Source> Kind for Orders<S> {
+impl<S: ErrorSource> Kind for Orders<S> {
     type Data = S::Data;
     type Found = S::Found;
 
@@ -256,7 +256,7 @@ impl<S: Source> Kind for Orders<S> {
         }
     }
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         self.0.exercise().settings(header, subject)
     }
 
@@ -277,7 +277,7 @@ impl<S: Source> Kind for Orders<S> {
     }
 }
 
-impl<S: Source> Orders<S> {
+impl<S: ErrorSource> Orders<S> {
     /// The next level; `None` also if a run has failed.
     fn finer_of_complete(&self, runs: &Runs<S>) -> Option<Finer<S::Data>> {
         let is_complete = runs.iter().all(|run| run.found.is_ok());

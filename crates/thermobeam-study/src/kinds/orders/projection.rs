@@ -23,12 +23,12 @@
 
 use thermobeam_exact::projection::{Projected, SMOOTH_BOUND, Target, VALUE_BOUND};
 
-use super::{Measured, Orders, Runs, Series, Source};
+use super::{ErrorSource, Orders, Runs, Series, SourceResult};
 use crate::kinds::prelude::*;
 use crate::{
     expression::Expression,
     kinds::{
-        settings::{Exercise, INITIAL_DATA, Integration, ItemMethod, Terms},
+        settings::{ActiveTerms, Exercise, INITIAL_DATA, Integration, ItemMethod},
         tables::{CLAIM_KEYS, Layout, MAP, claims, increasing, mean_width},
     },
     run::simulate,
@@ -49,7 +49,7 @@ const LEADING: f64 = 1e-3;
 
 /// One of the initial data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Datum {
+enum InitialDatum {
     U,
     Velocity,
     Phi,
@@ -57,52 +57,52 @@ enum Datum {
     Theta,
 }
 
-impl Datum {
-    const ALL: [Datum; 5] = [
-        Datum::U,
-        Datum::Velocity,
-        Datum::Phi,
-        Datum::RotationRate,
-        Datum::Theta,
+impl InitialDatum {
+    const ALL: [InitialDatum; 5] = [
+        InitialDatum::U,
+        InitialDatum::Velocity,
+        InitialDatum::Phi,
+        InitialDatum::RotationRate,
+        InitialDatum::Theta,
     ];
 
     /// Its key in a scene.
     const fn name(self) -> &'static str {
         match self {
-            Datum::U => "u",
-            Datum::Velocity => "u_t",
-            Datum::Phi => "phi",
-            Datum::RotationRate => "phi_t",
-            Datum::Theta => "theta",
+            InitialDatum::U => "u",
+            InitialDatum::Velocity => "u_t",
+            InitialDatum::Phi => "phi",
+            InitialDatum::RotationRate => "phi_t",
+            InitialDatum::Theta => "theta",
         }
     }
 
     /// The space of (3.3) onto which it is projected.
     const fn target(self) -> Target {
         match self {
-            Datum::Theta => Target::Closed,
+            InitialDatum::Theta => Target::Closed,
             _ => Target::Clamped,
         }
     }
 
     fn function(self, initial: &Initial) -> Option<&Expression> {
         match self {
-            Datum::U => initial.u.as_ref(),
-            Datum::Velocity => initial.u_t.as_ref(),
-            Datum::Phi => initial.phi.as_ref(),
-            Datum::RotationRate => initial.phi_t.as_ref(),
-            Datum::Theta => initial.theta.as_ref(),
+            InitialDatum::U => initial.u.as_ref(),
+            InitialDatum::Velocity => initial.u_t.as_ref(),
+            InitialDatum::Phi => initial.phi.as_ref(),
+            InitialDatum::RotationRate => initial.phi_t.as_ref(),
+            InitialDatum::Theta => initial.theta.as_ref(),
         }
     }
 
     /// The values from which a run starts.
     fn values(self, values: &InitialValues) -> &[f64] {
         match self {
-            Datum::U => &values.u,
-            Datum::Velocity => &values.u_t,
-            Datum::Phi => &values.phi,
-            Datum::RotationRate => &values.phi_t,
-            Datum::Theta => &values.theta,
+            InitialDatum::U => &values.u,
+            InitialDatum::Velocity => &values.u_t,
+            InitialDatum::Phi => &values.phi,
+            InitialDatum::RotationRate => &values.phi_t,
+            InitialDatum::Theta => &values.theta,
         }
     }
 }
@@ -110,25 +110,25 @@ impl Datum {
 /// The error of a projection: of its values, or of its slope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct ProjectionError {
-    datum: Datum,
+    datum: InitialDatum,
     is_slope: bool,
 }
 
 impl ProjectionError {
     const ALL: [(&'static str, ProjectionError); 10] = [
-        Self::row("u", Datum::U, false),
-        Self::row("u_x", Datum::U, true),
-        Self::row("u_t", Datum::Velocity, false),
-        Self::row("u_tx", Datum::Velocity, true),
-        Self::row("phi", Datum::Phi, false),
-        Self::row("phi_x", Datum::Phi, true),
-        Self::row("phi_t", Datum::RotationRate, false),
-        Self::row("phi_tx", Datum::RotationRate, true),
-        Self::row("theta", Datum::Theta, false),
-        Self::row("theta_x", Datum::Theta, true),
+        Self::row("u", InitialDatum::U, false),
+        Self::row("u_x", InitialDatum::U, true),
+        Self::row("u_t", InitialDatum::Velocity, false),
+        Self::row("u_tx", InitialDatum::Velocity, true),
+        Self::row("phi", InitialDatum::Phi, false),
+        Self::row("phi_x", InitialDatum::Phi, true),
+        Self::row("phi_t", InitialDatum::RotationRate, false),
+        Self::row("phi_tx", InitialDatum::RotationRate, true),
+        Self::row("theta", InitialDatum::Theta, false),
+        Self::row("theta_x", InitialDatum::Theta, true),
     ];
 
-    const fn row(name: &'static str, datum: Datum, is_slope: bool) -> (&'static str, Self) {
+    const fn row(name: &'static str, datum: InitialDatum, is_slope: bool) -> (&'static str, Self) {
         (name, Self { datum, is_slope })
     }
 
@@ -152,9 +152,9 @@ pub struct Projection {
     beam: Beam,
     initial: Initial,
     /// The data that are given.
-    data: Vec<Datum>,
+    data: Vec<InitialDatum>,
     /// Those that are not in H².
-    rough: Vec<Datum>,
+    rough: Vec<InitialDatum>,
     elements: Vec<usize>,
     layout: Layout,
     expect: Vec<(ProjectionError, Claim)>,
@@ -169,7 +169,9 @@ const KEYS: [Key; 3] = [
     MAP,
     Key::new(
         "rough",
-        Form::List(&Form::Choice(|| Datum::ALL.map(Datum::name).to_vec())),
+        Form::List(&Form::Choice(|| {
+            InitialDatum::ALL.map(InitialDatum::name).to_vec()
+        })),
         "functions of [initial] that are not in H^2, to which (3.5) does not apply",
     )
     .or("none"),
@@ -188,7 +190,7 @@ const EXPECT: Key = Key::new(
     "the orders claimed, each error once",
 );
 
-impl Source for Projection {
+impl ErrorSource for Projection {
     const ROW: KindRow = KindRow {
         name: "orders/projection",
         keys: &[&[&[
@@ -233,8 +235,8 @@ impl Source for Projection {
             // Each mesh has nodes of its own, at which the functions must be finite.
             initial = Initial::read(root, &beam, &mesh)?;
         }
-        let is_given = |datum: &Datum| datum.function(&initial).is_some();
-        let data: Vec<Datum> = Datum::ALL.into_iter().filter(is_given).collect();
+        let is_given = |datum: &InitialDatum| datum.function(&initial).is_some();
+        let data: Vec<InitialDatum> = InitialDatum::ALL.into_iter().filter(is_given).collect();
         let rough = rough(&section, &data)?;
         let expect = claims(root, "error", &ProjectionError::ALL)?;
         for (error, _) in &expect {
@@ -259,7 +261,7 @@ impl Source for Projection {
     }
 
     fn exercise(&self) -> Exercise {
-        let terms = Terms::of(&self.beam, None);
+        let terms = ActiveTerms::of(&self.beam, None);
         Exercise::new(INITIAL_DATA, Integration::Exact, terms).on(self.layout.nodes())
     }
 
@@ -300,7 +302,7 @@ impl Source for Projection {
         names
     }
 
-    fn measured(&self, runs: &Runs<Self>) -> Measured {
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let mut checks = vec![];
         let mut rows = vec![];
         for (index, &datum) in self.data.iter().enumerate() {
@@ -318,7 +320,7 @@ impl Source for Projection {
         }
         let caption = "Errors of the projected initial data over the mesh width: values, and slopes (with x).";
         let series = Series::new(self.levels(runs)).drawn("errors", Some("Projections"), caption);
-        Measured {
+        SourceResult {
             checks,
             tables: vec![Table::new(
                 "Projections: bounds with the best constants, leading terms known before the run",
@@ -334,7 +336,7 @@ impl Source for Projection {
                 rows,
             )],
             series: vec![series],
-            ..Measured::default()
+            ..SourceResult::default()
         }
     }
 }
@@ -363,12 +365,13 @@ impl Projection {
 }
 
 /// The key `rough`.
-fn rough(section: &Section<'_>, data: &[Datum]) -> Result<Vec<Datum>, InputError> {
+fn rough(section: &Section<'_>, data: &[InitialDatum]) -> Result<Vec<InitialDatum>, InputError> {
     if section.get("rough").is_none() {
         return Ok(vec![]);
     }
     let names: Vec<&str> = data.iter().map(|datum| datum.name()).collect();
-    let choices: Vec<(&str, Datum)> = data.iter().map(|datum| (datum.name(), *datum)).collect();
+    let choices: Vec<(&str, InitialDatum)> =
+        data.iter().map(|datum| (datum.name(), *datum)).collect();
     section.list(
         "rough",
         &format!("a list of functions of [initial]: {}", names.join(", ")),
@@ -378,7 +381,7 @@ fn rough(section: &Section<'_>, data: &[Datum]) -> Result<Vec<Datum>, InputError
 }
 
 /// `((P_h η - η)_x, χ_x) = 0`, which defines the projection.
-fn orthogonal(datum: Datum, levels: &[Projected]) -> Check {
+fn orthogonal(datum: InitialDatum, levels: &[Projected]) -> Check {
     let largest = largest_residual(levels).unwrap_or(f64::NAN);
     Check::that(
         largest <= ORTHOGONAL,
@@ -400,7 +403,7 @@ fn largest_residual(levels: &[Projected]) -> Option<f64> {
 }
 
 /// (3.4) on each mesh, and (3.5) for a function in H².
-fn bounded(datum: Datum, is_smooth: bool, levels: &[Projected]) -> Check {
+fn bounded(datum: InitialDatum, is_smooth: bool, levels: &[Projected]) -> Check {
     let value = largest_of(levels.iter().map(Projected::share_of_value_bound)).unwrap_or(f64::NAN);
     let smooth = largest_of(levels.iter().map(Projected::share_of_smooth_bound));
     let smooth = smooth.unwrap_or(f64::NAN);
@@ -427,7 +430,7 @@ fn bounded(datum: Datum, is_smooth: bool, levels: &[Projected]) -> Check {
 }
 
 /// The errors on the finest mesh are those of their leading terms.
-fn leading(datum: Datum, finest: Option<&Projected>) -> Check {
+fn leading(datum: InitialDatum, finest: Option<&Projected>) -> Check {
     let Ratios { value, slope } = Ratios::of(finest);
     Check::that(
         (value - 1.0).abs() <= LEADING && (slope - 1.0).abs() <= LEADING,
@@ -461,12 +464,12 @@ impl Ratios {
     }
 }
 
-fn subject(datum: Datum) -> Subject {
+fn subject(datum: InitialDatum) -> Subject {
     Subject::of(datum.name()).by(ItemMethod::Exact)
 }
 
 /// A row of the table.
-fn row(datum: Datum, is_smooth: bool, levels: &[Projected]) -> Vec<String> {
+fn row(datum: InitialDatum, is_smooth: bool, levels: &[Projected]) -> Vec<String> {
     let shown = |number: Option<f64>, digits: usize| {
         number.map_or_else(|| "-".to_owned(), |number| format!("{number:.digits$}"))
     };

@@ -2,7 +2,7 @@
 
 use super::{
     Drawn, RandomErrors,
-    measure::{Found, Refusal},
+    measure::{AbandonedSearch, PredictedErrors},
 };
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::min_or_nan;
@@ -21,8 +21,8 @@ const FALL: f64 = 4.0;
 impl RandomErrors {
     pub(super) fn checks(
         &self,
-        ran: &[Ran<Drawn, Found>],
-        found: &[(&Ran<Drawn, Found>, &Found)],
+        ran: &[Ran<Drawn, PredictedErrors>],
+        found: &[(&Ran<Drawn, PredictedErrors>, &PredictedErrors)],
     ) -> Vec<Check> {
         let mut checks = vec![completion_check(ran, |found| {
             readings::not_finite(&found.readings())
@@ -36,7 +36,7 @@ impl RandomErrors {
     }
 
     /// Errors against estimates and targets.
-    fn of_errors(&self, found: &[(&Ran<Drawn, Found>, &Found)]) -> [Check; 3] {
+    fn of_errors(&self, found: &[(&Ran<Drawn, PredictedErrors>, &PredictedErrors)]) -> [Check; 3] {
         let [over_estimate, over_target, over_norm_target] = worst(found).unwrap_or([f64::NAN; 3]);
         [
             Check::that(
@@ -66,7 +66,10 @@ impl RandomErrors {
         ]
     }
 
-    pub(super) fn figure(&self, found: &[(&Ran<Drawn, Found>, &Found)]) -> Figure {
+    pub(super) fn figure(
+        &self,
+        found: &[(&Ran<Drawn, PredictedErrors>, &PredictedErrors)],
+    ) -> Figure {
         let mut points: Vec<(f64, f64)> = found
             .iter()
             .map(|(_, found)| (found.work, found.over_target))
@@ -95,8 +98,10 @@ impl RandomErrors {
 
 /// The largest errors in units of their estimates, of the targets, and of those in the norm; `None`
 /// without a scene.
-pub(super) fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> Option<[f64; 3]> {
-    let of: [fn(&Found) -> f64; 3] = [
+pub(super) fn worst(
+    found: &[(&Ran<Drawn, PredictedErrors>, &PredictedErrors)],
+) -> Option<[f64; 3]> {
+    let of: [fn(&PredictedErrors) -> f64; 3] = [
         |found| found.over_estimate,
         |found| found.over_target,
         |found| found.over_norm_target,
@@ -111,7 +116,7 @@ pub(super) fn worst(found: &[(&Ran<Drawn, Found>, &Found)]) -> Option<[f64; 3]> 
 }
 
 /// Searches of smooth data end with a run, those of rough data may be refused.
-fn of_refusals(found: &[(&Ran<Drawn, Found>, &Found)]) -> [Check; 2] {
+fn of_refusals(found: &[(&Ran<Drawn, PredictedErrors>, &PredictedErrors)]) -> [Check; 2] {
     let refused = refusals(found, false);
     let rough = refusals(found, true);
     [
@@ -131,7 +136,7 @@ fn of_refusals(found: &[(&Ran<Drawn, Found>, &Found)]) -> [Check; 2] {
 }
 
 /// Linear elements and small steps tend to the chosen motion.
-fn of_linear_elements(found: &[(&Ran<Drawn, Found>, &Found)]) -> Check {
+fn of_linear_elements(found: &[(&Ran<Drawn, PredictedErrors>, &PredictedErrors)]) -> Check {
     let falls: Vec<f64> = found
         .iter()
         .filter_map(|(_, of)| of.linear.map(|[coarse, fine]| coarse / fine))
@@ -152,9 +157,9 @@ fn of_linear_elements(found: &[(&Ran<Drawn, Found>, &Found)]) -> Check {
 
 /// Why searches of smooth, or of rough, data were refused.
 fn refusals<'r>(
-    found: &[(&'r Ran<Drawn, Found>, &'r Found)],
+    found: &[(&'r Ran<Drawn, PredictedErrors>, &'r PredictedErrors)],
     is_rough: bool,
-) -> Vec<(&'r str, &'r Refusal)> {
+) -> Vec<(&'r str, &'r AbandonedSearch)> {
     let of = found
         .iter()
         .filter(|(_, found)| found.may_be_refused == is_rough);
@@ -165,7 +170,7 @@ fn refusals<'r>(
     .collect()
 }
 
-fn in_words(refusals: &[(&str, &Refusal)]) -> String {
+fn in_words(refusals: &[(&str, &AbandonedSearch)]) -> String {
     refusals
         .iter()
         .map(|(scene, refusal)| format!("{scene}, {}", refusal.words))

@@ -2,7 +2,7 @@
 
 use super::{
     Drawn, RandomErrors,
-    truth::{Point, Trace, Truth, points},
+    truth::{QuadraturePoint, Trace, Truth, points},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -16,7 +16,7 @@ use crate::{
 
 /// Why a search was abandoned.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Refusal {
+pub struct AbandonedSearch {
     /// The search and the reason, in words.
     pub words: String,
     /// Whether data with features may be refused so: no mesh resolves them, or a finer run
@@ -24,7 +24,7 @@ pub struct Refusal {
     pub is_of_features: bool,
 }
 
-impl Refusal {
+impl AbandonedSearch {
     fn new(search: &str, why: &Unreachable) -> Self {
         let is_of_features = matches!(
             why,
@@ -39,7 +39,7 @@ impl Refusal {
 
 /// The results of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Found {
+pub struct PredictedErrors {
     /// The largest error of a number, in units of its estimate.
     pub over_estimate: f64,
     /// The largest error of u(1, t) of a chosen run, in units of its target.
@@ -47,7 +47,7 @@ pub struct Found {
     /// The same in the norm.
     pub over_norm_target: f64,
     /// Why searches were abandoned.
-    pub refused: Vec<Refusal>,
+    pub refused: Vec<AbandonedSearch>,
     /// Whether a search may be refused, because the data have features that no mesh resolves.
     pub may_be_refused: bool,
     /// Errors of linear elements, and of four times as many with four times the steps.
@@ -56,7 +56,7 @@ pub struct Found {
     pub work: f64,
 }
 
-impl Found {
+impl PredictedErrors {
     pub(super) fn readings(&self) -> Vec<Reading> {
         vec![
             Reading::new("error over estimate", self.over_estimate).fixed(2),
@@ -74,11 +74,11 @@ impl RandomErrors {
     fn chosen(
         &self,
         scene: &Scene,
-        quantity: choice::Quantity,
-        refused: &mut Vec<Refusal>,
+        quantity: choice::ErrorQuantity,
+        refused: &mut Vec<AbandonedSearch>,
         work: &mut Work<'_>,
     ) -> Vec<(f64, Scene)> {
-        let targets = if quantity == choice::Quantity::Tip {
+        let targets = if quantity == choice::ErrorQuantity::Tip {
             &self.targets
         } else {
             &self.norm_targets
@@ -89,7 +89,7 @@ impl RandomErrors {
                 Ok(choice) => chosen.push((target, choice.scene)),
                 Err(why) => {
                     let search = format!("{} {target:e}", quantity.name());
-                    refused.push(Refusal::new(&search, &why));
+                    refused.push(AbandonedSearch::new(&search, &why));
                 }
             }
         }
@@ -103,13 +103,13 @@ impl RandomErrors {
         let mut refused = vec![];
         let estimates = estimate(scene, work).map_or_else(
             |why: Unreachable| {
-                refused.push(Refusal::new("estimate", &why));
+                refused.push(AbandonedSearch::new("estimate", &why));
                 vec![]
             },
             |budget| budget.quantities,
         );
-        let chosen = self.chosen(scene, choice::Quantity::Tip, &mut refused, work);
-        let in_norm = self.chosen(scene, choice::Quantity::Norm, &mut refused, work);
+        let chosen = self.chosen(scene, choice::ErrorQuantity::Tip, &mut refused, work);
+        let in_norm = self.chosen(scene, choice::ErrorQuantity::Norm, &mut refused, work);
         let is_refined = matches!(drawn, Drawn::Smooth(number) if self.refined > 0 && number.is_multiple_of(self.refined));
         let times: &[usize] = if is_refined { &[1, 4] } else { &[] };
         let linear = times
@@ -130,7 +130,7 @@ impl RandomErrors {
     ///
     /// # Errors
     /// A run fails, or its scene cannot be made.
-    pub(super) fn measure(&self, drawn: Drawn) -> Result<Found, CaseFailure> {
+    pub(super) fn measure(&self, drawn: Drawn) -> Result<PredictedErrors, CaseFailure> {
         let (scene, feature) = self.scene(drawn)?;
         let exact = self.independent(&scene, feature.as_ref())?;
         let searched = self.search(drawn, &scene)?;
@@ -139,7 +139,7 @@ impl RandomErrors {
         let traces = searched.traces(&scene, &points)?;
         let truth = Truth::of(&exact, &traces.iter().collect::<Vec<_>>(), &points)?;
         let errors = searched.errors(&truth, &traces, &points);
-        Ok(Found {
+        Ok(PredictedErrors {
             refused: searched.refused,
             may_be_refused: feature.is_some(),
             work: searched.work,
@@ -157,13 +157,13 @@ struct Searched {
     linear: Vec<Scene>,
     /// Runs for the norm, with their targets.
     in_norm: Vec<(f64, Scene)>,
-    refused: Vec<Refusal>,
+    refused: Vec<AbandonedSearch>,
     work: f64,
 }
 
 impl Searched {
     /// The scene's own run, those for u(1, t), those on linear elements, and those for the norm.
-    fn traces(&self, scene: &Scene, points: &[Point]) -> Result<Vec<Trace>, CaseFailure> {
+    fn traces(&self, scene: &Scene, points: &[QuadraturePoint]) -> Result<Vec<Trace>, CaseFailure> {
         let mut traces = vec![Trace::of(scene, &[])?];
         for (_, run) in &self.chosen {
             traces.push(Trace::of(run, &[])?);
@@ -180,8 +180,13 @@ impl Searched {
     /// The errors of these runs, the rest being empty.
     ///
     /// * `traces`: as [`Self::traces`] gives them.
-    fn errors(&self, truth: &Truth, traces: &[Trace], points: &[Point]) -> Found {
-        let mut found = Found::default();
+    fn errors(
+        &self,
+        truth: &Truth,
+        traces: &[Trace],
+        points: &[QuadraturePoint],
+    ) -> PredictedErrors {
+        let mut found = PredictedErrors::default();
         for estimate in &self.estimates {
             let error = truth.of_estimate(0, &traces[0], estimate);
             found.over_estimate = max_or_nan(found.over_estimate, error / estimate.total);

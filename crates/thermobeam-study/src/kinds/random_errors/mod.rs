@@ -23,18 +23,18 @@ mod judge;
 mod measure;
 mod truth;
 
-pub use self::measure::{Found, Refusal};
+pub use self::measure::{AbandonedSearch, PredictedErrors};
 
 use self::judge::worst;
 use super::prelude::*;
 use super::runs::cases::named_cases;
 use crate::{
-    kinds::settings::{CONTACT, Exercise, Integration, Terms},
+    kinds::settings::{ActiveTerms, CONTACT, Exercise, Integration},
     scene::{self, Scene},
 };
 use convergence_study::{
     Coverage,
-    internal::study::{coverage::NO_RESULT, header::Setting, readings},
+    internal::study::{coverage::NO_RESULT, header::SettingWords, readings},
 };
 
 /// The row of the table of kinds.
@@ -151,14 +151,14 @@ fn given(section: &Section<'_>, name: String) -> Result<Scene, InputError> {
 
 impl Kind for RandomErrors {
     type Data = Drawn;
-    type Found = Found;
+    type Found = PredictedErrors;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let case = subject.case.as_deref();
         let given = self.given.iter().find(|scene| Some(&*scene.name) == case);
         let exercise = match given {
             Some(scene) => Exercise::of_scene(CONTACT, Integration::PAPER, scene),
-            None => Exercise::new(CONTACT, Integration::PAPER, Terms::MODERATE),
+            None => Exercise::new(CONTACT, Integration::PAPER, ActiveTerms::MODERATE),
         };
         exercise.settings(header, subject)
     }
@@ -180,12 +180,12 @@ impl Kind for RandomErrors {
             .collect()
     }
 
-    fn run(&self, &drawn: &Drawn) -> Result<Found, CaseFailure> {
+    fn run(&self, &drawn: &Drawn) -> Result<PredictedErrors, CaseFailure> {
         self.measure(drawn)
     }
 
-    fn judge(&self, ran: &[Ran<Drawn, Found>]) -> Outcome {
-        let found: Vec<(&Ran<Drawn, Found>, &Found)> = ran
+    fn judge(&self, ran: &[Ran<Drawn, PredictedErrors>]) -> Outcome {
+        let found: Vec<(&Ran<Drawn, PredictedErrors>, &PredictedErrors)> = ran
             .iter()
             .filter_map(|ran| Some((ran, ran.ok()?)))
             .collect();
@@ -219,7 +219,7 @@ impl Kind for RandomErrors {
 
 impl RandomErrors {
     /// Each scene has an estimate and a search for each target; some are refused.
-    fn searches(&self, ran: &[Ran<Drawn, Found>]) -> Coverage {
+    fn searches(&self, ran: &[Ran<Drawn, PredictedErrors>]) -> Coverage {
         let each = 1 + self.targets.len() + self.norm_targets.len();
         let mut left_out = vec![];
         for ran in ran {

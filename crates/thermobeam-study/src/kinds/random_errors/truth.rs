@@ -12,7 +12,7 @@ use thermobeam::{
 
 use crate::kinds::prelude::*;
 use crate::{
-    predict::estimate::{Estimate, Kind as Value},
+    predict::estimate::{Estimate, QuantityKind},
     run::{ObservableMotion, Sample, dg::DgMotion, run_to, simulate},
     scene::{Method, Scene},
 };
@@ -28,13 +28,13 @@ const NORM_PARTS: usize = 2;
 
 /// A point of the quadrature of the norm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Point {
+pub(super) struct QuadraturePoint {
     x: f64,
     weight: f64,
 }
 
 /// Three Gauss points in each part of the elements that have the nodes of all meshes.
-pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<Point> {
+pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<QuadraturePoint> {
     let mut nodes: Vec<f64> = meshes
         .flat_map(|mesh| mesh.nodes().iter().copied())
         .collect();
@@ -50,7 +50,7 @@ pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<Point> {
                 (0.0, 8.0 / 9.0),
                 (0.6_f64.sqrt(), 5.0 / 9.0),
             ] {
-                points.push(Point {
+                points.push(QuadraturePoint {
                     x: middle + half * s,
                     weight: half * weight,
                 });
@@ -60,7 +60,7 @@ pub(super) fn points<'m>(meshes: impl Iterator<Item = &'m Mesh>) -> Vec<Point> {
     points
 }
 
-fn located(motion: &DgMotion, points: &[Point]) -> Vec<dg::Point> {
+fn located(motion: &DgMotion, points: &[QuadraturePoint]) -> Vec<dg::BeamPoint> {
     points
         .iter()
         .map(|point| motion.simulation().space().locate(point.x))
@@ -79,7 +79,7 @@ struct State {
 
 impl State {
     /// * `located`: the points of the norm, if it is wanted.
-    fn of_dg(motion: &mut DgMotion, t: f64, located: &[dg::Point]) -> Self {
+    fn of_dg(motion: &mut DgMotion, t: f64, located: &[dg::BeamPoint]) -> Self {
         let Sample {
             u_tip,
             phi_tip,
@@ -113,7 +113,7 @@ pub(super) struct Trace {
 
 impl Trace {
     /// Runs a scene; with `points`, of the norm, it is by dG.
-    pub(super) fn of(scene: &Scene, points: &[Point]) -> Result<Self, CaseFailure> {
+    pub(super) fn of(scene: &Scene, points: &[QuadraturePoint]) -> Result<Self, CaseFailure> {
         let mut states = vec![];
         match scene.method {
             Method::OneStep(_) => {
@@ -165,7 +165,7 @@ impl Truth {
     pub(super) fn of(
         scene: &Scene,
         traces: &[&Trace],
-        points: &[Point],
+        points: &[QuadraturePoint],
     ) -> Result<Self, CaseFailure> {
         let mut motion = DgMotion::new(scene, scene.dg_stepping())?;
         let located = located(&motion, points);
@@ -223,7 +223,7 @@ impl Truth {
     }
 
     /// The largest error of trace k in the norm of Theorem 3.4.
-    pub(super) fn of_norm(&self, k: usize, trace: &Trace, points: &[Point]) -> f64 {
+    pub(super) fn of_norm(&self, k: usize, trace: &Trace, points: &[QuadraturePoint]) -> f64 {
         self.worst(k, trace, |own, exact| {
             let mut square = 0.0;
             for (point, (own, exact)) in points
@@ -248,10 +248,10 @@ impl Truth {
             .position(|name| estimate.name.contains(name))
             .unwrap_or(0);
         match estimate.kind {
-            Value::Curve => self.of_curve(k, trace, number),
-            Value::Largest => (estimate.value - self.range[1]).abs(),
-            Value::Smallest => (estimate.value - self.range[0]).abs(),
-            Value::End => (estimate.value - self.last[number]).abs(),
+            QuantityKind::Curve => self.of_curve(k, trace, number),
+            QuantityKind::Largest => (estimate.value - self.range[1]).abs(),
+            QuantityKind::Smallest => (estimate.value - self.range[0]).abs(),
+            QuantityKind::End => (estimate.value - self.last[number]).abs(),
         }
     }
 

@@ -75,7 +75,8 @@ pub enum End {
     IterationLimit,
     /// At a step with numbers that are not finite.
     NotFinite,
-    /// After its last step, with a balance of the energy that is open: a study of the energy claims it.
+    /// After its last step, with a balance of the energy that is open: a study of the energy claims
+    /// it.
     Unbalanced,
 }
 

@@ -1,5 +1,5 @@
-//! Continuous dependence on the data, which gives Theorem 2.6: runs whose data are δ apart stay within
-//! C δ of each other, and difference/δ is constant as δ → 0.
+//! Continuous dependence on the data, which gives Theorem 2.6: runs whose data are δ apart stay
+//! within C δ of each other, and difference/δ is constant as δ → 0.
 //!
 //! The scene is run by dG, whose solution is known to round-off; the differences are those of the
 //! norm of (3.14) at several times, before and after contacts. There they stay below a bound by
@@ -143,9 +143,7 @@ impl Runs for Dependence {
         let mut rows = vec![];
         let mut checks = vec![];
         let mut largest = 0.0;
-        let bounds = results
-            .of(&None)
-            .map_or_else(Vec::new, |base| self.bounds(base));
+        let bounds = self.bounds(results.of(&None));
         for sample in 0..self.samples {
             let t = self.t_end * (sample + 1) as f64 / self.samples as f64;
             let case = format!("t = {t:.2}");
@@ -243,19 +241,15 @@ impl Dependence {
         slope_squared(base, &values).sqrt()
     }
 
-    /// Difference/δ at a time for each δ; empty if a run is missing.
+    /// Difference/δ at a time for each δ; empty if a run ended before.
     fn ratios(&self, results: &Results<'_, Self>, sample: usize) -> Vec<f64> {
-        let Some(base) = results.of(&None) else {
-            return vec![];
-        };
+        let base = results.of(&None);
         let index = FINE * (sample + 1) - 1;
         let lengths: Vec<f64> = base.mesh.lengths().collect();
         let mut ratios = vec![];
         for (place, delta) in self.differences.iter().enumerate() {
             let other = results.of(&Some(place));
-            let pair =
-                other.and_then(|other| Some((base.levels.get(index)?, other.levels.get(index)?)));
-            let Some((one, other)) = pair else {
+            let (Some(one), Some(other)) = (base.levels.get(index), other.levels.get(index)) else {
                 return vec![];
             };
             ratios.push(distance(&lengths, one, other) / delta);

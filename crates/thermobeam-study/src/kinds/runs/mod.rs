@@ -23,7 +23,7 @@ use super::prelude::*;
 use crate::kinds::settings::Exercise;
 use convergence_study::{
     Coverage, LevelErrors,
-    internal::study::{coverage::NO_RESULT, header::Setting, over_levels::Levels, readings},
+    internal::study::{header::SettingWords, over_levels::Levels, readings},
 };
 
 /// A list of runs, and what is claimed of them.
@@ -65,8 +65,8 @@ pub trait Runs: Sized + Send + Sync {
         None
     }
 
-    /// The checks, and what else the results show. That a run is missing has failed the check of
-    /// completion already, but no other claim may hold because of it.
+    /// The checks, and what else the results show. A study with a run that has no result is not
+    /// asked: the check of completion fails, and nothing else is judged.
     fn judge(&self, results: &Results<'_, Self>) -> Findings;
 }
 
@@ -94,6 +94,18 @@ pub struct Findings {
 }
 
 impl Findings {
+    /// Those of a study in which runs have no result.
+    fn of_incomplete(lacking: usize, all: usize) -> Self {
+        let have = if lacking == 1 { "has" } else { "have" };
+        Self {
+            summary: format!(
+                "{lacking} of {} {have} no result, so nothing else is judged",
+                counted(all, "run")
+            ),
+            ..Self::default()
+        }
+    }
+
     /// The same with the rates of these errors: guarded, like the errors themselves.
     #[must_use]
     pub(crate) fn with_orders(mut self, levels: &Levels, rates: Vec<NamedRate>) -> Self {
@@ -143,39 +155,42 @@ impl From<Table> for Listing {
     }
 }
 
-/// The results of a study, in the order of its cases.
+/// The results of a study, in the order of its cases: every run has one.
 #[derive(Debug)]
 pub struct Results<'r, R: Runs> {
-    ran: &'r [Ran<R::Run, R::Shown>],
+    shown: Vec<(&'r R::Run, &'r R::Shown)>,
 }
 
 impl<'r, R: Runs> Results<'r, R> {
-    /// What this run shows; `None` if it failed or was not done.
-    pub fn of(&self, run: &R::Run) -> Option<&'r R::Shown> {
-        found(self.ran, run)
+    /// What a run of the study shows.
+    ///
+    /// # Panics
+    /// The study has no such run.
+    pub fn of(&self, run: &R::Run) -> &'r R::Shown {
+        self.optional(run).expect("a run of the study")
     }
 
-    /// Every run that has a result.
-    pub fn completed(&self) -> impl Iterator<Item = (&'r R::Run, &'r R::Shown)> + use<'r, R> {
-        self.ran
-            .iter()
-            .filter_map(|ran| Some((&ran.case.data, ran.ok()?)))
+    /// The same; `None` if the study has no such run.
+    pub fn optional(&self, run: &R::Run) -> Option<&'r R::Shown> {
+        let known = self.shown.iter().find(|(known, _)| *known == run);
+        known.map(|(_, shown)| *shown)
+    }
+
+    /// Every run, with what it shows.
+    pub fn all(&self) -> impl Iterator<Item = (&'r R::Run, &'r R::Shown)> {
+        self.shown.iter().copied()
     }
 
     /// The runs that judge something.
     ///
     /// * `items`: what that is, in the plural.
-    /// * `reason`: why a run with a result does not; `None` if it does.
+    /// * `reason`: why a run does not; `None` if it does.
     pub fn coverage(
         &self,
         items: &str,
         reason: impl Fn(&R::Run, &R::Shown) -> Option<&'static str>,
     ) -> Coverage {
-        let reasons = self.ran.iter().map(|ran| match ran.ok() {
-            Some(shown) => reason(&ran.case.data, shown),
-            None => Some(NO_RESULT),
-        });
-        Coverage::of(items, reasons)
+        Coverage::of(items, self.all().map(|(run, shown)| reason(run, shown)))
     }
 }
 
@@ -203,13 +218,14 @@ impl<R: Runs> Kind for RunStudy<R> {
         self.0.run(run)
     }
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let exercise = self.0.exercise(subject.case.as_deref());
         exercise.settings(header, subject)
     }
 
     fn judge(&self, ran: &[Ran<R::Run, R::Shown>]) -> Outcome {
-        let numbers: Vec<Ran<(), Vec<Reading>>> = ran.iter().map(|ran| self.numbers(ran)).collect();
+        let numbers = self.numbers(ran);
+        let lacking = numbers.iter().filter(|ran| ran.ok().is_none()).count();
         let Findings {
             summary,
             headline,
@@ -220,7 +236,16 @@ impl<R: Runs> Kind for RunStudy<R> {
             rates,
             levels,
             quantities,
-        } = self.0.judge(&Results { ran });
+        } = if lacking > 0 || numbers.is_empty() {
+            Findings::of_incomplete(lacking, numbers.len())
+        } else {
+            let shown = ran
+                .iter()
+                .filter_map(|ran| Some((&ran.case.data, ran.ok()?)));
+            self.0.judge(&Results {
+                shown: shown.collect(),
+            })
+        };
         let complete = completion_check(&numbers, |numbers| readings::not_finite(numbers));
         let checks = [vec![complete], checks].concat();
         let (tables, guarded): (Vec<_>, Vec<_>) = self
@@ -242,14 +267,20 @@ impl<R: Runs> Kind for RunStudy<R> {
 }
 
 impl<R: Runs> RunStudy<R> {
-    /// The numbers in place of the result, or why there is none.
-    fn numbers(&self, ran: &Ran<R::Run, R::Shown>) -> Ran<(), Vec<Reading>> {
-        let Case { label, cost, data } = &ran.case;
-        let numbers = ran.found.as_ref().map(|shown| self.0.numbers(data, shown));
-        Ran {
-            case: Case::new(label, *cost, ()),
-            found: numbers.map_err(CaseFailure::clone),
+    /// The numbers of each run of the study in place of its result, or why there is none.
+    fn numbers(&self, ran: &[Ran<R::Run, R::Shown>]) -> Vec<Ran<(), Vec<Reading>>> {
+        let mut numbers = vec![];
+        for Case { label, cost, data } in self.0.runs() {
+            let found = match ran.iter().find(|ran| ran.case.data == data) {
+                Some(ran) => ran.found.as_ref().map_err(CaseFailure::clone),
+                None => Err(CaseFailure::new("it was not run")),
+            };
+            numbers.push(Ran {
+                case: Case::new(label, cost, ()),
+                found: found.map(|shown| self.0.numbers(&data, shown)),
+            });
         }
+        numbers
     }
 
     fn table_of_runs(&self, numbers: Vec<Ran<(), Vec<Reading>>>) -> Option<Listing> {

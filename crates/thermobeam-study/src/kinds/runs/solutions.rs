@@ -6,13 +6,13 @@
 //! with the dense matrix A(m). Every other solution has an m = β + ½ρ‖u_x‖² in (β, m*), where `λ(m*) =
 //! B (ζ + dt/2) + m* dt/2 = 0`. There none is missed, since A(m) = A(0) + ½ m dt K is symmetric:
 //!
-//! * free of contact: A(m) is singular, for an eigenvalue of (A(0), K); its vector has the size that m
-//!   asks for, and both signs;
+//! * free of contact: A(m) is singular, for an eigenvalue of (A(0), K); its vector has the size
+//!   that m asks for, and both signs;
 //! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `f(m) = β + ½ρ F² ‖r_x‖² - m`. In the
-//!   eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows between its
-//!   poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1) by s, `F² ‖r_x‖²`
-//!   is g² times its derivative: f is convex between two poles, where it has two roots or none. The
-//!   poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
+//!   eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows between
+//!   its poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1) by s,
+//!   `F² ‖r_x‖²` is g² times its derivative: f is convex between two poles, where it has two roots
+//!   or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
 
 use super::{
     Findings, Results, RunStudy, Runs,
@@ -24,7 +24,7 @@ use crate::{
         assembly::{coupling, mass, stiffness},
         dense::{Dense, Eigenpair, dot, eigenpairs},
     },
-    kinds::settings::{CONTACT, Exercise, Integration, Terms},
+    kinds::settings::{ActiveTerms, CONTACT, Exercise, Integration},
     scene::{Coefficients, tables},
 };
 use thermobeam::{
@@ -70,7 +70,7 @@ struct ExpectedStep {
 
 /// The solutions of a step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct StepSolutions {
     /// λ for m = β: at least 0 where the step has one solution.
     pub lambda: f64,
     /// u(1) of each solution, ascending.
@@ -112,7 +112,7 @@ impl Runs for Solutions {
 
     /// The place of the step.
     type Run = usize;
-    type Shown = Found;
+    type Shown = StepSolutions;
 
     fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let Coefficients { beam, obstacles } = Coefficients::read(root)?;
@@ -143,7 +143,7 @@ impl Runs for Solutions {
     }
 
     fn exercise(&self, _case: Option<&str>) -> Exercise {
-        let terms = Terms::of(&self.beam, Some(&self.obstacles));
+        let terms = ActiveTerms::of(&self.beam, Some(&self.obstacles));
         Exercise::new(CONTACT, Integration::PAPER, terms)
     }
 
@@ -155,15 +155,15 @@ impl Runs for Solutions {
             .collect()
     }
 
-    fn run(&self, &place: &usize) -> Result<Found, CaseFailure> {
-        let step = Step::new(self, self.steps[place].dt)?;
-        Ok(Found {
+    fn run(&self, &place: &usize) -> Result<StepSolutions, CaseFailure> {
+        let step = StepFromRest::new(self, self.steps[place].dt)?;
+        Ok(StepSolutions {
             lambda: step.lambda(self.beam.beta),
             tips: step.tips()?,
         })
     }
 
-    fn numbers(&self, &place: &usize, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, &place: &usize, found: &StepSolutions) -> Vec<Reading> {
         let case = format!("dt = {}", self.steps[place].dt);
         let guarded = |name: &str, key: &str, value| {
             Reading::new(name, value).guarded_in(&case, key, GUARDED)
@@ -182,10 +182,10 @@ impl Runs for Solutions {
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
         let checks: Vec<Check> = results
-            .completed()
+            .all()
             .flat_map(|(&place, found)| self.checks(&self.steps[place], found))
             .collect();
-        let counts = results.completed().map(|(&place, found)| {
+        let counts = results.all().map(|(&place, found)| {
             format!("{} at dt = {}", found.tips.len(), self.steps[place].dt)
         });
         let summary = format!(
@@ -203,7 +203,7 @@ impl Runs for Solutions {
 }
 
 impl Solutions {
-    fn checks(&self, step: &ExpectedStep, found: &Found) -> [Check; 2] {
+    fn checks(&self, step: &ExpectedStep, found: &StepSolutions) -> [Check; 2] {
         let case = format!("dt = {}", step.dt);
         let expected = step.tips.len();
         let distance = super::checks::largest_difference(&found.tips, &step.tips);
@@ -232,7 +232,7 @@ impl Solutions {
 }
 
 /// A step from rest.
-struct Step<'a> {
+struct StepFromRest<'a> {
     study: &'a Solutions,
     dt: f64,
     /// A(0) of V alone: W and Θ, which m does not concern, are eliminated.
@@ -242,14 +242,14 @@ struct Step<'a> {
 }
 
 /// The answer of u to a unit load at the tip.
-struct Answer {
+struct UnitLoadResponse {
     /// r(1).
     tip: f64,
     /// ‖r_x‖².
     slope_squared: f64,
 }
 
-impl<'a> Step<'a> {
+impl<'a> StepFromRest<'a> {
     /// # Errors
     /// [`CaseFailure`] if W and Θ cannot be eliminated.
     fn new(study: &'a Solutions, dt: f64) -> Result<Self, CaseFailure> {
@@ -276,18 +276,18 @@ impl<'a> Step<'a> {
     }
 
     /// The answer for the mean axial force m; NaN if the matrix is singular to the last bit.
-    fn answer(&self, m: f64) -> Answer {
+    fn answer(&self, m: f64) -> UnitLoadResponse {
         let n = self.study.mesh.elements();
         let matrix = self.matrix.plus(0.5 * m * self.dt, &self.stiffness);
         let mut load = vec![0.0; n];
         load[n - 1] = self.dt;
         let Some(u) = matrix.solve_one(&load) else {
-            return Answer {
+            return UnitLoadResponse {
                 tip: f64::NAN,
                 slope_squared: f64::NAN,
             };
         };
-        Answer {
+        UnitLoadResponse {
             tip: u[n - 1],
             slope_squared: dot(&u, &self.stiffness.multiply(&u)),
         }
@@ -369,14 +369,14 @@ impl<'a> Step<'a> {
             .ok_or_else(|| CaseFailure::new("K is not positive definite"))
     }
 
-    /// The mean axial force m for which A(0) + ½ m dt K has an eigenvalue 0 in units of K, where A(0) has
-    /// this one.
+    /// The mean axial force m for which A(0) + ½ m dt K has an eigenvalue 0 in units of K, where
+    /// A(0) has this one.
     fn force(&self, value: f64) -> f64 {
         -2.0 * value / self.dt
     }
 
     /// u(1), and the mean axial force that follows, in contact with an obstacle at `g`.
-    fn in_contact(&self, answer: &Answer, g: f64) -> (f64, f64) {
+    fn in_contact(&self, answer: &UnitLoadResponse, g: f64) -> (f64, f64) {
         let Beam { beta, rho, .. } = self.study.beam;
         let force = -g / (self.study.obstacles.epsilon + answer.tip);
         let slope_squared = force * force * answer.slope_squared;
@@ -387,8 +387,8 @@ impl<'a> Step<'a> {
 /// Steps of the search for the minimum: each leaves 0.62 of the interval.
 const SEARCH: usize = 80;
 
-/// The roots of a function that is convex between these ends, where it may be infinite: none, one or
-/// two.
+/// The roots of a function that is convex between these ends, where it may be infinite: none, one
+/// or two.
 fn convex_roots(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Vec<f64> {
     // Just inside: at a pole the value is round-off.
     let margin = 1e-9 * (high - low);

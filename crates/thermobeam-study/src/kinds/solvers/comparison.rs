@@ -6,7 +6,7 @@ use convergence_study::internal::{
     study::readings,
 };
 
-use super::{Found, SolverTask, positive_numbers, results};
+use super::{SolverResult, SolverTask, positive_numbers, results};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
@@ -14,7 +14,7 @@ use crate::{
             checks::agree,
             side_by_side::{SideBySide, SolverComparison, StepOfBoth},
         },
-        settings::{ItemMethod, Terms},
+        settings::{ActiveTerms, ItemMethod},
     },
     run::ObservableMotion,
     scene::{Scene, limits, tables},
@@ -23,7 +23,7 @@ use thermobeam::mesh::Mesh;
 
 /// The table `[comparison]`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Comparison {
+pub(super) struct ComparisonTable {
     scene: Scene,
     elements: usize,
     steps: usize,
@@ -56,9 +56,9 @@ pub(super) const KEYS: [Key; 4] = [
     ),
 ];
 
-impl Comparison {
-    pub(super) fn terms(&self) -> Terms {
-        Terms::of(&self.scene.beam, self.scene.obstacles.as_ref())
+impl ComparisonTable {
+    pub(super) fn terms(&self) -> ActiveTerms {
+        ActiveTerms::of(&self.scene.beam, self.scene.obstacles.as_ref())
     }
 
     pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
@@ -114,9 +114,9 @@ impl Comparison {
         Ok(agreement)
     }
 
-    pub(super) fn judge(ran: &[Ran<SolverTask, Found>]) -> Outcome {
+    pub(super) fn judge(ran: &[Ran<SolverTask, SolverResult>]) -> Outcome {
         let all = results(ran, |found| match found {
-            Found::Comparison(agreement) => Some(agreement),
+            SolverResult::Comparison(agreement) => Some(agreement),
             _ => None,
         });
         let last = all.last().copied();

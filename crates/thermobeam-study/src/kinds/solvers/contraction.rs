@@ -8,14 +8,14 @@ use convergence_study::{
 };
 
 use super::{
-    Found, SolverTask, positive_numbers, results,
+    SolverResult, SolverTask, positive_numbers, results,
     spectrum::spectral_radius,
     step::{by_fixed_point, factors},
 };
 use crate::kinds::prelude::*;
 use crate::{
     figures,
-    kinds::settings::{ItemMethod, Terms},
+    kinds::settings::{ActiveTerms, ItemMethod},
     run::{driver::Driver, run_to},
     scene::{limits, tables},
 };
@@ -50,7 +50,7 @@ const PRESSED: f64 = 0.12;
 
 /// The table `[contraction]`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Grid {
+pub(super) struct ContractionGrid {
     elements: usize,
     dt: Vec<f64>,
     epsilon: Vec<f64>,
@@ -64,7 +64,7 @@ pub(super) const KEYS: [Key; 4] = [
     Key::new("zeta", Form::List(&Form::Positive), "viscosities"),
 ];
 
-impl Grid {
+impl ContractionGrid {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let dt = positive_numbers(section, "dt")?;
         let epsilon = positive_numbers(section, "epsilon")?;
@@ -88,7 +88,7 @@ impl Grid {
         for &zeta in &self.zeta {
             for &epsilon in &self.epsilon {
                 for &dt in &self.dt {
-                    let place = Place { dt, epsilon, zeta };
+                    let place = MeasuredPoint { dt, epsilon, zeta };
                     let task = SolverTask::Contraction(place);
                     cases.push(Case::new(place.to_string(), cost, task));
                 }
@@ -98,13 +98,13 @@ impl Grid {
     }
 
     /// The terms at the place that a case is named after, or at any.
-    pub(super) fn terms(&self, case: Option<&str>) -> Terms {
-        let mut terms = Terms::default();
+    pub(super) fn terms(&self, case: Option<&str>) -> ActiveTerms {
+        let mut terms = ActiveTerms::default();
         for known in self.cases() {
             let SolverTask::Contraction(place) = known.data else {
                 continue;
             };
-            let one = Terms::of(&place.beam(), Some(&place.obstacles()));
+            let one = ActiveTerms::of(&place.beam(), Some(&place.obstacles()));
             if Some(&*known.label) == case {
                 return one;
             }
@@ -114,7 +114,7 @@ impl Grid {
     }
 
     /// The beam at rest in contact, before it is disturbed.
-    fn state(&self, place: Place) -> Result<Problem, MeshError> {
+    fn state(&self, place: MeasuredPoint) -> Result<Problem, MeshError> {
         let mesh = Mesh::uniform(self.elements)?;
         let mut initial = InitialValues::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
@@ -131,7 +131,7 @@ impl Grid {
     /// Loads hold the beam at u = p x, φ = 0, θ = 0, at a fifth of the gap behind the upper
     /// obstacle. On a uniform mesh they are, by (3.7) at rest, `(1 + N) p + g(p)` at the free end
     /// in the first equation, and `-p (1, χ_i)` in the second.
-    pub(super) fn measure(&self, place: Place) -> Result<Contraction, CaseFailure> {
+    pub(super) fn measure(&self, place: MeasuredPoint) -> Result<Contraction, CaseFailure> {
         let dt = place.dt;
         let mut problem = self.state(place)?;
         let n_value = problem.beam.axial_force(PRESSED * PRESSED);
@@ -172,9 +172,9 @@ impl Grid {
         })
     }
 
-    pub(super) fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
+    pub(super) fn judge(&self, ran: &[Ran<SolverTask, SolverResult>]) -> Outcome {
         let points = results(ran, |found| match found {
-            Found::Contraction(point) => Some(point),
+            SolverResult::Contraction(point) => Some(point),
             _ => None,
         });
         let all = self.cases().len();
@@ -201,13 +201,13 @@ impl Grid {
 
 /// The parameters of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct MeasuredPoint {
     dt: f64,
     epsilon: f64,
     zeta: f64,
 }
 
-impl Place {
+impl MeasuredPoint {
     fn beam(self) -> Beam {
         Beam {
             zeta: self.zeta,
@@ -223,7 +223,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for MeasuredPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { dt, epsilon, zeta } = self;
         write!(f, "dt = {dt:e}, epsilon = {epsilon:e}, zeta = {zeta}")
@@ -234,7 +234,7 @@ impl fmt::Display for Place {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contraction {
     /// Where it is measured.
-    place: Place,
+    place: MeasuredPoint,
     /// Predicted factor of the contact alone; infinite if its operator is not definite.
     pub alpha: f64,
     /// Predicted factor of the coupling between rotation and displacement alone; infinite if its
@@ -374,7 +374,7 @@ impl Contraction {
 
     /// The row of a table: dt, ε, ζ and the readings.
     fn row(&self) -> (Vec<String>, Vec<Reading>) {
-        let Place { dt, epsilon, zeta } = self.place;
+        let MeasuredPoint { dt, epsilon, zeta } = self.place;
         let cells = vec![format!("{dt:e}"), format!("{epsilon:e}"), zeta.to_string()];
         (cells, self.readings())
     }

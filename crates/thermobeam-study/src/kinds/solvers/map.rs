@@ -25,9 +25,9 @@ use super::{
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
-        interval::Interval,
+        interval::SampledInterval,
         runs::watch::{Watched, Worst, watched},
-        settings::Terms,
+        settings::ActiveTerms,
     },
     scene::{limits, tables},
 };
@@ -62,9 +62,9 @@ const CONSECUTIVE: usize = 8;
 /// The table `[map]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Map {
-    pub(super) over: Parameter,
-    pub(super) dt: Interval,
-    pub(super) range: Interval,
+    pub(super) over: MapParameter,
+    pub(super) dt: SampledInterval,
+    pub(super) range: SampledInterval,
     pub(super) points: usize,
     pub(super) lines: Vec<f64>,
     elements: usize,
@@ -74,7 +74,7 @@ pub(super) struct Map {
 
 /// The second parameter of a map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Parameter {
+pub(super) enum MapParameter {
     Epsilon,
     Beta,
     Zeta,
@@ -82,12 +82,12 @@ pub(super) enum Parameter {
     Width,
 }
 
-impl Parameter {
-    const ALL: [(&str, Parameter); 4] = [
-        ("epsilon", Parameter::Epsilon),
-        ("beta", Parameter::Beta),
-        ("zeta", Parameter::Zeta),
-        ("h", Parameter::Width),
+impl MapParameter {
+    const ALL: [(&str, MapParameter); 4] = [
+        ("epsilon", MapParameter::Epsilon),
+        ("beta", MapParameter::Beta),
+        ("zeta", MapParameter::Zeta),
+        ("h", MapParameter::Width),
     ];
 
     pub(super) fn name(self) -> &'static str {
@@ -98,14 +98,14 @@ impl Parameter {
     }
 
     pub(super) fn is_linear(self) -> bool {
-        self == Parameter::Beta
+        self == MapParameter::Beta
     }
 }
 
 pub(super) const KEYS: [Key; 8] = [
     Key::new(
         "over",
-        Form::Choice(|| Parameter::ALL.map(|(name, _)| name).to_vec()),
+        Form::Choice(|| MapParameter::ALL.map(|(name, _)| name).to_vec()),
         "the second parameter, beside dt",
     ),
     Key::new(
@@ -137,25 +137,27 @@ impl Map {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let over = section
             .require("over", "a second parameter")?
-            .choice(&Parameter::ALL)?;
-        let range = Interval::read(section, "range", !over.is_linear())?;
-        if over == Parameter::Width {
+            .choice(&MapParameter::ALL)?;
+        let range = SampledInterval::read(section, "range", !over.is_linear())?;
+        if over == MapParameter::Width {
             check_width(&section.require("range", "a range")?, range.low)?;
         }
         let line = |item: &Field<'_>| {
             // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
             let fits = |value: f64| {
-                value > 0.0 || over == Parameter::Beta || (over == Parameter::Zeta && value == 0.0)
+                value > 0.0
+                    || over == MapParameter::Beta
+                    || (over == MapParameter::Zeta && value == 0.0)
             };
             let value = item.number_where("a value of the parameter", fits)?;
-            if over == Parameter::Width {
+            if over == MapParameter::Width {
                 check_width(item, value)?;
             }
             Ok(value)
         };
         Ok(Self {
             over,
-            dt: Interval::read(section, "dt", true)?,
+            dt: SampledInterval::read(section, "dt", true)?,
             range,
             points: section.count("points", 2..=limits::MAP_POINTS)?,
             lines: section.list("lines", "a list of at least one number", line, |list| {
@@ -179,17 +181,17 @@ impl Map {
             ..Beam::default()
         };
         match self.over {
-            Parameter::Beta => beam.beta = value,
-            Parameter::Zeta => beam.zeta = value,
-            Parameter::Epsilon | Parameter::Width => {}
+            MapParameter::Beta => beam.beta = value,
+            MapParameter::Zeta => beam.zeta = value,
+            MapParameter::Epsilon | MapParameter::Width => {}
         }
         beam
     }
 
     /// The terms at the least value of the second parameter.
-    pub(super) fn terms(&self) -> Terms {
+    pub(super) fn terms(&self) -> ActiveTerms {
         let obstacles = Obstacles::default();
-        Terms::of(&self.beam(self.range.low), Some(&obstacles))
+        ActiveTerms::of(&self.beam(self.range.low), Some(&obstacles))
     }
 
     /// The scene at a value of the second parameter.
@@ -199,7 +201,7 @@ impl Map {
             g2: GAP,
             ..Obstacles::default()
         };
-        if self.over == Parameter::Epsilon {
+        if self.over == MapParameter::Epsilon {
             obstacles.epsilon = value;
         }
         let mesh = Mesh::uniform(self.elements(value).round().max(1.0) as usize)?;
@@ -234,7 +236,7 @@ impl Map {
 
     /// The number of elements for the cost of a case; the mesh has the nearest whole number.
     fn elements(&self, value: f64) -> f64 {
-        if self.over == Parameter::Width {
+        if self.over == MapParameter::Width {
             1.0 / value
         } else {
             self.elements as f64
@@ -267,7 +269,7 @@ fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
 
 /// Both solvers with one time step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
+pub struct MapPoint {
     /// The first step by the fixed point.
     pub step: FixedPointStep,
     /// Whether Newton's method completed all steps.
@@ -287,7 +289,7 @@ pub struct NewtonSteps {
     pub worst: Worst,
 }
 
-impl Point {
+impl MapPoint {
     pub(super) fn readings(&self) -> Vec<Reading> {
         let step = self.step;
         let contraction = step.contraction.filter(|_| step.converged);
@@ -315,7 +317,7 @@ pub struct MapRow {
     /// The second parameter.
     pub(super) value: f64,
     /// One point for each time step, ascending.
-    pub points: Vec<Point>,
+    pub points: Vec<MapPoint>,
 }
 
 /// A run by Newton's method.
@@ -346,7 +348,7 @@ impl Map {
         )?;
         let mut points = Vec::with_capacity(dts.len());
         for ((Watched { worst, failure }, dt), newton) in runs.into_iter().zip(dts).zip(newton) {
-            points.push(Point {
+            points.push(MapPoint {
                 step: FixedPointStep::run(&problem, dt, n_value, ITERATIONS)?,
                 newton_completes: failure.is_none(),
                 newton: newton.contact_force.map(|contact_force| NewtonSteps {
@@ -363,7 +365,7 @@ impl Map {
 /// Predicted and measured boundary on a line of constant second parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary {
-    pub(super) over: Parameter,
+    pub(super) over: MapParameter,
     /// The second parameter.
     pub(super) value: f64,
     /// The dt at which α = 1; `None` if α does not cross 1 within the map.
@@ -381,13 +383,13 @@ impl Map {
         n_value: f64,
         limit: f64,
     ) -> Result<Option<f64>, CaseFailure> {
-        let Interval { low, high, .. } = self.dt;
+        let SampledInterval { low, high, .. } = self.dt;
         bisect(low, high, |dt| Ok(factors(problem, dt, n_value)[0] < limit))
     }
 
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
         let problem = self.problem(value)?;
-        let Interval { low, high, .. } = self.dt;
+        let SampledInterval { low, high, .. } = self.dt;
         let n_value = axial_force(&problem);
         let far = self.dt_of_alpha(&problem, n_value, FAR)?.unwrap_or(high);
         let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?

@@ -1,12 +1,12 @@
 //! The maps as figures: what each solver does at every point, and the boundaries.
 
-use convergence_study::internal::plots::{self, Axis, Series, Surface};
+use convergence_study::internal::plots::{self, Axis, ColouredCells, Series};
 
 use super::{
-    map::{NewtonSteps, Parameter, Point},
+    map::{MapParameter, MapPoint, NewtonSteps},
     map_judge::MapResults,
 };
-use crate::kinds::interval::Interval;
+use crate::kinds::interval::SampledInterval;
 use crate::kinds::prelude::*;
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
@@ -17,29 +17,29 @@ const FASTEST: f64 = 1e-6;
 const EXACT: f64 = 1e-18;
 
 /// A number of the completed steps by Newton's method.
-fn steps(point: &Point, number: fn(&NewtonSteps) -> f64) -> Option<f64> {
+fn steps(point: &MapPoint, number: fn(&NewtonSteps) -> f64) -> Option<f64> {
     let completes = point.newton_completes;
     completes.then(|| point.newton.as_ref().map_or(f64::NAN, number))
 }
 
 /// What figures of Newton's method share.
-fn of_newton(z: Axis, boundaries: Vec<Series>) -> Surface {
-    Surface {
+fn of_newton(z: Axis, boundaries: Vec<Series>) -> ColouredCells {
+    ColouredCells {
         z,
         marked_label: "operator not definite".to_owned(),
         boundaries,
-        ..Surface::default()
+        ..ColouredCells::default()
     }
 }
 
 impl MapResults<'_> {
     /// What figures of the fixed point share.
-    fn of_fixed_point(&self, z: &str) -> Surface {
-        Surface {
+    fn of_fixed_point(&self, z: &str) -> ColouredCells {
+        ColouredCells {
             z: Axis::log(z),
             marked_label: "the fixed point fails".to_owned(),
             boundaries: vec![self.predicted(), self.crossings()],
-            ..Surface::default()
+            ..ColouredCells::default()
         }
     }
 
@@ -90,15 +90,15 @@ impl MapResults<'_> {
         file: &str,
         title: &str,
         caption: String,
-        surface: Surface,
-        value: fn(&Point) -> Option<f64>,
+        surface: ColouredCells,
+        value: fn(&MapPoint) -> Option<f64>,
     ) -> Figure {
         let rows = &self.rows;
         let cells: Vec<Vec<_>> = rows
             .iter()
             .map(|row| row.points.iter().map(value).collect())
             .collect();
-        let svg = plots::surface(&Surface {
+        let svg = plots::surface(&ColouredCells {
             title: Some(title.to_owned()),
             x: Axis::log("time step dt"),
             y: self.second_axis(),
@@ -119,10 +119,10 @@ impl MapResults<'_> {
 
     fn second_axis(&self) -> Axis {
         match self.map.over {
-            Parameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
-            Parameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
-            Parameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
-            Parameter::Width => Axis::log("mesh width h (dimensionless)"),
+            MapParameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
+            MapParameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
+            MapParameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
+            MapParameter::Width => Axis::log("mesh width h (dimensionless)"),
         }
     }
 
@@ -163,11 +163,11 @@ impl MapResults<'_> {
 
     /// For β above this line the operator is definite.
     fn definite(&self) -> Vec<Series> {
-        if self.map.over != Parameter::Beta {
+        if self.map.over != MapParameter::Beta {
             return vec![];
         }
         let zeta = Beam::default().zeta;
-        let Interval { low, high, .. } = self.map.range;
+        let SampledInterval { low, high, .. } = self.map.range;
         let points = self
             .map
             .dt

@@ -1,8 +1,8 @@
 //! The maps: claims, the table of boundaries, and guarded numbers.
 
 use super::{
-    FixedPointStep, Found, SolverTask,
-    map::{Boundary, Map, MapRow, NewtonSteps, Point},
+    FixedPointStep, SolverResult, SolverTask,
+    map::{Boundary, Map, MapPoint, MapRow, NewtonSteps},
     results,
 };
 use crate::kinds::prelude::*;
@@ -30,15 +30,15 @@ pub(super) struct MapResults<'r> {
 }
 
 impl Map {
-    pub(super) fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
+    pub(super) fn judge(&self, ran: &[Ran<SolverTask, SolverResult>]) -> Outcome {
         let results = MapResults {
             map: self,
             rows: results(ran, |found| match found {
-                Found::Row(row) => Some(row),
+                SolverResult::Row(row) => Some(row),
                 _ => None,
             }),
             lines: results(ran, |found| match found {
-                Found::Boundary(line) => Some(line),
+                SolverResult::Boundary(line) => Some(line),
                 _ => None,
             }),
         };
@@ -73,7 +73,7 @@ impl MapResults<'_> {
         let summary = format!(
             "{} points: the fixed point converges at {converged}, Newton's method at {completes}; \
              {boundary} where gamma <= {ALONE}; {residual}",
-            self.asked()
+            self.count()
         );
         let lines: Vec<_> = self
             .lines
@@ -97,11 +97,11 @@ impl MapResults<'_> {
     }
 
     /// The number of points of the map.
-    fn asked(&self) -> usize {
+    fn count(&self) -> usize {
         self.map.points * self.map.points
     }
 
-    pub(super) fn points(&self) -> impl Iterator<Item = &Point> {
+    pub(super) fn points(&self) -> impl Iterator<Item = &MapPoint> {
         self.rows.iter().flat_map(|row| &row.points)
     }
 
@@ -111,7 +111,7 @@ impl MapResults<'_> {
 
     /// The points and boundaries that each statement judges.
     fn coverage(&self) -> Vec<Coverage> {
-        let asked = self.asked();
+        let count = self.count();
         let convergence = self.points().map(|point| {
             let between = prediction(&point.step).is_none();
             between.then_some("factors near 1, which predict nothing")
@@ -122,8 +122,8 @@ impl MapResults<'_> {
         });
         let boundaries = self.lines.iter().map(|line| line.not_alone());
         vec![
-            Coverage::with_total("points for convergence", asked, convergence),
-            Coverage::with_total("points for the balance", asked, balance),
+            Coverage::with_total("points for convergence", count, convergence),
+            Coverage::with_total("points for the balance", count, balance),
             Coverage::with_total(
                 "boundaries for alpha = 1 alone",
                 self.map.lines.len(),
@@ -134,11 +134,11 @@ impl MapResults<'_> {
 
     fn complete(&self) -> Check {
         let judged = self.points().count();
-        let asked = self.asked();
+        let count = self.count();
         Check::that(
-            judged == asked,
+            judged == count,
             "both solvers were run at every point",
-            format!("{judged} of {asked}"),
+            format!("{judged} of {count}"),
         )
         .about(Subject::of("points"))
     }

@@ -40,16 +40,16 @@ mod spectrum;
 mod step;
 
 use super::prelude::*;
-use crate::kinds::settings::{Exercise, Integration, Terms};
-use comparison::Comparison;
-use contraction::Grid;
-use convergence_study::internal::study::{header::Setting, readings};
+use crate::kinds::settings::{ActiveTerms, Exercise, Integration};
+use comparison::ComparisonTable;
+use contraction::ContractionGrid;
+use convergence_study::internal::study::{header::SettingWords, readings};
 use map::Map;
 
 pub use super::runs::side_by_side::SolverComparison;
 pub use comparison::Agreement;
-pub use contraction::{Contraction, Place};
-pub use map::{Boundary, MapRow, NewtonSteps, Point};
+pub use contraction::{Contraction, MeasuredPoint};
+pub use map::{Boundary, MapPoint, MapRow, NewtonSteps};
 pub use step::FixedPointStep;
 
 /// The row of the table of kinds.
@@ -70,8 +70,8 @@ pub const ROW: KindRow = KindRow {
 /// A study of the two solvers; it has at least one part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solvers {
-    contraction: Option<Grid>,
-    comparison: Option<Comparison>,
+    contraction: Option<ContractionGrid>,
+    comparison: Option<ComparisonTable>,
     map: Option<Map>,
 }
 
@@ -80,7 +80,7 @@ pub struct Solvers {
 pub enum SolverTask {
     /// One step by the fixed point in contact, with this time step, compliance of the obstacles and
     /// viscosity.
-    Contraction(Place),
+    Contraction(MeasuredPoint),
     /// The scene by both solvers, the fixed point to this tolerance η*.
     Comparison(f64),
     /// A row of the map: all time steps at this value of the second parameter.
@@ -91,7 +91,7 @@ pub enum SolverTask {
 
 /// The result of a case; the variants match those of [`SolverTask`].
 #[derive(Debug, Clone, PartialEq)]
-pub enum Found {
+pub enum SolverResult {
     /// Predicted and measured factor of the step.
     Contraction(Contraction),
     /// Difference between the two solvers.
@@ -102,14 +102,14 @@ pub enum Found {
     Boundary(Boundary),
 }
 
-impl Found {
+impl SolverResult {
     /// Its numbers, which must be finite.
     fn readings(&self) -> Vec<Reading> {
         match self {
-            Found::Contraction(point) => point.readings(),
-            Found::Comparison(agreement) => agreement.readings(),
-            Found::Row(row) => row.points.iter().flat_map(Point::readings).collect(),
-            Found::Boundary(boundary) => boundary.readings(),
+            SolverResult::Contraction(point) => point.readings(),
+            SolverResult::Comparison(agreement) => agreement.readings(),
+            SolverResult::Row(row) => row.points.iter().flat_map(MapPoint::readings).collect(),
+            SolverResult::Boundary(boundary) => boundary.readings(),
         }
     }
 }
@@ -118,7 +118,10 @@ impl Found {
 /// of completion.
 ///
 /// * `part`: the result if it belongs to that part.
-fn results<R>(ran: &[Ran<SolverTask, Found>], part: fn(&Found) -> Option<&R>) -> Vec<&R> {
+fn results<R>(
+    ran: &[Ran<SolverTask, SolverResult>],
+    part: fn(&SolverResult) -> Option<&R>,
+) -> Vec<&R> {
     ran.iter().filter_map(|ran| part(ran.ok()?)).collect()
 }
 
@@ -159,9 +162,12 @@ impl FromFile for Solvers {
         let comparison = root.section(parts[1])?;
         let map = root.section(parts[2])?;
         Ok(Self {
-            contraction: contraction.as_ref().map(Grid::read).transpose()?,
+            contraction: contraction
+                .as_ref()
+                .map(ContractionGrid::read)
+                .transpose()?,
             comparison: comparison
-                .map(|section| Comparison::read(&section, folder))
+                .map(|section| ComparisonTable::read(&section, folder))
                 .transpose()?,
             map: map.as_ref().map(Map::read).transpose()?,
         })
@@ -186,14 +192,14 @@ fn part<P>(part: &Option<P>) -> Result<&P, CaseFailure> {
 
 impl Kind for Solvers {
     type Data = SolverTask;
-    type Found = Found;
+    type Found = SolverResult;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let case = subject.case.as_deref();
-        let mut terms = Terms::default();
+        let mut terms = ActiveTerms::default();
         for part in [
             self.contraction.as_ref().map(|grid| grid.terms(case)),
-            self.comparison.as_ref().map(Comparison::terms),
+            self.comparison.as_ref().map(ComparisonTable::terms),
             self.map.as_ref().map(Map::terms),
         ] {
             terms = terms.or(part.unwrap_or_default());
@@ -202,28 +208,34 @@ impl Kind for Solvers {
     }
 
     fn cases(&self) -> Vec<Case<SolverTask>> {
-        let mut cases: Vec<_> = self.contraction.iter().flat_map(Grid::cases).collect();
-        cases.extend(self.comparison.iter().flat_map(Comparison::cases));
+        let mut cases: Vec<_> = self
+            .contraction
+            .iter()
+            .flat_map(ContractionGrid::cases)
+            .collect();
+        cases.extend(self.comparison.iter().flat_map(ComparisonTable::cases));
         cases.extend(self.map.iter().flat_map(Map::cases));
         cases
     }
 
-    fn run(&self, task: &SolverTask) -> Result<Found, CaseFailure> {
+    fn run(&self, task: &SolverTask) -> Result<SolverResult, CaseFailure> {
         Ok(match *task {
             SolverTask::Contraction(place) => {
-                Found::Contraction(part(&self.contraction)?.measure(place)?)
+                SolverResult::Contraction(part(&self.contraction)?.measure(place)?)
             }
             SolverTask::Comparison(tolerance) => {
-                Found::Comparison(part(&self.comparison)?.run(tolerance)?)
+                SolverResult::Comparison(part(&self.comparison)?.run(tolerance)?)
             }
-            SolverTask::Row(value) => Found::Row(part(&self.map)?.row(value)?),
-            SolverTask::Boundary(value) => Found::Boundary(part(&self.map)?.boundary(value)?),
+            SolverTask::Row(value) => SolverResult::Row(part(&self.map)?.row(value)?),
+            SolverTask::Boundary(value) => {
+                SolverResult::Boundary(part(&self.map)?.boundary(value)?)
+            }
         })
     }
 
-    fn judge(&self, ran: &[Ran<SolverTask, Found>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<SolverTask, SolverResult>]) -> Outcome {
         let contraction = self.contraction.iter().map(|grid| grid.judge(ran));
-        let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
+        let comparison = self.comparison.iter().map(|_| ComparisonTable::judge(ran));
         let map = self.map.iter().map(|map| map.judge(ran));
         let parts = contraction.chain(comparison).chain(map);
         let completion = completion_check(ran, |found| readings::not_finite(&found.readings()));

@@ -5,7 +5,7 @@ use convergence_study::{Refinement, internal::study::until_decided};
 use crate::kinds::prelude::*;
 use crate::{
     expression::{Expression, Variable},
-    kinds::settings::{Exercise, Integration, Nodes, Terms, axis_in_words},
+    kinds::settings::{ActiveTerms, Exercise, Integration, Nodes, axis_in_words},
     scene::{limits, tables},
 };
 use convergence_judge::judge::random::SplitMix;
@@ -138,7 +138,7 @@ pub struct Refine {
 
 impl Refine {
     /// What a study with this refinement exercises.
-    pub(crate) fn exercise(&self, topic: &'static str, terms: Terms) -> Exercise {
+    pub(crate) fn exercise(&self, topic: &'static str, terms: ActiveTerms) -> Exercise {
         Exercise::new(
             topic,
             Integration::of(&self.scheme, self.settings.solver),

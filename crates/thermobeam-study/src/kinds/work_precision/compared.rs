@@ -55,8 +55,8 @@ fn slope(front: &[(f64, f64)]) -> Option<f64> {
     fit_line(&points).map(|line| line.slope)
 }
 
-/// Error over cost, all methods. The legend has the power of the cost by which the error of a one-step
-/// method falls; along the front of dG the degrees change, so that no power describes it.
+/// Error over cost, all methods. The legend has the power of the cost by which the error of a
+/// one-step method falls; along the front of dG the degrees change, so that no power describes it.
 ///
 /// * `title`: what one should see.
 /// * `cost`, `error`: labels of the axes.

@@ -6,7 +6,7 @@ use convergence_study::Tier;
 
 use super::{
     ROW, Target, WorkPrecision,
-    method::{Degrees, Grid, METHODS, NamedMethod, Resolution, Trial},
+    method::{Degrees, METHODS, NamedMethod, Resolution, Trial, UniformGrid},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -210,7 +210,7 @@ fn grids(
             let limit = format!("at most {most} element-steps in this tier");
             return Err(item.refuse(format!("{} element-steps", elements * steps), limit));
         }
-        Ok(Resolution::OneStep(Grid {
+        Ok(Resolution::OneStep(UniformGrid {
             grading,
             elements,
             steps,

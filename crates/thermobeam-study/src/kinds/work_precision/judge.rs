@@ -18,20 +18,20 @@ const ERROR_TOLERANCE: f64 = 1e-2;
 /// The work of two methods for the same error.
 struct Ratio<'t> {
     target: &'t Target,
-    dear: Side,
-    cheap: Side,
+    dear: ComparedMethod,
+    cheap: ComparedMethod,
     /// At least this ratio is claimed.
     times: f64,
 }
 
 /// One of two methods.
-struct Side {
+struct ComparedMethod {
     name: &'static str,
     /// Work and discretisation of the cheapest run; `None` if no run reaches the error.
     run: Option<Costed>,
 }
 
-impl Side {
+impl ComparedMethod {
     /// The cheapest run of a method that reaches the error of the target.
     fn new(name: &'static str, target: &Target, runs: &[Costed]) -> Self {
         Self {
@@ -174,8 +174,8 @@ fn ratios<'t>(target: &'t Target, runs: &[Costed]) -> Vec<Ratio<'t>> {
     for (methods, &times) in target.methods.windows(2).zip(&target.times) {
         ratios.push(Ratio {
             target,
-            dear: Side::new(methods[0].name, target, runs),
-            cheap: Side::new(methods[1].name, target, runs),
+            dear: ComparedMethod::new(methods[0].name, target, runs),
+            cheap: ComparedMethod::new(methods[1].name, target, runs),
             times,
         });
     }

@@ -121,7 +121,7 @@ pub const METHODS: [NamedMethod; 6] = [
 #[derive(Debug, Clone, PartialEq)]
 pub enum Resolution {
     /// Linear elements and equal steps.
-    OneStep(Grid),
+    OneStep(UniformGrid),
     /// Elements of degree p between these nodes, dG(q) in time.
     Dg {
         /// The nodes, from 0 to 1.
@@ -133,7 +133,7 @@ pub enum Resolution {
 
 /// Linear elements and equal steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
+pub struct UniformGrid {
     /// The nodes are `1 - (1 - i/n)^grading`: 1 for equal elements, more for small ones at the free
     /// end.
     pub grading: f64,
@@ -143,7 +143,7 @@ pub struct Grid {
     pub steps: usize,
 }
 
-impl Grid {
+impl UniformGrid {
     /// The mesh.
     ///
     /// # Errors
@@ -159,7 +159,7 @@ impl Grid {
 impl std::fmt::Display for Resolution {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::OneStep(Grid {
+            Self::OneStep(UniformGrid {
                 grading,
                 elements,
                 steps,

@@ -2,12 +2,12 @@
 //!
 //! A study lists runs of each method, and targets: errors of u(1, t) and in the norm of Theorem
 //! 3.4. The cost of a target is the work of the cheapest run whose error is not larger; a method
-//! without such a run does not reach it. A ratio is one of optimal runs: the neighbours of each listed
-//! run, `neighbours.rs`, are made as well, and none may reach a target for less. Each target names the methods that reach it, from the
-//! dearest to the cheapest, and claims how many times dearer each of them is than the next one.
-//! Errors are the largest over equidistant times, common to all runs. Work is counted, not timed,
-//! so that a report is the same on every machine; `cargo xtask bench` takes the seconds of longer
-//! runs of the same problems.
+//! without such a run does not reach it. A ratio is one of optimal runs: the neighbours of each
+//! listed run, `neighbours.rs`, are made as well, and none may reach a target for less. Each target
+//! names the methods that reach it, from the dearest to the cheapest, and claims how many times
+//! dearer each of them is than the next one. Errors are the largest over equidistant times, common
+//! to all runs. Work is counted, not timed, so that a report is the same on every machine;
+//! `cargo xtask bench` takes the seconds of longer runs of the same problems.
 //!
 //! ```toml
 //! [work-precision]
@@ -47,10 +47,10 @@ use std::sync::OnceLock;
 use crate::kinds::prelude::*;
 use crate::{
     error::{ErrorMeasure, Errors, Evaluator, polynomials::Polynomials},
-    kinds::settings::{Exercise, Integration, Nodes, Terms},
+    kinds::settings::{ActiveTerms, Exercise, Integration, Nodes},
     run::family::Family,
 };
-use convergence_study::internal::study::header::Setting;
+use convergence_study::internal::study::header::SettingWords;
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
 use thermobeam::solve::Solver;
 
@@ -237,11 +237,11 @@ impl Kind for WorkPrecision {
     type Data = Trial;
     type Found = Measurement;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<Setting> {
+    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         let Family {
             beam, obstacles, ..
         } = &self.family;
-        let terms = Terms::of(beam, obstacles.as_ref());
+        let terms = ActiveTerms::of(beam, obstacles.as_ref());
         let grading = self.family.grading();
         Exercise::new("cost", Integration::PAPER, terms)
             .on(grading.map_or(Nodes::Uniform, Nodes::of_mesh))

@@ -1,12 +1,12 @@
 //! The runs next to a listed one, which show that it is the cheapest of its method.
 //!
 //! Elements and steps change by an eighth: fewer elements, fewer steps, or fewer of one and more of
-//! the other. For dG a degree falls by one, the step grows by an eighth, or one of the three is traded
-//! for another. The grading of a mesh, and the nodes of dG, are those of the list.
+//! the other. For dG a degree falls by one, the step grows by an eighth, or one of the three is
+//! traded for another. The grading of a mesh, and the nodes of dG, are those of the list.
 
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
-use super::method::{Degrees, Grid, Resolution, Trial};
+use super::method::{Degrees, Resolution, Trial, UniformGrid};
 
 impl Trial {
     /// The neighbours, for grids those of less element-steps alone.
@@ -31,7 +31,7 @@ impl Trial {
     }
 }
 
-fn grids(grid: Grid, observations: usize) -> Vec<Resolution> {
+fn grids(grid: UniformGrid, observations: usize) -> Vec<Resolution> {
     let intervals = grid.steps / observations;
     let eighth = |count: usize| count.div_ceil(8);
     let [fewer, more] = [
@@ -47,7 +47,7 @@ fn grids(grid: Grid, observations: usize) -> Vec<Resolution> {
     ]
     .into_iter()
     .filter(|(elements, intervals)| *elements > 0 && *intervals > 0)
-    .map(|(elements, intervals)| Grid {
+    .map(|(elements, intervals)| UniformGrid {
         elements,
         steps: intervals * observations,
         ..grid

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use thermobeam::dg::{self, Dg, DgLevel, DgStepping, Field};
 use thermobeam::motion::Motion;
 
-use super::{Curves, Instance, MOST_KEPT, NormPoint, Rows, run_within};
-use crate::predict::{Cost, Reason, Work};
+use super::{CurveRows, Curves, Instance, MOST_KEPT, NormPoint, run_within};
+use crate::predict::{Cost, StopReason, Work};
 use crate::run::ObservableMotion;
 use crate::run::dg::DgMotion;
 use crate::scene::Scene;
@@ -18,9 +18,9 @@ const POINTS: usize = 12;
 /// Maximum number of compared steps of the largest length; longer runs skip steps evenly.
 const MOST_LONG_STEPS: f64 = 20_000.0;
 
-impl Rows {
+impl CurveRows {
     /// The points of the norm in a space.
-    fn located(&self, space: &dg::Space) -> Vec<dg::Point> {
+    fn located(&self, space: &dg::Space) -> Vec<dg::BeamPoint> {
         match self {
             Self::Norm(points) => points.iter().map(|point| space.locate(point.x)).collect(),
             _ => vec![],
@@ -31,7 +31,7 @@ impl Rows {
         &self,
         simulation: &Dg,
         t: f64,
-        located: &[dg::Point],
+        located: &[dg::BeamPoint],
         level: &mut DgLevel,
         row: &mut Vec<f64>,
     ) {
@@ -58,11 +58,11 @@ impl Rows {
 pub(super) fn curves(
     scene: &Scene,
     stepping: DgStepping,
-    rows: &Rows,
+    rows: &CurveRows,
     times: Option<&[f64]>,
     work: &mut Work<'_>,
-) -> Result<Curves, Reason> {
-    let mut motion = DgMotion::new(scene, stepping).map_err(Reason::of_run)?;
+) -> Result<Curves, StopReason> {
+    let mut motion = DgMotion::new(scene, stepping).map_err(StopReason::of_run)?;
     let unknowns = 3 * motion.simulation().space().blocks() * (stepping.degree + 1);
     let mut curves = Curves::new(rows, motion.motion().tip_range());
     let mut level = motion.simulation().level().clone();

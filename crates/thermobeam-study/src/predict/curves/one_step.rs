@@ -4,8 +4,8 @@ use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, TipRange};
 use thermobeam::solve::Level;
 
-use super::{Curves, Instance, MOST_KEPT, NormPoint, Rows, run_within};
-use crate::predict::{Cost, Reason, Work};
+use super::{CurveRows, Curves, Instance, MOST_KEPT, NormPoint, run_within};
+use crate::predict::{Cost, StopReason, Work};
 use crate::run::driver::Driver;
 use crate::run::{ObservableMotion, simulate};
 use crate::scene::Scene;
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 /// Maximum number of times at which a one-step scheme is read.
 pub(super) const TIMES: usize = 4000;
 
-impl Rows {
+impl CurveRows {
     fn of_one_step(
         &self,
         mesh: &Mesh,
@@ -56,11 +56,11 @@ impl Rows {
 
 pub(super) fn curves(
     scene: &Scene,
-    rows: &Rows,
+    rows: &CurveRows,
     times: Option<&[f64]>,
     work: &mut Work<'_>,
-) -> Result<Curves, Reason> {
-    let mut driver = simulate::driver(scene).map_err(Reason::of_run)?.timed();
+) -> Result<Curves, StopReason> {
+    let mut driver = simulate::driver(scene).map_err(StopReason::of_run)?.timed();
     let (elements, steps) = (scene.mesh.elements(), scene.steps());
     let every = steps.div_ceil(TIMES.min(MOST_KEPT / rows.width()).max(1));
     let tip = driver.level().u[elements];

@@ -44,7 +44,7 @@ pub(crate) fn contraction_factors() -> ContractionFactors {
 
 pub(crate) fn equilibria() -> String {
     let beta = |k: i32| -1.4 + 0.01 * f64::from(k);
-    let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| Branch {
+    let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| EquilibriumBranch {
         label: label.into(),
         points,
         stable,

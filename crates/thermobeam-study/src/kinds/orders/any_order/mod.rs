@@ -30,13 +30,13 @@ mod runs;
 use convergence_judge::judge::fit::FLOOR_MARGIN;
 use thermobeam::{dg::DgStepping, motion::Motion};
 
-use super::{Measured, Orders, Runs, Series, Source};
+use super::{ErrorSource, Orders, Runs, Series, SourceResult};
 use crate::kinds::prelude::*;
 use crate::{
     error::free_vibration,
     exact::{any_order::ErrorMeter, defect::Defect, solution::Manufactured},
     kinds::{
-        settings::{Exercise, FREE_VIBRATIONS, Integration, MANUFACTURED, Terms},
+        settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration, MANUFACTURED},
         tables::{EXACT, Layout, control, manufactured, mean_width},
     },
     run::{dg::DgMotion, run_to},
@@ -49,7 +49,7 @@ use convergence_study::{
         study::over_levels::{ErrorColumn, Levels},
     },
 };
-pub use runs::Resolution;
+pub use runs::AnyOrderRun;
 use runs::{Over, RUN, RUNS, RunsOfDegree, series};
 
 /// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors
@@ -73,7 +73,7 @@ const PROJECTED: f64 = 1e-11;
 
 /// The judged errors of one run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Errors {
+pub struct JudgedErrors {
     /// Each with its name; errors in the fields at the end come first.
     pub named: Vec<(&'static str, f64)>,
     /// The largest moment of a slope's error at t = 0 ([`ErrorMeter::slope_moments`]): zero for the
@@ -113,7 +113,7 @@ const FREE: [Key; 1] = [Key::new(
     "a free vibration in place of an exact solution with loads",
 )];
 
-impl Source for AnyOrder {
+impl ErrorSource for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
         keys: &[&[&LOADED, &RUNS], &[&FREE, &RUNS]],
@@ -127,8 +127,8 @@ impl Source for AnyOrder {
                   is stopped too early: look at the highest degree that still passes.",
     };
 
-    type Data = Resolution;
-    type Found = Errors;
+    type Data = AnyOrderRun;
+    type Found = JudgedErrors;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
         let vibration = root.section("vibration")?;
@@ -172,7 +172,7 @@ impl Source for AnyOrder {
 
     fn exercise(&self) -> Exercise {
         let theory = &self.theory;
-        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        let terms = ActiveTerms::of(&theory.beam, theory.obstacles.as_ref());
         let topic = if self.loaded {
             MANUFACTURED
         } else {
@@ -183,10 +183,10 @@ impl Source for AnyOrder {
             .on(self.layout.nodes())
     }
 
-    fn cases(&self) -> Vec<Case<Resolution>> {
+    fn cases(&self) -> Vec<Case<AnyOrderRun>> {
         let mut cases = vec![];
         for &resolution in self.series.iter().flat_map(|series| &series.runs) {
-            let Resolution {
+            let AnyOrderRun {
                 degree,
                 elements,
                 time_degree,
@@ -206,7 +206,7 @@ impl Source for AnyOrder {
     /// Roots of the sums of squares of the L2 errors of u, φ, u_t, φ_t, θ at the end, and of their
     /// slopes. A study over time has the largest L2 errors of u and u_t inside steps instead of the
     /// slopes.
-    fn run(&self, resolution: &Resolution) -> Result<Errors, CaseFailure> {
+    fn run(&self, resolution: &AnyOrderRun) -> Result<JudgedErrors, CaseFailure> {
         let mut motion = self.motion(*resolution)?;
         // The solver's temperature: its unknown is lifted by the solver's own θ_A.
         let theta_a = self.solver.beam.theta_a;
@@ -242,14 +242,14 @@ impl Source for AnyOrder {
             ],
             Over::Space | Over::Degree => vec![("fields", values), ("slopes", slopes)],
         };
-        Ok(Errors { named, start })
+        Ok(JudgedErrors { named, start })
     }
 
-    fn not_finite(&self, found: &Errors) -> Vec<String> {
+    fn not_finite(&self, found: &JudgedErrors) -> Vec<String> {
         not_finite(found.named.iter().copied())
     }
 
-    fn measured(&self, runs: &Runs<Self>) -> Measured {
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let mut measured = match self.over {
             Over::Degree => self.over_degrees(runs),
             Over::Space | Over::Time => self.over_steps(runs),
@@ -281,7 +281,7 @@ fn root_of_squares(errors: [f64; 5]) -> f64 {
 }
 
 impl AnyOrder {
-    fn motion(&self, resolution: Resolution) -> Result<DgMotion, CaseFailure> {
+    fn motion(&self, resolution: AnyOrderRun) -> Result<DgMotion, CaseFailure> {
         let dt = self.t_end / resolution.steps as f64;
         let stepping = DgStepping {
             degree: resolution.time_degree,
@@ -314,7 +314,7 @@ impl AnyOrder {
     }
 
     /// The errors of a series and the orders that theory gives them.
-    fn orders(&self, resolution: Resolution) -> Vec<(&'static str, usize)> {
+    fn orders(&self, resolution: AnyOrderRun) -> Vec<(&'static str, usize)> {
         let (p, q) = (resolution.degree, resolution.time_degree);
         match self.over {
             Over::Time => vec![
@@ -327,10 +327,10 @@ impl AnyOrder {
     }
 
     /// Rates over h or dt; one figure shows each degree's errors together.
-    fn over_steps(&self, runs: &Runs<Self>) -> Measured {
+    fn over_steps(&self, runs: &Runs<Self>) -> SourceResult {
         let mut series = vec![];
         for (of_degree, runs) in self.by_degree(runs) {
-            let Resolution {
+            let AnyOrderRun {
                 degree: p,
                 time_degree: q,
                 ..
@@ -345,9 +345,9 @@ impl AnyOrder {
             let file = format!("{letter}{degree}");
             series.push(Series::new(levels).drawn(&file, Some(&subject), &caption));
         }
-        Measured {
+        SourceResult {
             series,
-            ..Measured::default()
+            ..SourceResult::default()
         }
     }
 
@@ -373,8 +373,8 @@ impl AnyOrder {
         Levels::new(axis, refinements, columns).with_floor(FLOOR)
     }
 
-    fn refinement(&self, run: &Ran<Resolution, Errors>) -> Refinement {
-        let Resolution {
+    fn refinement(&self, run: &Ran<AnyOrderRun, JudgedErrors>) -> Refinement {
+        let AnyOrderRun {
             degree,
             elements,
             time_degree,
@@ -395,7 +395,7 @@ impl AnyOrder {
 
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the
     /// one that reaches round-off.
-    fn over_degrees(&self, runs: &Runs<Self>) -> Measured {
+    fn over_degrees(&self, runs: &Runs<Self>) -> SourceResult {
         let mut curves = vec![];
         let mut checks = vec![];
         let mut quantities = vec![];
@@ -431,18 +431,18 @@ impl AnyOrder {
             .iter()
             .map(|check: &Check| check.evidence.to_string())
             .collect();
-        Measured {
+        SourceResult {
             summary: evidence.join("; "),
             checks,
             tables: vec![Table::new(title, ["mesh", "degree p", "error"], rows)],
             figures: vec![Figure::new("degrees", caption, svg)],
             quantities,
-            ..Measured::default()
+            ..SourceResult::default()
         }
     }
 }
 
-impl Errors {
+impl JudgedErrors {
     fn of(&self, name: &str) -> Option<f64> {
         let error = self.named.iter().find(|(known, _)| *known == name);
         error.map(|(_, error)| *error)
@@ -450,7 +450,7 @@ impl Errors {
 }
 
 /// The error in the fields over the degree; NaN if the run failed.
-fn points(runs: &[Ran<Resolution, Errors>]) -> Vec<(f64, f64)> {
+fn points(runs: &[Ran<AnyOrderRun, JudgedErrors>]) -> Vec<(f64, f64)> {
     let mut points = vec![];
     for run in runs {
         let error = run.ok().and_then(|errors| errors.of("fields"));
@@ -461,7 +461,7 @@ fn points(runs: &[Ran<Resolution, Errors>]) -> Vec<(f64, f64)> {
 
 /// Whether every run starts from the projection (3.6) of its initial data; with none, completion
 /// fails.
-fn projected(runs: &[Ran<Resolution, Errors>]) -> Check {
+fn projected(runs: &[Ran<AnyOrderRun, JudgedErrors>]) -> Check {
     let moments = runs.iter().filter_map(Ran::ok).map(|errors| errors.start);
     let largest = moments.fold(0.0, max_or_nan);
     let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";

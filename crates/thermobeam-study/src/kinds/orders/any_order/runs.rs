@@ -59,7 +59,7 @@ impl Over {
 
 /// One run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Resolution {
+pub struct AnyOrderRun {
     /// Degree p of the elements.
     pub degree: usize,
     /// Elements n.
@@ -74,7 +74,7 @@ pub struct Resolution {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RunsOfDegree {
     /// The runs, coarse to fine.
-    pub(super) runs: Vec<Resolution>,
+    pub(super) runs: Vec<AnyOrderRun>,
     /// Tolerance of a rate; for runs over p the factor by which the error falls for each degree.
     pub(super) tolerance: f64,
 }
@@ -167,7 +167,7 @@ pub(super) fn series(
             };
             count(key, &table.require(key, "a whole number")?)
         };
-        runs.push(Resolution {
+        runs.push(AnyOrderRun {
             degree: number("degree")?,
             time_degree: number("time_degree")?,
             elements: number("elements")?,

@@ -40,7 +40,7 @@ mod variants;
 use convergence_study::{Grid, GridColumn, SpaceTime, Untested, variants::Variants};
 
 use super::{
-    Finer, Measured, Orders, Runs, Series, Source,
+    ErrorSource, Finer, Orders, Runs, Series, SourceResult,
     one_step::{levels, not_finite_norms},
 };
 pub use crate::exact::defect::Defect;
@@ -53,7 +53,7 @@ use crate::{
     },
     kinds::{
         orders::planted::untested::untested,
-        settings::{Exercise, MANUFACTURED, Terms},
+        settings::{ActiveTerms, Exercise, MANUFACTURED},
         tables::{
             CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured,
             mean_width, refine,
@@ -86,7 +86,7 @@ pub struct Convergence {
     pub formulas: Option<SchemeFormulas>,
 }
 
-impl Source for Convergence {
+impl ErrorSource for Convergence {
     const ROW: KindRow = KindRow {
         name: "orders/manufactured",
         keys: &[&[&[
@@ -141,7 +141,7 @@ impl Source for Convergence {
 
     fn exercise(&self) -> Exercise {
         let theory = &self.theory;
-        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        let terms = ActiveTerms::of(&theory.beam, theory.obstacles.as_ref());
         self.refine.exercise(MANUFACTURED, terms)
     }
 
@@ -165,7 +165,7 @@ impl Source for Convergence {
         not_finite_norms(errors)
     }
 
-    fn measured(&self, runs: &Runs<Self>) -> Measured {
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let what = match self.refine.axis {
             Axis::Space => "the mesh width 1/n",
             Axis::Time => "the time step",
@@ -184,10 +184,10 @@ impl Source for Convergence {
         } else {
             Series::new(levels).drawn("rates", None, &caption)
         };
-        Measured {
+        SourceResult {
             series: vec![series],
             checks: self.constant_check(runs.last()).into_iter().collect(),
-            ..Measured::default()
+            ..SourceResult::default()
         }
     }
 

@@ -3,12 +3,12 @@
 //!
 //! Flat are products with weights that vanish at an end of the beam, or at the first time, with
 //! their first three derivatives, one more than the largest order: x⁴ at x = 0, (1 - x)⁴ at x = 1,
-//! (4x(1 - x))⁴ at both, (t/T)⁴ at t = 0. The boundary conditions remain: u and φ are 0 at x = 0, and
-//! where the weight takes θ = θ_A from there, a lifting l brings it back, θ = w θ + θ_A l: it falls
-//! from 1 to 0 and is as flat as the solution, 1 - x⁴, or 1 - 35x⁴ + 84x⁵ - 70x⁶ + 20x⁷ at both. At
-//! the first time θ = θ_A (1 - x). Where u is flat at x = 1 the tip touches no obstacle.
+//! (4x(1 - x))⁴ at both, (t/T)⁴ at t = 0. The boundary conditions remain: u and φ are 0 at x = 0,
+//! and where the weight takes θ = θ_A from there, a lifting l brings it back, θ = w θ + θ_A l: it
+//! falls from 1 to 0 and is as flat as the solution, 1 - x⁴, or 1 - 35x⁴ + 84x⁵ - 70x⁶ + 20x⁷ at
+//! both. At the first time θ = θ_A (1 - x). Where u is flat at x = 1 the tip touches no obstacle.
 
-use convergence_study::variants::{Part, Variant, Variants};
+use convergence_study::variants::{SolverPart, Variant, Variants};
 
 use super::Convergence;
 use crate::kinds::prelude::*;
@@ -85,7 +85,7 @@ fn falls_between(x: f64) -> [f64; 3] {
 
 /// What a variant does to a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Change {
+enum StudyChange {
     HeldInTime,
     FlatAtZero,
     FlatAtOne,
@@ -99,7 +99,7 @@ enum Change {
     NoContact,
 }
 
-impl Change {
+impl StudyChange {
     const ALL: [Self; 11] = [
         Self::HeldInTime,
         Self::FlatAtZero,
@@ -130,20 +130,20 @@ impl Change {
         }
     }
 
-    fn switches_off(self) -> Part {
+    fn switches_off(self) -> SolverPart {
         match self {
-            Self::HeldInTime => Part::Time("t".to_owned()),
-            Self::FlatAtZero => Part::Face("x_min".to_owned()),
-            Self::FlatAtOne => Part::Face("x_max".to_owned()),
-            Self::FlatAtBoth => Part::BothFaces("x".to_owned()),
-            Self::FlatAtStart => Part::Initial,
-            Self::FlatEverywhere => Part::AllFacesAndInitial,
-            Self::NoRotation => Part::Field("phi".to_owned()),
-            Self::NoTemperature => Part::Field("theta".to_owned()),
-            Self::NoCoupling => Part::Parameter("a".to_owned()),
-            Self::NoStretching => Part::Parameter("rho".to_owned()),
+            Self::HeldInTime => SolverPart::Time("t".to_owned()),
+            Self::FlatAtZero => SolverPart::Face("x_min".to_owned()),
+            Self::FlatAtOne => SolverPart::Face("x_max".to_owned()),
+            Self::FlatAtBoth => SolverPart::BothFaces("x".to_owned()),
+            Self::FlatAtStart => SolverPart::Initial,
+            Self::FlatEverywhere => SolverPart::AllFacesAndInitial,
+            Self::NoRotation => SolverPart::Field("phi".to_owned()),
+            Self::NoTemperature => SolverPart::Field("theta".to_owned()),
+            Self::NoCoupling => SolverPart::Parameter("a".to_owned()),
+            Self::NoStretching => SolverPart::Parameter("rho".to_owned()),
             // Without obstacles the force (u - g)/epsilon is not there.
-            Self::NoContact => Part::Parameter("1/epsilon".to_owned()),
+            Self::NoContact => SolverPart::Parameter("1/epsilon".to_owned()),
         }
     }
 
@@ -170,7 +170,7 @@ impl Change {
 impl Convergence {
     /// The variants of the exact solution.
     pub(super) fn own_variants(&self) -> Variants {
-        let usable = Change::ALL
+        let usable = StudyChange::ALL
             .into_iter()
             .filter(|change| change.applies(self));
         let usable = usable.map(|change| Variant {
@@ -196,7 +196,7 @@ impl Convergence {
 
     /// The study with a variant; `None` for an unknown name.
     pub(super) fn varied(&self, name: &str) -> Option<Self> {
-        let mut changes = Change::ALL.into_iter();
+        let mut changes = StudyChange::ALL.into_iter();
         let mut study = self.changed(changes.find(|change| change.name() == name)?);
         study.constant = None;
         for (_, claim) in &mut study.expect {
@@ -209,25 +209,25 @@ impl Convergence {
         Some(study)
     }
 
-    fn changed(&self, change: Change) -> Self {
+    fn changed(&self, change: StudyChange) -> Self {
         let mut study = self.clone();
         let exact = &mut study.exact;
         let theta_a = self.theory.beam.theta_a;
         match change {
-            Change::HeldInTime => held(exact, MIDDLE * self.refine.t_end),
-            Change::FlatAtZero => flatten(exact, &AT_ZERO, theta_a),
-            Change::FlatAtOne => flatten(exact, &AT_ONE, theta_a),
-            Change::FlatAtBoth => flatten(exact, &AT_BOTH, theta_a),
-            Change::FlatAtStart => begin_flat(exact, self.refine.t_end, theta_a),
-            Change::FlatEverywhere => {
+            StudyChange::HeldInTime => held(exact, MIDDLE * self.refine.t_end),
+            StudyChange::FlatAtZero => flatten(exact, &AT_ZERO, theta_a),
+            StudyChange::FlatAtOne => flatten(exact, &AT_ONE, theta_a),
+            StudyChange::FlatAtBoth => flatten(exact, &AT_BOTH, theta_a),
+            StudyChange::FlatAtStart => begin_flat(exact, self.refine.t_end, theta_a),
+            StudyChange::FlatEverywhere => {
                 flatten(exact, &AT_BOTH, theta_a);
                 begin_flat(exact, self.refine.t_end, theta_a);
             }
-            Change::NoRotation => exact.phi.clear(),
-            Change::NoTemperature => exact.theta.clear(),
-            Change::NoCoupling => study.each(|coefficients| coefficients.beam.a = 0.0),
-            Change::NoStretching => study.each(|coefficients| coefficients.beam.rho = 0.0),
-            Change::NoContact => study.each(|coefficients| coefficients.obstacles = None),
+            StudyChange::NoRotation => exact.phi.clear(),
+            StudyChange::NoTemperature => exact.theta.clear(),
+            StudyChange::NoCoupling => study.each(|coefficients| coefficients.beam.a = 0.0),
+            StudyChange::NoStretching => study.each(|coefficients| coefficients.beam.rho = 0.0),
+            StudyChange::NoContact => study.each(|coefficients| coefficients.obstacles = None),
         }
         study
     }

@@ -3,12 +3,12 @@
 use super::fault::{Fault, Planted};
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::orders::{Runs, Series, Source},
+    kinds::orders::{ErrorSource, Runs, Series},
     scene::Coefficients,
 };
 
 /// A study of orders whose solver or sources can be wrong on purpose.
-pub trait Plantable: Source<Found: Clone> {
+pub trait Plantable: ErrorSource<Found: Clone> {
     /// What the runs of a case share, whatever is planted.
     type Shared<'a>
     where
@@ -38,7 +38,7 @@ pub trait Plantable: Source<Found: Clone> {
 }
 
 /// The verdict of a study on the results of its cases.
-pub(in crate::kinds) fn verdict<S: Source>(source: &S, runs: &Runs<S>) -> Verdict {
+pub(in crate::kinds) fn verdict<S: ErrorSource>(source: &S, runs: &Runs<S>) -> Verdict {
     for run in runs {
         match run.ok() {
             Some(found) if source.not_finite(found).is_empty() => (),

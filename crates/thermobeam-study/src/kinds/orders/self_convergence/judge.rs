@@ -26,7 +26,7 @@ const KNOWN: f64 = 1e-2;
 
 /// What each level is compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Reading {
+pub(super) enum ComparisonWith {
     /// The next finer one.
     Successive,
     /// The reference.
@@ -34,13 +34,14 @@ pub(super) enum Reading {
 }
 
 /// Both readings, in the order in which they are judged.
-pub(super) const READINGS: [Reading; 2] = [Reading::Successive, Reading::Reference];
+pub(super) const READINGS: [ComparisonWith; 2] =
+    [ComparisonWith::Successive, ComparisonWith::Reference];
 
-impl Reading {
+impl ComparisonWith {
     fn name(self) -> &'static str {
         match self {
-            Reading::Successive => "successive",
-            Reading::Reference => "reference",
+            ComparisonWith::Successive => "successive",
+            ComparisonWith::Reference => "reference",
         }
     }
 }
@@ -51,13 +52,13 @@ impl SelfConvergence {
     pub(super) fn differences(
         &self,
         runs: &Runs<Self>,
-        reading: Reading,
+        reading: ComparisonWith,
         wanted: impl Fn(Option<Claim>) -> bool,
     ) -> Levels {
         let reference = self.levels.len();
         let count = match reading {
-            Reading::Successive => reference - 1,
-            Reading::Reference => reference,
+            ComparisonWith::Successive => reference - 1,
+            ComparisonWith::Reference => reference,
         };
         let mut columns = vec![];
         for (place, observable) in self.observables().enumerate() {
@@ -68,8 +69,8 @@ impl SelfConvergence {
             let mut errors = vec![];
             for k in 0..count {
                 let other = match reading {
-                    Reading::Successive => k + 1,
-                    Reading::Reference => reference,
+                    ComparisonWith::Successive => k + 1,
+                    ComparisonWith::Reference => reference,
                 };
                 let pair = found(runs, &k).zip(found(runs, &other));
                 errors.push(pair.map(|(level, other)| observable.difference(level, other)));
@@ -122,7 +123,7 @@ impl SelfConvergence {
 
     /// All differences to the reference; the legend marks those without a claim.
     pub(super) fn to_reference(&self, runs: &Runs<Self>) -> Figure {
-        let mut differences = self.differences(runs, Reading::Reference, |_| true);
+        let mut differences = self.differences(runs, ComparisonWith::Reference, |_| true);
         for (column, observable) in differences.columns.iter_mut().zip(self.observables()) {
             if self.claim(observable).is_none() {
                 column.symbol = Some(format!("{} (not claimed)", observable.symbol));

@@ -50,7 +50,7 @@
 mod judge;
 mod observable;
 
-use super::{Measured, Orders, Runs, Series, Source};
+use super::{ErrorSource, Orders, Runs, Series, SourceResult};
 pub use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
 use crate::{
@@ -155,7 +155,7 @@ const LEVELS: [Key; 7] = [
     Key::new("contact", Form::Boolean, "the tip must meet an obstacle").or("false"),
 ];
 
-impl Source for SelfConvergence {
+impl ErrorSource for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
         keys: &[&[&KEYS]],
@@ -264,7 +264,7 @@ impl Source for SelfConvergence {
         broken
     }
 
-    fn measured(&self, runs: &Runs<Self>) -> Measured {
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let mut series = vec![];
         for reading in judge::READINGS {
             for is_claimed in [true, false] {
@@ -277,13 +277,13 @@ impl Source for SelfConvergence {
         }
         let mut checks = vec![self.reference_known(runs)];
         checks.extend(self.meets_obstacle(runs));
-        Measured {
+        SourceResult {
             series,
             checks,
             tables: vec![self.values(runs)],
             figures: vec![self.to_reference(runs), self.tip(runs)],
             quantities: self.values_guarded(runs),
-            ..Measured::default()
+            ..SourceResult::default()
         }
     }
 }

@@ -7,7 +7,7 @@
 mod modes;
 
 use super::{
-    Measured, Orders, Runs, Series, Source,
+    ErrorSource, Orders, Runs, Series, SourceResult,
     one_step::{formulas_of, largest_errors, levels, not_finite_norms},
 };
 use crate::kinds::prelude::*;
@@ -19,7 +19,7 @@ use crate::{
         sources::Nodal,
     },
     kinds::{
-        settings::{Exercise, FREE_VIBRATIONS, Terms},
+        settings::{ActiveTerms, Exercise, FREE_VIBRATIONS},
         tables::{CONTROL, EXPECT, REFINE, Refine, control, expectations, mean_width, refine},
     },
     run::{ObservableMotion, driver::Driver},
@@ -111,7 +111,7 @@ const HEAT: [Key; 2] = [
     ),
 ];
 
-impl Source for Vibration {
+impl ErrorSource for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
         keys: &[&[&KEYS]],
@@ -147,7 +147,7 @@ impl Source for Vibration {
 
     fn exercise(&self) -> Exercise {
         let theory = &self.theory;
-        let terms = Terms::of(&theory.beam, theory.obstacles.as_ref());
+        let terms = ActiveTerms::of(&theory.beam, theory.obstacles.as_ref());
         self.refine.exercise(FREE_VIBRATIONS, terms)
     }
 
@@ -219,7 +219,7 @@ impl Source for Vibration {
         broken
     }
 
-    fn measured(&self, runs: &Runs<Self>) -> Measured {
+    fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let errors = runs
             .iter()
             .map(|run| (run.case.data, run.ok().map(|found| &found.errors)));
@@ -233,10 +233,10 @@ impl Source for Vibration {
             errors,
         );
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
-        let mut measured = Measured {
+        let mut measured = SourceResult {
             series: vec![Series::new(levels).drawn("errors", Some("Damped vibration"), caption)],
             tables: vec![self.modes_table()],
-            ..Measured::default()
+            ..SourceResult::default()
         };
         if self.refine.isolates(Axis::Time) {
             measured.checks.push(closed_form(runs));

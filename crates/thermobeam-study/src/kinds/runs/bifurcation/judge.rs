@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use convergence_judge::{interval::Interval, judge::richardson, text::number::decimals};
 
 use super::{
-    AtRest, Bifurcation, DiagramTask, Found,
+    AtRest, Bifurcation, DiagramTask,
     branches::{BRACKET, CLOSE, Diagram, buckles},
 };
 use crate::kinds::prelude::*;
@@ -23,13 +23,10 @@ use crate::{
     scene::Scene,
 };
 use convergence_study::{
-    Coverage, Refinement,
+    Refinement,
     internal::{
         plots,
-        study::{
-            coverage::NO_RESULT,
-            over_levels::{ErrorColumn, Levels},
-        },
+        study::over_levels::{ErrorColumn, Levels},
     },
 };
 use thermobeam::kirchhoff::BUCKLING;
@@ -46,31 +43,23 @@ const PROVED: f64 = 1e-12;
 /// The order of the discrete buckling force.
 const ORDER: f64 = 2.0;
 
-/// The results of one scene; `None` if a case failed.
+/// The results of one scene.
 struct OfScene<'r> {
     scene: &'r Scene,
-    diagram: Option<&'r Diagram>,
+    diagram: &'r Diagram,
     /// Each β with its run to rest.
-    rests: Vec<(f64, Option<&'r AtRest>)>,
+    rests: Vec<(f64, &'r AtRest)>,
 }
 
 impl<'r> OfScene<'r> {
     fn new(study: &'r Bifurcation, results: &Results<'r, Bifurcation>, k: usize) -> Self {
-        let diagram = match results.of(&DiagramTask::Diagram(k)) {
-            Some(Found::Diagram(diagram)) => Some(diagram),
-            _ => None,
-        };
         let mut rests = vec![];
         for (place, &beta) in study.rest.betas.iter().enumerate() {
-            let rest = match results.of(&DiagramTask::Rest(k, place)) {
-                Some(Found::Rest(rest)) => Some(rest),
-                _ => None,
-            };
-            rests.push((beta, rest));
+            rests.push((beta, results.of(&DiagramTask::Rest(k, place)).rest()));
         }
         Self {
             scene: &study.scenes[k],
-            diagram,
+            diagram: results.of(&DiagramTask::Diagram(k)).diagram(),
             rests,
         }
     }
@@ -83,9 +72,9 @@ impl<'r> OfScene<'r> {
         Subject::of(quantity).in_case(self.name())
     }
 
-    /// The lower end of the bracket of buckling or lift-off; NaN if the case failed.
+    /// The lower end of the bracket of buckling or lift-off.
     fn event(&self) -> f64 {
-        self.diagram.map_or(f64::NAN, |diagram| diagram.event.low)
+        self.diagram.event.low
     }
 
     fn guarded_event(&self) -> Quantity {
@@ -93,35 +82,33 @@ impl<'r> OfScene<'r> {
         Quantity::new(name, self.event(), 1e-8).about(self.subject("event"))
     }
 
-    /// β and u(1) at rest; NaN if the case failed.
+    /// β and u(1) at rest.
     fn tips(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.rests
-            .iter()
-            .map(|(beta, rest)| (*beta, rest.map_or(f64::NAN, |rest| rest.tip[0])))
+        self.rests.iter().map(|(beta, rest)| (*beta, rest.tip[0]))
     }
 
     fn checks(&self, study: &Bifurcation) -> Vec<Check> {
-        let mut checks = vec![self.ends_are_stable(study.distance)];
-        // Without a diagram, the check of completion has failed already.
-        if let Some(diagram) = self.diagram {
-            checks.push(self.unambiguous(diagram));
-            checks.extend(if buckles(self.scene) {
-                [self.buckles(diagram), self.bent_below()]
-            } else {
-                [lifts_off(diagram), self.one_state(diagram)]
-            });
-            checks.push(self.is_proved(diagram));
-        }
-        checks
+        let [first, second] = if buckles(self.scene) {
+            [self.buckles(), self.bent_below()]
+        } else {
+            [lifts_off(self.diagram), self.one_state()]
+        };
+        vec![
+            self.ends_are_stable(study.distance),
+            self.unambiguous(),
+            first,
+            second,
+            self.is_proved(),
+        ]
     }
 
     fn ends_are_stable(&self, allowed: f64) -> Check {
         let mut elsewhere = vec![];
         let mut farthest = 0.0;
         for (beta, rest) in &self.rests {
-            let distance = rest.map_or(f64::NAN, AtRest::distance);
+            let distance = rest.distance();
             farthest = max_or_nan(farthest, distance);
-            if !(rest.is_some_and(AtRest::is_stable) && distance <= allowed) {
+            if !(rest.is_stable() && distance <= allowed) {
                 elsewhere.push(*beta);
             }
         }
@@ -160,10 +147,10 @@ impl<'r> OfScene<'r> {
         .about(self.subject("bent ends of runs").by(ItemMethod::OneStep))
     }
 
-    fn unambiguous(&self, diagram: &Diagram) -> Check {
-        let ambiguous = diagram.ambiguous;
+    fn unambiguous(&self) -> Check {
+        let ambiguous = self.diagram.ambiguous;
         Check::that(
-            ambiguous == 0 && !diagram.branches.is_empty(),
+            ambiguous == 0 && !self.diagram.branches.is_empty(),
             "contact, side and number of unstable directions tell all branches apart",
             format!("{ambiguous} states could belong to two branches"),
         )
@@ -171,8 +158,8 @@ impl<'r> OfScene<'r> {
     }
 
     /// Counting gives the ends of the bracket, analysis gives the number.
-    fn buckles(&self, diagram: &Diagram) -> Check {
-        let Interval { low, high } = diagram.event;
+    fn buckles(&self) -> Check {
+        let Interval { low, high } = self.diagram.event;
         let holds =
             low <= -BUCKLING + BRACKET && -BUCKLING <= high + BRACKET && high - low <= BRACKET;
         Check::that(
@@ -187,9 +174,9 @@ impl<'r> OfScene<'r> {
     }
 
     /// Proofs on both sides enclose the event that counting brackets.
-    fn is_proved(&self, diagram: &Diagram) -> Check {
-        let Interval { low, high } = diagram.proved;
-        let event = diagram.event;
+    fn is_proved(&self) -> Check {
+        let Interval { low, high } = self.diagram.proved;
+        let event = self.diagram.event;
         let holds = high - low <= PROVED && low <= event.high && event.low <= high;
         Check::that(
             holds,
@@ -199,8 +186,8 @@ impl<'r> OfScene<'r> {
         .about(self.subject("event, proved"))
     }
 
-    fn one_state(&self, diagram: &Diagram) -> Check {
-        let counts = &diagram.counts;
+    fn one_state(&self) -> Check {
+        let counts = &self.diagram.counts;
         let several: Vec<f64> = counts
             .iter()
             .filter(|(_, states)| *states != 1)
@@ -220,28 +207,25 @@ impl<'r> OfScene<'r> {
 
     /// The whole diagram, and a close-up of the fork if there is one.
     fn figures(&self) -> Vec<Figure> {
-        let Some(diagram) = self.diagram else {
-            return vec![];
-        };
         let theta_a = self.scene.beam.theta_a;
         let file = format!("theta-a-{theta_a}");
         let caption = format!(
             "Steady states over β for θ_A = {theta_a}: solid where stable, dashed where not; \
              open markers: where moving beams come to rest."
         );
-        let fork = diagram.event.low;
+        let fork = self.event();
         // A minus sign, not a hyphen.
         let event = format!("{fork:.4}").replace('-', "−");
         if !buckles(self.scene) {
             let title = format!("One steady state for every β; it lifts off at β = {event}");
-            let svg = self.drawing(diagram, title, f64::NEG_INFINITY..=f64::INFINITY);
+            let svg = self.drawing(title, f64::NEG_INFINITY..=f64::INFINITY);
             return vec![Figure::new(&file, caption, svg)];
         }
         let title = format!("Several steady states below β = {event}, one above");
         // Above the fork there is the straight beam alone.
-        let whole = self.drawing(diagram, title, f64::NEG_INFINITY..=fork + 2.0 * CLOSE);
+        let whole = self.drawing(title, f64::NEG_INFINITY..=fork + 2.0 * CLOSE);
         let title = "The beam bends until its free end meets an obstacle".to_owned();
-        let close = self.drawing(diagram, title, fork - CLOSE..=fork + CLOSE);
+        let close = self.drawing(title, fork - CLOSE..=fork + CLOSE);
         let caption_of_close = "The same near the buckling point: the fork opens until the free end meets an obstacle.";
         vec![
             Figure::new(&file, caption, whole),
@@ -249,10 +233,10 @@ impl<'r> OfScene<'r> {
         ]
     }
 
-    fn drawing(&self, diagram: &Diagram, title: String, range: RangeInclusive<f64>) -> String {
-        let mut sorted: Vec<_> = diagram.branches.iter().collect();
+    fn drawing(&self, title: String, range: RangeInclusive<f64>) -> String {
+        let mut sorted: Vec<_> = self.diagram.branches.iter().collect();
         sorted.sort_by_key(|branch| (branch.key.place(), !branch.key.stable));
-        let mut branches: Vec<figures::Branch> = vec![];
+        let mut branches: Vec<figures::EquilibriumBranch> = vec![];
         for branch in sorted {
             let label = branch.key.name();
             let stable = branch.key.stable;
@@ -265,7 +249,7 @@ impl<'r> OfScene<'r> {
                 {
                     last.points.extend(points);
                 }
-                _ => branches.push(figures::Branch {
+                _ => branches.push(figures::EquilibriumBranch {
                     label: label.to_owned(),
                     points: points.collect(),
                     stable,
@@ -288,19 +272,14 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     let scenes: Vec<OfScene<'_>> = (0..study.scenes.len())
         .map(|k| OfScene::new(study, results, k))
         .collect();
-    let mut forces = vec![];
-    for &n in &study.meshes {
-        forces.push(match results.of(&DiagramTask::Buckling(n)) {
-            Some(Found::Force(force)) => Some(*force),
-            _ => None,
-        });
-    }
+    let meshes = study.meshes.iter();
+    let forces: Vec<f64> = meshes
+        .map(|&n| results.of(&DiagramTask::Buckling(n)).force())
+        .collect();
     let limit = extrapolated(&study.meshes, &forces);
     let mut checks = vec![discrete_limit(limit)];
     checks.extend(scenes.iter().flat_map(|scene| scene.checks(study)));
-    let errors = forces
-        .iter()
-        .map(|force| force.map(|force| (force - BUCKLING).abs()));
+    let errors = forces.iter().map(|force| Some((force - BUCKLING).abs()));
     let column = ErrorColumn::new(
         "buckling force of P1 elements",
         Claim::new(ORDER, study.tolerance),
@@ -317,19 +296,15 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
         .map(|scene| format!("{:.6}", scene.event()))
         .collect();
     let headline = format!("buckling and lift-off at β = {}", events.join(", "));
-    let ends = scenes.iter().flat_map(|scene| &scene.rests);
-    let left_out: Vec<_> = ends
-        .map(|(_, rest)| rest.is_none().then_some(NO_RESULT))
-        .collect();
+    let ends: usize = scenes.iter().map(|scene| scene.rests.len()).sum();
     Findings {
         summary: format!(
             "{} diagrams, {} runs to rest; {headline}",
             scenes.len(),
-            left_out.len()
+            ends
         ),
         headline,
         checks,
-        coverage: vec![Coverage::of("runs to rest", left_out)],
         listings: vec![
             forces_over_meshes(&study.meshes, &forces, limit),
             rests(study, &scenes),
@@ -351,10 +326,9 @@ fn list(betas: &[f64]) -> String {
     }
 }
 
-/// The discrete buckling force for vanishing mesh width, from the last two meshes; NaN if one of
-/// them has none.
-fn extrapolated(meshes: &[usize], forces: &[Option<f64>]) -> f64 {
-    let (&[.., coarse, fine], &[.., Some(before), Some(last)]) = (meshes, forces) else {
+/// The discrete buckling force for vanishing mesh width, from the last two meshes; NaN for fewer.
+fn extrapolated(meshes: &[usize], forces: &[f64]) -> f64 {
+    let (&[.., coarse, fine], &[.., before, last]) = (meshes, forces) else {
         return f64::NAN;
     };
     last + richardson::correction(before, last, fine as f64 / coarse as f64, ORDER)
@@ -387,7 +361,7 @@ fn force_row(label: String, force: Reading) -> Row {
     (vec![label], vec![force, above])
 }
 
-fn forces_over_meshes(meshes: &[usize], forces: &[Option<f64>], limit: f64) -> Listing {
+fn forces_over_meshes(meshes: &[usize], forces: &[f64], limit: f64) -> Listing {
     let mut rows = vec![];
     for (n, force) in meshes.iter().zip(forces) {
         let subject = Subject::of("buckling force").at(format!("n = {n}"));
@@ -415,9 +389,8 @@ fn rests(study: &Bifurcation, scenes: &[OfScene<'_>]) -> Listing {
     for (place, beta) in study.rest.betas.iter().enumerate() {
         let mut row = vec![beta.to_string()];
         for scene in scenes {
-            let tips = scene.rests[place]
-                .1
-                .map_or([f64::NAN; 2], |rest| [rest.tip[0], rest.exact_tip()[0]]);
+            let (_, rest) = scene.rests[place];
+            let tips = [rest.tip[0], rest.exact_tip()[0]];
             row.extend(tips.map(|tip| decimals(tip, 8)));
         }
         rows.push(row);

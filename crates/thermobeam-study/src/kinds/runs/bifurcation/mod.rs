@@ -18,7 +18,7 @@ use super::{
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
-        interval::Interval,
+        interval::SampledInterval,
         settings::{Exercise, Integration},
     },
     scene::Scene,
@@ -67,13 +67,36 @@ pub enum DiagramTask {
 
 /// What a case finds.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Found {
+pub enum BifurcationResult {
     /// The branches.
     Diagram(Diagram),
     /// The buckling force of P1 elements, positive.
     Force(f64),
     /// Where a moving beam came to rest.
     Rest(AtRest),
+}
+
+impl BifurcationResult {
+    fn diagram(&self) -> &Diagram {
+        match self {
+            Self::Diagram(diagram) => diagram,
+            other => unreachable!("a diagram shows {other:?}"),
+        }
+    }
+
+    fn force(&self) -> f64 {
+        match self {
+            Self::Force(force) => *force,
+            other => unreachable!("a buckling force shows {other:?}"),
+        }
+    }
+
+    fn rest(&self) -> &AtRest {
+        match self {
+            Self::Rest(rest) => rest,
+            other => unreachable!("a run to rest shows {other:?}"),
+        }
+    }
 }
 
 const KEYS: [Key; 3] = [
@@ -113,11 +136,11 @@ impl Runs for Bifurcation {
     const KEYS: &'static [Keys] = &[&[&KEYS]];
 
     type Run = DiagramTask;
-    type Shown = Found;
+    type Shown = BifurcationResult;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let diagram = root.table("diagram", &[&DIAGRAM])?;
-        let beta = Interval::read(&diagram, "beta", false)?;
+        let beta = SampledInterval::read(&diagram, "beta", false)?;
         let points = diagram.count("points", 2..=100_000)?;
         let buckling = root.table("buckling", &[&BUCKLING_KEYS])?;
         let rest = root.table("rest", &[&DISTANCE, &ToRest::KEYS])?;
@@ -161,22 +184,28 @@ impl Runs for Bifurcation {
         runs
     }
 
-    fn run(&self, task: &DiagramTask) -> Result<Found, CaseFailure> {
+    fn run(&self, task: &DiagramTask) -> Result<BifurcationResult, CaseFailure> {
         Ok(match *task {
-            DiagramTask::Diagram(k) => Found::Diagram(Diagram::of(&self.scenes[k], &self.grid)?),
-            DiagramTask::Buckling(n) => Found::Force(discrete_buckling_force(&Mesh::uniform(n)?)?),
-            DiagramTask::Rest(k, place) => Found::Rest(self.rest.run(&self.scenes[k], place)?),
+            DiagramTask::Diagram(k) => {
+                BifurcationResult::Diagram(Diagram::of(&self.scenes[k], &self.grid)?)
+            }
+            DiagramTask::Buckling(n) => {
+                BifurcationResult::Force(discrete_buckling_force(&Mesh::uniform(n)?)?)
+            }
+            DiagramTask::Rest(k, place) => {
+                BifurcationResult::Rest(self.rest.run(&self.scenes[k], place)?)
+            }
         })
     }
 
-    fn numbers(&self, _: &DiagramTask, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, _: &DiagramTask, found: &BifurcationResult) -> Vec<Reading> {
         match found {
-            Found::Diagram(diagram) => vec![
+            BifurcationResult::Diagram(diagram) => vec![
                 Reading::new("event, below", diagram.event.low),
                 Reading::new("event, above", diagram.event.high),
             ],
-            Found::Force(force) => vec![Reading::new("force", *force)],
-            Found::Rest(rest) => vec![
+            BifurcationResult::Force(force) => vec![Reading::new("force", *force)],
+            BifurcationResult::Rest(rest) => vec![
                 Reading::new("u(1)", rest.tip[0]),
                 Reading::new("distance", rest.distance()),
             ],

@@ -26,15 +26,12 @@ use crate::{
             checks::{Condition, all, at_most, energy_and_balance},
             watch::{CLOSED, Watched, Worst, watched},
         },
-        settings::{ENERGY, Exercise, Integration, Nodes, Terms},
+        settings::{ActiveTerms, ENERGY, Exercise, Integration, Nodes},
     },
     run::RunError,
     scene::limits,
 };
-use convergence_study::{
-    Coverage,
-    internal::{plots, study::coverage::NO_RESULT},
-};
+use convergence_study::{Coverage, internal::plots};
 use thermobeam::{
     kirchhoff::BUCKLING,
     mesh::MeshError,
@@ -111,7 +108,7 @@ impl Runs for RandomScenes {
     }
 
     fn exercise(&self, _case: Option<&str>) -> Exercise {
-        Exercise::new(ENERGY, Integration::PAPER, Terms::ALL).on(Nodes::Perturbed)
+        Exercise::new(ENERGY, Integration::PAPER, ActiveTerms::ALL).on(Nodes::Perturbed)
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
@@ -142,7 +139,7 @@ impl Runs for RandomScenes {
     }
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let batches = results.completed().map(|(_, batch)| batch);
+        let batches = results.all().map(|(_, batch)| batch);
         let total = batches.fold(Batch::default(), Batch::with);
         let scenes = self.batches * BATCH;
         let listed = exceptions(results);
@@ -171,7 +168,7 @@ impl Runs for RandomScenes {
             ),
             headline: format!("{headline}; largest residual {largest}"),
             checks: total.claims(scenes, exceptions),
-            coverage: vec![self.coverage(&total)],
+            coverage: vec![total.coverage()],
             listings: vec![Listing::from(counts), Listing::from(self.table(&listed))],
             figures: vec![residuals(&total.scenes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
@@ -182,22 +179,6 @@ impl Runs for RandomScenes {
 }
 
 impl RandomScenes {
-    /// The scenes that are judged to their last step; the others are judged up to the step that
-    /// fails.
-    fn coverage(&self, total: &Batch) -> Coverage {
-        let [answers, indefinite, others] = total.ended();
-        let ended = answers + indefinite + others;
-        let missing = (self.batches * BATCH).saturating_sub(ended);
-        let mut reasons = vec![None; answers];
-        reasons.extend(vec![
-            Some("refused, the operator is not definite");
-            indefinite
-        ]);
-        reasons.extend(vec![Some("ended by another failure"); others]);
-        reasons.extend(vec![Some(NO_RESULT); missing]);
-        Coverage::of("scenes to their last step", reasons)
-    }
-
     fn scheme(&self, batch: usize) -> Scheme {
         SCHEMES[batch % SCHEMES.len()]
     }
@@ -270,7 +251,7 @@ impl RandomScenes {
 /// residual.
 fn exceptions(results: &Results<'_, RandomScenes>) -> Vec<(usize, f64)> {
     let mut above = vec![];
-    for (batch, Batch { scenes, .. }) in results.completed() {
+    for (batch, Batch { scenes, .. }) in results.all() {
         for (scene, &[.., residual]) in (batch * BATCH..).zip(scenes) {
             if !(residual <= CLOSED) {
                 above.push((scene, residual));
@@ -291,6 +272,19 @@ fn is_definite(beam: &Beam, dt: f64) -> bool {
 }
 
 impl Batch {
+    /// The scenes that are judged to their last step; the others are judged up to the step that
+    /// fails.
+    fn coverage(&self) -> Coverage {
+        let [answers, indefinite, others] = self.ended();
+        let mut reasons = vec![None; answers];
+        reasons.extend(vec![
+            Some("refused, the operator is not definite");
+            indefinite
+        ]);
+        reasons.extend(vec![Some("ended by another failure"); others]);
+        Coverage::of("scenes to their last step", reasons)
+    }
+
     /// The sum of both.
     fn with(mut self, other: &Self) -> Self {
         self.ends
@@ -368,7 +362,7 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
         .iter()
         .map(|row| row.iter().map(|value| value.is_nan()).collect())
         .collect();
-    let map = plots::Surface {
+    let map = plots::ColouredCells {
         title: Some("The balance of the energy closes to round-off".to_owned()),
         x: plots::Axis::log("time step dt"),
         y: plots::Axis::log("shortest element (dimensionless)"),
@@ -378,7 +372,7 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
         values,
         marked,
         marked_label: "no scene".to_owned(),
-        ..plots::Surface::default()
+        ..plots::ColouredCells::default()
     };
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";

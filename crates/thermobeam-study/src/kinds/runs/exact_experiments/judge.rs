@@ -20,10 +20,11 @@ const TOLERANCE: f64 = 1e-8;
 /// The numbers of a state, in the order of [`Sample::numbers`].
 pub(super) const NAMES: [&str; 6] = ["u(1)", "φ(1)", "u_t(1)", "φ_t(1)", "θ(1/2)", "E"];
 
-/// The runs of one scene; `None` where one has no result.
+/// The runs of one scene.
 pub(super) struct OfScene<'r> {
     pub(super) scene: &'r Scene,
-    pub(super) any_order: [Option<&'r ShownStates>; 2],
+    pub(super) any_order: [&'r ShownStates; 2],
+    /// By the scene's own scheme, where that is compared.
     own: Option<&'r ShownStates>,
 }
 
@@ -33,12 +34,10 @@ impl<'r> OfScene<'r> {
         results: &Results<'r, ExactExperiments>,
         scene: usize,
     ) -> Self {
-        let [first, second, own] =
-            [Some(0), Some(1), None].map(|by| results.of(&SceneRun { scene, by }));
         Self {
             scene: &study.scenes[scene],
-            any_order: [first, second],
-            own,
+            any_order: [Some(0), Some(1)].map(|by| results.of(&SceneRun { scene, by })),
+            own: results.optional(&SceneRun { scene, by: None }),
         }
     }
 
@@ -49,25 +48,25 @@ impl<'r> OfScene<'r> {
 
     /// `(t, u(1, t))` by the first discretisation.
     pub(super) fn tip(&self) -> Vec<(f64, f64)> {
-        self.any_order[0].map_or(vec![], |shown| shown.tip.clone())
+        self.any_order[0].tip.clone()
     }
 
     /// The states of the first discretisation.
     fn states(&self) -> &'r [Sample] {
-        self.any_order[0].map_or(&[], |shown| &shown.states)
+        &self.any_order[0].states
     }
 
-    /// A number of each run by any order: the larger; NaN where one of them is missing.
+    /// A number of each run by any order: the larger.
     fn larger(&self, number: fn(&ShownStates) -> f64) -> f64 {
-        let [one, other] = self.any_order.map(|shown| shown.map_or(f64::NAN, number));
+        let [one, other] = self.any_order.map(number);
         max_or_nan(one, other)
     }
 
-    /// The largest difference of any number at any time; NaN where one of the runs is missing.
+    /// The largest difference of any number at any time.
     pub(super) fn difference(&self) -> f64 {
         let [one, other] = self.any_order.map(|run| {
-            let states = run.map_or(&[][..], |run| &run.states);
-            states.iter().flat_map(Sample::numbers).collect::<Vec<_>>()
+            let numbers = run.states.iter().flat_map(Sample::numbers);
+            numbers.collect::<Vec<_>>()
         });
         largest_difference(&one, &other)
     }
@@ -89,9 +88,7 @@ impl<'r> OfScene<'r> {
     fn events_agree(&self, agreement: f64) -> Check {
         let claim = "they agree on every contact event";
         let subject = self.subject("contact events");
-        let [Some(one), Some(other)] = self.any_order else {
-            return all(claim, subject, [Condition::that(false, "a run is missing")]);
-        };
+        let [one, other] = self.any_order;
         let mut pairs = one.events.iter().zip(&other.events);
         let distances = pairs.clone().map(|(a, b)| (a.t - b.t).abs());
         let alike = pairs.all(|(a, b)| (a.from, a.to) == (b.from, b.to));
@@ -192,7 +189,7 @@ impl<'r> OfScene<'r> {
 pub(super) fn events(scenes: &[OfScene<'_>]) -> Table {
     let mut rows = vec![];
     for of in scenes {
-        for event in of.any_order[0].iter().flat_map(|shown| &shown.events) {
+        for event in &of.any_order[0].events {
             let [from, to] = [event.from, event.to].map(phase_name);
             rows.push(vec![
                 of.scene.name.clone(),

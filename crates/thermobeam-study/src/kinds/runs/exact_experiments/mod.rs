@@ -296,9 +296,9 @@ impl ExactExperiments {
         let mut rows = vec![];
         for (k, how) in self.discretisations.iter().enumerate() {
             let stepping = &how.stepping;
-            let steps = scenes.iter().map(|runs| {
-                runs.any_order[k].map_or("-".to_owned(), |shown| shown.steps.to_string())
-            });
+            let steps = scenes
+                .iter()
+                .map(|runs| runs.any_order[k].steps.to_string());
             let mut row: Vec<String> = [how.elements, how.degree, stepping.degree]
                 .map(|count| count.to_string())
                 .to_vec();

@@ -1,7 +1,8 @@
 //! The runs of an experiment, the experiments of a group, and all groups together.
 
 use super::{
-    AtRest, Experiment, Experiments, Found, Measured, PaperRun, SectionGroup, Task, Trace,
+    AtRest, Experiment, ExperimentResult, Experiments, MeasuredRun, PaperRun, SectionGroup, Task,
+    Trace,
 };
 use crate::kinds::prelude::*;
 use crate::kinds::runs::Results;
@@ -12,31 +13,22 @@ use thermobeam::parameters::Beam;
 pub(super) struct OfExperiment<'r> {
     pub(super) experiment: &'r Experiment,
     /// By the first discretisation.
-    pub(super) first: &'r Measured,
+    pub(super) first: &'r MeasuredRun,
     /// By the second, which shows the error of the first.
-    pub(super) second: &'r Measured,
+    pub(super) second: &'r MeasuredRun,
     /// By the paper's algorithm, if the study runs that.
     pub(super) paper: Option<&'r PaperRun>,
 }
 
 impl<'r> OfExperiment<'r> {
-    /// `None` if a run is missing.
-    fn of(
-        study: &'r Experiments,
-        results: &Results<'r, Experiments>,
-        experiment: usize,
-    ) -> Option<Self> {
-        let paper = match results.of(&Task::FixedPoint(experiment)) {
-            Some(Found::FixedPoint(run)) => Some(&**run),
-            _ => None,
-        };
-        let is_complete = paper.is_some() || study.fixed_point.is_none();
-        is_complete.then_some(Self {
+    fn of(study: &'r Experiments, results: &Results<'r, Experiments>, experiment: usize) -> Self {
+        let paper = results.optional(&Task::FixedPoint(experiment));
+        Self {
             experiment: &study.experiments[experiment],
-            first: run_by_dg(results, experiment, 0)?,
-            second: run_by_dg(results, experiment, 1)?,
-            paper,
-        })
+            first: run_by_dg(results, experiment, 0),
+            second: run_by_dg(results, experiment, 1),
+            paper: paper.map(ExperimentResult::paper_run),
+        }
     }
 
     /// The motion by which statements are judged: that of the paper's algorithm, if the study runs
@@ -54,27 +46,22 @@ impl<'r> OfExperiment<'r> {
     }
 }
 
-/// The run of an experiment with a discretisation of dG, if it completed.
+/// The run of an experiment with a discretisation of dG.
 fn run_by_dg<'r>(
     results: &Results<'r, Experiments>,
     experiment: usize,
     discretisation: usize,
-) -> Option<&'r Measured> {
+) -> &'r MeasuredRun {
     let task = Task::AnyOrder {
         experiment,
         discretisation,
     };
-    match results.of(&task) {
-        Some(Found::Run(run)) => Some(&**run),
-        _ => None,
-    }
+    results.of(&task).run()
 }
 
-/// The experiments of a group that completed.
+/// The experiments of a group.
 pub(super) struct OfGroup<'r> {
     pub(super) runs: Vec<OfExperiment<'r>>,
-    /// Whether all of them completed: otherwise no claim holds.
-    complete: bool,
 }
 
 impl<'r> OfGroup<'r> {
@@ -85,31 +72,24 @@ impl<'r> OfGroup<'r> {
         belongs: impl Fn(SectionGroup) -> bool,
     ) -> Self {
         let mut runs = vec![];
-        let mut complete = true;
         for (place, experiment) in study.experiments.iter().enumerate() {
             if belongs(experiment.group) {
-                let completed = OfExperiment::of(study, results, place);
-                complete &= completed.is_some();
-                runs.extend(completed);
+                runs.push(OfExperiment::of(study, results, place));
             }
         }
-        Self { runs, complete }
+        Self { runs }
     }
 
     pub(super) fn all(&self, holds: impl Fn(&OfExperiment<'r>) -> bool) -> bool {
-        self.complete && !self.runs.is_empty() && self.runs.iter().all(holds)
+        !self.runs.is_empty() && self.runs.iter().all(holds)
     }
 
-    /// A number of each experiment; none if a run is missing.
+    /// A number of each experiment.
     pub(super) fn numbers(&self, number: impl Fn(&OfExperiment<'r>) -> f64) -> Vec<f64> {
-        if self.complete {
-            self.runs.iter().map(number).collect()
-        } else {
-            vec![]
-        }
+        self.runs.iter().map(number).collect()
     }
 
-    /// The largest of these; NaN if a run is missing.
+    /// The largest of these; NaN without an experiment.
     pub(super) fn largest(&self, number: impl Fn(&OfExperiment<'r>) -> f64) -> f64 {
         largest_of(self.numbers(number)).unwrap_or(f64::NAN)
     }
@@ -140,7 +120,7 @@ pub(super) struct SectionFive<'r> {
     pub(super) first: OfGroup<'r>,
     pub(super) second: OfGroup<'r>,
     pub(super) third: OfGroup<'r>,
-    /// The runs to rest that completed, each with its β.
+    /// The runs to rest, each with its β.
     pub(super) rests: Vec<(f64, &'r AtRest)>,
 }
 
@@ -148,9 +128,7 @@ impl<'r> SectionFive<'r> {
     pub(super) fn of(study: &'r Experiments, results: &Results<'r, Experiments>) -> Self {
         let mut rests = vec![];
         for (place, &beta) in study.rest.betas.iter().enumerate() {
-            if let Some(Found::Rest(rest)) = results.of(&Task::Rest(place)) {
-                rests.push((beta, rest));
-            }
+            rests.push((beta, results.of(&Task::Rest(place)).rest()));
         }
         Self {
             all: OfGroup::of(study, results, |_| true),

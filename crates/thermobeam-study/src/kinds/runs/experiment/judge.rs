@@ -1,7 +1,7 @@
 //! The sentences of Section 5, each a check with its numbers.
 
 use super::{
-    Experiments, Measured, SectionGroup,
+    Experiments, MeasuredRun, SectionGroup,
     group::{OfExperiment, OfGroup, SectionFive},
     paper,
     plotted::{Plotted, U_TIP, largest_difference},
@@ -45,7 +45,6 @@ pub(super) fn checks(
     let mut checks = vec![never_rises(&runs.all)];
     checks.extend(ends_straight(&runs.first, REMAINS * study.rate));
     checks.extend(moves(&runs.first));
-    // If a run is missing, the check of completion has failed.
     for runs in &runs.all.runs {
         match runs.experiment.group {
             SectionGroup::First => {}
@@ -57,9 +56,8 @@ pub(super) fn checks(
         .into_iter()
         .map(|check| check.stated_by(Origin::Source))
         .collect();
-    let complete = runs.rests.len() == study.rest.betas.len();
-    checks.extend(rests::checks(&runs.rests, complete));
-    checks.push(paper::data(study));
+    checks.extend(rests::checks(&runs.rests));
+    checks.push(study.data());
     checks.push(paper::motion(&runs.first));
     checks.push(thin_lines(plotted));
     if study.fixed_point.is_some() {
@@ -142,7 +140,7 @@ fn ends_straight(group: &OfGroup<'_>, allowed: f64) -> [Check; 2] {
     let remains =
         group.largest(|runs| (runs.first.energy - straight_energy(&runs.experiment.scene)).abs());
     let energies = group.list(|runs| {
-        let Measured { energy, end, .. } = runs.first;
+        let MeasuredRun { energy, end, .. } = runs.first;
         let straight = straight_energy(&runs.experiment.scene);
         format!("{energy:.9} for {straight:.9} at t = {:.0}", end.t)
     });
@@ -257,11 +255,11 @@ fn ends_bent(runs: &OfExperiment<'_>) -> Check {
 }
 
 /// Whether the end is an exact, stable steady state.
-fn has_arrived(run: &Measured) -> bool {
+fn has_arrived(run: &MeasuredRun) -> bool {
     run.end.is_stable() && run.end.distance() <= ARRIVED
 }
 
-fn at_rest(run: &Measured) -> String {
+fn at_rest(run: &MeasuredRun) -> String {
     let [u, _] = run.end.tip;
     let [exact, _] = run.end.exact_tip();
     let force = run.contact_force;

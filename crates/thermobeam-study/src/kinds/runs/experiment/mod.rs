@@ -31,8 +31,8 @@
 //!
 //! It takes the experiment at β = -0.8 as evidence of several steady states for β < -1/2. That
 //! threshold is not sharp: without heating the straight beam is the only steady state down to
-//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of all
-//! exact steady states, and by where moving beams come to rest.
+//! -0.7116 (THEORY.md, "Steady states and buckling"). The study shows this twice: by the list of
+//! all exact steady states, and by where moving beams come to rest.
 
 mod group;
 mod judge;
@@ -41,14 +41,12 @@ mod paper;
 mod plotted;
 mod report;
 mod rests;
+mod tasks;
 mod trace;
-
-use std::ops::ControlFlow;
 
 use super::{
     Findings, Results, RunStudy, Runs,
-    side_by_side::SideBySide,
-    steady::{ToRest, compared, listed_scene},
+    steady::{ToRest, listed_scene},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -57,16 +55,15 @@ use crate::{
         settings::{CONTACT, Exercise, Integration},
         tables::{DISCRETISATIONS, Discretisation, discretisations},
     },
-    run::{AnyMotion, Report, run, simulate},
     scene::{Scene, limits},
 };
 use convergence_study::internal::input::POSITIVE;
 use group::SectionFive;
 use thermobeam_exact::equilibrium::Phase;
-use trace::{Observed, Recorder};
 
 pub use super::side_by_side::SolverComparison;
 pub use super::steady::{AtRest, Nearest};
+pub use tasks::{ExperimentResult, MeasuredRun, PaperRun, Task};
 pub use trace::Trace;
 
 /// The row of the table of kinds.
@@ -114,57 +111,6 @@ pub struct Experiments {
     /// Fall of the energy per unit of time below which the state is steady.
     rate: f64,
     rest: ToRest,
-}
-
-/// What a case runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
-    /// An experiment by dG until it is steady.
-    AnyOrder {
-        /// Its place.
-        experiment: usize,
-        /// The place of the discretisation.
-        discretisation: usize,
-    },
-    /// The experiment at this place by the paper's algorithm, with Newton's method beside it.
-    FixedPoint(usize),
-    /// A moving beam until it rests, with the β at this place.
-    Rest(usize),
-}
-
-/// What a case finds.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Found {
-    /// Of an experiment by dG.
-    Run(Box<Measured>),
-    /// Of an experiment by the paper's algorithm.
-    FixedPoint(Box<PaperRun>),
-    /// Of a run to rest.
-    Rest(AtRest),
-}
-
-/// An experiment by dG, until it is steady.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
-    /// The motion.
-    pub trace: Trace,
-    /// The beam as soon as it is steady.
-    pub end: AtRest,
-    /// The energy then.
-    pub energy: f64,
-    /// The contact force then: positive at the upper obstacle.
-    pub contact_force: f64,
-    /// Largest absolute value of u, φ and the lifted temperature then.
-    pub largest_field: f64,
-}
-
-/// An experiment by the paper's algorithm.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PaperRun {
-    /// The motion.
-    pub trace: Trace,
-    /// Distance to Newton's solution, and iterations.
-    pub solvers: SolverComparison,
 }
 
 const KEYS: [Key; 5] = [
@@ -235,7 +181,7 @@ impl Runs for Experiments {
     const KEYS: &'static [Keys] = &[&[&KEYS]];
 
     type Run = Task;
-    type Shown = Found;
+    type Shown = ExperimentResult;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let run = root.table("run", &[&RUN])?;
@@ -294,28 +240,32 @@ impl Runs for Experiments {
         runs
     }
 
-    fn run(&self, &task: &Task) -> Result<Found, CaseFailure> {
+    fn run(&self, &task: &Task) -> Result<ExperimentResult, CaseFailure> {
         Ok(match task {
             Task::AnyOrder {
                 experiment,
                 discretisation,
-            } => Found::Run(Box::new(self.run_until_steady(experiment, discretisation)?)),
+            } => {
+                ExperimentResult::Run(Box::new(self.run_until_steady(experiment, discretisation)?))
+            }
             Task::FixedPoint(experiment) => {
-                Found::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
+                ExperimentResult::FixedPoint(Box::new(self.run_side_by_side(experiment)?))
             }
             Task::Rest(place) => {
                 let last = self.experiments.last();
                 let third = last.ok_or_else(|| CaseFailure::new("no experiment"))?;
-                Found::Rest(self.rest.run(&third.scene, place)?)
+                ExperimentResult::Rest(self.rest.run(&third.scene, place)?)
             }
         })
     }
 
-    fn numbers(&self, _: &Task, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, _: &Task, found: &ExperimentResult) -> Vec<Reading> {
         match found {
-            Found::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
-            Found::FixedPoint(run) => [run.trace.readings(""), run.readings("")].concat(),
-            Found::Rest(rest) => rest.readings(),
+            ExperimentResult::Run(run) => [run.trace.readings(""), run.readings("", true)].concat(),
+            ExperimentResult::FixedPoint(run) => {
+                [run.trace.readings(""), run.readings("")].concat()
+            }
+            ExperimentResult::Rest(rest) => rest.readings(),
         }
     }
 
@@ -379,6 +329,11 @@ fn experiments(root: &Section<'_>, folder: &Path) -> Result<Vec<Experiment>, Inp
 }
 
 impl Experiments {
+    /// Whether the scenes are the paper's experiments, which needs no run.
+    pub fn data(&self) -> Check {
+        paper::data(self)
+    }
+
     fn any_order_case(&self, experiment: usize, discretisation: usize) -> Case<Task> {
         // Steady states are reached at t = 50 to 100.
         const STEADY: f64 = 80.0;
@@ -412,93 +367,6 @@ impl Experiments {
             .filter(|experiment| experiment.group == SectionGroup::First);
         first.count() / 2
     }
-
-    /// Runs an experiment by dG until its energy is steady.
-    ///
-    /// # Errors
-    /// A step that fails, steady states that cannot be found, or a beam that still moves at
-    /// `t_max`.
-    fn run_until_steady(
-        &self,
-        experiment: usize,
-        discretisation: usize,
-    ) -> Result<Measured, CaseFailure> {
-        let original = &self.experiments[experiment].scene;
-        let scene = self.discretisations[discretisation].of(original, self.t_max)?;
-        let mut motion = simulate::motion(&scene)?;
-        let observed = Observed {
-            t_end: original.t_end,
-            t_max: self.t_max,
-            levels: trace::POINTS,
-            frames: experiment == self.animated() && discretisation == 0,
-        };
-        let mut recorder = Recorder::new(observed, &mut *motion);
-        let mut windows = 0.0;
-        while motion.work().t < self.t_max {
-            windows += 1.0;
-            let end = (windows * self.window).min(self.t_max);
-            // Summed from differences: the round-off of the total would hide a slow fall.
-            let mut fall = 0.0;
-            let mut watch = |motion: &mut AnyMotion, _: &Report| {
-                fall -= recorder.add(motion)?;
-                Ok(ControlFlow::Continue(()))
-            };
-            run(&mut *motion, end, &[], &mut [&mut watch])?;
-            if fall <= self.rate * self.window {
-                return measured(
-                    &scene,
-                    recorder.finish(&*motion, scene.obstacles),
-                    &mut *motion,
-                );
-            }
-        }
-        Err(CaseFailure::new(format!(
-            "not steady by t = {}",
-            self.t_max
-        )))
-    }
-
-    /// Runs an experiment by the paper's algorithm at its own resolution, with Newton's method
-    /// beside it.
-    ///
-    /// # Errors
-    /// A step that fails.
-    fn run_side_by_side(&self, experiment: usize) -> Result<PaperRun, CaseFailure> {
-        let scene = &self.experiments[experiment].scene;
-        let tolerance = self.fixed_point;
-        let tolerance = tolerance.ok_or_else(|| CaseFailure::new("the study has no tolerance"))?;
-        let mut both = SideBySide::new(scene, tolerance)?;
-        let observed = Observed {
-            t_end: scene.t_end,
-            t_max: scene.t_end,
-            levels: trace::LEVELS,
-            frames: false,
-        };
-        let mut recorder = Recorder::new(observed, &mut both.fixed_point);
-        for _ in 0..scene.steps() {
-            both.step()?;
-            recorder.add(&mut both.fixed_point)?;
-        }
-        Ok(PaperRun {
-            trace: recorder.finish(&both.fixed_point, scene.obstacles),
-            solvers: both.comparison,
-        })
-    }
-}
-
-/// The beam at its end.
-fn measured(scene: &Scene, trace: Trace, motion: &mut AnyMotion) -> Result<Measured, CaseFailure> {
-    let nodes = compared(scene)?;
-    let t = motion.work().t;
-    let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
-    let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
-    Ok(Measured {
-        trace,
-        largest_field: values.fold(0.0, |most, value| max_or_nan(most, value.abs())),
-        end: AtRest::of(scene, &nodes, t, &level, |_| true)?,
-        energy: last.energy,
-        contact_force: last.contact_force,
-    })
 }
 
 /// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a

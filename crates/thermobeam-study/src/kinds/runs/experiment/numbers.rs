@@ -1,6 +1,6 @@
 //! The numbers of each run, declared once: they give completion, tables and guarded numbers.
 
-use super::{AtRest, Measured, PaperRun, SectionGroup, Trace, group::OfExperiment};
+use super::{AtRest, MeasuredRun, PaperRun, SectionGroup, Trace, group::OfExperiment};
 use crate::kinds::prelude::*;
 use crate::kinds::settings::ItemMethod;
 
@@ -69,7 +69,7 @@ impl PaperRun {
     }
 }
 
-impl Measured {
+impl MeasuredRun {
     /// * `name`: the experiment's; `bent`: whether the end is nonzero; the digits of zero are those
     ///   of the remaining motion.
     pub(super) fn readings(&self, name: &str, bent: bool) -> Vec<Reading> {

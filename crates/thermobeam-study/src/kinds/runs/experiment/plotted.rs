@@ -3,7 +3,7 @@
 
 use convergence_study::internal::plots::{
     self,
-    inset::{Inset, Place},
+    inset::{Inset, InsetFrame},
     look::{Look, look},
     ruler::on_scale,
     style,
@@ -26,7 +26,7 @@ pub(super) struct Plotted {
     /// Without the paper's algorithm.
     pub(super) xy: Xy,
     /// A small figure inside, and where.
-    inset: Option<(Box<Plotted>, Place)>,
+    inset: Option<(Box<Plotted>, InsetFrame)>,
     curves: Vec<PlottedCurve>,
 }
 
@@ -41,7 +41,7 @@ struct PlottedCurve {
 
 /// What a figure shows of each run.
 #[derive(Clone, Copy)]
-pub(super) struct Quantity {
+pub(super) struct PlottedSeries {
     /// Its name in the legend; `None`: that of β.
     pub(super) label: Option<&'static str>,
     pub(super) value: fn(&Experiment, &Sample) -> f64,
@@ -57,7 +57,7 @@ impl Plotted {
         [what, name]: [&'static str; 2],
         xy: Xy,
         runs: &[OfExperiment<'_>],
-        quantities: &[Quantity],
+        quantities: &[PlottedSeries],
     ) -> Self {
         let mut plotted = Self {
             what,
@@ -77,14 +77,14 @@ impl Plotted {
     }
 
     /// The same with a small figure inside.
-    pub(super) fn with_inset(self, inset: Plotted, place: Place) -> Self {
+    pub(super) fn with_inset(self, inset: Plotted, place: InsetFrame) -> Self {
         Self {
             inset: Some((Box::new(inset), place)),
             ..self
         }
     }
 
-    fn push(&mut self, runs: &OfExperiment<'_>, quantity: &Quantity) {
+    fn push(&mut self, runs: &OfExperiment<'_>, quantity: &PlottedSeries) {
         let OfExperiment { experiment, .. } = *runs;
         let drawn = quantity.points(experiment, &runs.first.trace);
         let (label, look) = match quantity.label {
@@ -181,7 +181,7 @@ impl Plotted {
 }
 
 /// The energy within the figures' span.
-pub(super) const ENERGY: Quantity = Quantity {
+pub(super) const ENERGY: PlottedSeries = PlottedSeries {
     label: None,
     value: |_, point| point.energy,
     from: 0.0,
@@ -189,12 +189,12 @@ pub(super) const ENERGY: Quantity = Quantity {
 };
 
 /// The displacement of the free end.
-pub(super) const U_TIP: Quantity = Quantity {
+pub(super) const U_TIP: PlottedSeries = PlottedSeries {
     value: |_, point| point.u_tip,
     ..ENERGY
 };
 
-impl Quantity {
+impl PlottedSeries {
     pub(super) fn points(&self, experiment: &Experiment, trace: &Trace) -> Points {
         let end = if self.until_steady {
             f64::INFINITY

@@ -4,7 +4,7 @@ use super::{
     Experiments,
     group::{OfExperiment, SectionFive},
     judge,
-    plotted::{ENERGY, Plotted, Quantity, U_TIP},
+    plotted::{ENERGY, Plotted, PlottedSeries, U_TIP},
     straight_energy,
     trace::SPAN,
 };
@@ -15,7 +15,7 @@ use crate::{
 };
 use convergence_study::{
     Origin,
-    internal::plots::{self, inset::Place, xy::Xy},
+    internal::plots::{self, inset::InsetFrame, xy::Xy},
 };
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
@@ -127,7 +127,7 @@ fn animation(all: &[OfExperiment<'_>]) -> Option<Figure> {
 
 /// Where the inset of Figure 2 lies: the energy falls so soon that the middle of the figure is
 /// empty.
-const MIDDLE: Place = Place {
+const MIDDLE: InsetFrame = InsetFrame {
     left: 0.4,
     top: 0.34,
     right: 0.98,
@@ -135,7 +135,7 @@ const MIDDLE: Place = Place {
 };
 
 /// Where that of Figure 7 lies.
-const UPPER: Place = Place {
+const UPPER: InsetFrame = InsetFrame {
     left: 0.3,
     top: 0.12,
     right: 0.98,
@@ -195,7 +195,7 @@ fn energies(runs: &[OfExperiment<'_>]) -> Plotted {
 
 /// Both parts of Figure 7.
 fn beyond_buckling(runs: &[OfExperiment<'_>]) -> [Plotted; 2] {
-    let whole = Quantity {
+    let whole = PlottedSeries {
         until_steady: true,
         ..ENERGY
     };
@@ -226,7 +226,7 @@ fn beyond_buckling(runs: &[OfExperiment<'_>]) -> [Plotted; 2] {
 }
 
 fn decay(runs: &[OfExperiment<'_>]) -> Plotted {
-    let excess = Quantity {
+    let excess = PlottedSeries {
         until_steady: true,
         ..EXCESS
     };
@@ -237,31 +237,31 @@ fn decay(runs: &[OfExperiment<'_>]) -> Plotted {
 }
 
 /// The energy when it is close to its limit.
-const LATE: Quantity = Quantity {
+const LATE: PlottedSeries = PlottedSeries {
     from: 7.0,
     until_steady: true,
     ..ENERGY
 };
 
 /// The energy above that of the straight beam.
-const EXCESS: Quantity = Quantity {
+const EXCESS: PlottedSeries = PlottedSeries {
     value: |experiment, point| point.energy - straight_energy(&experiment.scene),
     ..ENERGY
 };
 
-const PHI_TIP: Quantity = Quantity {
+const PHI_TIP: PlottedSeries = PlottedSeries {
     value: |_, point| point.phi_tip,
     ..ENERGY
 };
 
 /// Both in one figure, until steady.
-const TIP: [Quantity; 2] = [
-    Quantity {
+const TIP: [PlottedSeries; 2] = [
+    PlottedSeries {
         label: Some("displacement u(1, t)"),
         until_steady: true,
         ..U_TIP
     },
-    Quantity {
+    PlottedSeries {
         label: Some("rotation φ(1, t)"),
         until_steady: true,
         ..PHI_TIP

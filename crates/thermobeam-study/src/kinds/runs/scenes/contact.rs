@@ -10,9 +10,9 @@ use thermobeam::scheme::MIDPOINT;
 
 /// Counts the steps of a one-step scheme whose report of contact disagrees with the free end.
 ///
-/// The force of the paper's scheme is that of the law at the end of a step: it is not zero where the
-/// end lies outside of the gap. That of the midpoint rule is a difference of the contact's energy,
-/// which is zero in the gap: it is not zero where one end of the step lies outside.
+/// The force of the paper's scheme is that of the law at the end of a step: it is not zero where
+/// the end lies outside of the gap. That of the midpoint rule is a difference of the contact's
+/// energy, which is zero in the gap: it is not zero where one end of the step lies outside.
 pub(super) struct ContactCount<'s> {
     scene: &'s Scene,
     was_outside: bool,

@@ -1,8 +1,8 @@
 //! The keys of a case.
 
 use super::{
-    Answer, Most, PREDICTED, Whole,
-    shown::{NUMBERS, NamedNumbers, PAIRS, listed},
+    IndependentAnswer, Most, PREDICTED, Whole,
+    shown::{NUMBERS, NamedNumber, PAIRS, listed},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -101,7 +101,9 @@ impl Whole {
             ));
         }
         Ok(Self {
-            answer: answer.map_or(Ok(Answer::default()), |section| Answer::read(&section))?,
+            answer: answer.map_or(Ok(IndependentAnswer::default()), |section| {
+                IndependentAnswer::read(&section)
+            })?,
             most: most.map_or(Ok(Most::default()), |section| {
                 Most::read(&section, &case.scene)
             })?,
@@ -130,13 +132,13 @@ impl Most {
     }
 }
 
-impl Answer {
+impl IndependentAnswer {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let within = section.positive("within")?;
-        let mut numbers: NamedNumbers = vec![];
+        let mut numbers = vec![];
         for name in NUMBERS.into_iter().chain(PREDICTED) {
             if let Some(field) = section.get(name) {
-                numbers.push((name.to_owned(), field.number()?));
+                numbers.push(NamedNumber::new(name, field.number()?));
             }
         }
         for key in PAIRS {

@@ -51,7 +51,7 @@ use crate::{
     },
     predict::{
         Work,
-        choice::{Quantity as Accuracy, choose},
+        choice::{ErrorQuantity, choose},
         estimate::estimate,
     },
     run::{
@@ -62,7 +62,7 @@ use crate::{
 };
 use contact::ContactCount;
 use convergence_judge::text::number::short_text;
-use shown::{NamedNumbers, STEADY, listed, unsolved};
+use shown::{NamedNumber, STEADY, listed, unsolved};
 
 pub use shown::{COUNTS, NUMBERS, Shown};
 
@@ -101,23 +101,23 @@ pub struct Scenes {
 #[derive(Debug, Clone)]
 struct Whole {
     case: ClaimedScene,
-    answer: Answer,
+    answer: IndependentAnswer,
     most: Most,
 }
 
 /// What an independent implementation answers.
 #[derive(Debug, Clone, Default)]
-struct Answer {
+struct IndependentAnswer {
     /// Empty if it was not asked.
-    numbers: NamedNumbers,
+    numbers: Vec<NamedNumber>,
     /// Bound on the distance to each.
     within: f64,
 }
 
-impl Answer {
+impl IndependentAnswer {
     /// Whether a number is asked for.
     fn has(&self, name: &str) -> bool {
-        self.numbers.iter().any(|(known, _)| known == name)
+        self.numbers.iter().any(|known| known.name == name)
     }
 }
 
@@ -229,7 +229,7 @@ impl Runs for Scenes {
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
         let shown: Vec<(&Whole, &Shown)> = results
-            .completed()
+            .all()
             .map(|(place, shown)| (&self.scenes[*place], shown))
             .collect();
         let mut checks: Vec<Check> = shown
@@ -274,7 +274,7 @@ struct Farthest<'a> {
     distance: f64,
 }
 
-impl Answer {
+impl IndependentAnswer {
     /// NaN is farthest.
     fn farthest(&self, shown: &Shown) -> Farthest<'_> {
         let named = shown.named();
@@ -282,9 +282,9 @@ impl Answer {
             name: "none",
             distance: 0.0,
         };
-        for (name, expected) in &self.numbers {
-            let number = named.iter().find(|(of, _)| of == name);
-            let distance = number.map_or(f64::NAN, |(_, value)| (value - expected).abs());
+        for NamedNumber { name, value } in &self.numbers {
+            let number = named.iter().find(|number| number.name == *name);
+            let distance = number.map_or(f64::NAN, |number| (number.value - value).abs());
             if !(distance <= farthest.distance) {
                 farthest = Farthest { name, distance };
             }
@@ -386,7 +386,7 @@ impl Whole {
     }
 
     /// Predictions and steady states, where the answer has them.
-    fn others(&self) -> Result<NamedNumbers, CaseFailure> {
+    fn others(&self) -> Result<Vec<NamedNumber>, CaseFailure> {
         let scene = &self.case.scene;
         let mut no_progress = |_: f64| ();
         let [error, chosen] = PREDICTED;
@@ -398,13 +398,13 @@ impl Whole {
                 .iter()
                 .find(|estimate| estimate.name == "u(1) at the end");
             let total = tip.map_or(f64::NAN, |estimate| estimate.total);
-            others.push((error.to_owned(), total));
+            others.push(NamedNumber::new(error, total));
         }
         if self.answer.has(chosen) {
             let work = &mut Work::new(MOST_WORK, &mut no_progress);
-            let choice = choose(scene, Accuracy::Tip, self.answer.within, work)?;
+            let choice = choose(scene, ErrorQuantity::Tip, self.answer.within, work)?;
             let run = Simulator::new(&choice.scene)?.run(Recording::Summary, &mut |_, _| ());
-            others.push((chosen.to_owned(), run.last.u_tip));
+            others.push(NamedNumber::new(chosen, run.last.u_tip));
         }
         if self.answer.has(STEADY) {
             let mut pairs = vec![];

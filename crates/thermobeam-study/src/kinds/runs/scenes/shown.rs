@@ -21,16 +21,28 @@ use thermobeam::{
 
 use super::norm::OwnNorm;
 
-/// Numbers by their names: some of [`NUMBERS`] and of [`super::PREDICTED`], and those of lists of
-/// pairs.
-pub(super) type NamedNumbers = Vec<(String, f64)>;
+/// A number by its name: one of [`NUMBERS`], of [`super::PREDICTED`] or of a list of pairs.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedNumber {
+    pub(super) name: String,
+    pub(super) value: f64,
+}
+
+impl NamedNumber {
+    pub(super) fn new(name: impl Into<String>, value: f64) -> Self {
+        Self {
+            name: name.into(),
+            value,
+        }
+    }
+}
 
 /// Keys of an answer whose values are lists of pairs.
 pub(super) const PAIRS: [&str; 3] = ["history", "contact", "steady"];
 pub(super) const STEADY: &str = "steady states";
 
 /// The numbers that a list of pairs stands for.
-pub(super) fn listed(key: &str, pairs: impl IntoIterator<Item = [f64; 2]>) -> NamedNumbers {
+pub(super) fn listed(key: &str, pairs: impl IntoIterator<Item = [f64; 2]>) -> Vec<NamedNumber> {
     let [what, first, second] = match key {
         "contact" => ["contacts", "begin of contact", "end of contact"],
         "steady" => [
@@ -40,16 +52,18 @@ pub(super) fn listed(key: &str, pairs: impl IntoIterator<Item = [f64; 2]>) -> Na
         ],
         _ => {
             let history = pairs.into_iter();
-            return history.map(|[t, u]| (format!("u(1, {t})"), u)).collect();
+            return history
+                .map(|[t, u]| NamedNumber::new(format!("u(1, {t})"), u))
+                .collect();
         }
     };
     let mut numbers = vec![];
     for ([one, other], k) in pairs.into_iter().zip(1..) {
-        numbers.push((format!("{first} {k}"), one));
-        numbers.push((format!("{second} {k}"), other));
+        numbers.push(NamedNumber::new(format!("{first} {k}"), one));
+        numbers.push(NamedNumber::new(format!("{second} {k}"), other));
     }
     let count = (numbers.len() / 2) as f64;
-    numbers.insert(0, (what.to_owned(), count));
+    numbers.insert(0, NamedNumber::new(what, count));
     numbers
 }
 
@@ -73,7 +87,7 @@ pub struct Shown {
     /// Beginning and end of each contact.
     pub contact: Vec<(f64, f64)>,
     /// Predictions and steady states, where the answer has them.
-    pub(super) others: NamedNumbers,
+    pub(super) others: Vec<NamedNumber>,
     /// Distance of the least solved step to its solution over the tolerance, where the case bounds
     /// it.
     pub unsolved: Option<f64>,
@@ -105,11 +119,11 @@ pub const COUNTS: [&str; 6] = [
 
 impl Shown {
     /// All numbers by their names.
-    pub(super) fn named(&self) -> NamedNumbers {
-        let mut named: NamedNumbers = NUMBERS
+    pub(super) fn named(&self) -> Vec<NamedNumber> {
+        let mut named: Vec<NamedNumber> = NUMBERS
             .into_iter()
-            .map(str::to_owned)
             .zip(self.numbers)
+            .map(|(name, value)| NamedNumber::new(name, value))
             .collect();
         for (key, list) in PAIRS.iter().zip([&self.tip, &self.contact]) {
             named.extend(listed(key, list.iter().map(|&(one, other)| [one, other])));

@@ -1,6 +1,6 @@
 //! Figures of the runs that are drawn, and the table of their largest residuals.
 
-use super::{EnergyAt, EnergyRun, EnergyRuns, Found};
+use super::{EnergyAt, EnergyHistory, EnergyRun, EnergyRuns};
 use crate::figures::looks;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::plain_text;
@@ -8,7 +8,7 @@ use convergence_study::internal::plots::{self, xy::Xy};
 
 /// Curves of all runs drawn.
 fn curves(
-    drawn: &[(&EnergyRun, &Found)],
+    drawn: &[(&EnergyRun, &EnergyHistory)],
     label: fn(&EnergyRun) -> String,
     point: fn(&EnergyAt) -> (f64, f64),
 ) -> Vec<plots::Series> {
@@ -31,7 +31,7 @@ fn scene(run: &EnergyRun) -> String {
 }
 
 impl EnergyRuns {
-    pub(super) fn figure(&self, drawn: &[(&EnergyRun, &Found)]) -> Option<Figure> {
+    pub(super) fn figure(&self, drawn: &[(&EnergyRun, &EnergyHistory)]) -> Option<Figure> {
         if drawn.is_empty() {
             None
         } else if self.histories {
@@ -43,7 +43,7 @@ impl EnergyRuns {
 
     /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve
     /// shows no more.
-    pub(super) fn balance(&self, drawn: &[(&EnergyRun, &Found)]) -> Option<Table> {
+    pub(super) fn balance(&self, drawn: &[(&EnergyRun, &EnergyHistory)]) -> Option<Table> {
         let rows = drawn.iter().map(|(run, found)| {
             vec![
                 run.scene().to_owned(),
@@ -57,9 +57,9 @@ impl EnergyRuns {
     }
 }
 
-/// The change of the energy is negative; a rise would have no place on a logarithmic axis, and would be
-/// counted below the figure.
-fn energies(drawn: &[(&EnergyRun, &Found)]) -> Figure {
+/// The change of the energy is negative; a rise would have no place on a logarithmic axis, and
+/// would be counted below the figure.
+fn energies(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     let mut losses = curves(drawn, quantities, |sample| (sample.t, -sample.change));
     for series in &mut losses {
         series.points.retain(|(_, loss)| !loss.is_nan());
@@ -74,7 +74,7 @@ fn energies(drawn: &[(&EnergyRun, &Found)]) -> Figure {
 }
 
 /// With a line for each bound that the runs drawn must keep.
-fn drifts(drawn: &[(&EnergyRun, &Found)]) -> Figure {
+fn drifts(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     let mut bounds: Vec<f64> = drawn.iter().filter_map(|(run, _)| run.drift).collect();
     bounds.sort_by(f64::total_cmp);
     bounds.dedup();

@@ -44,7 +44,7 @@ use crate::{
             checks::{Condition, all, at_most, ended},
             watch::{Worst, of_allowed},
         },
-        settings::{ENERGY, Exercise, Integration, ItemMethod, Nodes, Terms},
+        settings::{ActiveTerms, ENERGY, Exercise, Integration, ItemMethod, Nodes},
     },
     run::{ObservableMotion, driver::Driver, run_to},
 };
@@ -85,7 +85,7 @@ struct EnergyRun {
 
 /// What a run finds.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Found {
+pub struct EnergyHistory {
     /// How it ended.
     pub end: End,
     /// Steps done.
@@ -126,7 +126,7 @@ pub struct EnergyAt {
     pub drift: f64,
 }
 
-impl Found {
+impl EnergyHistory {
     /// A reading of the completed steps, of which there may be none.
     fn of_steps(&self, name: &str, value: f64) -> Reading {
         Reading::new(name, (self.steps > 0).then_some(value))
@@ -149,7 +149,7 @@ impl Runs for EnergyRuns {
 
     /// Number of the run.
     type Run = usize;
-    type Shown = Found;
+    type Shown = EnergyHistory;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         if let Some(energy) = root.section("energy")? {
@@ -176,7 +176,7 @@ impl Runs for EnergyRuns {
             None => &self.runs,
         };
         let all = runs.iter().map(EnergyRun::exercise).reduce(Exercise::and);
-        all.unwrap_or(Exercise::new(ENERGY, Integration::PAPER, Terms::ALL))
+        all.unwrap_or(Exercise::new(ENERGY, Integration::PAPER, ActiveTerms::ALL))
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
@@ -191,7 +191,7 @@ impl Runs for EnergyRuns {
     }
 
     /// Runs to the last step, or to the step that fails: the energy and its balance in every step.
-    fn run(&self, place: &usize) -> Result<Found, CaseFailure> {
+    fn run(&self, place: &usize) -> Result<EnergyHistory, CaseFailure> {
         let run = &self.runs[*place];
         let mut driver = Driver::new(run.problem.clone(), run.stepping)?;
         driver.refuse_loads("a study of the energy")?;
@@ -201,7 +201,7 @@ impl Runs for EnergyRuns {
             recorder.add(driver, report.iterations);
         });
         let Recorder { watch, found, .. } = recorder;
-        Ok(Found {
+        Ok(EnergyHistory {
             end: End::of(stepped.err().as_ref())?,
             worst: watch.worst,
             drift: watch.drift,
@@ -211,7 +211,7 @@ impl Runs for EnergyRuns {
     }
 
     /// A run without a step has no residuals.
-    fn numbers(&self, place: &usize, found: &Found) -> Vec<Reading> {
+    fn numbers(&self, place: &usize, found: &EnergyHistory) -> Vec<Reading> {
         let run = &self.runs[*place];
         let mut numbers = vec![
             Reading::text("elements", run.problem.mesh.elements().to_string()),
@@ -248,15 +248,15 @@ impl Runs for EnergyRuns {
     }
 
     fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let completed: Vec<(&EnergyRun, &Found)> = results
-            .completed()
+        let runs: Vec<(&EnergyRun, &EnergyHistory)> = results
+            .all()
             .map(|(place, found)| (&self.runs[*place], found))
             .collect();
         let mut checks = vec![];
         let mut worst = Worst::default();
         let mut steps = 0;
         let mut share = 0.0;
-        for (run, found) in &completed {
+        for (run, found) in &runs {
             checks.push(run.check(found));
             steps += found.steps;
             if run.end != End::Unbalanced {
@@ -276,10 +276,7 @@ impl Runs for EnergyRuns {
         } else {
             "no step".to_owned()
         };
-        let drawn: Vec<_> = completed
-            .into_iter()
-            .filter(|(run, _)| run.is_drawn)
-            .collect();
+        let drawn: Vec<_> = runs.into_iter().filter(|(run, _)| run.is_drawn).collect();
         Findings {
             summary: format!(
                 "{holding} of {} runs hold, {steps} steps: {headline}; at most {}",
@@ -312,11 +309,16 @@ impl EnergyRun {
             scheme, settings, ..
         } = &self.stepping;
         let integration = Integration::of(scheme, settings.solver);
-        Exercise::new(ENERGY, integration, Terms::of(beam, obstacles.as_ref())).on(self.nodes)
+        Exercise::new(
+            ENERGY,
+            integration,
+            ActiveTerms::of(beam, obstacles.as_ref()),
+        )
+        .on(self.nodes)
     }
 
     /// Largest rise or residual of a run in units of its bound.
-    fn share_of(&self, Found { worst, .. }: &Found) -> f64 {
+    fn share_of(&self, EnergyHistory { worst, .. }: &EnergyHistory) -> f64 {
         match self.share {
             Some(tolerance) => max_or_nan(worst.residual, worst.rise) / tolerance,
             None => max_or_nan(worst.open, worst.risen),
@@ -324,7 +326,7 @@ impl EnergyRun {
     }
 
     /// The end that is claimed, and the bounds of every step before.
-    fn check(&self, found: &Found) -> Check {
+    fn check(&self, found: &EnergyHistory) -> Check {
         let all_steps = self.end != End::Answer || found.steps == self.steps;
         let bound = match found.of_bound {
             Some(share) => {
@@ -364,7 +366,7 @@ impl EnergyRun {
     }
 
     /// No step opens the balance; a run without a step has nothing to bound.
-    fn closes(&self, found: &Found) -> Condition {
+    fn closes(&self, found: &EnergyHistory) -> Condition {
         if found.steps == 0 {
             return Condition::that(true, "");
         }
@@ -380,7 +382,7 @@ impl EnergyRun {
     }
 
     /// The residuals of all steps do not add up, where that is claimed.
-    fn drifts(&self, found: &Found) -> Condition {
+    fn drifts(&self, found: &EnergyHistory) -> Condition {
         let drift = found.drift.abs();
         let evidence = if found.steps > 0 {
             format!("sum of all residuals {drift:.1e}")

@@ -2,7 +2,7 @@
 
 use thermobeam::{energy::Energy, motion::Motion, one_step::Problem};
 
-use super::{EnergyAt, EnergyRun, Found};
+use super::{EnergyAt, EnergyHistory, EnergyRun};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::runs::{
@@ -24,9 +24,10 @@ pub(super) struct Recorder<'r> {
     /// The bound of (3.12), if Corollary 3.2 is claimed of the run.
     bound: Option<Stability>,
     pub(super) watch: EnergyWatch,
-    /// Largest change of the energy in a step since the last sample, in units of the initial energy.
+    /// Largest change of the energy in a step since the last sample, in units of the initial
+    /// energy.
     change: f64,
-    pub(super) found: Found,
+    pub(super) found: EnergyHistory,
 }
 
 impl<'r> Recorder<'r> {
@@ -55,7 +56,7 @@ impl<'r> Recorder<'r> {
             bound: bound.flatten(),
             watch: EnergyWatch::new(simulation.energy_scale(level)),
             change: f64::NAN,
-            found: Found {
+            found: EnergyHistory {
                 initial_energy: kinetic
                     + shear
                     + bending
@@ -63,7 +64,7 @@ impl<'r> Recorder<'r> {
                     + kirchhoff.abs()
                     + contact
                     + lifting.abs(),
-                ..Found::default()
+                ..EnergyHistory::default()
             },
         };
         recorder.add_share(driver);

@@ -1,6 +1,6 @@
 //! The figures: contraction, penetrations, and the motion as obstacles become rigid.
 
-use super::{Compliance, LARGEST, RigidObstacles, ShownImpact, penetration};
+use super::{Compliance, LARGEST, RigidObstacles, ShownImpact};
 use crate::figures::{ContractionFactors, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
 use convergence_study::internal::plots::{self, xy::Xy};
@@ -9,9 +9,6 @@ pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     let mut converging = vec![];
     let mut failing = vec![];
     for compliance in compliances {
-        if compliance.fixed_point.is_none() {
-            continue;
-        }
         let point = (compliance.alpha(), compliance.contraction());
         if compliance.fails() {
             failing.push(point);
@@ -32,7 +29,7 @@ pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     Figure::new("contraction", caption, svg)
 }
 
-/// A penetration over ε; NaN if a run is missing.
+/// A penetration over ε.
 fn penetration_series(
     label: &str,
     compliances: &[Compliance<'_>],
@@ -54,13 +51,13 @@ fn penetration_series(
 pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
     let series = [
         penetration_series(LARGEST, compliances, |compliance| {
-            penetration(compliance.bouncing)
+            compliance.bouncing.penetration
         }),
         penetration_series("peak of a resolved impact", compliances, |compliance| {
-            penetration(compliance.impact)
+            compliance.impact.penetration
         }),
         penetration_series("at rest", compliances, |compliance| {
-            penetration(compliance.rest)
+            compliance.rest.penetration
         }),
     ];
     let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
@@ -86,20 +83,16 @@ const DECADES: [(f64, &str); 3] = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"
 pub(super) fn tip(
     study: &RigidObstacles,
     compliances: &[Compliance<'_>],
-    limit: Option<&ShownImpact>,
+    limit: &ShownImpact,
 ) -> Figure {
     let mut series = vec![];
     for compliance in compliances {
         let decade = DECADES
             .iter()
             .find(|(decade, _)| (compliance.epsilon / decade - 1.0).abs() < 1e-6);
-        series.extend(
-            decade
-                .zip(compliance.bouncing)
-                .map(|((_, label), run)| (*label, run)),
-        );
+        series.extend(decade.map(|(_, label)| (*label, compliance.bouncing)));
     }
-    series.extend(limit.map(|run| ("rigid", run)));
+    series.push(("rigid", limit));
     let curves: Vec<_> = series
         .into_iter()
         .map(|(label, run)| plots::Series::new(label, run.tip.clone()))

@@ -9,6 +9,7 @@ use convergence_study::{
     },
 };
 use serde::Deserialize;
+use serde_json::{Map, Value};
 
 use crate::answer::Refused;
 use crate::{FILE, LONGEST_TEXT, PROGRAM};
@@ -18,7 +19,6 @@ const TOLERANCE: f64 = convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
 
 /// A text, and the options of the command `rates` under their names.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct Question {
     /// The tables.
     pub(crate) text: String,
@@ -29,24 +29,22 @@ pub(crate) struct Question {
     tolerance: Option<f64>,
     #[serde(default)]
     floor: Option<f64>,
-    #[serde(default)]
-    step: Option<String>,
-    #[serde(default)]
-    columns: Option<Vec<String>>,
-    #[serde(default)]
-    values: Vec<String>,
-    #[serde(default)]
-    names: Option<Vec<String>>,
-    #[serde(default)]
-    dim: Option<f64>,
-    #[serde(default)]
-    ratio: Option<f64>,
+    #[serde(flatten)]
+    choice: Choice,
+    /// What is none of the above.
+    #[serde(flatten)]
+    others: Map<String, Value>,
 }
 
 impl Question {
     pub(crate) fn of_json(text: &str) -> Result<Self, Refused> {
         let question: Self =
             serde_json::from_str(text).map_err(|error| Refused::because(&error.to_string()))?;
+        if let Some(name) = question.others.keys().next() {
+            return Err(Refused::because(&format!(
+                "expected an option of `{PROGRAM} rates`; found `{name}`"
+            )));
+        }
         let length = question.text.len();
         if length > LONGEST_TEXT {
             return Err(Refused::because(&format!(
@@ -70,21 +68,9 @@ impl Question {
             claims: claims?,
             tolerance: self.tolerance.unwrap_or(TOLERANCE),
             floor: self.floor.unwrap_or(0.0),
-            choice: self.choice(),
+            choice: self.choice.clone(),
             all: false,
         })
-    }
-
-    fn choice(&self) -> Choice {
-        Choice {
-            step: self.step.clone(),
-            columns: self.columns.clone(),
-            values: self.values.clone(),
-            names: self.names.clone(),
-            dim: self.dim,
-            ratio: self.ratio,
-            ..Choice::default()
-        }
     }
 
     /// The command that judges a file by the same claims, without the settings of the reader.
@@ -107,7 +93,7 @@ impl Question {
         let surface = CommandLine {
             command: Some(&command),
         };
-        let call = surface.call(&self.choice().settings());
+        let call = surface.call(&self.choice.settings());
         call.unwrap_or(command)
     }
 }

@@ -119,11 +119,6 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
         }
     }
     let tables = || findings.iter().map(|findings| &findings.source.table);
-    let mut rows = tables().flat_map(|table| &table.rows_outside);
-    if let Some(first) = rows.next() {
-        let count = counted(1 + rows.count(), "line");
-        words += &format!("; outside the tables: {count} of numbers, from line {first}");
-    }
     let doubts = distinct(tables().flat_map(|table| &table.doubts));
     words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));
     words

@@ -187,7 +187,61 @@ fn a_row_that_cannot_be_read_is_said_by_the_verdict() {
         let sheet = answer(&format!("{rows}{row}\n"), &["2"]).expect("a table");
         let said = "outside the tables: 1 line of numbers, from line 6";
         assert!(sheet.sentence.contains(said), "{row}: {}", sheet.sentence);
+        assert!(!sheet.verdict.is_pass(), "{row}");
     }
+}
+
+/// A table of another form beside one that passes: what is not read may have lost its order.
+#[test]
+fn rows_of_a_form_that_is_not_read_do_not_pass() {
+    let stamped = |k: i32| {
+        let [h, error] = [0.5_f64, 0.25].map(|ratio| ratio.powi(k));
+        format!("2024-03-01 12:00:0{k},123 INFO h={h} L2={error:e}\n")
+    };
+    let stamped: String = (2..7).map(stamped).collect();
+    let arrays = "array([[0.4, 0.16],\n[0.2, 0.04],\n[0.1, 0.01],\n[0.05, 0.0025]])\n";
+    let lists = "{\"h\": [0.4, 0.2, 0.1, 0.05], \"L2\": [0.16, 0.04, 0.01, 0.0025]}\n";
+    let turned = "h  0.4  0.2  0.1  0.05\nL2 0.16 0.04 0.01 0.0025\nH1 0.8 0.2 0.05 0.0125\n";
+    let bad = [
+        "h,L2\n0.2,0.31\n0.1,0.22\n0.05,0.16\n0.025,0.11\n",
+        "h = 0.2, L2 = 0.31\nh = 0.1, L2 = 0.22\nh = 0.05, L2 = 0.16\n",
+        "{\"h\": [0.2, 0.1, 0.05], \"L2\": [0.31, 0.22, 0.16]}\n",
+        "| h | L2 |\n|---|---|\n| 0.2 | 0.31 |\n| 0.1 | 0.22 |\n| 0.05 | 0.16 |\n",
+    ];
+    for good in [stamped.as_str(), arrays, lists, turned] {
+        assert!(passes(good), "{good}");
+        for bad in bad {
+            for between in ["", "\n", "=====\n", "P2 elements\n"] {
+                for text in [[good, between, bad].concat(), [bad, between, good].concat()] {
+                    assert!(!passes(&text), "{text}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_failure_in_the_first_column_or_the_only_one_is_a_level() {
+    for row in ["****", "diverged", "nan"] {
+        let text = format!("L2 h\n0.16 0.4\n0.04 0.2\n0.01 0.1\n{row} 0.05\n");
+        assert!(!passes(&text), "{text}");
+        let text = format!("L2\n0.16\n0.04\n0.01\n{row}\n");
+        let choice = Choice {
+            ratio: Some(2.0),
+            ..Choice::default()
+        };
+        let table = RateTable::parse_with(&text, "t", &choice).expect("a table");
+        assert!(table.columns[0].levels[3].error.is_nan(), "{text}");
+    }
+}
+
+#[test]
+fn a_failed_run_is_quoted_below_a_list_without_names() {
+    let text = "[0.4, 0.2, 0.1, 0.05]\n[0.16, 0.04, 0.01, 0.0025]\n";
+    assert!(passes(text));
+    assert!(!passes(&format!(
+        "{text}Traceback (most recent call last):\n"
+    )));
 }
 
 #[test]

@@ -72,6 +72,30 @@ impl Tendency {
         }
     }
 
+    /// The limit E of `e = E + C h^q` through the three finest levels, if it is most of the finest
+    /// number, which then hardly changes; for numbers of one sign.
+    pub fn limit(levels: &[Level]) -> Option<f64> {
+        let [.., coarse, middle, fine] = levels else {
+            return None;
+        };
+        let rate = (middle.error / fine.error).ln() / (middle.step / fine.step).ln();
+        if rate.is_nan() || rate.abs() >= STOPPED {
+            return None;
+        }
+        let limit = if middle.error == fine.error {
+            fine.error
+        } else {
+            let value = |level: &Level| StepValue {
+                step: level.step,
+                value: level.error,
+            };
+            let order = observed_order([coarse, middle, fine].map(value)).ok()?;
+            fine.error + correction(middle.error, fine.error, middle.step / fine.step, order)
+        };
+        let share = limit / fine.error;
+        (share > LEAST_LIMIT && share < 1.0 / LEAST_LIMIT).then_some(limit)
+    }
+
     /// What these errors, coarsest first and above the round-off, tend to; `None` for errors that
     /// go on falling, or scatter.
     pub(super) fn of(levels: &[Level]) -> Option<Self> {
@@ -89,7 +113,7 @@ impl Tendency {
         // Errors that grow towards a constant have that tendency.
         broken(levels)
             .or_else(|| plateau(levels, &rates))
-            .or_else(|| constant(levels))
+            .or_else(|| Self::limit(levels).map(|limit| Self::Constant { limit }))
             .or_else(|| growth(&rates))
     }
 }
@@ -122,31 +146,6 @@ fn plateau(levels: &[Level], rates: &[f64]) -> Option<Tendency> {
         rate: rates[stop - 1],
         error: levels[stop].error,
     })
-}
-
-/// The limit E of `e = E + C h^q` through the three finest levels, if it is most of the finest
-/// error, whose rate is then small.
-fn constant(levels: &[Level]) -> Option<Tendency> {
-    let [.., coarse, middle, fine] = levels else {
-        return None;
-    };
-    let rate = (middle.error / fine.error).ln() / (middle.step / fine.step).ln();
-    if rate.abs() >= STOPPED {
-        return None;
-    }
-    let limit = if middle.error == fine.error {
-        fine.error
-    } else {
-        let value = |level: &Level| StepValue {
-            step: level.step,
-            value: level.error,
-        };
-        let order = observed_order([coarse, middle, fine].map(value)).ok()?;
-        fine.error + correction(middle.error, fine.error, middle.step / fine.step, order)
-    };
-    let share = limit / fine.error;
-    let is_constant = share > LEAST_LIMIT && share < 1.0 / LEAST_LIMIT;
-    is_constant.then_some(Tendency::Constant { limit })
 }
 
 #[cfg(test)]

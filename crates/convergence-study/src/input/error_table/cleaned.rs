@@ -1,6 +1,5 @@
 //! A text without colours, types and other signs that are not of its table.
 
-use super::forms::joined;
 use super::markup;
 
 /// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
@@ -22,13 +21,10 @@ pub(super) fn plain(text: &str) -> String {
     let marked = MARKS
         .iter()
         .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
-    let marked = joined(&markup::plain(&marked));
+    let marked = markup::plain(&marked);
     let text = without_numpy_types(&without_colours(&marked));
     let text: String = text.lines().map(plain_line).collect();
-    if is_list(&text, &['{']) {
-        // `{0.1: 1.6e-3, 0.05: 4e-4}`.
-        text.replace([',', '{', '}'], "\n").replace(':', " ")
-    } else if is_list(&text, &['[', '(']) && !text.contains('{') {
+    if is_list(&text) {
         text.replace(['[', '(', ',', '\n'], " ")
             .replace([']', ')'], "\n")
     } else {
@@ -64,7 +60,7 @@ fn plain_line(line: &str) -> String {
     }
 }
 
-/// Whether a text is a list without names that begins with one of these brackets.
-fn is_list(text: &str, brackets: &[char]) -> bool {
-    text.trim_start().starts_with(brackets) && !text.contains(['"', '\'', '=', '\\'])
+/// Whether a text is a list without names.
+fn is_list(text: &str) -> bool {
+    text.trim_start().starts_with(['[', '(']) && !text.contains(['"', '\'', '=', '\\', '{'])
 }

@@ -4,14 +4,13 @@ use std::f64::consts::LN_2;
 
 use super::grid::ColumnName;
 use super::names::{self, Word};
-use super::number::{Number, halves, is_dash};
-use super::stated::DIMENSIONS;
-use super::text::counts_rows;
+use super::number::{Number, counts_rows, halves, is_dash};
 
+/// Dimensions that a count may have.
+pub(super) const DIMENSIONS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Largest relative difference of two equal ratios, given their digits.
 const SAME: f64 = 1e-5;
-/// Largest ratio between numbers that tend to a limit.
-const NEAR: f64 = 1.5;
+
 /// Errors fall at least by this factor from level to level if their column has a name like one of
 /// rates.
 const STEEP: f64 = 0.72;
@@ -170,21 +169,6 @@ impl<'t> Cells<'t> {
             .all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
     }
 
-    /// Whether this column counts what the other one measures.
-    pub(super) fn is_inverse(&self, other: &Self) -> bool {
-        let products = self
-            .values
-            .iter()
-            .zip(&other.values)
-            .map(|(count, step)| count * step);
-        let least = products.clone().fold(f64::INFINITY, f64::min);
-        self.is_whole()
-            && !other.is_whole()
-            && products
-                .into_iter()
-                .all(|product| product / least - 1.0 < SAME)
-    }
-
     /// Whether it has whole numbers that grow from level to level.
     pub(super) fn is_count_over(&self, steps: &[f64]) -> bool {
         self.is_whole()
@@ -262,24 +246,6 @@ impl<'t> Cells<'t> {
             is_end(0) && agree(&self.values[1..]) || is_end(last) && agree(&self.values[..last])
         })
     }
-
-    /// What a column of unknown name may hold but an error.
-    pub(super) fn trend(&self) -> Trend {
-        let numbers: Vec<f64> = self
-            .values
-            .iter()
-            .copied()
-            .filter(|value| !value.is_nan())
-            .collect();
-        let is_whole = numbers.iter().all(|value| value.fract() == 0.0);
-        if is_whole && numbers.len() > 1 && numbers.windows(2).all(|two| two[0] < two[1]) {
-            return Trend::Grows;
-        }
-        if is_whole {
-            return Trend::Error;
-        }
-        limit(&numbers).map_or(Trend::Error, Trend::Limit)
-    }
 }
 
 /// Whether a number is a whole one, but for its digits.
@@ -352,32 +318,4 @@ pub(super) enum Holdings {
     /// Numbers, or what stands for a number that a code did not find.
     Numbers,
     NumbersAndWords,
-}
-
-/// What a column of unknown name may hold.
-pub(super) enum Trend {
-    /// An error, whether it falls or not.
-    Error,
-    /// A count: whole numbers that grow.
-    Grows,
-    /// A value with this limit, or an error that no longer falls.
-    Limit(f64),
-}
-
-/// The limit of numbers, if it is near the last of them and not zero.
-pub(super) fn limit(numbers: &[f64]) -> Option<f64> {
-    let [.., a, b, c] = *numbers else { return None };
-    let shrinks = (c - b) / (b - a);
-    let limit = if shrinks.abs() < 0.95 {
-        c + (c - b) * shrinks / (1.0 - shrinks)
-    } else {
-        c
-    };
-    let sizes = numbers.iter().map(|value| value.abs());
-    let largest = sizes.clone().fold(0.0, f64::max);
-    let smallest = sizes.fold(f64::INFINITY, f64::min);
-    let is_near = largest < NEAR * smallest && b != c;
-    let settles = b != a && shrinks.abs() < 0.95 && limit / c > 0.7;
-    (numbers.iter().all(|value| value * c > 0.0) && (settles || is_near) && limit.is_finite())
-        .then_some(limit)
 }

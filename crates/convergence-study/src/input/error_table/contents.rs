@@ -2,14 +2,14 @@
 //! checked says otherwise. Nothing is left out because its numbers look wrong.
 
 use super::NotError;
-use super::columns::{Cells, Derived, Holdings, Trend};
+use super::columns::{Cells, DIMENSIONS, Derived, Holdings};
 use super::names::{self, Word};
-use super::reader::TableReader;
-use super::roles::reasons;
-use super::stated::{DIMENSIONS, Derivation};
+use super::reader::{TableReader, reasons};
+use super::stated::Derivation;
 use super::step::Step;
+use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
-use crate::input::{InputError, shorten};
+use crate::judge::verdict::{Level, Tendency};
 use crate::text::number::plain_text;
 
 /// Rates are searched for over the steps and this many columns of counts.
@@ -47,13 +47,11 @@ struct Undecided {
     limits: Vec<usize>,
     /// Whole numbers that grow.
     counts: Vec<usize>,
-    /// A name in a log with more numbers or fewer than there are levels, and why it is no column.
-    uneven: Option<NotError>,
 }
 
 impl Undecided {
     fn is_empty(&self) -> bool {
-        self.limits.is_empty() && self.counts.is_empty() && self.uneven.is_none()
+        self.limits.is_empty() && self.counts.is_empty()
     }
 }
 
@@ -86,15 +84,10 @@ impl TableReader<'_> {
         step: &Step,
         steps: &[f64],
         values: &[usize],
-        uneven: Option<&NotError>,
     ) -> Result<Vec<usize>, InputError> {
         let mut errors = vec![];
         let mut residuals = vec![];
-        let mut undecided = Undecided {
-            // Under a claim for all columns it may be an error.
-            uneven: uneven.filter(|_| self.choice.claimed.is_empty()).cloned(),
-            ..Undecided::default()
-        };
+        let mut undecided = Undecided::default();
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
             match self.content(k, step.column, steps)? {
                 Content::Error => errors.push(k),
@@ -159,27 +152,14 @@ impl TableReader<'_> {
         &self,
         errors: &[usize],
         values: &[usize],
-        Undecided {
-            limits,
-            counts,
-            uneven,
-        }: &Undecided,
+        Undecided { limits, counts }: &Undecided,
     ) -> InputError {
-        let found = match (limits.first(), uneven) {
-            (
-                None,
-                Some(NotError {
-                    column, because, ..
-                }),
-            ) => {
-                let name = shorten(column);
-                format!("`{name}`, {because}: a table of its own, or no error")
-            }
-            (Some(limit), _) => format!(
+        let found = match limits.first() {
+            Some(limit) => format!(
                 "{}, which tends to a limit: a value, or an error that no longer falls",
                 self.quoted(&[*limit])
             ),
-            (None, None) => format!(
+            None => format!(
                 "{}, whole numbers that grow: a count, or an error that grows",
                 self.quoted(&counts[..1])
             ),
@@ -191,26 +171,20 @@ impl TableReader<'_> {
         let comment = match (limits.len(), counts.len()) {
             (1.., 1..) => "if they are values and counts",
             (1.., _) => "if it is a value",
-            (_, 1..) => "if it is a count",
-            _ => "if it is no error",
+            _ => "if it is a count",
         };
         let as_others = self.choice.offer(comment, |choice| {
             choice.values = self.names(&[values, limits].concat());
-            if (!counts.is_empty() || uneven.is_some()) && !errors.is_empty() {
+            if !counts.is_empty() && !errors.is_empty() {
                 choice.columns = Some(self.names(errors));
             }
         });
-        // What has the name of an error is none to be left out.
-        let is_error =
-            |one: &NotError| Word::of(&names::without_markup(&one.column)) == Word::Error;
-        let as_others = Some(as_others).filter(|_| !uneven.as_ref().is_some_and(is_error));
         let all = [errors, limits, counts].concat();
         let as_errors = self.choice.offer("if it is an error", |choice| {
             choice.columns = Some(self.names(&all));
         });
-        let as_errors = (all.len() > errors.len()).then_some(as_errors);
         self.refuse(expected, &found)
-            .offering(as_others.into_iter().chain(as_errors))
+            .offering([as_others, as_errors])
     }
 
     /// What a column holds, by what its cells are, by the rates that it may print, and by its name.
@@ -274,14 +248,27 @@ impl TableReader<'_> {
         if column.counts_meshes(steps) {
             return Content::checked("a count");
         }
-        match column.trend() {
-            Trend::Error => Content::Error,
-            Trend::Grows => Content::Growth,
-            Trend::Limit(limit) => Content::Limit(format!(
+        let levels = steps.iter().zip(&column.values);
+        let levels = levels.map(|(step, value)| Level {
+            step: *step,
+            error: *value,
+        });
+        let levels: Vec<Level> = levels.filter(|level| level.error.is_finite()).collect();
+        let is_whole = levels.iter().all(|level| level.error.fract() == 0.0);
+        let grows = levels.windows(2).all(|two| two[0].error < two[1].error);
+        if is_whole && grows && levels.len() > 1 {
+            return Content::Growth;
+        }
+        // What stands still is an error that has lost its order.
+        let finest = levels.windows(2).next_back();
+        let moves = finest.is_some_and(|two| two[0].error != two[1].error);
+        let limit = Tendency::limit(&levels).filter(|_| moves && !is_whole);
+        limit.map_or(Content::Error, |limit| {
+            Content::Limit(format!(
                 "tends to {}: a value, not an error",
                 plain_text(limit)
-            )),
-        }
+            ))
+        })
     }
 
     /// The rates or factors of another column, if a column has them: over the steps, or over any of

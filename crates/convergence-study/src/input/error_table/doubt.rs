@@ -2,9 +2,9 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::Column;
+use super::{Column, NotError};
 use crate::judge::fit::pairwise_rates;
-use crate::text::number::plain_text;
+use crate::text::number::{counted, plain_text};
 use crate::text::visible::visible;
 
 /// Why no column of a table should pass.
@@ -17,6 +17,16 @@ pub enum Doubt {
         line: usize,
         /// Its words.
         words: String,
+    },
+    /// A name in a log has more numbers or fewer than there are levels: it is no column, but may be an
+    /// error.
+    Uneven(NotError),
+    /// Lines that look like rows belong to no table.
+    RowsOutside {
+        /// The number of the first, from 1.
+        line: usize,
+        /// How many there are.
+        count: usize,
     },
     /// The errors fall by steady rates on either side of a jump, as those of two tables do.
     Jump {
@@ -56,6 +66,18 @@ impl Display for Doubt {
             Self::FailedRun { line, words } => {
                 write!(f, "the run has failed: line {line} is `{}`", visible(words))
             }
+            Self::Uneven(NotError {
+                column, because, ..
+            }) => write!(
+                f,
+                "{} is no column, {because}: a table of its own, or no error?",
+                visible(column)
+            ),
+            Self::RowsOutside { line, count } => write!(
+                f,
+                "outside the tables: {} of numbers, from line {line}",
+                counted(*count, "line")
+            ),
             Self::Jump {
                 column,
                 before,

@@ -7,7 +7,7 @@ use super::number::number;
 
 /// First words of such a line, as systems, languages and solvers print them.
 const BEGINNINGS: [&str; 33] = [
-    "Traceback (",
+    "Traceback",
     "ERROR:",
     "ERROR -",
     "ERROR ***",
@@ -167,7 +167,8 @@ fn first_is_number(text: &str) -> bool {
 }
 
 fn is_number(word: &str) -> bool {
-    number(word.trim_end_matches([',', ';']), true).is_some()
+    let number = number(word.trim_end_matches([',', ';']), true);
+    number.is_some_and(|number| number.value.is_finite())
 }
 
 #[cfg(test)]
@@ -190,6 +191,8 @@ mod tests {
             "RuntimeError: singular matrix",
             "Linear solve did not converge due to DIVERGED_ITS iterations 10000",
             "failed",
+            "FATAL: nan detected",
+            "Traceback  most recent call last :",
             "mpirun noticed that rank 0 exited on signal 9",
             "Residual is NaN",
             "./run.sh: line 3: 812 Segmentation fault  ./solve",

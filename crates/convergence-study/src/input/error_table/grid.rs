@@ -2,7 +2,6 @@
 
 use super::NotError;
 use super::names::{self, Word};
-use super::turned::Turned;
 
 /// A table as written. Names and cells are slices of the text, which give their places.
 #[derive(Debug, Clone, Default)]
@@ -20,6 +19,17 @@ pub(super) struct RawTable<'t> {
     pub(super) left_out: Vec<NotError>,
     /// The first of these that may be an error.
     pub(super) uneven: Option<NotError>,
+}
+
+/// A table whose columns stand as rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Turned {
+    /// With the steps in its head, which are the first column.
+    Stepped,
+    /// Without steps in its head.
+    Plain,
+    /// With the rates of halved steps between the errors.
+    Halved,
 }
 
 /// The name of a column, and what it says.

@@ -127,8 +127,7 @@ impl Group<'_> {
         groups.iter().map(group).collect()
     }
 
-    /// Parts the rows where a step returns; by another column if each of its numbers has each step
-    /// once.
+    /// Parts the rows where a step returns.
     fn by_steps(self, choice: &Choice) -> Vec<Self> {
         let chosen = choice.step.as_deref();
         let chosen = chosen.and_then(|step| reader::position(&self.columns, step));
@@ -142,17 +141,6 @@ impl Group<'_> {
             .map(|k| &self.columns[k])
             .collect();
         let has_repetition = steps.iter().any(|step| repeats(step));
-        let is_key = |k: &usize| {
-            let column = &self.columns[*k];
-            !is_step(*k)
-                && !matches!(column.word, Word::Error | Word::Rate)
-                && column.has_all_numbers()
-                && repeats(column)
-                && steps.iter().all(|step| is_once_in_each(column, step))
-        };
-        if has_repetition && let Some(key) = (0..self.columns.len()).find(is_key) {
-            return self.by_cells(&[key]);
-        }
         let steps = if steps.is_empty() {
             let first = self.columns.iter().take(1);
             first.filter(|column| column.has_all_numbers()).collect()
@@ -187,19 +175,6 @@ fn repeats(column: &Cells<'_>) -> bool {
     cells.sort_unstable();
     cells.dedup();
     (2..column.texts.len()).contains(&cells.len())
-}
-
-/// Whether the rows with one number of a column have each step once, and are several.
-fn is_once_in_each(key: &Cells<'_>, step: &Cells<'_>) -> bool {
-    let mut pairs: Vec<(&str, &str)> = key
-        .texts
-        .iter()
-        .copied()
-        .zip(step.texts.iter().copied())
-        .collect();
-    pairs.sort_unstable();
-    let are_distinct = pairs.windows(2).all(|two| two[0] != two[1]);
-    are_distinct && pairs.chunk_by(|a, b| a.0 == b.0).all(|rows| rows.len() > 1)
 }
 
 /// The rows at which a step returns: it has fallen and grows again, or the other way round.

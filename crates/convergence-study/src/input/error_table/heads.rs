@@ -1,8 +1,8 @@
-//! The names of columns: a line above the rows, numbered lines, or names in two lines.
+//! The names of columns: a line above the rows, or names in two lines.
 
+use super::line::{span, split};
 use super::names::Word;
-use super::number::{is_dash, number};
-use super::text::{cell, counts_rows, span, split};
+use super::number::{counts_rows, is_dash, number};
 
 /// Types of columns and units, as data frames write them below the names.
 const TYPES: [&str; 8] = [
@@ -26,12 +26,6 @@ pub(super) fn find<'t>(
     separator: Option<char>,
 ) -> Option<Names<'t>> {
     let width = rows.iter().map(Vec::len).max().unwrap_or(0);
-    if let Some(names) = numbered(heads, width) {
-        return Some(Names {
-            names,
-            groups: vec![],
-        });
-    }
     if let Some(NamesInLine { names, line }) = names(heads, rows, separator, width) {
         return Some(with_groups(names, &heads[..line], separator));
     }
@@ -148,15 +142,6 @@ pub(super) fn shared<'t>(
         .iter()
         .all(|head| split(head, separator).len() < width.max(2));
     (earlier.len() == width && are_few).then(|| earlier.to_vec())
-}
-
-/// Names in numbered lines, `# 1: cells`, `# 2: dofs`, ...
-fn numbered<'t>(heads: &[&'t str], width: usize) -> Option<Vec<&'t str>> {
-    let pairs = heads.iter().filter_map(|line| line.split_once(':'));
-    let numbered =
-        pairs.filter_map(|(k, name)| Some((k.trim().parse::<usize>().ok()?, cell(name))));
-    let (numbers, names): (Vec<usize>, Vec<&str>) = numbered.unzip();
-    numbers.into_iter().eq(1..=width).then_some(names)
 }
 
 /// Whether a cell holds the type of a column, as data frames write it below the name, or a unit.

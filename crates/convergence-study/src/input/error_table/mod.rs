@@ -15,13 +15,13 @@
 //! next:
 //!
 //! 1. Grids: rows of cells below names (`text`, `heads`), names with their numbers (`pairs`), or a
-//!    row for each variable (`turned`), in a text without markup (`cleaned`, `markup`, `forms`).
+//!    row for each variable (`turned`), in a text without markup (`cleaned`, `markup`).
 //! 2. Parts: a text is cut where another table may begin (`parts`), a grid in columns (`columns`) by
 //!    those of groups and where a step returns (`groups`).
 //! 3. Columns: which one is the step (`step`), and what the others hold (`contents`).
 //!
 //! [`RateTable::reading`] says in a line how a table was read, [`RateTable::doubts`] why none of it
-//! should pass (`failed_run`, `doubt`), and lines that belong to no table are counted (`lines`). A
+//! should pass (`failed_run`, `doubt`), and lines that belong to no table are counted (`outside`). A
 //! level without a result is NaN, and its column fails.
 
 mod cleaned;
@@ -30,17 +30,17 @@ mod contents;
 mod digits;
 mod doubt;
 mod failed_run;
-mod forms;
 mod frame;
 mod grid;
 mod groups;
 mod heads;
 mod limits;
-mod lines;
+mod line;
 mod markup;
 pub(crate) mod names;
 mod number;
 mod original;
+mod outside;
 pub(crate) mod pairs;
 mod parameters;
 mod parts;
@@ -53,6 +53,8 @@ mod turned;
 
 use std::io;
 use std::path::Path;
+
+use serde::Deserialize;
 
 use super::advice::{Argument, ArgumentValue, Setting, Surface};
 use crate::input::{self, InputError};
@@ -97,8 +99,6 @@ pub struct RateTable {
     pub parameters: Vec<Parameter>,
     /// Why none of its columns should pass.
     pub doubts: Vec<Doubt>,
-    /// Of the first table of a text: the lines that belong to no table and look like rows, from 1.
-    pub rows_outside: Vec<usize>,
 }
 
 /// A column that is not an error.
@@ -115,7 +115,8 @@ pub struct NotError {
 /// Which columns of a table to use; by default their names decide, and arithmetic.
 ///
 /// A column is named as in the table, with or without its unit, or by its number from 1.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(default)]
 pub struct Choice {
     /// The column of the step, or of the count or level that gives it.
     pub step: Option<String>,
@@ -126,6 +127,7 @@ pub struct Choice {
     /// Names for all columns, instead of those in the table.
     pub names: Option<Vec<String>>,
     /// Columns with an order claimed by name: none of them can be the step.
+    #[serde(skip)]
     pub claimed: Vec<String>,
     /// Dimension D > 0 of what a count counts: h = count^(-1/D).
     pub dim: Option<f64>,

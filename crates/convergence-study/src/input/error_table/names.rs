@@ -195,13 +195,6 @@ impl Word {
         {
             return Self::Cost;
         }
-        // `inside_cells`, which may be some of them.
-        if words
-            .iter()
-            .any(|word| word.len() > 3 && COUNTS.contains_key(word))
-        {
-            return Self::Count(COUNTS.len());
-        }
         if words.len() > 1 && words.iter().any(|word| SIZE_WORDS.contains(word)) {
             let is_count = words.iter().any(|word| SYSTEM_WORDS.contains(word));
             return if is_count {
@@ -209,6 +202,13 @@ impl Word {
             } else {
                 Self::Step
             };
+        }
+        // `inside_cells`, which may be some of them.
+        if words
+            .iter()
+            .any(|word| word.len() > 3 && COUNTS.contains_key(word))
+        {
+            return Self::Count(COUNTS.len());
         }
         Self::Unknown
     }

@@ -67,19 +67,26 @@ pub(super) fn halves(column: &[Option<Number>]) -> Vec<f64> {
     halves
 }
 
-/// The unit that stands behind the number of each cell, as in `0.5 µm`.
+/// The unit that stands behind each number of a column, as in `0.5 µm` and `16%`.
 pub(super) fn common_unit<'t>(cells: &[&'t str]) -> Option<&'t str> {
-    let unit = |cell: &&'t str| {
-        let (number, unit) = cell.split_once(' ')?;
-        let is_unit =
-            !unit.contains(char::is_whitespace) && unit.starts_with(|c: char| c.is_alphabetic());
-        (is_unit && real(number).is_some()).then_some(unit)
-    };
-    let first = cells.first().and_then(unit)?;
-    cells
+    let numbers = cells
         .iter()
-        .all(|cell| unit(cell) == Some(first))
-        .then_some(first)
+        .filter(|cell| cell.contains(|c: char| c.is_ascii_digit()));
+    let mut units = numbers.map(|cell| unit(cell));
+    let first = units.next()??;
+    units.all(|unit| unit == Some(first)).then_some(first)
+}
+
+/// The unit behind the number of a cell.
+fn unit(cell: &str) -> Option<&str> {
+    let end = cell.rfind(|c: char| c.is_ascii_digit())? + 1;
+    let (number, unit) = cell.split_at(end);
+    let unit = unit.trim_start();
+    let is_unit = unit
+        .trim_start_matches('\\')
+        .starts_with(|c: char| c.is_alphabetic() || c == '%')
+        && !unit.contains(char::is_whitespace);
+    (is_unit && real(number.trim_start_matches('$')).is_some()).then_some(unit)
 }
 
 /// Whether a cell says that it has no number.
@@ -123,14 +130,12 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
         |text, (from, to)| text.replace(from, to),
     );
     text.retain(|c| !c.is_whitespace() && !matches!(c, '$' | '{' | '}' | '\\'));
-    // A column in per cent is one throughout: see `in_percent`.
-    let text = text.strip_suffix('%').unwrap_or(&text);
     match text.split_once(',') {
         // Three digits after a comma, and no zero before it, may be thousands.
         Some((whole, rest)) if rest.len() == 3 && !matches!(whole, "0" | "-0") => None,
         Some((whole, rest)) if decimal_comma => value(&format!("{whole}.{rest}")),
         Some(_) => None,
-        None => value(text),
+        None => value(&text),
     }
 }
 
@@ -146,22 +151,6 @@ fn is_no_number(cell: &str) -> bool {
 /// A whole number, perhaps in parentheses.
 fn integer(text: &str) -> Option<i32> {
     text.trim_matches(['(', ')']).parse().ok()
-}
-
-/// Whether a cell ends with the sign of per cent.
-pub(super) fn has_percent(cell: &str) -> bool {
-    cell.trim_end_matches('$').ends_with('%')
-}
-
-/// Whether all numbers of a column are in per cent; `None` if some are and others are not.
-pub(super) fn in_percent(cells: &[&str]) -> Option<bool> {
-    if !cells.iter().any(|cell| has_percent(cell)) {
-        return Some(false);
-    }
-    let of_numbers = cells.iter().filter(|cell| number(cell, true).is_some());
-    let mut signs = of_numbers.map(|cell| has_percent(cell));
-    let first = signs.next().unwrap_or(false);
-    signs.all(|sign| sign == first).then_some(first)
 }
 
 /// `a/b`, `a*10^n`, `a^n` or `a`. Other products are refused: Fortran writes `2*0.1` for the number
@@ -242,4 +231,23 @@ fn split_exponent(text: &str) -> Option<Scaled<'_>> {
 fn decimals(text: &str) -> i32 {
     text.split_once('.')
         .map_or(0, |(_, decimals)| decimals.len() as i32)
+}
+
+/// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.
+pub(super) fn counts_rows(cells: &[&str]) -> bool {
+    let Ok(values) = cells
+        .iter()
+        .map(|cell| cell.parse::<i64>())
+        .collect::<Result<Vec<i64>, _>>()
+    else {
+        return false;
+    };
+    let [first, .., last] = values[..] else {
+        return matches!(values[..], [0 | 1]);
+    };
+    first != last
+        && matches!(first.min(last), 0 | 1)
+        && values
+            .windows(2)
+            .all(|two| two[1] - two[0] == (last - first).signum())
 }

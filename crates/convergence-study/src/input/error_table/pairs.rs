@@ -8,7 +8,6 @@ use super::NotError;
 use super::grid::RawTable;
 use super::names::{self, Word};
 use super::number::number;
-use super::original::offset;
 use gap::{Gap, Value, ends_with_mark, name_before};
 
 use crate::text::number::counted;
@@ -24,7 +23,7 @@ pub(super) struct Pair<'t> {
     pub(super) name: &'t str,
     pub(super) values: Vec<&'t str>,
     /// Whether `=` or `:` separates them.
-    is_marked: bool,
+    pub(super) is_marked: bool,
 }
 
 /// A name, and the place of a number in the list behind it.
@@ -102,26 +101,6 @@ fn has_rows_of_latex(text: &str) -> bool {
     text.matches(" & ").nth(ROWS).is_some()
 }
 
-/// How the numbers of a line or of a list are named.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Naming {
-    /// A row of numbers.
-    Nameless,
-    /// A name and a mark before each number.
-    Each,
-    /// One name and several numbers.
-    List,
-}
-
-/// The first number of a row, or the one behind a name.
-pub(super) struct NamedPlace<'t> {
-    /// The byte of the number.
-    pub(super) offset: usize,
-    /// Its name; empty without.
-    pub(super) name: &'t str,
-    pub(super) naming: Naming,
-}
-
 impl<'t> Scan<'t> {
     /// Finds the names and numbers of a text.
     pub(super) fn of(text: &'t str) -> Self {
@@ -187,28 +166,6 @@ impl<'t> Scan<'t> {
         }
     }
 
-    /// Rows and named numbers in the order of the text.
-    pub(super) fn namings(&self, text: &str) -> Vec<NamedPlace<'t>> {
-        let nameless = self.rows.iter().map(|cell| NamedPlace {
-            offset: offset(text, cell),
-            name: "",
-            naming: Naming::Nameless,
-        });
-        let named = self.pairs.iter().filter(|pair| pair.is_marked);
-        let named = named.map(|pair| NamedPlace {
-            offset: offset(text, pair.values[0]),
-            name: pair.name,
-            naming: if pair.values.len() > 1 {
-                Naming::List
-            } else {
-                Naming::Each
-            },
-        });
-        let mut places: Vec<NamedPlace<'_>> = nameless.chain(named).collect();
-        places.sort_by_key(|place| place.offset);
-        places
-    }
-
     /// Whether the numbers of a name are a column: no list comes again. Lists that do are the errors
     /// of one level each.
     pub(super) fn has_columns(&self) -> bool {
@@ -256,6 +213,7 @@ fn lists<'t>(pairs: &[Pair<'t>], longest: usize) -> RawTable<'t> {
         rows: vec![vec![]; longest],
         ..RawTable::default()
     };
+    let mut single = HashSet::new();
     for Pair { name, values, .. } in pairs {
         let is_late = values.len() + 1 == longest && longest > 2;
         if values.len() == longest || is_late {
@@ -269,8 +227,8 @@ fn lists<'t>(pairs: &[Pair<'t>], longest: usize) -> RawTable<'t> {
         }
         let count = counted(values.len(), "number");
         let one = not_error(name, format!("{count} instead of {longest}"));
-        // One number beside lists is no column.
-        if values.len() == 1 && longest > 2 {
+        // One number beside lists is no column, unless its name comes again.
+        if values.len() == 1 && longest > 2 && single.insert(name) {
             table.left_out.push(one);
         } else {
             table.leave_out_uneven(one);

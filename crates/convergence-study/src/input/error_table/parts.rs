@@ -8,14 +8,13 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::grid::RawTable;
-use super::lines::looks_like_row;
+use super::grid::{RawTable, Turned};
+use super::line::{is_closing, is_rule, looks_like_row};
 use super::names::{self, Word};
 use super::number::number;
 use super::original::offset;
-use super::pairs::{self, NamedPlace, Naming, Pair, Scan};
-use super::text::{self, begins_with_number, is_closing, is_rule};
-use super::turned::Turned;
+use super::pairs::{self, Pair, Scan};
+use super::text;
 
 /// A table of a text.
 pub(super) struct Part<'t> {
@@ -82,8 +81,8 @@ struct Cuts<'t> {
 
 fn cuts(text: &str) -> Cuts<'_> {
     let scan = Scan::of(text);
-    let mut at = mixed_cuts(text, &scan);
-    if at.is_empty() && scan.is_log {
+    let mut at = vec![];
+    if scan.is_log {
         at = log_cuts(text, &scan);
     }
     if !at.is_empty() {
@@ -248,9 +247,6 @@ fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
             }
         }));
     }
-    if !is_log {
-        places.extend(rows_of_other_forms(text, &places));
-    }
     places.sort_by_key(|place| place.start);
     let mut gaps = vec![];
     let mut gap = vec![];
@@ -281,23 +277,6 @@ fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
         }
     }
     gaps
-}
-
-/// The lines below the first row that begin with a number: they may be rows of another table, which
-/// is written in another form.
-fn rows_of_other_forms(text: &str, places: &[Place<'_>]) -> Vec<Place<'static>> {
-    let first = places.iter().map(|place| place.start).min();
-    let first = first.unwrap_or(text.len());
-    let lines = text.lines().map(|line| (offset(text, line), line));
-    let rows = lines
-        .filter(|(start, line)| *start > first && begins_with_number(line) && !is_closing(line));
-    let place = |(start, _): (usize, &str)| Place {
-        start,
-        end: start,
-        row: 0,
-        name: "",
-    };
-    rows.map(place).collect()
 }
 
 /// The words, rulers and blank lines between two numbers; of a table of rows only whole lines. They
@@ -334,21 +313,15 @@ fn pieces(start: usize, between: &str, is_log: bool) -> Vec<Piece> {
     pieces
 }
 
-/// Where a log is cut: lists with their names come again, or names end before others begin.
+/// Where a log is cut: lists with their names come again.
 fn log_cuts(text: &str, scan: &Scan<'_>) -> Vec<usize> {
-    let pairs = &scan.pairs;
-    if let Some(first) = pairs::first_column(pairs) {
-        let is_list = |pair: &&Pair<'_>| pair.values.len() > 1;
-        let lists: Vec<&Pair<'_>> = pairs.iter().filter(is_list).collect();
-        let again = lists.windows(2).filter(|two| two[1].name == first);
-        return again.map(|two| end_of_numbers(text, two[0])).collect();
-    }
-    let ends = successive_names(pairs).into_iter();
-    ends.map(|k| match k.checked_sub(1) {
-        Some(before) => end_of_numbers(text, &pairs[before]),
-        None => offset(text, pairs[k].name),
-    })
-    .collect()
+    let Some(first) = pairs::first_column(&scan.pairs) else {
+        return vec![];
+    };
+    let is_list = |pair: &&Pair<'_>| pair.values.len() > 1;
+    let lists: Vec<&Pair<'_>> = scan.pairs.iter().filter(is_list).collect();
+    let again = lists.windows(2).filter(|two| two[1].name == first);
+    again.map(|two| end_of_numbers(text, two[0])).collect()
 }
 
 /// The end of the numbers behind a name, of the brackets that close there, or of their line.
@@ -362,68 +335,6 @@ fn end_of_numbers(text: &str, pair: &Pair<'_>) -> usize {
     end + line.map_or(0, |last| last + 1)
 }
 
-/// The pairs with which rows begin whose names come after others that occur several times have
-/// ended.
-fn successive_names(pairs: &[Pair<'_>]) -> Vec<usize> {
-    struct Range {
-        first: usize,
-        last: usize,
-        count: usize,
-    }
-    let mut ranges: HashMap<&str, Range> = HashMap::new();
-    for (k, pair) in pairs.iter().enumerate() {
-        let range = ranges.entry(pair.name).or_insert(Range {
-            first: k,
-            last: k,
-            count: 0,
-        });
-        range.last = k;
-        range.count += 1;
-    }
-    let mut ranges: Vec<Range> = ranges
-        .into_values()
-        .filter(|range| range.count > 1)
-        .collect();
-    ranges.sort_by_key(|range| range.first);
-    // A row begins with the name that begins the first one.
-    let Some(begins) = ranges.first().map(|range| pairs[range.first].name) else {
-        return vec![];
-    };
-    let mut cuts = vec![];
-    let mut end = usize::MAX;
-    for Range { first, last, .. } in ranges {
-        if first > end {
-            let mut between = (end + 1)..first;
-            cuts.push(between.find(|k| pairs[*k].name == begins).unwrap_or(first));
-            end = last;
-        }
-        end = end.min(last);
-    }
-    cuts
-}
-
-/// Where a log, rows of numbers without names and lists stand beside each other, each with several
-/// numbers.
-fn mixed_cuts(text: &str, scan: &Scan<'_>) -> Vec<usize> {
-    let places = scan.namings(text);
-    let mut runs: Vec<&[NamedPlace<'_>]> = places.chunk_by(|a, b| a.naming == b.naming).collect();
-    runs.retain(|run| {
-        let mut names = HashSet::new();
-        let repeats = run.iter().any(|place| !names.insert(place.name));
-        run.len() > 1 && (run[0].naming != Naming::Each || repeats)
-    });
-    let changes = runs
-        .windows(2)
-        .filter(|two| two[0][0].naming != two[1][0].naming);
-    changes
-        .map(|two| {
-            let last = two[0][two[0].len() - 1].offset;
-            let line = text[last..].find('\n');
-            line.map_or(text.len(), |end| last + end + 1)
-        })
-        .collect()
-}
-
 /// The text above the first number of a table.
 fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
     let cells = table.rows.iter().flatten().filter(|cell| !cell.is_empty());
@@ -435,7 +346,14 @@ fn above<'t>(section: &'t str, table: &RawTable<'_>) -> &'t str {
 fn has_few_numbers(line: &str) -> bool {
     const FEW: usize = 2;
     let words = line.split_whitespace();
+    let words = words.map(|word| word.trim_matches(pairs::is_mark));
     words.filter(|word| number(word, false).is_some()).count() <= FEW
+}
+
+/// Whether a line has a list of numbers behind a name.
+fn has_list(line: &str) -> bool {
+    let pairs = Scan::of(line).pairs;
+    pairs.iter().any(|pair| pair.values.len() > 1)
 }
 
 /// The first line of words above the rows, if there is another, which has the names, or if names
@@ -455,7 +373,7 @@ fn heading<'t>(section: &'t str, table: &RawTable<'_>) -> Option<&'t str> {
             && !line.trim().starts_with('\\')
             && !is_closing(line)
             && !is_name(line)
-            && (has_few_numbers(line) || !looks_like_row(line))
+            && (has_few_numbers(line) || !(looks_like_row(line) || has_list(line)))
     });
     let words = lines.next()?;
     let words = words.trim_matches(|c: char| c.is_whitespace() || "#%!*=-:|&{}[]\"',;".contains(c));

@@ -3,11 +3,10 @@
 use std::collections::HashSet;
 
 use super::columns::Cells;
-use super::grid::{ColumnName, RawTable};
+use super::grid::{ColumnName, RawTable, Turned};
 use super::names::{self, Word};
-use super::number::{Number, common_unit, has_percent, in_percent, number};
+use super::number::{Number, common_unit, number};
 use super::original::Original;
-use super::turned::Turned;
 use super::{Choice, NotError, Offer};
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
@@ -48,6 +47,15 @@ pub(super) fn listed(names: impl Iterator<Item = String>) -> String {
     names[..names.len().min(LISTED)].join(", ") + if names.len() > LISTED { ", ..." } else { "" }
 }
 
+/// Columns that are not errors, each with the reason.
+pub(super) fn reasons(others: &[NotError]) -> String {
+    listed(
+        others
+            .iter()
+            .map(|one| format!("`{}` ({})", one.column, one.because)),
+    )
+}
+
 impl Choice {
     /// This choice, changed.
     ///
@@ -71,6 +79,11 @@ pub(super) fn columns<'t>(
     table: &RawTable<'t>,
 ) -> Result<Vec<Cells<'t>>, InputError> {
     let width = table.width();
+    let mut cells = table.rows.iter().flatten();
+    if let Some(power) = cells.find(|cell| cell.contains("10⁻")) {
+        let expected = "a number with its power of ten as in `1.6e-3`";
+        return Err(original.error(power, None, expected, &format!("`{}`", shorten(power))));
+    }
     if width == 0 {
         let mut lines = original.text.lines().filter(|line| !line.trim().is_empty());
         let found = lines.next().map_or("an empty table".to_owned(), |line| {
@@ -112,6 +125,22 @@ pub(super) fn columns<'t>(
     Ok(columns)
 }
 
+/// Refuses a text with a factor above its numbers, as MATLAB prints a matrix.
+pub(super) fn refuse_factor(original: Original<'_>) -> Result<(), InputError> {
+    let Some(factor) = original.text.lines().find(is_factor) else {
+        return Ok(());
+    };
+    let expected = "numbers that need no factor; MATLAB prints them after `format short g`";
+    let found = format!("the factor `{}`", shorten(factor.trim()));
+    Err(original.error(factor, None, expected, &found))
+}
+
+/// Whether a line is a factor of the numbers below it: `1.0e-03 *`.
+fn is_factor(line: &&str) -> bool {
+    let factor = line.trim().strip_suffix('*');
+    factor.is_some_and(|factor| number(factor.trim_end(), false).is_some())
+}
+
 /// * `heads`: the names in the text.
 fn columns_of<'t>(
     table: &RawTable<'t>,
@@ -136,15 +165,10 @@ fn columns_of<'t>(
             .flatten()
             .any(|cell| cell.contains(',') && number(cell, true).is_some());
     let mut columns = Vec::with_capacity(names.len());
-    for (k, mut name) in names.into_iter().enumerate() {
+    for (k, name) in names.into_iter().enumerate() {
         let texts = without_unit(table.column(k));
-        let percent = in_percent(&texts);
-        if percent == Some(true) && !name.name.contains('%') {
-            name.name += " [%]";
-        }
         let number = |text: &&str| {
-            let is_ambiguous =
-                has_comma && text.contains('.') || percent.is_none() && has_percent(text);
+            let is_ambiguous = has_comma && text.contains('.');
             number(text, table.decimal_comma).filter(|_| !is_ambiguous)
         };
         let numbers = texts.iter().map(number).collect();
@@ -161,10 +185,9 @@ fn without_unit(cells: Vec<&str>) -> Vec<&str> {
     let Some(unit) = common_unit(&cells) else {
         return cells;
     };
-    let number = |cell: &&'_ str| cell.len() - unit.len();
     cells
         .iter()
-        .map(|cell| cell[..number(cell)].trim_end())
+        .map(|cell| cell.strip_suffix(unit).unwrap_or(cell).trim_end())
         .collect()
 }
 
@@ -220,7 +243,7 @@ impl<'t> TableReader<'t> {
             return Ok(cells.values[row]);
         }
         let cell = cells.texts[row];
-        let more = if has_percent(cell) && number(cell, true).is_some() {
+        let more = if cell.contains('%') {
             "; of its column, some numbers have `%` and others do not"
         } else if cell.len() > 1 && cell.chars().all(|c| c == '*') {
             "; Fortran writes stars where the field is too narrow"

@@ -9,14 +9,14 @@ use super::doubt;
 use super::failed_run;
 use super::groups::{self, Group, Side};
 use super::limits;
-use super::lines;
 use super::names::Word;
 use super::original::Original;
+use super::outside;
 use super::parameters;
 use super::parts::{self, Part};
-use super::reader::{self, TableReader, listed};
+use super::reader::{self, TableReader, listed, reasons};
 use super::step::{Measure, Step};
-use super::{Choice, Column, NotError, RateTable, names};
+use super::{Choice, Column, Doubt, NotError, RateTable, names};
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
 use crate::judge::verdict::Level;
@@ -38,10 +38,11 @@ pub(super) fn read_all(
     original: Original<'_>,
     choice: &Choice,
 ) -> Result<Vec<(String, RateTable)>, InputError> {
+    reader::refuse_factor(original)?;
     let parts = parts::read(original.text);
     limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
-    let outside = lines::outside(original.text, &parts);
+    let outside = outside::of_text(original.text, &parts);
     let tables = attempt_all(original, choice, &parts);
     let tables = tables.map(|mut tables| {
         for (_, table) in &mut tables {
@@ -51,7 +52,7 @@ pub(super) fn read_all(
             && outside.lines > 0
         {
             first.reading += &format!("; outside the tables: {}", counted(outside.lines, "line"));
-            first.rows_outside = outside.rows;
+            first.doubts.extend(outside.rows);
         }
         tables
     });
@@ -158,10 +159,16 @@ fn attempt_grid(
         let all = [part.heading.as_str(), &heading].join(", ");
         let parameters = parameters::of_table(&all, &columns);
         let reader = TableReader::new(original, choice, columns, &side.table);
-        let table = RateTable {
+        let mut table = RateTable {
             parameters,
-            ..attempt(reader, side.table.uneven.as_ref())?
+            ..attempt(reader)?
         };
+        // Under a claim for all columns it may be an error.
+        if choice.columns.is_none() && choice.claimed.is_empty() {
+            table
+                .doubts
+                .extend(side.table.uneven.clone().map(Doubt::Uneven));
+        }
         let heading = match heading.as_str() {
             _ if is_only => heading,
             "" => part.heading.clone(),
@@ -207,19 +214,14 @@ fn column(
 }
 
 /// Reads a table with one choice.
-///
-/// * `uneven`: a name in a log with more numbers or fewer than there are levels.
-fn attempt(
-    mut reader: TableReader<'_>,
-    uneven: Option<&NotError>,
-) -> Result<RateTable, InputError> {
+fn attempt(mut reader: TableReader<'_>) -> Result<RateTable, InputError> {
     let step = reader.step()?;
     let steps = reader.sort(&step)?;
     let ChosenColumns { mut errors, values } = reader.chosen_columns(step.column)?;
     reader.find_states(step.column, &errors, &values);
     let mut not_errors = vec![];
     if reader.choice.columns.is_none() {
-        errors = reader.error_columns(&step, &steps, &values, uneven)?;
+        errors = reader.error_columns(&step, &steps, &values)?;
         not_errors = std::mem::take(&mut reader.left_out);
     }
     if let Some(&second) = repeated(errors.iter().chain(&values), |k| &reader.columns[*k].name) {
@@ -248,7 +250,6 @@ fn attempt(
         not_errors,
         parameters: vec![],
         doubts,
-        rows_outside: vec![],
         is_guessed: !step.how.is_empty(),
         step: step.label,
     })
@@ -284,15 +285,6 @@ fn reading(
         reading += &format!("; not solved: {}", counted(unsolved, "level"));
     }
     reading
-}
-
-/// Columns that are not errors, each with the reason.
-pub(super) fn reasons(others: &[NotError]) -> String {
-    listed(
-        others
-            .iter()
-            .map(|one| format!("`{}` ({})", one.column, one.because)),
-    )
 }
 
 /// The columns that the user has chosen.

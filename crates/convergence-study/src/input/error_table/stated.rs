@@ -2,11 +2,8 @@
 //! levels.
 
 use super::Doubt;
-use super::columns::Derived;
+use super::columns::{DIMENSIONS, Derived};
 use super::reader::{NEIGHBOURS, TableReader};
-
-/// Dimensions that a count may have.
-pub(super) const DIMENSIONS: [f64; 3] = [1.0, 2.0, 3.0];
 
 /// Ratios of steps from level to level.
 const RATIOS: [f64; 5] = [1.5, 2.0, 3.0, 4.0, 10.0];

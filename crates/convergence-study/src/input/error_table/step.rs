@@ -1,11 +1,11 @@
 //! Which column is the step, or the count or level that it is computed from.
 
 use super::Offer;
-use super::columns::Cells;
+use super::columns::{Cells, DIMENSIONS};
+use super::grid::Turned;
 use super::names::{self, Word, reciprocal};
 use super::reader::{HALVED_ROWS, NEIGHBOURS, TableReader, listed};
-use super::stated::{DIMENSIONS, Stated};
-use super::turned::Turned;
+use super::stated::Stated;
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;
@@ -192,7 +192,7 @@ impl TableReader<'_> {
         if self.turned == Some(Turned::Stepped) {
             return Ok(StepColumn::certain(0));
         }
-        let steps = self.candidates(|k, word| word == Word::Step || self.is_misnamed(k));
+        let steps = self.candidates(|_, word| word == Word::Step);
         if let [first, others @ ..] = &steps[..] {
             if let Some(other) = others
                 .iter()
@@ -257,13 +257,8 @@ impl TableReader<'_> {
             && (others.is_empty()
                 || Some(*column) == first && others.iter().all(|other| other.ratio >= *ratio))
         {
-            // A count next to its own step: `4 0.25`.
-            let count = &self.columns[*column];
-            let inverse = others
-                .iter()
-                .find(|other| count.is_inverse(&self.columns[other.column]));
             return Ok(StepColumn {
-                column: inverse.map_or(*column, |other| other.column),
+                column: *column,
                 how: format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4)),
             });
         }
@@ -401,8 +396,7 @@ impl TableReader<'_> {
     fn is_count(&self, column: usize) -> bool {
         let cells = &self.columns[column];
         if let Word::Count(_) = cells.word {
-            return !self.is_misnamed(column)
-                && (self.choice.dim.is_some() || !self.falls_like_a_step(column));
+            return self.choice.dim.is_some() || !self.falls_like_a_step(column);
         }
         if !cells.is_whole() || cells.values.iter().all(|value| *value == 1.0) {
             return false;
@@ -411,22 +405,11 @@ impl TableReader<'_> {
         with_errors < 1.0 || cells.word != Word::Step && with_errors == 1.0
     }
 
-    /// Whether a column has the name of a count and numbers of a step: they fall with the errors,
-    /// or are below 1, and are not whole. (Thousands of unknowns may be below 1, but grow.)
-    fn is_misnamed(&self, column: usize) -> bool {
-        let cells = &self.columns[column];
-        if !matches!(cells.word, Word::Count(_)) || cells.is_whole() {
-            return false;
-        }
-        let with_errors = self.with_errors(column);
-        with_errors > 0.0 || with_errors == 0.0 && cells.values.iter().any(|value| *value < 1.0)
-    }
-
-    /// Whether a column has the name of a count and whole numbers that fall with the errors. If
-    /// they are a count after all, the errors grow: only the user can tell.
+    /// Whether a column has the name of a count and numbers that fall with the errors. If they are a
+    /// count after all, the errors grow: only the user can tell.
     fn falls_like_a_step(&self, column: usize) -> bool {
         let cells = &self.columns[column];
-        matches!(cells.word, Word::Count(_)) && cells.is_whole() && self.with_errors(column) > 0.0
+        matches!(cells.word, Word::Count(_)) && self.with_errors(column) > 0.0
     }
 
     /// The number of columns of positive errors, by name or else of unknown name, that fall with a

@@ -2,14 +2,12 @@
 
 use super::grid::RawTable;
 use super::heads::{self, Names};
+use super::line::{begins_with_number, is_closing, is_comment, is_number, is_rule, span, split};
 use super::names;
 use super::number::number;
 use super::original::offset;
 use super::pairs::Scan;
 use super::turned;
-
-/// First words of a row that sums up those above it.
-const CLOSING: [&str; 6] = ["mean", "average", "avg", "median", "overall", "total"];
 
 /// A row that is filled has at least one cell in this many columns.
 const FULL: usize = 4;
@@ -119,15 +117,6 @@ struct Lines<'t> {
     separator: Option<char>,
 }
 
-fn is_comment(line: &&str) -> bool {
-    line.trim_start().starts_with(['#', '%', '!'])
-}
-
-/// Whether a cell holds a number, in a table with this separator.
-fn is_number(cell: &str, separator: Option<char>) -> bool {
-    number(cell, separator != Some(',')).is_some()
-}
-
 /// Separates rows of numbers from the lines above them.
 fn sort_lines(text: &str) -> Lines<'_> {
     let lines = text
@@ -135,7 +124,7 @@ fn sort_lines(text: &str) -> Lines<'_> {
         .filter(|line| !line.trim().is_empty() && !is_rule(line));
     let separator = separator(lines.clone().filter(|line| !is_comment(line)));
     let mut heads = vec![];
-    let mut rows = vec![];
+    let mut rows: Vec<(&str, Vec<&str>)> = vec![];
     let mut quoted_names = None;
     let mut lines = lines.peekable();
     while let Some(line) = lines.next() {
@@ -150,7 +139,10 @@ fn sort_lines(text: &str) -> Lines<'_> {
         let is_first = rows.is_empty();
         if !is_comment(&line)
             && (is_first || !is_closing(line))
-            && (is_row(&cells, separator) || !is_first && is_row_with_words(&cells))
+            && (is_row(&cells, separator)
+                || rows
+                    .last()
+                    .is_some_and(|(_, above)| is_row_below(&cells, above)))
         {
             rows.push((line, cells));
         } else if is_first {
@@ -174,13 +166,6 @@ fn without_comment(line: &str) -> &str {
     &line[..comment.unwrap_or(line.len())]
 }
 
-/// Whether a line closes a table: the mean of its rows.
-pub(super) fn is_closing(line: &str) -> bool {
-    let words = line.split(|c: char| !c.is_alphanumeric());
-    let first = words.into_iter().find(|word| !word.is_empty());
-    first.is_some_and(|word| CLOSING.contains(&&*word.to_lowercase()))
-}
-
 /// Whether cells begin with a number, or are numbers but for one word.
 fn is_row(cells: &[&str], separator: Option<char>) -> bool {
     if cells.first().is_some_and(|cell| is_number(cell, separator)) {
@@ -196,54 +181,17 @@ fn is_row(cells: &[&str], separator: Option<char>) -> bool {
     }
 }
 
-/// Whether more than half of the cells begin with a digit, or half of them with the first. Such a
-/// line is a row with a word in place of a number, and the word will be refused.
-fn is_row_with_words(cells: &[&str]) -> bool {
+/// Whether cells stand below those of a row as another one: each holds a number or what stands for
+/// one, or more than half of them begin with a digit, or half of them with the first. A word in place
+/// of a number will be refused.
+fn is_row_below(cells: &[&str], above: &[&str]) -> bool {
+    let stands_for_number = |cell: &&str| names::is_failure(cell) || number(cell, true).is_some();
+    if cells.len() == above.len() && cells.iter().all(stands_for_number) {
+        return true;
+    }
     let is_digit = |cell: &&str| cell.starts_with(|c: char| c.is_ascii_digit());
     let digits = cells.iter().filter(|cell| is_digit(cell)).count();
     2 * digits > cells.len() || 2 * digits == cells.len() && cells.first().is_some_and(is_digit)
-}
-
-/// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
-/// cells.
-pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
-    // A frame has an edge on either side; without one, the last cell may be blank.
-    let framed = line
-        .trim()
-        .strip_prefix('|')
-        .filter(|_| separator == Some('|'));
-    let line = framed.map_or(line, |line| line.strip_suffix('|').unwrap_or(line));
-    let mut quoted = false;
-    let mut is_start = true;
-    let separates = |c: char| {
-        quoted ^= c == '"' && (quoted || is_start);
-        let is_end =
-            !quoted && separator.map_or(c.is_whitespace() || c == '|', |separator| c == separator);
-        is_start = is_end || (is_start && c.is_whitespace());
-        is_end
-    };
-    line.split(separates)
-        .map(cell)
-        .filter(|cell| separator.is_some() || !cell.is_empty())
-        .flat_map(split_parenthesis)
-        .collect()
-}
-
-/// The two cells of `0.1 (2.0)`; any other cell alone.
-fn split_parenthesis(cell: &str) -> Vec<&str> {
-    match cell.split_once(" (") {
-        Some((one, two)) if number(one, false).is_some() => vec![one, two.trim_end_matches(')')],
-        _ => vec![cell],
-    }
-}
-
-/// A cell without surrounding blanks and quotes; the end of a text of blanks alone.
-pub(super) fn cell(text: &str) -> &str {
-    let text = text.trim_start().trim_end();
-    text.strip_prefix('"')
-        .and_then(|text| text.strip_suffix('"'))
-        .unwrap_or(text)
-        .trim()
 }
 
 /// The cells of a line in which each number is in quotes, if some stand above a number without:
@@ -289,42 +237,12 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
         .find(|c| line.contains(*c) && !split(line, Some(*c)).iter().any(holds_two_numbers))
 }
 
-/// Whether the first word of a line is a number.
-pub(super) fn begins_with_number(line: &&str) -> bool {
-    let line = line.trim_start_matches(|c: char| c.is_whitespace() || "|\"$".contains(c));
-    let first = line
-        .split(|c: char| c.is_whitespace() || ";,&|\"$\\".contains(c))
-        .next();
-    number(first.unwrap_or_default(), true).is_some()
-}
-
 /// Whether a cell holds two numbers next to each other.
 fn holds_two_numbers(cell: &&str) -> bool {
     let words: Vec<&str> = cell.split_whitespace().collect();
     words
         .windows(2)
         .any(|two| two.iter().all(|word| number(word, true).is_some()))
-}
-
-/// A line of dashes, or the border of a box.
-pub(super) fn is_rule(line: &str) -> bool {
-    line.chars().all(is_drawn)
-        && line
-            .chars()
-            .filter(|c| !c.is_whitespace() && *c != '|')
-            .count()
-            > 2
-}
-
-/// Whether rules and boxes are drawn with a character.
-fn is_drawn(c: char) -> bool {
-    c.is_whitespace() || "-=_~+|:".contains(c) || ('\u{2500}'..='\u{257f}').contains(&c)
-}
-
-/// The first byte of a cell in its line, and the byte after its last one.
-pub(super) fn span(line: &str, cell: &str) -> [usize; 2] {
-    let start = offset(line, cell);
-    [start, start + cell.len()]
 }
 
 /// The column below which a cell stands.
@@ -377,23 +295,4 @@ fn fill<'t>(rows: &mut [(&'t str, Vec<&'t str>)], spans: &[[usize; 2]]) {
             *cells = all;
         }
     }
-}
-
-/// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.
-pub(super) fn counts_rows(cells: &[&str]) -> bool {
-    let Ok(values) = cells
-        .iter()
-        .map(|cell| cell.parse::<i64>())
-        .collect::<Result<Vec<i64>, _>>()
-    else {
-        return false;
-    };
-    let [first, .., last] = values[..] else {
-        return matches!(values[..], [0 | 1]);
-    };
-    first != last
-        && matches!(first.min(last), 0 | 1)
-        && values
-            .windows(2)
-            .all(|two| two[1] - two[0] == (last - first).signum())
 }

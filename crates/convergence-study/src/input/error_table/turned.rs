@@ -2,25 +2,14 @@
 
 use std::f64::consts::LN_2;
 
-use super::grid::RawTable;
+use super::grid::{RawTable, Turned};
+use super::line::is_rule;
 use super::number::{Number, halves, number};
 use super::original::offset;
 use super::pairs::{Pair, Scan};
-use super::text::is_rule;
 
 /// Least numbers of a row with rates between its errors: three errors and two rates.
 const LEAST: usize = 5;
-
-/// A table whose columns stand as rows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Turned {
-    /// With the steps in its head, which are the first column.
-    Stepped,
-    /// Without steps in its head.
-    Plain,
-    /// With the rates of halved steps between the errors.
-    Halved,
-}
 
 /// A column of steps.
 struct Steps<'t> {

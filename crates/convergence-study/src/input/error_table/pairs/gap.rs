@@ -129,11 +129,6 @@ pub(super) fn name_before(text: &str) -> &str {
         .next()
         .unwrap_or_default()
         .trim_matches(is_mark);
-    // `<level h="0.1"`.
-    let attribute = name.strip_prefix('<').and_then(|tag| tag.rsplit_once(' '));
-    if let Some((_, name)) = attribute {
-        return name;
-    }
     LEVELS
         .iter()
         .find_map(|level| name.strip_prefix(level))

@@ -119,21 +119,32 @@ impl Study {
 
     /// The same study with the place where its order is lost.
     ///
-    /// * `variants`: the literal of the module, as JSON; `ran`: the study with each usable variant.
-    fn _located(&self, variants: &str, ran: Vec<PyRef<'_, Study>>) -> PyResult<Study> {
+    /// * `variants`: the literal of the module, as JSON; `run`: the study with the variant of a
+    ///   name.
+    fn _located(&self, variants: &str, run: &Bound<'_, PyAny>) -> PyResult<Study> {
         let variants = serde_json::from_str(variants)
             .map_err(|error| refuse(format!("variants: VARIANTS of the module: {error}")))?;
-        let outcomes: Vec<&Outcome> = ran.iter().map(|study| &study.finished.outcome).collect();
         let base = &self.finished.outcome;
-        if where_lost::is_unnoticed(base, &outcomes) {
-            return Err(refuse(
-                "variants: the errors are the same with all variants: solve does not use them. \
-                 Likely reasons: it takes its data from another module; it keeps values that were \
-                 computed when it was imported, or in a cache; it runs in processes or compiled \
-                 code that were started before",
-            ));
+        let probe = where_lost::probe(&variants);
+        let mut ran: Vec<Option<Bound<'_, Study>>> = vec![None; variants.usable.len()];
+        // A function that ignores variants is refused after one.
+        for is_probe in [true, false] {
+            for (place, (variant, slot)) in variants.usable.iter().zip(&mut ran).enumerate() {
+                if (probe == Some(place)) == is_probe {
+                    *slot = Some(run.call1((&variant.name,))?.cast_into()?);
+                }
+            }
+            let outcomes = outcomes(&ran);
+            if where_lost::is_unnoticed(base, &outcomes) {
+                return Err(refuse(
+                    "variants: the errors do not change with the variant: solve does not use it. \
+                     Likely reasons: it takes its data from another module; it keeps values that \
+                     were computed when it was imported, or in a cache; it runs in processes or \
+                     compiled code that were started before",
+                ));
+            }
         }
-        let located = where_lost::located(base, &variants, &outcomes);
+        let located = where_lost::located(base, &variants, &outcomes(&ran));
         Ok(Study::judged(self.results.clone()).with_place(located))
     }
 
@@ -270,6 +281,11 @@ impl Study {
             &pictures,
         )
     }
+}
+
+fn outcomes<'s>(ran: &'s [Option<Bound<'_, Study>>]) -> Vec<&'s Outcome> {
+    let ran = ran.iter().flatten();
+    ran.map(|study| &study.get().finished.outcome).collect()
 }
 
 /// Judged errors of one table as a study, for reports and baselines.

@@ -125,6 +125,29 @@ fn a_slip_in_emitted_c_is_found() {
     }
 }
 
+/// The check answers all questions in one process; a user starts the program for each.
+#[test]
+fn the_answering_program_in_python_is_a_command() {
+    let python = std::process::Command::new("python3")
+        .args(["-c", "import numpy"])
+        .status();
+    if !python.is_ok_and(|status| status.success()) {
+        eprintln!("skipped: no Python with NumPy");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let manufacture = read(HEAT);
+    for file in manufacture.emit(Language::Python) {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    let program = folder.path().join("heat_answer.py");
+    let command = format!("python3 -B {}", program.display());
+    let comparisons = manufacture.against(&command, None, &sampling(), LIMIT);
+    for comparison in comparisons.unwrap() {
+        assert_eq!(comparison.cause, "equal", "{comparison:?}");
+    }
+}
+
 /// Fortran does not tell capitals from small letters: names get a trailing `_`, and the first
 /// comment lists them.
 #[test]

@@ -15,6 +15,7 @@
 //! * [`equilibrium`], [`vibration`]: steady states and free vibrations in closed form, without
 //!   loads.
 //! * [`assembly`]: the matrices of P1 elements.
+//! * [`dense`]: solutions, eigenvalues and spectral radii of dense matrices.
 //! * [`quadrature`]: the rule for loads and errors.
 //! * [`formulas`]: N(u), the contact law and the formulas of the time schemes, not those of the
 //!   solver.
@@ -36,6 +37,7 @@ pub mod any_order;
 pub mod assembly;
 pub mod constants;
 pub mod defect;
+pub mod dense;
 pub mod equilibrium;
 pub mod errors;
 pub mod expression;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
 
+mod dense;
 mod drawn;
 mod equilibrium;
 mod errors;

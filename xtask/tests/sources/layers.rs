@@ -56,7 +56,7 @@ const ORDER: [&str; 14] = [
 const BELOW: [&str; 3] = ["interval", "text", "judge"];
 
 /// Libraries that only some modules may use.
-const LIBRARIES: [(&str, &[&str]); 13] = [
+const LIBRARIES: [(&str, &[&str]); 11] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("console", &["cli"]),
@@ -67,8 +67,6 @@ const LIBRARIES: [(&str, &[&str]); 13] = [
     ("toml", &["input"]),
     ("plotters", &["plots"]),
     ("pulldown_cmark", &["report"]),
-    ("quick_junit", &["store"]),
-    ("chrono", &["store"]),
     ("rayon", &["run"]),
 ];
 

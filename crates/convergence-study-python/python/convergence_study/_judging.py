@@ -12,7 +12,7 @@ from typing import Any, Union
 from . import _native
 from ._native import Judgement, Limit, Study
 from ._tables import with_index
-from ._variants import chosen, described
+from ._variants import Variants, described
 
 Order = Union[float, str, Mapping[str, Union[float, str]], None]
 Numbers = Union[Iterable[Any], None]
@@ -164,11 +164,13 @@ def studied(solve, n, h, order, tolerance, options, variants):
     study = _native.study(solve, n, h, order, tolerance, options)
     if description is None or not study._has_lost_order():
         return study
-    options, found = {**options, "is_variant": True}, []
-    for variant in description["usable"]:
-        with chosen(variants, variant["name"]):
-            found.append(_native.study(solve, n, h, order, tolerance, options))
-    return study._located(json.dumps(description), found)
+    options, again = {**options, "is_variant": True}, Variants(variants)
+
+    def with_variant(variant):
+        with again.chosen(variant):
+            return _native.study(solve, n, h, order, tolerance, options)
+
+    return study._located(json.dumps(description), with_variant)
 
 
 def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):

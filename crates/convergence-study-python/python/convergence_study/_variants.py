@@ -1,6 +1,7 @@
 """Variants of a manufactured solution: its module is run again with each of them."""
 
 import contextlib
+import inspect
 import os
 import types
 
@@ -22,25 +23,32 @@ def described(module):
     return description
 
 
-@contextlib.contextmanager
-def chosen(module, variant):
-    """The module has the functions of a variant, here and in processes that are started."""
-    os.environ[VARIABLE] = variant
-    try:
-        _run_again(module)
-        yield
-    except Exception as error:
-        raise RuntimeError(f"variants: solve does not run with the variant {variant}: {error!r}") from error
-    finally:
-        del os.environ[VARIABLE]
-        _run_again(module)
+class Variants:
+    """A module whose functions are those of one variant after another."""
 
+    def __init__(self, module):
+        self.module = module
+        # Compiled once, whether or not Python keeps compiled files.
+        self.code = compile(inspect.getsource(module), module.__file__, "exec")
 
-def _run_again(module):
-    """Defines the functions of a module anew. They stay the same objects, for others may have imported them by name."""
-    names = vars(module)
-    before = {name: value for name, value in names.items() if isinstance(value, types.FunctionType) and value.__globals__ is names}
-    module.__spec__.loader.exec_module(module)
-    for name, function in before.items():
-        function.__code__, function.__defaults__ = names[name].__code__, names[name].__defaults__
-        names[name] = function
+    @contextlib.contextmanager
+    def chosen(self, variant):
+        """The module has the functions of a variant, here and in processes that are started."""
+        os.environ[VARIABLE] = variant
+        try:
+            self._run_again()
+            yield
+        except Exception as error:
+            raise RuntimeError(f"variants: solve does not run with the variant {variant}: {error!r}") from error
+        finally:
+            del os.environ[VARIABLE]
+            self._run_again()
+
+    def _run_again(self):
+        """Defines the functions anew. They stay the same objects, for others may have imported them by name."""
+        names = vars(self.module)
+        before = {name: value for name, value in names.items() if isinstance(value, types.FunctionType) and value.__globals__ is names}
+        exec(self.code, names)
+        for name, function in before.items():
+            function.__code__, function.__defaults__ = names[name].__code__, names[name].__defaults__
+            names[name] = function

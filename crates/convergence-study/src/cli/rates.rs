@@ -221,7 +221,7 @@ fn write(
         cases: cases(judgement),
     };
     let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
-    let junit = junit_of(project.name, &suites).map_err(io::Error::other)?;
+    let junit = junit_of(project.name, &suites);
     atomic::write(&folder.join("junit.xml"), junit)?;
     // A picture would need an address on the web.
     for judgement in findings {

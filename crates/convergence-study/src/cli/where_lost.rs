@@ -8,9 +8,9 @@ use super::exit::Unusable;
 use super::running::watched_with;
 use crate::input::read_text;
 use crate::run::{self, Effort, Finished};
-use crate::study::variants::{SolverPart, Variant, Variants};
+use crate::study::variants::Variants;
 use crate::study::{Outcome, Study};
-use crate::where_lost::{figure, is_unnoticed, located, lost};
+use crate::where_lost::{figure, is_unnoticed, located, lost, probe};
 
 /// A study whose order is lost.
 struct LostOrder<'s> {
@@ -59,7 +59,7 @@ pub(super) fn locate(
     let searches = searches(studies, finished)?;
     let empty = |search: &LostOrder<'_>| vec![None; search.variants.usable.len()];
     let mut ran: Vec<Vec<Option<Finished>>> = searches.iter().map(empty).collect();
-    // A program that ignores the variable is refused after one variant, not after all.
+    // A program that ignores the variable is refused after one variant.
     for is_probe in [true, false] {
         run_variants(&searches, is_probe, &mut ran, effort, quiet)?;
         for (search, ran) in searches.iter().zip(&ran) {
@@ -81,20 +81,6 @@ pub(super) fn locate(
     Ok(())
 }
 
-impl LostOrder<'_> {
-    /// A variant whose errors are not those of the study unless the program ignores it: with a
-    /// bubble the solution is no polynomial of low degree, for which schemes are exact.
-    fn probe(&self) -> Option<usize> {
-        let has_bubble = |variant: &Variant| {
-            matches!(
-                variant.switches_off,
-                SolverPart::BothFaces(_) | SolverPart::AllFaces | SolverPart::AllFacesAndInitial
-            )
-        };
-        self.variants.usable.iter().position(has_bubble)
-    }
-}
-
 /// Runs the probe of each search, or all other variants, in one pool.
 ///
 /// * `ran`: for each search and each of its variants what it found, if it was run.
@@ -108,7 +94,7 @@ fn run_variants(
     let mut runs = vec![];
     let mut slots = vec![];
     for (search, ran) in searches.iter().zip(ran) {
-        let probe = search.probe();
+        let probe = probe(&search.variants);
         let variants = search.variants.usable.iter().zip(ran).enumerate();
         for (place, (variant, slot)) in variants {
             if (probe == Some(place)) == is_probe
@@ -197,7 +183,7 @@ fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
 mod tests {
     use manufacture::Switch;
 
-    use super::SolverPart;
+    use crate::study::variants::SolverPart;
 
     #[test]
     fn each_part_of_a_file_is_one_of_the_search() {

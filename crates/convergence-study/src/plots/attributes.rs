@@ -18,7 +18,7 @@ use super::ruler::Ruler;
 use std::fmt::Write;
 
 /// Text that XML accepts: markup escaped, control characters blanked.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     printable(text)
         .replace('&', "&amp;")
         .replace('<', "&lt;")

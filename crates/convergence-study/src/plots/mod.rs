@@ -33,7 +33,7 @@
 //! assert!(svg.starts_with("<svg"));
 //! ```
 
-mod attributes;
+pub(crate) mod attributes;
 pub(crate) mod canvas;
 mod colour;
 mod convergence;

@@ -95,10 +95,7 @@ impl Findings<'_> {
         set.add("results.json", json(record)?)?;
         set.add("badge.svg", badge::svg(record))?;
         set.add("badge.json", badge::endpoint(record))?;
-        set.add(
-            "junit.xml",
-            junit(project.name, record).map_err(io::Error::other)?,
-        )?;
+        set.add("junit.xml", junit(project.name, record))?;
         set.add("errors.csv", self.errors_csv())?;
         // A project's own pages show the figures of the quick tier.
         let is_full = self.record.scope == Tier::Full.name();

@@ -1,25 +1,24 @@
 //! The verdicts as JUnit XML, for CI systems.
 //!
 //! One suite for each study, one test case for each rate and check; inconclusive is a separate type
-//! of failure. There are no times: the file is committed and must not change when nothing has
-//! changed.
+//! of failure. There are no times: the file must not change when nothing has changed.
 
-use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
+use std::fmt::Write as _;
 
 use crate::judge::verdict::Verdict;
+use crate::plots::attributes::{escape, escape_attribute};
 use crate::run::{Finished, Item, items};
 use crate::store::{GuardedChange, Record, diagnosis::Diagnosis, without_baseline};
 
 /// The document, for the project of this name.
 ///
 /// Differences from the baseline form a separate suite, if there is a baseline.
-pub fn junit(name: &str, record: &Record) -> Result<String, SerializeError> {
-    let mut report = Report::new(name);
-    report.add_test_suites(record.studies.iter().map(suite));
+pub fn junit(name: &str, record: &Record) -> String {
+    let mut suites: Vec<Suite> = record.studies.iter().map(suite).collect();
     let changes = record.changes.as_deref();
-    report.add_test_suites(changes.map(|changes| baseline(&record.studies, changes)));
-    report.add_test_suites(record.diagnosis.as_ref().map(cause));
-    report.to_string()
+    suites.extend(changes.map(|changes| baseline(&record.studies, changes)));
+    suites.extend(record.diagnosis.as_ref().map(cause));
+    document(name, &suites)
 }
 
 /// The verdicts on a table, for [`junit_of`].
@@ -32,92 +31,180 @@ pub(crate) struct JudgedSuite {
 }
 
 /// A document with these suites.
-pub(crate) fn junit_of(name: &str, suites: &[JudgedSuite]) -> Result<String, SerializeError> {
-    let suite = |judged: &JudgedSuite| {
-        let mut suite = TestSuite::new(judged.name.as_str());
-        let cases = judged.cases.iter();
-        suite.add_test_cases(
-            cases.map(|(name, verdict, reason)| case(&judged.name, name, *verdict, reason)),
-        );
-        suite
-    };
-    let mut report = Report::new(name);
-    report.add_test_suites(suites.iter().map(suite));
-    report.to_string()
+pub(crate) fn junit_of(name: &str, suites: &[JudgedSuite]) -> String {
+    let suites = suites.iter().map(|JudgedSuite { name, cases }| {
+        let cases = cases.iter();
+        let cases = cases.map(|(case, verdict, reason)| Case::new(name, case, *verdict, reason));
+        Suite {
+            cases: cases.collect(),
+            ..Suite::new(name)
+        }
+    });
+    document(name, &suites.collect::<Vec<_>>())
 }
 
-fn suite(study: &Finished) -> TestSuite {
+/// Test cases about one subject.
+struct Suite {
+    name: String,
+    /// Names and values.
+    properties: Vec<[String; 2]>,
+    cases: Vec<Case>,
+    /// A text of lines, empty without errors.
+    errors: String,
+}
+
+impl Suite {
+    fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            properties: vec![],
+            cases: vec![],
+            errors: String::new(),
+        }
+    }
+}
+
+struct Case {
+    name: String,
+    /// What it is about: the name of the suite.
+    class: String,
+    verdict: Verdict,
+    reason: String,
+    /// More about a failure, empty if there is no more.
+    description: String,
+}
+
+impl Case {
+    fn new(class: &str, name: &str, verdict: Verdict, reason: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            class: class.to_owned(),
+            verdict,
+            reason: reason.to_owned(),
+            description: String::new(),
+        }
+    }
+
+    fn fails(&self) -> bool {
+        self.verdict != Verdict::Pass
+    }
+}
+
+fn suite(study: &Finished) -> Suite {
     let id = study.header.id.as_str();
-    let mut suite = TestSuite::new(id);
-    suite.add_property(("claim", study.header.claim.as_str()));
+    let mut suite = Suite::new(id);
+    suite.properties = vec![["claim".to_owned(), study.header.claim.clone()]];
     for item in items(study) {
         // Cases without a result are no test cases: they fail the check that all complete.
         if matches!(item, Item::Cases { .. }) {
             continue;
         }
-        let mut judged = case(id, &item.name(), item.verdict(), &item.why());
+        let mut case = Case::new(id, &item.name(), item.verdict(), &item.why());
         if let (Some(code), Some(advice)) = (item.code(), item.advice()) {
-            judged.status.set_description(format!("{code}: {advice}"));
+            case.description = format!("{code}: {advice}");
         }
-        suite.add_test_case(judged);
+        suite.cases.push(case);
     }
-    if !study.failed_cases.is_empty() {
-        let lines = study
-            .failed_cases
-            .iter()
-            .map(|failed| format!("{}: {}\n", failed.label, failed.reason));
-        suite.set_system_err(lines.collect::<String>());
+    for failed in &study.failed_cases {
+        let _ = writeln!(suite.errors, "{}: {}", failed.label, failed.reason);
     }
     suite
-}
-
-fn case(study: &str, name: &str, verdict: Verdict, reason: &str) -> TestCase {
-    let mut status = match verdict {
-        Verdict::Pass => TestCaseStatus::success(),
-        Verdict::Fail | Verdict::Inconclusive => {
-            TestCaseStatus::non_success(NonSuccessKind::Failure)
-        }
-    };
-    if verdict != Verdict::Pass {
-        status.set_type(verdict.name()).set_message(reason);
-    }
-    let mut case = TestCase::new(name, status);
-    case.set_classname(study);
-    case
 }
 
 /// The known facts about the cause, as properties of a suite without test cases.
-fn cause(diagnosis: &Diagnosis) -> TestSuite {
-    let mut suite = TestSuite::new("what fails and what does not");
-    for (word, text) in diagnosis.lines() {
-        suite.add_property((word, text.as_str()));
+fn cause(diagnosis: &Diagnosis) -> Suite {
+    let lines = diagnosis.lines().into_iter();
+    Suite {
+        properties: lines.map(|(word, text)| [word.to_owned(), text]).collect(),
+        ..Suite::new("what fails and what does not")
+    }
+}
+
+fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Suite {
+    const NAME: &str = "baseline";
+    let mut suite = Suite::new(NAME);
+    if let Some(numbers) = without_baseline(studies, changes) {
+        let why = format!("no baseline yet: {numbers} numbers");
+        suite.cases = vec![Case::new(NAME, "a baseline", Verdict::Fail, &why)];
+        return suite;
+    }
+    if changes.is_empty() {
+        let name = "all baseline values unchanged";
+        suite.cases = vec![Case::new(NAME, name, Verdict::Pass, "")];
+    }
+    for change in changes {
+        let name = format!("{}: {}", change.study, change.subject());
+        let why = change.movement.to_string();
+        suite
+            .cases
+            .push(Case::new(NAME, &name, Verdict::Fail, &why));
     }
     suite
 }
 
-fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> TestSuite {
-    let mut suite = TestSuite::new("baseline");
-    if let Some(numbers) = without_baseline(studies, changes) {
-        let why = format!("no baseline yet: {numbers} numbers");
-        suite.add_test_case(case("baseline", "a baseline", Verdict::Fail, &why));
-        return suite;
+fn document(name: &str, suites: &[Suite]) -> String {
+    let cases: Vec<&Case> = suites.iter().flat_map(|suite| &suite.cases).collect();
+    let failures = cases.iter().filter(|case| case.fails()).count();
+    let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
+    let name = attribute("name", name);
+    let tests = cases.len();
+    let _ = writeln!(
+        text,
+        "<testsuites{name} tests=\"{tests}\" skipped=\"0\" failures=\"{failures}\" errors=\"0\">"
+    );
+    for suite in suites {
+        write_suite(&mut text, suite);
     }
-    if changes.is_empty() {
-        suite.add_test_case(case(
-            "baseline",
-            "all baseline values unchanged",
-            Verdict::Pass,
-            "",
-        ));
+    text + "</testsuites>\n"
+}
+
+fn write_suite(text: &mut String, suite: &Suite) {
+    let failures = suite.cases.iter().filter(|case| case.fails()).count();
+    let name = attribute("name", &suite.name);
+    let tests = suite.cases.len();
+    let _ = writeln!(
+        text,
+        "    <testsuite{name} tests=\"{tests}\" skipped=\"0\" errors=\"0\" failures=\"{failures}\">"
+    );
+    if !suite.properties.is_empty() {
+        *text += "        <properties>\n";
+        for [name, value] in &suite.properties {
+            let [name, value] = [attribute("name", name), attribute("value", value)];
+            let _ = writeln!(text, "            <property{name}{value}/>");
+        }
+        *text += "        </properties>\n";
     }
-    for change in changes {
-        let name = format!("{}: {}", change.study, change.subject());
-        suite.add_test_case(case(
-            "baseline",
-            &name,
-            Verdict::Fail,
-            &change.movement.to_string(),
-        ));
+    for case in &suite.cases {
+        write_case(text, case);
     }
-    suite
+    if !suite.errors.is_empty() {
+        let errors = content(&suite.errors);
+        let _ = writeln!(text, "        <system-err>{errors}</system-err>");
+    }
+    *text += "    </testsuite>\n";
+}
+
+fn write_case(text: &mut String, case: &Case) {
+    let attributes = attribute("name", &case.name) + &attribute("classname", &case.class);
+    if !case.fails() {
+        let _ = writeln!(text, "        <testcase{attributes}/>");
+        return;
+    }
+    let _ = writeln!(text, "        <testcase{attributes}>");
+    let why = attribute("message", &case.reason) + &attribute("type", case.verdict.name());
+    let description = content(&case.description);
+    let _ = writeln!(
+        text,
+        "            <failure{why}>{description}</failure>\n        </testcase>"
+    );
+}
+
+/// An attribute with a blank in front. The name needs no escapes.
+fn attribute(name: &str, value: &str) -> String {
+    format!(" {name}=\"{}\"", escape_attribute(value))
+}
+
+/// Lines as the content of an element: no control character but line ends.
+fn content(text: &str) -> String {
+    text.split('\n').map(escape).collect::<Vec<_>>().join("\n")
 }

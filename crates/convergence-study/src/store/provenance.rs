@@ -7,7 +7,6 @@ use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-use chrono::DateTime;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
@@ -107,7 +106,7 @@ impl Provenance {
             .git_revision
             .as_ref()
             .map(|revision| format!("Commit {revision}{changed}."));
-        let date = self.finished_at.and_then(date).map(|date| date + ".");
+        let date = self.finished_at.map(|seconds| date(seconds) + ".");
         let threads = match self.threads_available {
             Some(available) => format!("{} of {available} threads", self.jobs),
             None => format!("{} threads", self.jobs),
@@ -125,10 +124,23 @@ impl Provenance {
     }
 }
 
-/// Seconds since 1970 as a date with the time of day; `None` beyond the calendar.
-fn date(seconds: u64) -> Option<String> {
-    let date = DateTime::from_timestamp(i64::try_from(seconds).ok()?, 0)?;
-    Some(date.format("%Y-%m-%d %H:%M UTC").to_string())
+/// Seconds since 1970 as a date with the time of day, in the Gregorian calendar.
+///
+/// Years begin in March here, so that the day that varies is the last one; the days before month m
+/// of such a year are (153 m + 2)/5, rounded down, for m = 0, ..., 11. Four centuries have 146,097
+/// days, a century 36,524 or one more, four years 1461 or one less.
+fn date(seconds: u64) -> String {
+    // Days since 1 March 0.
+    let days = seconds / 86_400 + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let year = 400 * era + year + month / 10;
+    let month = (month + 2) % 12 + 1;
+    let [hour, minute] = [seconds / 3600 % 24, seconds / 60 % 60];
+    format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02} UTC")
 }
 
 fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
@@ -171,10 +183,33 @@ fn entry(file: &str, name: &str) -> Option<String> {
         .map(|(_, value)| value.trim().to_owned())
 }
 
-#[cfg(all(test, target_os = "linux"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Every day of 800 years, counted by months: with leap days, and without them in 2100, 2200,
+    /// 2300 and 2500.
+    #[test]
+    fn each_day_has_the_date_of_the_calendar() {
+        let mut seconds = 0;
+        for year in 1970..2770_u64 {
+            let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+            let february = if is_leap { 29 } else { 28 };
+            let lengths = [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+            for (month, length) in (1..).zip(lengths) {
+                for day in 1..=length {
+                    let expected = format!("{year}-{month:02}-{day:02}");
+                    assert_eq!(date(seconds), format!("{expected} 00:00 UTC"));
+                    assert_eq!(date(seconds + 86_399), format!("{expected} 23:59 UTC"));
+                    seconds += 86_400;
+                }
+            }
+        }
+        // `date -u -d @1764283500`.
+        assert_eq!(date(1_764_283_500), "2025-11-27 22:45 UTC");
+    }
+
+    #[cfg(target_os = "linux")]
     #[test]
     fn the_peak_of_memory_grows_with_what_is_used() {
         const SIZE: usize = 64 << 20;

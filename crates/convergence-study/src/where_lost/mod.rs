@@ -16,7 +16,7 @@ mod words;
 use crate::judge::verdict::Verdict;
 use crate::run::{Fate, Located, VariantRate, VariantRates};
 use crate::study::Outcome;
-use crate::study::variants::{LeftOutVariant, Variants};
+use crate::study::variants::{LeftOutVariant, SolverPart, Variant, Variants};
 use decide::{Examined, decide};
 use fate::{Sized, fate};
 
@@ -35,6 +35,19 @@ pub fn lost(outcome: &Outcome) -> Vec<String> {
         .iter()
         .filter(|rate| rate.rate.verdict != Verdict::Pass && is_error(&rate.name));
     lost.map(|rate| rate.name.clone()).collect()
+}
+
+/// The place of the variant that is run first, if there is one: its errors are not those of the
+/// study unless the solver ignores it, for with a bubble the solution is no polynomial of low
+/// degree, for which schemes are exact.
+pub fn probe(variants: &Variants) -> Option<usize> {
+    let has_bubble = |variant: &Variant| {
+        matches!(
+            variant.switches_off,
+            SolverPart::BothFaces(_) | SolverPart::AllFaces | SolverPart::AllFacesAndInitial
+        )
+    };
+    variants.usable.iter().position(has_bubble)
 }
 
 /// Whether the errors are those of the study in every variant: the solver does not notice it.

@@ -19,9 +19,7 @@ use super::tables_of_errors::judged;
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = with(&studies, |findings| {
-        junit(PROJECT.name, findings.record).unwrap()
-    });
+    let text = with(&studies, |findings| junit(PROJECT.name, findings.record));
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document
         .root_element()
@@ -63,7 +61,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".into();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
     let text = compared(&studies, None, |findings| {
-        junit(PROJECT.name, findings.record).unwrap()
+        junit(PROJECT.name, findings.record)
     });
     let document = Document::parse(&text).unwrap();
     let message = document
@@ -253,7 +251,7 @@ fn every_output_has_every_item_that_did_not_pass() {
                 between(&findings.readme(), TITLE, "\n## ").to_owned(),
             ),
             ("page", text_of(&page_list(&findings.page()))),
-            ("JUnit", text_of(&junit(PROJECT.name, record).unwrap())),
+            ("JUnit", text_of(&junit(PROJECT.name, record))),
             ("JSON", serde_json::to_string(record).unwrap()),
         ]
         .map(|(name, text)| (name, letters(&text)))

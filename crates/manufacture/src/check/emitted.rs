@@ -5,13 +5,16 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use super::session::{Question, Session};
 use super::{Finding, finding};
 use crate::Sampling;
 use crate::against::{Right, ask, questions};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::derive::{Part, Role};
-use crate::emit::{self, Alternative, EmittedFunction, Language, OTHERS, accept, emit, functions};
+use crate::emit::{
+    self, Alternative, Answering, EmittedFunction, Language, OTHERS, accept, emit, functions,
+};
 use crate::language::tree::Tree;
 use crate::model::Model;
 use crate::problem::{InputError, ParameterValue, mentions};
@@ -75,11 +78,12 @@ pub(crate) fn run(
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let name = language.name();
-    let mut commands = language.commands(&model.problem.name, folder);
-    let Some(command) = commands.pop() else {
+    let Some(tools) = &language.texts().tools else {
         return Ok(vec![]);
     };
-    for build in commands {
+    let file = &model.problem.name;
+    for build in tools.builds {
+        let build = language.command(build, file, folder);
         let output = Command::new(&build[0]).args(&build[1..]).output();
         let output =
             output.map_err(|error| InputError::whole(&build.join(" "), error.to_string()))?;
@@ -90,6 +94,7 @@ pub(crate) fn run(
             return Ok(vec![finding("emitted", name, text, None)]);
         }
     }
+    let mut program = Program::new(tools.answering, language, file, folder);
     let of_file = Alternative {
         name: String::new(),
         model,
@@ -101,14 +106,19 @@ pub(crate) fn run(
         model,
     } in std::iter::once(&of_file).chain(alternatives)
     {
-        let answer = AnswerProgram {
-            command: &command,
+        let mut answer = AnswerProgram {
+            program: &mut program,
             variant,
         };
-        let mut of_model = values(model, language, &answer, sampling)?;
+        let mut of_model = values(model, language, &mut answer, sampling)?;
         // All models read parameters by the same statements; these differ where a value does.
         if variant.is_empty() || model.graph.parameters != *base {
-            of_model.extend(values_with_settings(model, language, &answer, sampling)?);
+            of_model.extend(values_with_settings(
+                model,
+                language,
+                &mut answer,
+                sampling,
+            )?);
         }
         for mut finding in of_model {
             name.clone_into(&mut finding.key);
@@ -121,17 +131,46 @@ pub(crate) fn run(
     Ok(findings)
 }
 
+/// What runs the answering program.
+enum Program {
+    Alone(Vec<String>),
+    Session(Session),
+}
+
+impl Program {
+    fn new(answering: Answering, language: Language, file: &str, folder: &Path) -> Self {
+        match answering {
+            Answering::Alone(command) => Program::Alone(language.command(command, file, folder)),
+            Answering::Session { interpreter, text } => {
+                let mut command = language.command(interpreter, file, folder);
+                let arguments = [text, &folder.display().to_string(), file];
+                command.extend(arguments.map(str::to_owned));
+                Program::Session(Session::new(command, LIMIT))
+            }
+        }
+    }
+}
+
 /// The answering program, for a variant.
-struct AnswerProgram<'c> {
-    command: &'c [String],
+struct AnswerProgram<'p> {
+    program: &'p mut Program,
     /// Empty for the solution of the file.
-    variant: &'c str,
+    variant: &'p str,
 }
 
 impl AnswerProgram<'_> {
-    fn to(&self, arguments: &[String], question: String) -> Result<String, InputError> {
-        let command = [self.command, arguments].concat();
-        ask::run(&command, question, Some(self.variant), LIMIT)
+    fn to(&mut self, arguments: &[String], text: String) -> Result<String, InputError> {
+        let variant = self.variant;
+        match self.program {
+            Program::Alone(command) => {
+                ask::run(&[command, arguments].concat(), text, Some(variant), LIMIT)
+            }
+            Program::Session(session) => session.answer(&Question {
+                variant,
+                arguments,
+                text: &text,
+            }),
+        }
     }
 }
 
@@ -139,7 +178,7 @@ impl AnswerProgram<'_> {
 fn values(
     model: &Model,
     language: Language,
-    answer: &AnswerProgram<'_>,
+    answer: &mut AnswerProgram<'_>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let Sampling { seed, points, .. } = *sampling;
@@ -172,7 +211,7 @@ fn values(
 fn values_with_settings(
     model: &Model,
     language: Language,
-    answer: &AnswerProgram<'_>,
+    answer: &mut AnswerProgram<'_>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let settings = settings(model);
@@ -253,7 +292,7 @@ impl Round<'_> {
     fn held(
         &self,
         model: &Model,
-        answer: &AnswerProgram<'_>,
+        answer: &mut AnswerProgram<'_>,
         settings: &[ParameterValue],
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {

@@ -5,6 +5,7 @@ mod domain;
 pub(crate) mod emitted;
 mod general;
 mod second_way;
+mod session;
 mod spot;
 mod symmetry;
 mod terms;

@@ -22,6 +22,7 @@ use crate::problem::InputError;
 
 pub(crate) use answer::OTHERS;
 pub(crate) use functions::{EmittedFunction, functions, others};
+pub(crate) use texts::Answering;
 pub(crate) use writer::Alternative;
 
 /// A language that functions are emitted in.
@@ -57,16 +58,11 @@ impl Language {
         name_in(&Self::ALL, &self)
     }
 
-    /// The commands that make the answering program of a file in a folder, the last of which runs
-    /// it; none for UFL.
-    pub(crate) fn commands(self, name: &str, folder: &Path) -> Vec<Vec<String>> {
+    /// The words of a command of its tools, for a file in a folder.
+    pub(crate) fn command(self, words: &str, name: &str, folder: &Path) -> Vec<String> {
         let folder = folder.join("").display().to_string();
         let values = [("IN", folder.as_str()), ("NAME", name)];
-        let tools = self.texts().tools.iter();
-        let commands = tools.flat_map(|tools| tools.commands);
-        commands
-            .map(|words| words.split(' ').map(|word| fill(word, &values)).collect())
-            .collect()
+        words.split(' ').map(|word| fill(word, &values)).collect()
     }
 }
 

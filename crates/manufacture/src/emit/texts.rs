@@ -51,8 +51,18 @@ pub(crate) struct Tools {
     /// It succeeds if they are there.
     pub(crate) probe: Text,
     pub(crate) missing: Text,
-    /// The last runs the answering program.
-    pub(crate) commands: &'static [Text],
+    pub(crate) builds: &'static [Text],
+    pub(crate) answering: Answering,
+}
+
+/// What runs the answering program here.
+#[derive(Clone, Copy)]
+pub(crate) enum Answering {
+    /// A command that is started for each question.
+    Alone(Text),
+    /// Where starting costs more than answering: an interpreter with a text, which answers question
+    /// after question by the answering program.
+    Session { interpreter: Text, text: Text },
 }
 
 /// Which names the language can tell apart, and which it has itself.

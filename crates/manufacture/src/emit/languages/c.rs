@@ -18,10 +18,8 @@ pub(super) const C: Texts = Texts {
     tools: Some(Tools {
         probe: "cc --version",
         missing: "C compiler",
-        commands: &[
-            "cc -std=c99 -O2 -o @IN@@NAME@_answer_c @IN@@NAME@.c @IN@@NAME@_answer.c -lm",
-            "@IN@@NAME@_answer_c",
-        ],
+        builds: &["cc -std=c99 -O2 -o @IN@@NAME@_answer_c @IN@@NAME@.c @IN@@NAME@_answer.c -lm"],
+        answering: Answering::Alone("@IN@@NAME@_answer_c"),
     }),
     names: NamingRules {
         ignores_case: false,

@@ -35,10 +35,10 @@ pub(super) const FORTRAN: Texts = Texts {
     tools: Some(Tools {
         probe: "gfortran --version",
         missing: "gfortran",
-        commands: &[
+        builds: &[
             "gfortran -std=f2008 -O2 -J @IN@ -o @IN@@NAME@_answer_fortran @IN@@NAME@.f90 @IN@@NAME@_answer.f90",
-            "@IN@@NAME@_answer_fortran",
         ],
+        answering: Answering::Alone("@IN@@NAME@_answer_fortran"),
     }),
     names: NamingRules {
         ignores_case: true,

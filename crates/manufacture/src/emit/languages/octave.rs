@@ -39,7 +39,8 @@ pub(super) const OCTAVE: Texts = Texts {
     tools: Some(Tools {
         probe: "octave --version",
         missing: "Octave",
-        commands: &["octave --quiet --no-history --path @IN@ @IN@@NAME@_answer.m"],
+        builds: &[],
+        answering: Answering::Alone("octave --quiet --no-history --path @IN@ @IN@@NAME@_answer.m"),
     }),
     names: NamingRules {
         ignores_case: false,

@@ -50,7 +50,11 @@ pub(super) const PYTHON: Texts = Texts {
     tools: Some(Tools {
         probe: "python3 -c __import__('numpy')",
         missing: "Python with NumPy",
-        commands: &["python3 -B @IN@@NAME@_answer.py"],
+        builds: &[],
+        answering: Answering::Session {
+            interpreter: "python3 -B -c",
+            text: include_str!("../templates/session.py"),
+        },
     }),
     names: NamingRules {
         ignores_case: false,

@@ -25,10 +25,8 @@ pub(super) const RUST: Texts = Texts {
     tools: Some(Tools {
         probe: "rustc --version",
         missing: "rustc",
-        commands: &[
-            "rustc --edition 2021 -O -o @IN@@NAME@_answer_rust @IN@@NAME@_answer.rs",
-            "@IN@@NAME@_answer_rust",
-        ],
+        builds: &["rustc --edition 2021 -O -o @IN@@NAME@_answer_rust @IN@@NAME@_answer.rs"],
+        answering: Answering::Alone("@IN@@NAME@_answer_rust"),
     }),
     names: NamingRules {
         ignores_case: false,

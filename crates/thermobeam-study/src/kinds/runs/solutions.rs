@@ -14,15 +14,16 @@
 //!   `F² ‖r_x‖²` is g² times its derivative: f is convex between two poles, where it has two roots
 //!   or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
-
 use super::{
     Findings, Results, RunStudy, Runs,
     checks::{Condition, all, at_most},
 };
 use crate::kinds::prelude::*;
 use crate::{
-    exact::assembly::{coupling, mass, stiffness},
+    exact::{
+        assembly::{coupling, mass, stiffness},
+        dense::{Dense, Eigenpair, dot, eigenpairs},
+    },
     kinds::settings::{ActiveTerms, CONTACT, Exercise, Integration},
     scene::{Coefficients, tables},
 };
@@ -235,9 +236,9 @@ struct StepFromRest<'a> {
     study: &'a Solutions,
     dt: f64,
     /// A(0) of V alone: W and Θ, which m does not concern, are eliminated.
-    matrix: DMatrix<f64>,
+    matrix: Dense,
     /// K at the nodes of u.
-    stiffness: DMatrix<f64>,
+    stiffness: Dense,
 }
 
 /// The answer of u to a unit load at the tip.
@@ -254,19 +255,18 @@ impl<'a> StepFromRest<'a> {
     fn new(study: &'a Solutions, dt: f64) -> Result<Self, CaseFailure> {
         let n = study.mesh.elements();
         let matrix = dense(study, dt);
-        let others = matrix.nrows() - n;
+        let others = matrix.rows() - n;
         let eliminated = matrix
-            .view((n, n), (others, others))
-            .into_owned()
-            .lu()
-            .solve(&matrix.view((n, 0), (others, n)).into_owned())
+            .part([n, n], others, others)
+            .solve(&matrix.part([n, 0], others, n))
             .ok_or_else(|| CaseFailure::new("the equations of φ and θ are singular"))?;
+        let of_others = matrix.part([0, n], n, others).times(&eliminated);
         let k = stiffness(&study.mesh);
         Ok(Self {
             study,
             dt,
-            matrix: matrix.view((0, 0), (n, n)) - matrix.view((0, n), (n, others)) * eliminated,
-            stiffness: DMatrix::from_fn(n, n, |i, j| k.entry(i + 1, j + 1)),
+            matrix: matrix.part([0, 0], n, n).plus(-1.0, &of_others),
+            stiffness: Dense::from_fn(n, n, |i, j| k.entry(i + 1, j + 1)),
         })
     }
 
@@ -278,19 +278,18 @@ impl<'a> StepFromRest<'a> {
     /// The answer for the mean axial force m; NaN if the matrix is singular to the last bit.
     fn answer(&self, m: f64) -> UnitLoadResponse {
         let n = self.study.mesh.elements();
-        let matrix = &self.matrix + 0.5 * m * self.dt * &self.stiffness;
-        let mut load = DVector::zeros(n);
-        load[n - 1] = 1.0;
-        let Some(velocity) = matrix.lu().solve(&load) else {
+        let matrix = self.matrix.plus(0.5 * m * self.dt, &self.stiffness);
+        let mut load = vec![0.0; n];
+        load[n - 1] = self.dt;
+        let Some(u) = matrix.solve_one(&load) else {
             return UnitLoadResponse {
                 tip: f64::NAN,
                 slope_squared: f64::NAN,
             };
         };
-        let u = self.dt * velocity;
         UnitLoadResponse {
             tip: u[n - 1],
-            slope_squared: u.dot(&(&self.stiffness * &u)),
+            slope_squared: dot(&u, &self.stiffness.multiply(&u)),
         }
     }
 
@@ -303,59 +302,49 @@ impl<'a> StepFromRest<'a> {
         // λ(m*) = 0.
         let end = -BUCKLING * (1.0 + 2.0 * self.study.beam.zeta / self.dt);
         if end > self.study.beam.beta {
-            let k = Cholesky::new(self.stiffness.clone())
-                .ok_or_else(|| CaseFailure::new("K is not positive definite"))?;
-            tips.extend(self.free_tips(&k, end));
-            tips.extend(self.contact_tips(&k, end));
+            tips.extend(self.free_tips(end)?);
+            tips.extend(self.contact_tips(end)?);
         }
         tips.sort_by(f64::total_cmp);
         Ok(tips)
     }
 
     /// The tips of the solutions that touch no obstacle.
-    fn free_tips(&self, k: &Cholesky<f64, Dyn>, end: f64) -> Vec<f64> {
+    fn free_tips(&self, end: f64) -> Result<Vec<f64>, CaseFailure> {
         let Beam { beta, rho, .. } = self.study.beam;
         let Obstacles { g1, g2, .. } = self.study.obstacles;
-        let modes = eigen(&self.matrix, k);
         let mut tips = vec![];
-        for (value, vector) in modes
-            .eigenvalues
-            .iter()
-            .zip(modes.eigenvectors.column_iter())
-        {
-            let m = self.force(*value);
+        for Eigenpair { value, vector } in self.modes(&self.matrix)? {
+            let m = self.force(value);
             if !(beta..end).contains(&m) {
                 continue;
             }
-            // xᵀKx = 1 for x = L⁻ᵀy.
-            let Some(x) = k.l().tr_solve_lower_triangular(&vector) else {
-                continue;
-            };
-            let tip = x[x.len() - 1] * (2.0 * (m - beta) / rho).sqrt();
+            // xᵀKx = 1.
+            let tip = vector[vector.len() - 1] * (2.0 * (m - beta) / rho).sqrt();
             tips.extend(
                 [-tip, tip]
                     .into_iter()
                     .filter(|tip| (g1..=g2).contains(tip)),
             );
         }
-        tips
+        Ok(tips)
     }
 
     /// The tips of the solutions that touch an obstacle.
-    fn contact_tips(&self, k: &Cholesky<f64, Dyn>, end: f64) -> Vec<f64> {
+    fn contact_tips(&self, end: f64) -> Result<Vec<f64>, CaseFailure> {
         let Beam { beta, .. } = self.study.beam;
         let Obstacles {
             g1, g2, epsilon, ..
         } = self.study.obstacles;
         let n = self.study.mesh.elements();
         let mut held = self.matrix.clone();
-        held[(n - 1, n - 1)] += self.dt / epsilon;
-        let values = eigen(&held, k).eigenvalues;
+        held[[n - 1, n - 1]] += self.dt / epsilon;
+        let modes = self.modes(&held)?;
         let mut ends = vec![beta, end];
         ends.extend(
-            values
+            modes
                 .iter()
-                .map(|value| self.force(*value))
+                .map(|mode| self.force(mode.value))
                 .filter(|m| (beta..end).contains(m)),
         );
         ends.sort_by(f64::total_cmp);
@@ -371,7 +360,13 @@ impl<'a> StepFromRest<'a> {
                 }
             }
         }
-        tips
+        Ok(tips)
+    }
+
+    /// Eigenvalues and vectors x of a matrix in units of K, with `xᵀKx = 1`.
+    fn modes(&self, matrix: &Dense) -> Result<Vec<Eigenpair>, CaseFailure> {
+        eigenpairs(matrix, &self.stiffness)
+            .ok_or_else(|| CaseFailure::new("K is not positive definite"))
     }
 
     /// The mean axial force m for which A(0) + ½ m dt K has an eigenvalue 0 in units of K, where
@@ -387,14 +382,6 @@ impl<'a> StepFromRest<'a> {
         let slope_squared = force * force * answer.slope_squared;
         (-force * answer.tip, beta + 0.5 * rho * slope_squared)
     }
-}
-
-/// Eigenvalues and vectors of L⁻¹ A L⁻ᵀ, those of (A, K) for K = L Lᵀ.
-fn eigen(a: &DMatrix<f64>, k: &Cholesky<f64, Dyn>) -> SymmetricEigen<f64, Dyn> {
-    let l = k.l();
-    let half = l.solve_lower_triangular(a).unwrap_or_else(|| a.clone());
-    let whole = l.solve_lower_triangular(&half.transpose()).unwrap_or(half);
-    SymmetricEigen::new(0.5 * (&whole + whole.transpose()))
 }
 
 /// Steps of the search for the minimum: each leaves 0.62 of the interval.
@@ -440,7 +427,7 @@ fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 /// The matrix of V, W and Θ of (3.7) without axial force: u and φ at nodes 1 to n, θ at 1 to n - 1.
-fn dense(study: &Solutions, dt: f64) -> DMatrix<f64> {
+fn dense(study: &Solutions, dt: f64) -> Dense {
     let n = study.mesh.elements();
     let Beam { zeta, a, .. } = study.beam;
     let (m, k, c) = (
@@ -449,23 +436,23 @@ fn dense(study: &Solutions, dt: f64) -> DMatrix<f64> {
         coupling(&study.mesh),
     );
     let (inertia, sigma) = (1.0 / dt, zeta + 0.5 * dt);
-    let mut matrix = DMatrix::zeros(3 * n - 1, 3 * n - 1);
+    let mut matrix = Dense::zeros(3 * n - 1, 3 * n - 1);
     for i in 1..=n {
         for j in 1..=n {
             let (u, w) = (i - 1, n + i - 1);
             let (of_u, of_w, of_theta) = (j - 1, n + j - 1, 2 * n + j - 1);
             let (mass, stiffness) = (m.entry(i, j), k.entry(i, j));
-            matrix[(u, of_u)] = inertia * mass + sigma * stiffness;
-            matrix[(u, of_w)] = -sigma * c.entry(i, j);
-            matrix[(w, of_u)] = -sigma * c.entry(j, i);
-            matrix[(w, of_w)] = (inertia + sigma) * mass + sigma * stiffness;
+            matrix[[u, of_u]] = inertia * mass + sigma * stiffness;
+            matrix[[u, of_w]] = -sigma * c.entry(i, j);
+            matrix[[w, of_u]] = -sigma * c.entry(j, i);
+            matrix[[w, of_w]] = (inertia + sigma) * mass + sigma * stiffness;
             if j < n {
-                matrix[(w, of_theta)] = -a * c.entry(i, j);
+                matrix[[w, of_theta]] = -a * c.entry(i, j);
                 // The row of θ_j and the column of φ_i.
-                matrix[(of_theta, w)] = a * c.entry(i, j);
+                matrix[[of_theta, w]] = a * c.entry(i, j);
             }
             if i < n && j < n {
-                matrix[(2 * n + i - 1, of_theta)] = 2.0 / dt * mass + stiffness;
+                matrix[[2 * n + i - 1, of_theta]] = 2.0 / dt * mass + stiffness;
             }
         }
     }

@@ -1,9 +1,8 @@
 //! The spectral radius of the paper's iteration, linearised at a state.
 
-use nalgebra::{DMatrix, DVector};
 use thermobeam::linearized::LinearizedIteration;
 
-use crate::kinds::prelude::max_or_nan;
+use crate::exact::dense::{self, Dense, add, dot};
 
 /// Vectors of the Krylov space: on 100 elements its largest eigenvalue agrees with that of the
 /// dense matrix to 1e-6 at every point of the study.
@@ -20,44 +19,39 @@ const INVARIANT: f64 = 1e-13;
 pub(super) fn spectral_radius(map: &mut LinearizedIteration) -> f64 {
     let unknowns = 2 * map.elements();
     let most = VECTORS.min(unknowns);
-    let mut basis = vec![DVector::from_element(unknowns, 1.0).normalize()];
-    let mut projection = DMatrix::zeros(most, most);
+    let mut basis = vec![vec![1.0 / (unknowns as f64).sqrt(); unknowns]];
+    let mut projection = Dense::zeros(most, most);
     for k in 0..most {
         let mut image = apply(map, &basis[k]);
-        let length = image.norm();
+        let length = norm(&image);
         // Twice: one pass leaves round-off of the size of what it removes.
         for _ in 0..2 {
             for (row, vector) in basis.iter().enumerate() {
-                let part = vector.dot(&image);
-                image.axpy(-part, vector, 1.0);
-                projection[(row, k)] += part;
+                let part = dot(vector, &image);
+                add(&mut image, -part, vector);
+                projection[[row, k]] += part;
             }
         }
-        let rest = image.norm();
+        let rest = norm(&image);
         if k + 1 == most || rest <= INVARIANT * length {
-            projection = projection.view((0, 0), (k + 1, k + 1)).into_owned();
+            projection = projection.part([0, 0], k + 1, k + 1);
             break;
         }
-        projection[(k + 1, k)] = rest;
-        basis.push(image / rest);
+        projection[[k + 1, k]] = rest;
+        image.iter_mut().for_each(|entry| *entry /= rest);
+        basis.push(image);
     }
-    projection
-        .complex_eigenvalues()
-        .iter()
-        .map(|value| value.re.hypot(value.im))
-        .fold(0.0, max_or_nan)
+    dense::spectral_radius(&projection)
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    dot(vector, vector).sqrt()
 }
 
 /// The image of (δV, δW) at the free nodes.
-fn apply(map: &mut LinearizedIteration, errors: &DVector<f64>) -> DVector<f64> {
-    let n = map.elements();
-    let clamped = std::iter::once(&0.0);
-    let mut v: Vec<f64> = clamped
-        .clone()
-        .chain(errors.rows(0, n).iter())
-        .copied()
-        .collect();
-    let mut w: Vec<f64> = clamped.chain(errors.rows(n, n).iter()).copied().collect();
+fn apply(map: &mut LinearizedIteration, errors: &[f64]) -> Vec<f64> {
+    let (of_v, of_w) = errors.split_at(map.elements());
+    let [mut v, mut w] = [of_v, of_w].map(|free| [&[0.0], free].concat());
     map.apply(&mut v, &mut w);
-    DVector::from_iterator(2 * n, v[1..].iter().chain(&w[1..]).copied())
+    [&v[1..], &w[1..]].concat()
 }

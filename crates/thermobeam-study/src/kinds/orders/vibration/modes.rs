@@ -24,9 +24,9 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{DMatrix, DVector};
 use thermobeam_exact::{
     assembly::{Tridiagonal, coupling, mass, stiffness},
+    dense::{Dense, Eigenpair, eigenpairs},
     vibration::Mode,
 };
 
@@ -85,13 +85,6 @@ struct MeshTemperature {
     square: f64,
     /// Nodal values.
     theta: Vec<f64>,
-}
-
-/// A solution of `A x = λ B x`.
-struct Eigenpair {
-    /// λ.
-    value: f64,
-    vector: DVector<f64>,
 }
 
 impl Modes {
@@ -218,16 +211,16 @@ fn no_modes() -> CaseFailure {
 /// The method is dense and shares nothing with the solver's sweeps.
 fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
     let n = mesh.elements();
-    let [mass, stiffness, coupling] = [mass(mesh), stiffness(mesh), coupling(mesh)]
-        .map(|matrix| dense(&matrix).view((1, 1), (n, n)).into_owned());
-    let mut a = DMatrix::zeros(2 * n, 2 * n);
-    let mut b = DMatrix::zeros(2 * n, 2 * n);
-    a.view_mut((0, 0), (n, n)).copy_from(&stiffness);
-    a.view_mut((n, n), (n, n)).copy_from(&(stiffness + &mass));
-    a.view_mut((0, n), (n, n)).copy_from(&-&coupling);
-    a.view_mut((n, 0), (n, n)).copy_from(&-coupling.transpose());
-    b.view_mut((0, 0), (n, n)).copy_from(&mass);
-    b.view_mut((n, n), (n, n)).copy_from(&mass);
+    let [mass, stiffness, coupling] =
+        [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| at_nodes(&matrix, n));
+    let [mut a, mut b] = [0, 1].map(|_| Dense::zeros(2 * n, 2 * n));
+    let opposite = Dense::zeros(n, n).plus(-1.0, &coupling);
+    a.put([0, 0], &stiffness);
+    a.put([n, n], &stiffness.plus(1.0, &mass));
+    a.put([0, n], &opposite);
+    a.put([n, 0], &opposite.transpose());
+    b.put([0, 0], &mass);
+    b.put([n, n], &mass);
     let mut vibrations = vec![];
     for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
         let tip = x[n - 1];
@@ -247,8 +240,7 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
 /// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first.
 fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
     let n = mesh.elements();
-    let [a, b] = [stiffness(mesh), mass(mesh)]
-        .map(|matrix| dense(&matrix).view((1, 1), (n - 1, n - 1)).into_owned());
+    let [a, b] = [stiffness(mesh), mass(mesh)].map(|matrix| at_nodes(&matrix, n - 1));
     let mut temperatures = vec![];
     for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
         let mut largest = 0.0_f64;
@@ -268,36 +260,9 @@ fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
     Some(temperatures)
 }
 
-fn dense(matrix: &Tridiagonal) -> DMatrix<f64> {
-    let n = matrix.diagonal.len();
-    DMatrix::from_fn(n, n, |i, j| match j {
-        _ if j == i => matrix.diagonal[i],
-        _ if j + 1 == i => matrix.lower[i],
-        _ if j == i + 1 => matrix.upper[i],
-        _ => 0.0,
-    })
-}
-
-/// Eigenpairs of `A x = λ B x`, increasing, by Cholesky of B; `None` if B is not positive definite.
-fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<Eigenpair>> {
-    let factor = b.clone().cholesky()?.l();
-    let half = factor.solve_lower_triangular(a)?;
-    let standard = factor.solve_lower_triangular(&half.transpose())?;
-    let eigen = (0.5 * (&standard + standard.transpose())).symmetric_eigen();
-    let mut order: Vec<usize> = (0..a.nrows()).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-    let mut pairs = vec![];
-    for index in order {
-        let x = factor
-            .transpose()
-            .solve_upper_triangular(&eigen.eigenvectors.column(index).clone_owned())?;
-        pairs.push(Eigenpair {
-            // Rayleigh quotient: its error is the square of the eigenvector's.
-            value: (a * &x).dot(&x) / (b * &x).dot(&x),
-            vector: x,
-        });
-    }
-    Some(pairs)
+/// The entries at the nodes 1 to n.
+fn at_nodes(matrix: &Tridiagonal, n: usize) -> Dense {
+    Dense::from_fn(n, n, |i, j| matrix.entry(i + 1, j + 1))
 }
 
 #[cfg(test)]

@@ -123,7 +123,7 @@ mod tests {
                 match (law.group, table.order) {
                     (LawGroup::Stagnating, order) => assert!(order.is_none(), "{}", law.name),
                     (LawGroup::Emerging, Some(order)) => {
-                        assert!(order < table.shown, "{}", law.name)
+                        assert!(order < table.shown, "{}", law.name);
                     }
                     // log h changes by one part in forty: the exponent of the logarithm shows.
                     (LawGroup::Polluted, Some(order)) => {

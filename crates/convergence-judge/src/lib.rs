@@ -25,6 +25,7 @@ pub mod text {
     pub mod columns;
     pub mod json;
     pub mod lists;
+    pub mod named;
     #[cfg(feature = "names")]
     pub mod names;
     pub mod number;

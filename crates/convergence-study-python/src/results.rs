@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use convergence_study::{
     Axis, Claim, ErrorsOverLevels, Finished, Floor, Header,
     internal::study::{
-        NamedErrors, STEPS,
+        STEPS,
         header::is_name,
         over_levels::Levels,
         run_cases_here,
@@ -70,6 +70,9 @@ impl NamedClaim {
         }
     }
 }
+
+/// The errors of one level by name, as Python holds them.
+pub(crate) type NamedErrors = Vec<(String, f64)>;
 
 /// What a study is made of; `copy` and `pickle` judge it again.
 #[derive(Clone, FromPyObject, IntoPyObject)]

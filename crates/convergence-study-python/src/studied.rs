@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use convergence_study::{
-    Finished, NamedRate, Outcome, Verdict,
+    Finished, NamedNumber, NamedRate, Outcome, Verdict,
     internal::{
         program,
-        study::{NamedErrors, STEPS, first_repeated, until_decided::Next},
+        study::{STEPS, first_repeated, until_decided::Next},
         where_lost::{self, Located},
     },
     write_report,
@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 
 use crate::judged::{self, Judgement, attributes, finite, frame, html};
 use crate::levels::LevelChoice;
-use crate::results::{NamedClaim, Options, Results};
+use crate::results::{NamedClaim, NamedErrors, Options, Results};
 use crate::values::{Claims, number, refuse};
 
 /// A completed study.
@@ -189,7 +189,7 @@ impl Study {
             .map(|level| level.step.unwrap_or(f64::NAN))
             .collect();
         let mut columns: Vec<(String, Vec<f64>)> = vec![(self.results.step().to_owned(), steps)];
-        for (name, _) in levels.first().map_or(&[][..], |level| &level.errors) {
+        for NamedNumber { name, .. } in levels.first().map_or(&[][..], |level| &level.errors) {
             columns.push((
                 name.clone(),
                 levels.iter().map(|level| level.error(name)).collect(),
@@ -223,7 +223,9 @@ impl Study {
         dict.set_item("rates", rates)?;
         let levels = slf.get().finished.outcome.levels.iter().map(|level| {
             let errors = level.errors.iter();
-            let errors: Vec<_> = errors.map(|(name, error)| (name, finite(*error))).collect();
+            let errors: Vec<_> = errors
+                .map(|error| (&error.name, finite(error.value)))
+                .collect();
             let dict = PyDict::new(slf.py());
             dict.set_item(slf.get().results.step(), level.step)?;
             errors
@@ -334,7 +336,7 @@ fn found(level: &str, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
         Ok((name, value))
     };
     let errors: NamedErrors = by_name.iter().map(entry).collect::<PyResult<_>>()?;
-    match first_repeated(&errors) {
+    match first_repeated(errors.iter().map(|(name, _)| name.as_str())) {
         // The keys 1 and "1", for example.
         Some(name) => Err(refuse(format!(
             "solve({level}): expected each name of an error once, found `{name}` twice"

@@ -241,6 +241,6 @@ fn names(outcome: &Outcome) -> Vec<&String> {
     let errors = outcome
         .levels
         .iter()
-        .flat_map(|level| level.errors.iter().map(|(name, _)| name));
+        .flat_map(|level| level.errors.iter().map(|error| &error.name));
     distinct(errors.chain(outcome.rates.iter().map(|rate| &rate.name)))
 }

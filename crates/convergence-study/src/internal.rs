@@ -117,7 +117,7 @@ pub mod study {
     pub mod readings {
         pub use crate::study::readings::{guarded, not_finite, table};
     }
-    pub use crate::study::{Described, NamedErrors, STEPS, first_repeated, run_cases_here};
+    pub use crate::study::{Described, STEPS, first_repeated, run_cases_here};
     #[cfg(feature = "files")]
     pub use crate::study::{StudyFile, allow_only};
     pub mod coverage {

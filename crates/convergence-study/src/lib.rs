@@ -121,7 +121,7 @@ pub use convergence_judge::judge::{
     },
 };
 #[doc(inline)]
-pub use convergence_judge::{Interval, Prose};
+pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
 
 #[doc(inline)]
 pub use crate::{

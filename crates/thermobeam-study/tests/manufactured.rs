@@ -152,7 +152,7 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
             outcome.levels[3]
                 .errors
                 .iter()
-                .all(|(_, error)| error.is_nan())
+                .all(|error| error.value.is_nan())
         );
     }
 }

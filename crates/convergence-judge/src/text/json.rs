@@ -4,6 +4,8 @@
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde::ser::{SerializeMap, Serializer};
 
+use super::named::NamedNumber;
+
 /// A number; `null` is NaN.
 pub fn nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::NAN))
@@ -20,20 +22,20 @@ pub fn nans<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::E
 
 /// Names and numbers as an object.
 pub mod named {
-    use super::{Deserializer, Named, SerializeMap, Serializer};
+    use super::{Deserializer, Named, NamedNumber, SerializeMap, Serializer};
 
     /// As serde asks for it.
     ///
     /// # Errors
     /// Those of the serializer.
     pub fn serialize<S: Serializer>(
-        numbers: &[(String, f64)],
+        numbers: &[NamedNumber],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(numbers.len()))?;
         numbers
             .iter()
-            .try_for_each(|(name, number)| map.serialize_entry(name, number))?;
+            .try_for_each(|NamedNumber { name, value }| map.serialize_entry(name, value))?;
         map.end()
     }
 
@@ -43,14 +45,14 @@ pub mod named {
     /// Those of the deserializer.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
-    ) -> Result<Vec<(String, f64)>, D::Error> {
+    ) -> Result<Vec<NamedNumber>, D::Error> {
         deserializer.deserialize_map(Named)
     }
 }
 
 /// The same, with whole numbers written without a decimal point.
 pub mod counted {
-    use super::{SerializeMap, Serializer};
+    use super::{NamedNumber, SerializeMap, Serializer};
 
     pub use super::named::deserialize;
 
@@ -59,16 +61,16 @@ pub mod counted {
     /// # Errors
     /// Those of the serializer.
     pub fn serialize<S: Serializer>(
-        numbers: &[(String, f64)],
+        numbers: &[NamedNumber],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(numbers.len()))?;
-        for (name, number) in numbers {
-            let whole = *number as i64;
-            if whole as f64 == *number {
+        for NamedNumber { name, value } in numbers {
+            let whole = *value as i64;
+            if whole as f64 == *value {
                 map.serialize_entry(name, &whole)?;
             } else {
-                map.serialize_entry(name, number)?;
+                map.serialize_entry(name, value)?;
             }
         }
         map.end()
@@ -79,7 +81,7 @@ pub mod counted {
 struct Named;
 
 impl<'de> Visitor<'de> for Named {
-    type Value = Vec<(String, f64)>;
+    type Value = Vec<NamedNumber>;
 
     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("an object of numbers")
@@ -88,7 +90,7 @@ impl<'de> Visitor<'de> for Named {
     fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Self::Value, M::Error> {
         let mut numbers = vec![];
         while let Some((name, value)) = map.next_entry::<String, Option<f64>>()? {
-            numbers.push((name, value.unwrap_or(f64::NAN)));
+            numbers.push(NamedNumber::new(name, value.unwrap_or(f64::NAN)));
         }
         Ok(numbers)
     }

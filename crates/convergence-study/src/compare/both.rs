@@ -4,6 +4,7 @@ use super::sequence::{ErrorSequence, LevelPoint, work};
 use super::{ORDER_SHIFT, SAME_STEP, Shift, WORK_WITHIN};
 use crate::judge::verdict::Verdict;
 use crate::study::LevelErrors;
+use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
 
 /// One error in both records.
@@ -226,7 +227,7 @@ fn is_error(number: f64) -> bool {
 fn label(level: &LevelErrors) -> String {
     let parameters = level.parameters.iter();
     let parameters: Vec<String> = parameters
-        .map(|(name, value)| format!("{name} = {value}"))
+        .map(|NamedNumber { name, value }| format!("{name} = {value}"))
         .collect();
     parameters.join(", ")
 }

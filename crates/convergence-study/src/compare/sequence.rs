@@ -5,6 +5,7 @@ use crate::judge::fit::Level;
 use crate::judge::verdict::{Aside, Floor, RateVerdict, observe};
 use crate::study::LevelErrors;
 use crate::study::outcome::Outcome;
+use crate::text::named::NamedNumber;
 
 /// The error at a level.
 pub(super) struct LevelPoint<'r> {
@@ -33,11 +34,11 @@ impl<'r> ErrorSequence<'r> {
         let rate = outcome.rate(name);
         let mut points = vec![];
         for level in &outcome.levels {
-            if let Some((_, error)) = level.errors.iter().find(|(other, _)| other == name) {
+            if let Some(error) = NamedNumber::find(&level.errors, name) {
                 points.push(LevelPoint {
                     level,
                     step: level.step.unwrap_or(f64::NAN),
-                    error: *error,
+                    error,
                 });
             }
         }

@@ -9,15 +9,19 @@ use serde_json::{Map, Value};
 
 use crate::input::shorten;
 use crate::study::{CaseFailure, Claim};
+use crate::text::json;
+use crate::text::named::NamedNumber;
 use crate::text::visible::visible;
 
 /// The numbers of one case; NaN if that was the answer. Names are sorted, and safe for a terminal.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Answer {
     /// Errors by name.
-    pub errors: Vec<(String, f64)>,
+    #[serde(with = "json::named")]
+    pub errors: Vec<NamedNumber>,
     /// Values without an exact solution, by name.
-    pub values: Vec<(String, f64)>,
+    #[serde(with = "json::named")]
+    pub values: Vec<NamedNumber>,
     /// The mesh width, if it is not the nominal one; > 0.
     pub h: Option<f64>,
     /// The time step, likewise.
@@ -93,21 +97,21 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, b
 /// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
 /// expects, with the step and the work; `None` if no name is expected.
 pub(super) fn object_of_lines(
-    numbers: &[(String, f64)],
+    numbers: &[NamedNumber],
     expected: &[Expectation],
 ) -> Option<Map<String, Value>> {
     let mut object = Map::new();
-    for (name, number) in numbers {
+    for NamedNumber { name, value } in numbers {
         for expected in expected.iter().filter(|expected| expected.name == *name) {
             let among = format!("{}s", expected.what());
             let names = object.entry(among).or_insert_with(|| Map::new().into());
-            names[name] = (*number).into();
+            names[name] = (*value).into();
         }
     }
     let is_answer = !object.is_empty();
-    for (name, number) in numbers {
+    for NamedNumber { name, value } in numbers {
         if STEPS_AND_WORK.contains(&name.as_str()) {
-            object.insert(name.clone(), (*number).into());
+            object.insert(name.clone(), (*value).into());
         }
     }
     is_answer.then_some(object)
@@ -250,10 +254,7 @@ impl Answer {
         } else {
             &self.errors
         };
-        among
-            .iter()
-            .find(|(known, _)| *known == expected.name)
-            .map(|(_, number)| *number)
+        NamedNumber::find(among, &expected.name)
     }
 
     /// Refuses an answer that lacks a number that the study expects.
@@ -277,7 +278,7 @@ impl Answer {
             [] => "none".to_owned(),
             _ => own
                 .iter()
-                .map(|(name, _)| name.as_str())
+                .map(|known| known.name.as_str())
                 .collect::<Vec<_>>()
                 .join(", "),
         };
@@ -293,7 +294,7 @@ fn table(
     object: &Map<String, Value>,
     name: &str,
     complaint: &mut Option<String>,
-) -> Result<Vec<(String, f64)>, String> {
+) -> Result<Vec<NamedNumber>, String> {
     let Some(value) = object.get(name) else {
         return Ok(vec![]);
     };
@@ -319,7 +320,7 @@ fn table(
             complaint.get_or_insert(error);
             f64::NAN
         });
-        (key, value)
+        NamedNumber::new(key, value)
     };
     Ok(entries.iter().map(entry).collect())
 }
@@ -374,9 +375,9 @@ mod tests {
                 .unwrap();
         assert_eq!(
             answer.errors,
-            [("H1".to_owned(), 2.0), ("L2".to_owned(), 1e-3)]
+            [NamedNumber::new("H1", 2.0), NamedNumber::new("L2", 1e-3)]
         );
-        assert_eq!(answer.values, [("flux".to_owned(), -3.5)]);
+        assert_eq!(answer.values, [NamedNumber::new("flux", -3.5)]);
         assert_eq!(
             (answer.h, answer.dt, answer.work),
             (Some(0.1), None, Some(40.0))

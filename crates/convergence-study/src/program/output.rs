@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 
 use super::answer::{self, STEPS_AND_WORK};
 use crate::input::error_table::pairs::named_numbers;
+use crate::text::named::NamedNumber;
 use crate::text::visible::visible;
 
 /// Longest line that is read whole, in bytes; only the start of a longer line is kept.
@@ -27,7 +28,7 @@ pub(super) struct NoAnswer {
     /// The last line that it printed; empty without one.
     pub(super) last_line: String,
     /// The last number behind each of the names, unless a line looks like an object.
-    pub(super) numbers: Vec<(String, f64)>,
+    pub(super) numbers: Vec<NamedNumber>,
 }
 
 /// Reads standard output to its end: the last line that is a JSON object, or why there is none, and
@@ -39,7 +40,7 @@ pub(super) fn read_output(
     let mut object = None;
     let mut near_miss = None;
     let mut is_broken = false;
-    let mut numbers: Vec<(String, f64)> = vec![];
+    let mut numbers: Vec<NamedNumber> = vec![];
     let mut others: Vec<String> = vec![];
     let mut last = String::new();
     for_each_line(stream, |line, is_whole| {
@@ -60,8 +61,8 @@ pub(super) fn read_output(
             None => {
                 for (name, number) in named_numbers(line) {
                     if names.iter().any(|known| known == name) {
-                        numbers.retain(|(known, _)| known != name);
-                        numbers.push((name.to_owned(), number));
+                        numbers.retain(|known| known.name != name);
+                        numbers.push(NamedNumber::new(name, number));
                     } else if others.len() < MOST_OTHERS
                         && !others.iter().any(|other| other == name)
                     {

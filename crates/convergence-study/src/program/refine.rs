@@ -2,6 +2,7 @@
 
 use crate::input::{Field, Form, InputError, Key, Keys, Section};
 use crate::study::{Axis, Refinement, until_decided};
+use crate::text::named::NamedNumber;
 
 /// The keys of the table: a list in space, or in time, or one of each.
 pub(super) const KEYS: &[Keys] = &[
@@ -216,7 +217,7 @@ impl RefinedCase {
         let parameters = self
             .listed
             .iter()
-            .map(|(name, value)| ((*name).to_owned(), *value))
+            .map(|(name, value)| NamedNumber::new(*name, *value))
             .collect();
         Refinement {
             label: self.label.clone(),

@@ -27,6 +27,7 @@ use crate::store::{Provenance, Record, ReportSet, json, junit};
 use crate::study::Tier;
 use crate::study::outcome::Figure;
 use crate::text::lists::distinct;
+use crate::text::named::NamedNumber;
 use crate::text::number::committed;
 use markdown::{cell, text};
 
@@ -272,7 +273,7 @@ impl Findings<'_> {
             .iter()
             .flat_map(|finished| &finished.outcome.levels);
         let parameters =
-            distinct(levels.flat_map(|level| level.parameters.iter().map(|(name, _)| name)));
+            distinct(levels.flat_map(|level| level.parameters.iter().map(|known| &known.name)));
         let mut csv: String = ["study"]
             .into_iter()
             .chain(parameters.iter().map(|name| name.as_str()))
@@ -291,12 +292,12 @@ impl Findings<'_> {
                     }
                     values += ",";
                 }
-                for (norm, error) in &level.errors {
+                for NamedNumber { name, value } in &level.errors {
                     csv += &format!(
                         "{},{values}{},{}\n",
                         csv_field(&header.id),
-                        csv_field(norm),
-                        committed(*error)
+                        csv_field(name),
+                        committed(*value)
                     );
                 }
             }

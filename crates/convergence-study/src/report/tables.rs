@@ -5,6 +5,7 @@ use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
 use crate::study::outcome::{Check, LevelErrors, NamedRate, Outcome, Table};
 use crate::text::lists::distinct;
+use crate::text::named::NamedNumber;
 use crate::text::number::{
     RATE_PLACES, committed_rate, decimals, error_text, interval_places, interval_text, plain_text,
 };
@@ -153,10 +154,10 @@ enum ErrorCell {
 
 impl ErrorCell {
     fn of(level: &LevelErrors, name: &str) -> Self {
-        match level.errors.iter().find(|(known, _)| known == name) {
+        match NamedNumber::find(&level.errors, name) {
             None => ErrorCell::NotMeasured,
             Some(_) if level.without.iter().any(|known| known == name) => ErrorCell::NoResult,
-            Some((_, error)) => ErrorCell::Error(*error),
+            Some(error) => ErrorCell::Error(error),
         }
     }
 
@@ -187,7 +188,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
     let mut names = distinct(
         levels
             .iter()
-            .flat_map(|level| level.errors.iter().map(|(name, _)| name)),
+            .flat_map(|level| level.errors.iter().map(|error| &error.name)),
     );
     let is_judged = |name: &&String| outcome.rate(name).is_some();
     if judged && names.iter().any(is_judged) {
@@ -196,7 +197,7 @@ fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
     let parameters = distinct(
         levels
             .iter()
-            .flat_map(|level| level.parameters.iter().map(|(name, _)| name)),
+            .flat_map(|level| level.parameters.iter().map(|known| &known.name)),
     );
     let room = WIDEST
         - parameters

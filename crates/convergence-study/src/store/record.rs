@@ -117,7 +117,7 @@ impl Record {
                 level
                     .errors
                     .iter_mut()
-                    .for_each(|(_, error)| *error = committed(*error));
+                    .for_each(|error| error.value = committed(error.value));
                 level.step = level.step.map(committed);
                 level.work = level.work.map(committed);
             }

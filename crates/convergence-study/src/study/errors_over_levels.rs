@@ -8,17 +8,14 @@ use super::outcome::{Check, Outcome};
 use super::over_levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::subject::Subject;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
-
-/// The errors of one level, by name.
-pub type NamedErrors = Vec<(String, f64)>;
+use crate::text::named::NamedNumber;
 
 /// Names under which a level reports its own step, if that is not 1/n.
 pub const STEPS: [&str; 2] = ["h", "dt"];
 
 /// The first name that a list has twice.
-pub fn first_repeated<T>(list: &[(String, T)]) -> Option<&str> {
+pub fn first_repeated<'l>(mut names: impl Iterator<Item = &'l str>) -> Option<&'l str> {
     let mut known = BTreeSet::new();
-    let mut names = list.iter().map(|(name, _)| name.as_str());
     names.find(|name| !known.insert(*name))
 }
 
@@ -29,22 +26,22 @@ pub trait IntoErrors {
     ///
     /// # Errors
     /// The case failed, or a name is given twice: one of the two would not be judged.
-    fn into_errors(self) -> Result<NamedErrors, CaseFailure>;
+    fn into_errors(self) -> Result<Vec<NamedNumber>, CaseFailure>;
 }
 
 impl IntoErrors for f64 {
-    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
-        Ok(vec![("error".to_owned(), self)])
+    fn into_errors(self) -> Result<Vec<NamedNumber>, CaseFailure> {
+        Ok(vec![NamedNumber::new("error", self)])
     }
 }
 
 impl<N: Into<String>> IntoErrors for Vec<(N, f64)> {
-    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
-        let errors: NamedErrors = self
+    fn into_errors(self) -> Result<Vec<NamedNumber>, CaseFailure> {
+        let errors: Vec<NamedNumber> = self
             .into_iter()
-            .map(|(name, error)| (name.into(), error))
+            .map(|(name, error)| NamedNumber::new(name, error))
             .collect();
-        match first_repeated(&errors) {
+        match first_repeated(errors.iter().map(|error| error.name.as_str())) {
             Some(name) => Err(CaseFailure::new(format!(
                 "expected each name of an error once, found `{name}` twice"
             ))),
@@ -54,13 +51,13 @@ impl<N: Into<String>> IntoErrors for Vec<(N, f64)> {
 }
 
 impl<N: Into<String>, const COUNT: usize> IntoErrors for [(N, f64); COUNT] {
-    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
+    fn into_errors(self) -> Result<Vec<NamedNumber>, CaseFailure> {
         Vec::from(self).into_errors()
     }
 }
 
 impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
-    fn into_errors(self) -> Result<NamedErrors, CaseFailure> {
+    fn into_errors(self) -> Result<Vec<NamedNumber>, CaseFailure> {
         self.map_err(Into::into)?.into_errors()
     }
 }
@@ -150,11 +147,11 @@ impl<F> ErrorsOverLevels<F> {
 
     /// The levels computed so far, coarse to fine, which `until_decided`
     /// judges as they grow.
-    pub fn levels(&self, ran: &[Ran<usize, NamedErrors>]) -> Levels {
-        let mut ran: Vec<&Ran<usize, NamedErrors>> = ran.iter().collect();
+    pub fn levels(&self, ran: &[Ran<usize, Vec<NamedNumber>>]) -> Levels {
+        let mut ran: Vec<&Ran<usize, Vec<NamedNumber>>> = ran.iter().collect();
         let has_steps = ran.iter().any(|ran| reported_step(ran).is_some());
         // If some levels report their step, 1/n cannot stand in for that of the others.
-        let step_of = |ran: &Ran<usize, NamedErrors>| match reported_step(ran) {
+        let step_of = |ran: &Ran<usize, Vec<NamedNumber>>| match reported_step(ran) {
             Some(step) => step,
             None if has_steps => f64::NAN,
             None => 1.0 / ran.case.data as f64,
@@ -167,7 +164,8 @@ impl<F> ErrorsOverLevels<F> {
             let parameters = [(self.counted.as_str(), ran.case.data)];
             Refinement::new(ran.case.label.clone(), &parameters, step_of(ran))
         });
-        let errors: Vec<Option<NamedErrors>> = ran.iter().map(|ran| without_step(ran)).collect();
+        let errors: Vec<Option<Vec<NamedNumber>>> =
+            ran.iter().map(|ran| without_step(ran)).collect();
         let errors: Vec<_> = errors.iter().map(Option::as_deref).collect();
         Levels::new(
             self.axis,
@@ -182,23 +180,21 @@ fn is_step(name: &str) -> bool {
 }
 
 /// The step that a level reports among its errors.
-fn reported_step(ran: &Ran<usize, NamedErrors>) -> Option<f64> {
-    let step = ran.ok()?.iter().find(|(name, _)| is_step(name));
-    step.map(|(_, step)| *step)
+fn reported_step(ran: &Ran<usize, Vec<NamedNumber>>) -> Option<f64> {
+    let step = ran.ok()?.iter().find(|step| is_step(&step.name));
+    step.map(|step| step.value)
 }
 
 /// The errors of a level; `None` if it failed.
-fn without_step(ran: &Ran<usize, NamedErrors>) -> Option<NamedErrors> {
+fn without_step(ran: &Ran<usize, Vec<NamedNumber>>) -> Option<Vec<NamedNumber>> {
     let errors = ran.ok()?.iter();
-    Some(errors.filter(|(name, _)| !is_step(name)).cloned().collect())
+    let errors = errors.filter(|error| !is_step(&error.name));
+    Some(errors.cloned().collect())
 }
 
 /// The error of that name; NaN if there is none.
-fn error_of(errors: &NamedErrors, name: &str) -> f64 {
-    errors
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map_or(f64::NAN, |(_, error)| *error)
+fn error_of(errors: &[NamedNumber], name: &str) -> f64 {
+    NamedNumber::find(errors, name).unwrap_or(f64::NAN)
 }
 
 impl<R, F> Kind for ErrorsOverLevels<F>
@@ -207,7 +203,7 @@ where
     F: Fn(usize) -> R + Send + Sync,
 {
     type Data = usize;
-    type Found = NamedErrors;
+    type Found = Vec<NamedNumber>;
 
     /// A finer level is assumed to cost more.
     fn cases(&self) -> Vec<Case<usize>> {
@@ -217,11 +213,11 @@ where
             .collect()
     }
 
-    fn run(&self, count: &usize) -> Result<NamedErrors, CaseFailure> {
+    fn run(&self, count: &usize) -> Result<Vec<NamedNumber>, CaseFailure> {
         (self.solve)(*count).into_errors()
     }
 
-    fn judge(&self, ran: &[Ran<usize, NamedErrors>]) -> Outcome {
+    fn judge(&self, ran: &[Ran<usize, Vec<NamedNumber>>]) -> Outcome {
         let levels = self.levels(ran);
         let names: Vec<&str> = levels
             .columns
@@ -244,7 +240,7 @@ where
                 ..Check::that(false, claim, evidence).about(Subject::of("claims"))
             });
         }
-        if let Some(name) = first_repeated(&self.claims) {
+        if let Some(name) = first_repeated(self.claims.iter().map(|(name, _)| name.as_str())) {
             let claim = "each error is claimed once".to_owned();
             let evidence = format!("`{name}` is claimed twice: only one of the claims is judged");
             checks.push(Check::that(false, claim, evidence).about(Subject::of("claims")));
@@ -307,7 +303,7 @@ mod tests {
             (found.verdict, found.levels[0].step),
             (Verdict::Pass, Some(0.5))
         );
-        assert_eq!(found.levels[0].errors, [("e".to_owned(), 1.0 / 64.0)]);
+        assert_eq!(found.levels[0].errors, [NamedNumber::new("e", 1.0 / 64.0)]);
         let some = |n: usize| {
             if n == 8 {
                 vec![("e", 1.0)]
@@ -350,10 +346,16 @@ mod tests {
         );
         let right = of(2.0);
         assert_eq!(right.levels.len(), COUNTS.len());
-        assert_eq!(right.levels[2].parameters, [("cells".to_owned(), 16.0)]);
+        assert_eq!(
+            right.levels[2].parameters,
+            [NamedNumber::new("cells", 16.0)]
+        );
         assert_eq!(
             right.levels[2].errors,
-            [("e".to_owned(), 1.0 / 256.0), ("f".to_owned(), 1.0)]
+            [
+                NamedNumber::new("e", 1.0 / 256.0),
+                NamedNumber::new("f", 1.0)
+            ]
         );
         // A rate, and two errors on five levels.
         assert_eq!(right.quantities.len(), 1 + 2 * 5);
@@ -451,7 +453,7 @@ mod tests {
         let solve = |n: usize| [("e", (n as f64).powi(-2))];
         let found = judged(&levels([16, 4, 64, 8, 32], solve).claim("e", 2.0));
         assert_eq!(found.verdict, Verdict::Pass);
-        assert_eq!(found.levels[0].parameters, [("n".to_owned(), 4.0)]);
+        assert_eq!(found.levels[0].parameters, [NamedNumber::new("n", 4.0)]);
         let found = judged(&levels([16, 4, 16, 64, 8], solve).claim("e", 2.0));
         assert_eq!(found.rates[0].rate.kind, Reason::StepsNotDecreasing);
         assert_ne!(found.verdict, Verdict::Pass);

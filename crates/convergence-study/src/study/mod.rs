@@ -24,9 +24,7 @@ pub use coverage::Coverage;
 pub(crate) use erased::Plan;
 pub use erased::{Described, Study, boxed_study};
 
-pub use errors_over_levels::{
-    ErrorsOverLevels, IntoErrors, NamedErrors, STEPS, first_repeated, levels,
-};
+pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, STEPS, first_repeated, levels};
 #[cfg(feature = "command-line")]
 pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]

@@ -13,7 +13,7 @@ use super::coverage::{self, Coverage};
 use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::text::{json, prose::Prose};
+use crate::text::{json, named::NamedNumber, prose::Prose};
 
 pub use check::{Check, Origin};
 pub use rate::NamedRate;
@@ -59,7 +59,7 @@ pub struct Outcome {
 pub struct LevelErrors {
     /// Its parameters by name, such as elements and steps: separate keys in JSON.
     #[serde(flatten, with = "json::counted")]
-    pub parameters: Vec<(String, f64)>,
+    pub parameters: Vec<NamedNumber>,
     /// The step over which the errors are judged; `None` if they are not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
@@ -68,7 +68,7 @@ pub struct LevelErrors {
     pub work: Option<f64>,
     /// Errors by name; NaN without a result.
     #[serde(with = "json::named")]
-    pub errors: Vec<(String, f64)>,
+    pub errors: Vec<NamedNumber>,
     /// The names of the errors for which the level has no result.
     #[serde(
         rename = "without_result",
@@ -81,18 +81,12 @@ pub struct LevelErrors {
 impl LevelErrors {
     /// The parameter of that name.
     pub fn parameter(&self, name: &str) -> Option<f64> {
-        self.parameters
-            .iter()
-            .find(|(known, _)| known == name)
-            .map(|(_, value)| *value)
+        NamedNumber::find(&self.parameters, name)
     }
 
     /// The error of that name; NaN if there is none.
     pub fn error(&self, name: &str) -> f64 {
-        self.errors
-            .iter()
-            .find(|(known, _)| known == name)
-            .map_or(f64::NAN, |(_, error)| *error)
+        NamedNumber::find(&self.errors, name).unwrap_or(f64::NAN)
     }
 }
 
@@ -237,8 +231,8 @@ impl Outcome {
     pub fn not_finite(&self) -> Vec<NotFinite> {
         let mut list = NotFiniteList::default();
         for (i, level) in self.levels.iter().enumerate() {
-            for (norm, error) in &level.errors {
-                list.check(*error, || format!("levels[{i}].errors.{norm}"));
+            for NamedNumber { name, value } in &level.errors {
+                list.check(*value, || format!("levels[{i}].errors.{name}"));
             }
         }
         for (i, NamedRate { rate, .. }) in self.rates.iter().enumerate() {

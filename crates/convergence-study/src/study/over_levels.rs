@@ -11,6 +11,7 @@ pub(crate) use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
 use crate::judge::verdict::{Floor, RateVerdict, Reason};
 use crate::text::lists::distinct;
+use crate::text::named::NamedNumber;
 pub(crate) use rates::rate_quantities;
 pub use rates::{rate_table, summary};
 
@@ -119,21 +120,21 @@ impl ErrorColumn {
     /// of occurrence.
     ///
     /// * `levels`: the errors of each level by name, coarse to fine; `None` if the case failed.
-    pub fn of<N: AsRef<str>, M: AsRef<str>>(
+    pub fn of<N: AsRef<str>>(
         claims: &[(N, Claim)],
-        levels: &[Option<&[(M, f64)]>],
+        levels: &[Option<&[NamedNumber]>],
     ) -> Vec<Self> {
         let claimed_names = claims.iter().map(|(name, _)| name.as_ref());
         let computed = levels.iter().copied().flatten().flatten();
-        let computed_names = computed.map(|(name, _)| name.as_ref());
+        let computed_names = computed.map(|error| error.name.as_str());
         distinct(claimed_names.chain(computed_names))
             .into_iter()
             .enumerate()
             .map(|(look, name)| {
                 let errors = levels.iter();
-                let errors = errors.map(|errors| value_of(errors.as_deref()?, name));
+                let errors = errors.map(|errors| NamedNumber::find(errors.as_deref()?, name));
                 Self {
-                    claim: value_of(claims, name),
+                    claim: claim_of(claims, name),
                     look,
                     ..Self::without_claim(name, errors)
                 }
@@ -142,26 +143,26 @@ impl ErrorColumn {
     }
 }
 
-/// The value of that name in a list; `None` if it is not there.
-fn value_of<N: AsRef<str>, T: Copy>(list: &[(N, T)], name: &str) -> Option<T> {
-    let entry = list.iter().find(|(other, _)| other.as_ref() == name);
-    entry.map(|(_, value)| *value)
+/// The claim about the error of that name.
+fn claim_of<N: AsRef<str>>(claims: &[(N, Claim)], name: &str) -> Option<Claim> {
+    let entry = claims.iter().find(|(other, _)| other.as_ref() == name);
+    entry.map(|(_, claim)| *claim)
 }
 
 /// One level of refinement.
 ///
 /// ```
-/// use convergence_study::Refinement;
+/// use convergence_study::{NamedNumber, Refinement};
 ///
 /// let level = Refinement::new("n = 64".to_owned(), &[("n", 64)], 1.0 / 64.0);
-/// assert_eq!(level.parameters, [("n".to_owned(), 64.0)]);
+/// assert_eq!(level.parameters, [NamedNumber::new("n", 64.0)]);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
     /// What identifies it, in words, such as `n = 64, 20 steps`.
     pub label: String,
     /// Its parameters by name, such as elements and steps.
-    pub parameters: Vec<(String, f64)>,
+    pub parameters: Vec<NamedNumber>,
     /// The step over which the errors are judged: h, dt, or h = c dt.
     pub step: f64,
 }
@@ -171,7 +172,7 @@ impl Refinement {
     pub fn new(label: String, parameters: &[(&str, usize)], step: f64) -> Self {
         let parameters = parameters
             .iter()
-            .map(|(name, count)| ((*name).to_owned(), *count as f64))
+            .map(|(name, count)| NamedNumber::new(*name, *count as f64))
             .collect();
         Self {
             label,
@@ -326,7 +327,7 @@ impl Levels {
         let mut errors = vec![];
         let mut without = vec![];
         for column in &self.columns {
-            errors.push((column.name.clone(), number_at(&column.errors, i)));
+            errors.push(NamedNumber::new(&column.name, number_at(&column.errors, i)));
             if result_at(&column.errors, i).is_none() {
                 without.push(column.name.clone());
             }

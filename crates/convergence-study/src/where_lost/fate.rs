@@ -191,6 +191,7 @@ mod tests {
     use crate::judge::fit::Level;
     use crate::judge::verdict::{Verdict, judge_pairs};
     use crate::study::{LevelErrors, NamedRate};
+    use crate::text::named::NamedNumber;
 
     const STEPS: [f64; 4] = [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
 
@@ -201,7 +202,7 @@ mod tests {
             parameters: vec![],
             step: Some(step),
             work: None,
-            errors: vec![("L2".to_owned(), error)],
+            errors: vec![NamedNumber::new("L2", error)],
             without: vec![],
         });
         Outcome {

@@ -28,7 +28,7 @@ pub use words::text_of_located;
 pub fn lost(outcome: &Outcome) -> Vec<String> {
     let is_error = |name: &str| {
         let mut errors = outcome.levels.iter().flat_map(|level| &level.errors);
-        errors.any(|(known, _)| known == name)
+        errors.any(|error| error.name == name)
     };
     let lost = outcome
         .rates

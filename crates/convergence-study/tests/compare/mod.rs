@@ -3,7 +3,7 @@
 mod larger;
 
 use convergence_study::{
-    Finished, Floor, Header, Interval, LevelErrors, NamedRate, Outcome, Verdict,
+    Finished, Floor, Header, Interval, LevelErrors, NamedNumber, NamedRate, Outcome, Verdict,
     internal::{
         compare::{RecordComparison, Shift, WITHIN, compare},
         run::Spent,
@@ -18,12 +18,12 @@ const COUNTS: [u32; 5] = [8, 16, 32, 64, 128];
 /// A level with n cells: errors by name, and the work n².
 fn level(n: u32, errors: &[(&str, f64)]) -> LevelErrors {
     LevelErrors {
-        parameters: vec![("n".to_owned(), f64::from(n))],
+        parameters: vec![NamedNumber::new("n", f64::from(n))],
         step: Some(1.0 / f64::from(n)),
         work: Some(f64::from(n).powi(2)),
         errors: errors
             .iter()
-            .map(|(name, error)| ((*name).to_owned(), *error))
+            .map(|(name, error)| NamedNumber::new(*name, *error))
             .collect(),
         without: vec![],
     }
@@ -187,7 +187,7 @@ fn what_is_lost_is_lost_and_what_is_gained_is_named() {
             new.outcome
                 .levels
                 .iter_mut()
-                .for_each(|level| level.errors.retain(|(name, _)| name != norm));
+                .for_each(|level| level.errors.retain(|error| error.name != *norm));
         }
         new.outcome.rates.retain(|rate| rate.name != *norm);
         new
@@ -273,7 +273,7 @@ fn the_same_error_for_more_work_is_worse() {
 #[test]
 fn an_error_that_is_a_number_no_more_is_worse() {
     let mut new = sound("a");
-    new.outcome.levels[1].errors[0].1 = f64::NAN;
+    new.outcome.levels[1].errors[0].value = f64::NAN;
     let comparison = compared(sound("a"), new);
     assert_eq!(found(&comparison), [("L2", Shift::Worse)]);
     assert_eq!(
@@ -285,7 +285,7 @@ fn an_error_that_is_a_number_no_more_is_worse() {
 #[test]
 fn an_error_that_becomes_negative_is_worse() {
     let mut new = sound("a");
-    new.outcome.levels[1].errors[0].1 *= -1.0;
+    new.outcome.levels[1].errors[0].value *= -1.0;
     let comparison = compared(sound("a"), new.clone());
     assert_eq!(found(&comparison), [("L2", Shift::Worse)]);
     assert_eq!(
@@ -349,8 +349,8 @@ fn grids_and_records_without_steps_are_compared_by_their_parameters() {
             .flat_map(|n| [10, 20, 40].map(|steps| (n, steps)));
         let at = |(n, steps): (u32, u32)| LevelErrors {
             parameters: vec![
-                ("n".into(), f64::from(n)),
-                ("steps".into(), f64::from(steps)),
+                NamedNumber::new("n", f64::from(n)),
+                NamedNumber::new("steps", f64::from(steps)),
             ],
             step: None,
             work: None,
@@ -383,7 +383,7 @@ fn grids_and_records_without_steps_are_compared_by_their_parameters() {
 #[test]
 fn a_record_is_read_as_it_was_written() {
     let mut written = record(vec![sound("a")]);
-    written.studies[0].outcome.levels[0].errors[0].1 = f64::NAN;
+    written.studies[0].outcome.levels[0].errors[0].value = f64::NAN;
     written.studies[0].outcome.rates[0].rate.interval = Some(Interval {
         low: f64::NAN,
         high: 1.0,
@@ -391,7 +391,7 @@ fn a_record_is_read_as_it_was_written() {
     let text = json(&written).unwrap();
     let read = Record::parse(&text, Path::new("r.json")).unwrap();
     assert_eq!(json(&read).unwrap(), text);
-    assert!(read.studies[0].outcome.levels[0].errors[0].1.is_nan());
+    assert!(read.studies[0].outcome.levels[0].errors[0].value.is_nan());
     for (from, to, message) in [
         (
             "\"schema\": 1",

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use blocks::{Printed, fenced, missing, printed};
 use convergence_study::{
-    Finished, Header, LevelErrors, NamedRate, Outcome, Verdict,
+    Finished, Header, LevelErrors, NamedNumber, NamedRate, Outcome, Verdict,
     internal::{
         run::Spent,
         store::{Record, json},
@@ -49,22 +49,23 @@ fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f
         .map(|k| 8.0 * f64::powi(2.0, k as i32))
         .collect();
     let errors = |n: f64| {
-        [("L2", l2(1.0 / n)), ("H1", h1(1.0 / n))].map(|(name, error)| (name.to_owned(), error))
+        [("L2", l2(1.0 / n)), ("H1", h1(1.0 / n))]
+            .map(|(name, error)| NamedNumber::new(name, error))
     };
     let level = |n: &f64| LevelErrors {
-        parameters: vec![("n".to_owned(), *n)],
+        parameters: vec![NamedNumber::new("n", *n)],
         step: Some(1.0 / n),
         work: None,
         errors: errors(*n)
             .into_iter()
-            .filter(|(_, error)| !error.is_nan())
+            .filter(|error| !error.value.is_nan())
             .collect(),
         without: vec![],
     };
     let rate = |k: usize, order: f64| {
         let pairs = counts
             .iter()
-            .map(|n| (1.0 / n, errors(*n)[k].1))
+            .map(|n| (1.0 / n, errors(*n)[k].value))
             .filter(|(_, error)| !error.is_nan());
         NamedRate::new(["L2", "H1"][k], judge_pairs(pairs, order, 0.1))
     };

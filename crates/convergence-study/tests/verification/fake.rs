@@ -5,9 +5,9 @@ use std::path::Path;
 
 use convergence_judge::{judge::verdict, time_limit::Patience};
 use convergence_study::{
-    Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, NamedRate, Outcome,
-    Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest, boxed_study,
-    internal::run,
+    Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, NamedNumber, NamedRate,
+    Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest,
+    boxed_study, internal::run,
 };
 
 /// The project of these studies; none of them is read from a file.
@@ -125,12 +125,12 @@ impl Kind for Fake {
         let rate = verdict::judge_pairs(pairs, 1.0, 0.1);
         let level = |(i, error): (usize, &f64)| LevelErrors {
             parameters: vec![
-                ("elements".to_owned(), f64::from(8 << i)),
-                ("steps".to_owned(), 20.0),
+                NamedNumber::new("elements", f64::from(8 << i)),
+                NamedNumber::new("steps", 20.0),
             ],
             step: Some(1.0 / f64::from(8 << i)),
             work: None,
-            errors: vec![("velocity".to_owned(), *error)],
+            errors: vec![NamedNumber::new("velocity", *error)],
             without: vec![],
         };
         let finest = *errors.last().unwrap();

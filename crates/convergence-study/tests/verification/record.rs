@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use convergence_study::{
-    Verdict,
+    NamedNumber, Verdict,
     internal::{
         report::Findings,
         store::{Baseline, Record, json},
@@ -109,8 +109,9 @@ fn numbers_that_are_not_finite_are_null_and_named() {
 #[test]
 fn norms_keep_their_order() {
     let mut finished = finished(vec![study("a", Does::Converge)]);
-    finished[0].outcome.levels[0].errors =
-        ["z", "a", "m"].map(|norm| (norm.to_owned(), 1.0)).to_vec();
+    finished[0].outcome.levels[0].errors = ["z", "a", "m"]
+        .map(|norm| NamedNumber::new(norm, 1.0))
+        .to_vec();
     let text = json(&Record::new(
         "quick",
         "verify",

@@ -134,7 +134,7 @@ fn a_comment_is_never_longer_than_it_may_be_and_what_failed_comes_first() {
 #[test]
 fn csv_has_one_error_a_line() {
     let mut studies = several();
-    studies[0].outcome.levels[0].errors[0].0 = "a, \"b\"".to_owned();
+    studies[0].outcome.levels[0].errors[0].name = "a, \"b\"".to_owned();
     let csv = with(&studies, |findings| findings.errors_csv());
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines[0], "study,elements,steps,norm,error");

@@ -1,7 +1,7 @@
 //! The tables of errors in a report: each error with its rate, none too wide, none with gaps.
 
 use convergence_study::{
-    Finished, LevelErrors, NamedRate, Table, internal::report::tables, judge_pairs,
+    Finished, LevelErrors, NamedNumber, NamedRate, Table, internal::report::tables, judge_pairs,
 };
 
 use super::fake::{Does, finished, study};
@@ -16,9 +16,9 @@ pub(super) fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool
         .map(|(level, h)| {
             let present = names.iter().enumerate().filter(|(k, _)| !lacks(*k, level));
             let errors = present
-                .map(|(_, (name, order))| ((*name).to_owned(), h.powf(*order)))
+                .map(|(_, (name, order))| NamedNumber::new(*name, h.powf(*order)))
                 .collect();
-            let parameters = vec![("cells".to_owned(), 1.0 / h)];
+            let parameters = vec![NamedNumber::new("cells", 1.0 / h)];
             LevelErrors {
                 parameters,
                 step: Some(h),

@@ -278,7 +278,7 @@ fn the_legend_says_of_which_differences_nothing_is_claimed() {
         outcome.levels[0]
             .errors
             .iter()
-            .any(|(name, _)| name == "tip-max, reference")
+            .any(|error| error.name == "tip-max, reference")
     );
 }
 

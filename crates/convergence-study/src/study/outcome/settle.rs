@@ -58,7 +58,7 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
     for level in &outcome.levels {
         defects.extend(repetitions(
             "at one level the norm",
-            level.errors.iter().map(|(norm, _)| norm),
+            level.errors.iter().map(|error| &error.name),
         ));
     }
     for NamedRate { name, rate, .. } in &outcome.rates {

@@ -1,8 +1,10 @@
 //! The keys of a case.
 
+use convergence_study::NamedNumber;
+
 use super::{
     IndependentAnswer, Most, PREDICTED, Whole,
-    shown::{NUMBERS, NamedNumber, PAIRS, listed},
+    shown::{NUMBERS, PAIRS, listed},
 };
 use crate::kinds::prelude::*;
 use crate::{

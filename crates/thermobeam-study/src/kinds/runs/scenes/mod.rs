@@ -62,7 +62,8 @@ use crate::{
 };
 use contact::ContactCount;
 use convergence_judge::text::number::short_text;
-use shown::{NamedNumber, STEADY, listed, unsolved};
+use convergence_study::NamedNumber;
+use shown::{STEADY, listed, unsolved};
 
 pub use shown::{COUNTS, NUMBERS, Shown};
 
@@ -283,8 +284,8 @@ impl IndependentAnswer {
             distance: 0.0,
         };
         for NamedNumber { name, value } in &self.numbers {
-            let number = named.iter().find(|number| number.name == *name);
-            let distance = number.map_or(f64::NAN, |number| (number.value - value).abs());
+            let number = NamedNumber::find(&named, name).unwrap_or(f64::NAN);
+            let distance = (number - value).abs();
             if !(distance <= farthest.distance) {
                 farthest = Farthest { name, distance };
             }

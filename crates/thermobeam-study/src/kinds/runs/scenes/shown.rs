@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use convergence_study::NamedNumber;
+
 use crate::kinds::prelude::*;
 use crate::{
     kinds::runs::{cases::End, watch::SOLVED},
@@ -20,22 +22,6 @@ use thermobeam::{
 };
 
 use super::norm::OwnNorm;
-
-/// A number by its name: one of [`NUMBERS`], of [`super::PREDICTED`] or of a list of pairs.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct NamedNumber {
-    pub(super) name: String,
-    pub(super) value: f64,
-}
-
-impl NamedNumber {
-    pub(super) fn new(name: impl Into<String>, value: f64) -> Self {
-        Self {
-            name: name.into(),
-            value,
-        }
-    }
-}
 
 /// Keys of an answer whose values are lists of pairs.
 pub(super) const PAIRS: [&str; 3] = ["history", "contact", "steady"];

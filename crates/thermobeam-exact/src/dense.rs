@@ -213,7 +213,8 @@ pub fn add(target: &mut [f64], factor: f64, other: &[f64]) {
 const SWEEPS: usize = 30;
 
 /// All solutions of `A x = λ B x` with symmetric matrices, increasing, by Jacobi's rotations of
-/// `L⁻¹ A L⁻ᵀ` for `B = L Lᵀ`; `None` if B is not positive definite.
+/// `L⁻¹ A L⁻ᵀ` for `B = L Lᵀ`; `None` if B is not positive definite, or if
+/// the rotations do not converge.
 ///
 /// λ is the Rayleigh quotient of x: its error is the square of that of x.
 pub fn eigenpairs(a: &Dense, b: &Dense) -> Option<Vec<Eigenpair>> {
@@ -225,8 +226,9 @@ pub fn eigenpairs(a: &Dense, b: &Dense) -> Option<Vec<Eigenpair>> {
     let mut standard = Dense::from_fn(n, n, |i, j| 0.5 * (whole[[i, j]] + whole[[j, i]]));
     // Row k is the vector of entry k on the diagonal.
     let mut vectors = Dense::from_fn(n, n, |i, j| f64::from(u8::from(i == j)));
+    let mut is_diagonal = false;
     for _ in 0..SWEEPS {
-        let mut is_diagonal = true;
+        is_diagonal = true;
         for i in 0..n {
             for j in i + 1..n {
                 let small = f64::EPSILON * (standard[[i, i]] * standard[[j, j]]).abs().sqrt();
@@ -239,6 +241,9 @@ pub fn eigenpairs(a: &Dense, b: &Dense) -> Option<Vec<Eigenpair>> {
         if is_diagonal {
             break;
         }
+    }
+    if !is_diagonal {
+        return None;
     }
     // x of Lᵀ x = y.
     let upper = lower.transpose();
@@ -387,6 +392,22 @@ mod tests {
             let expected = 4.0 * angle.sin().powi(2);
             assert!((pair.value - expected).abs() < 1e-14, "{k}");
         }
+    }
+
+    /// Rounding beside eigenvalues that are zero does not keep the rotations going.
+    #[test]
+    fn eigenvalues_of_a_matrix_without_rank_are_found() {
+        let n = 30;
+        let vector: Vec<f64> = (0..n).map(|k| 1.0 + 0.37 * f64::from(k).sin()).collect();
+        let rank_one = Dense::from_fn(vector.len(), vector.len(), |i, j| vector[i] * vector[j]);
+        let identity = Dense::from_fn(vector.len(), vector.len(), |i, j| {
+            f64::from(u8::from(i == j))
+        });
+        let pairs = eigenpairs(&rank_one, &identity).expect("rotations that converge");
+        let (last, others) = pairs.split_last().expect("values");
+        let length = dot(&vector, &vector);
+        assert!((last.value - length).abs() < 1e-14 * length);
+        assert!(others.iter().all(|pair| pair.value.abs() < 1e-14 * length));
     }
 
     #[test]

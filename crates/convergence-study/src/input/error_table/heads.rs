@@ -3,6 +3,7 @@
 use super::line::{span, split};
 use super::names::Word;
 use super::number::{counts_rows, is_dash, number};
+use super::original::blank_at;
 
 /// Types of columns and units, as data frames write them below the names.
 const TYPES: [&str; 8] = [
@@ -95,7 +96,7 @@ fn by_place<'t>(line: &'t str, rows: &[Vec<&str>], spans: &[[usize; 2]]) -> Opti
         .split("  ")
         .map(str::trim)
         .filter(|segment| !segment.is_empty());
-    let mut names = vec![&line[..0]; spans.len()];
+    let mut names = vec![blank_at(line); spans.len()];
     let mut next = 0;
     for segment in segments {
         let [start, end] = span(line, segment);
@@ -220,7 +221,7 @@ fn names<'t>(
             .filter(|mask| mask.len() == width || is_even && mask.first() == Some(&0) || may_lack)
         {
             if let Some(cells) = splits.iter().find(|cells| fits(mask, cells)) {
-                let mut names = vec![&line[..0]; width];
+                let mut names = vec![blank_at(line); width];
                 names[0] = first.unwrap_or(names[0]);
                 for (column, cell) in mask.iter().zip(cells) {
                     names[*column] = cell;

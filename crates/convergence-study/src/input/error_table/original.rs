@@ -22,6 +22,12 @@ pub(super) enum Rows {
     Frame,
 }
 
+/// The empty cell at the start of a text: a cell that is not printed stands where its text begins,
+/// so that a message can name its place.
+pub(super) fn blank_at(text: &str) -> &str {
+    &text[..0]
+}
+
 /// The byte at which a piece of a text begins; its end for a piece of another text.
 pub(super) fn offset(text: &str, piece: &str) -> usize {
     (piece.as_ptr() as usize)

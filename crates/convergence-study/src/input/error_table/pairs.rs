@@ -8,6 +8,7 @@ use super::NotError;
 use super::grid::RawTable;
 use super::names::{self, Word};
 use super::number::number;
+use super::original::blank_at;
 use gap::{Gap, Value, ends_with_mark, name_before};
 
 use crate::text::number::counted;
@@ -218,7 +219,7 @@ fn lists<'t>(pairs: &[Pair<'t>], longest: usize) -> RawTable<'t> {
         let is_late = values.len() + 1 == longest && longest > 2;
         if values.len() == longest || is_late {
             table.names.push(name);
-            let first = is_late.then_some(&name[..0]);
+            let first = is_late.then_some(blank_at(name));
             let cells = first.into_iter().chain(values.iter().copied());
             for (row, cell) in table.rows.iter_mut().zip(cells) {
                 row.push(cell);
@@ -322,7 +323,9 @@ fn records<'t>(pairs: &[Pair<'t>]) -> RawTable<'t> {
     }
     for pair in pairs {
         if Some(pair.name) == first {
-            table.rows.push(vec![&pair.name[..0]; table.names.len()]);
+            table
+                .rows
+                .push(vec![blank_at(pair.name); table.names.len()]);
         }
         let Some(row) = table.rows.last_mut() else {
             continue;

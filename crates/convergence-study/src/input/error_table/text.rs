@@ -5,7 +5,7 @@ use super::heads::{self, Names};
 use super::line::{begins_with_number, is_closing, is_comment, is_number, is_rule, span, split};
 use super::names;
 use super::number::number;
-use super::original::offset;
+use super::original::{blank_at, offset};
 use super::pairs::Scan;
 use super::turned;
 
@@ -85,7 +85,7 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
 fn fitting<'t>(names: Vec<&'t str>, width: usize, text: &'t str) -> Option<Vec<&'t str>> {
     match width.checked_sub(names.len())? {
         0 => Some(names),
-        1 => Some([&[&text[..0]], names.as_slice()].concat()),
+        1 => Some([&[blank_at(text)], names.as_slice()].concat()),
         _ => None,
     }
 }
@@ -102,7 +102,7 @@ fn nameless<'t>(
         .iter()
         .map(|head| split(head, separator).len())
         .rfind(|words| *words > 1);
-    vec![&text[..0]; words.unwrap_or(width)]
+    vec![blank_at(text); words.unwrap_or(width)]
 }
 
 /// The lines of a text by what they hold.

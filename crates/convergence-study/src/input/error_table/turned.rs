@@ -5,7 +5,7 @@ use std::f64::consts::LN_2;
 use super::grid::{RawTable, Turned};
 use super::line::is_rule;
 use super::number::{Number, halves, number};
-use super::original::offset;
+use super::original::{blank_at, offset};
 use super::pairs::{Pair, Scan};
 
 /// Least numbers of a row with rates between its errors: three errors and two rates.
@@ -145,7 +145,7 @@ pub(super) fn transpose<'t>(rows: &[Vec<&'t str>], heads: &[&'t str]) -> RawTabl
     let first = usize::from(has_names);
     let names = rows
         .iter()
-        .map(|row| if has_names { row[0] } else { &row[0][..0] });
+        .map(|row| if has_names { row[0] } else { blank_at(row[0]) });
     let columns = rows.iter().map(|row| row[first..].to_vec());
     let turned = has_names.then_some(Turned::Plain);
     table(names.collect(), columns.collect(), heads, turned)

@@ -64,14 +64,14 @@ pub struct Comparison {
     pub sentence: String,
 }
 
-/// Points at which edits that fit are told apart.
+/// Additional points, to distinguish edits that agree with all values.
 const FRESH_POINTS: usize = 4;
 
 /// The points of a comparison, as another program reads them, and the right values there.
 pub struct Question<'m> {
     text: String,
     right: Right<'m>,
-    /// Points at which edits that fit are told apart.
+    /// Additional points, to distinguish edits that agree with all values.
     fresh: Vec<Vec<f64>>,
 }
 

@@ -15,7 +15,7 @@
 //! ```
 
 use convergence_study::{
-    Interval, Refinement,
+    Interval,
     internal::study::over_levels::{ErrorColumn, Levels},
 };
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
@@ -25,7 +25,7 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::{
         settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration},
-        tables::{Layout, MAP, increasing, mean_width, tolerance},
+        tables::{Layout, MAP, increasing, level_of_mesh, tolerance},
     },
     scene::{limits, tables},
 };
@@ -191,12 +191,8 @@ impl ErrorSource for Frequencies {
 impl Frequencies {
     fn levels(&self, runs: &Runs<Self>) -> Levels {
         let exact = frequencies(self.count);
-        let mut refinements = vec![];
-        for run in runs {
-            let n = run.case.data;
-            let label = run.case.label.clone();
-            refinements.push(Refinement::new(label, &[("elements", n)], mean_width(n)));
-        }
+        let cases = runs.iter().map(|run| &run.case);
+        let refinements = cases.map(|case| level_of_mesh(&case.label, case.data));
         let mut columns = vec![];
         for mode in self.first - 1..self.count {
             let errors = runs.iter();

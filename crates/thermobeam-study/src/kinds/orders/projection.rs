@@ -29,15 +29,12 @@ use crate::{
     expression::Expression,
     kinds::{
         settings::{ActiveTerms, Exercise, INITIAL_DATA, Integration, ItemMethod},
-        tables::{CLAIM_KEYS, Layout, MAP, claims, increasing, mean_width},
+        tables::{CLAIM_KEYS, Layout, MAP, claims, increasing, level_of_mesh},
     },
     run::simulate,
     scene::{Coefficients, INITIAL, Initial, tables},
 };
-use convergence_study::{
-    Refinement,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
 use thermobeam::{one_step::InitialValues, parameters::Beam};
 
 /// Allowed size of `|((P_h η - η)_x, N_i')|`, relative to ‖η_x‖: the quadrature on the first of 16
@@ -343,12 +340,8 @@ impl ErrorSource for Projection {
 
 impl Projection {
     fn levels(&self, runs: &Runs<Self>) -> Levels {
-        let mut refinements = vec![];
-        for run in runs {
-            let n = run.case.data;
-            let label = run.case.label.clone();
-            refinements.push(Refinement::new(label, &[("elements", n)], mean_width(n)));
-        }
+        let cases = runs.iter().map(|run| &run.case);
+        let refinements = cases.map(|case| level_of_mesh(&case.label, case.data));
         let mut columns = vec![];
         for (look, (error, claim)) in self.expect.iter().enumerate() {
             let place = self.data.iter().position(|datum| *datum == error.datum);

@@ -18,13 +18,13 @@ use crate::{
     error::reference::Traced,
     kinds::{
         settings::{Exercise, Integration, ItemMethod},
-        tables::{DISCRETISATION_KEYS, Discretisation, mean_width},
+        tables::{DISCRETISATION_KEYS, Discretisation, level_of_mesh},
     },
     scene::Scene,
 };
 use convergence_judge::{judge::richardson, text::number::decimals};
 use convergence_study::{
-    Coverage, Floor, Refinement,
+    Coverage, Floor,
     internal::study::over_levels::{ErrorColumn, Levels},
 };
 use thermobeam::mesh::Mesh;
@@ -292,7 +292,7 @@ impl EndStates {
         let refinements = self
             .elements
             .iter()
-            .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], mean_width(n)));
+            .map(|&n| level_of_mesh(format!("n = {n}"), n));
         Levels::new(Axis::Space, refinements, columns)
     }
 

@@ -22,7 +22,7 @@ use crate::{
 };
 
 pub use refine::{Layout, Perturbation, Refine};
-pub(crate) use refine::{MAP, REFINE, increasing, mean_width, nested, refine};
+pub(crate) use refine::{MAP, REFINE, increasing, level_of_mesh, mean_width, nested, refine};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;

@@ -110,6 +110,12 @@ pub(crate) fn mean_width(elements: usize) -> f64 {
     1.0 / elements as f64
 }
 
+/// The level of a mesh of so many elements, over the mean mesh width.
+pub(crate) fn level_of_mesh(label: impl Into<String>, elements: usize) -> Refinement {
+    let parameters = [("elements", elements)];
+    Refinement::new(label.into(), &parameters, mean_width(elements))
+}
+
 /// What is refined, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refine {

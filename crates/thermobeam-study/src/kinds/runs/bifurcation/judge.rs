@@ -18,16 +18,13 @@ use crate::{
             checks::{all, at_most, within},
         },
         settings::ItemMethod,
-        tables::mean_width,
+        tables::level_of_mesh,
     },
     scene::Scene,
 };
-use convergence_study::{
-    Refinement,
-    internal::{
-        plots,
-        study::over_levels::{ErrorColumn, Levels},
-    },
+use convergence_study::internal::{
+    plots,
+    study::over_levels::{ErrorColumn, Levels},
 };
 use thermobeam::kirchhoff::BUCKLING;
 
@@ -288,7 +285,7 @@ pub(super) fn judge(study: &Bifurcation, results: &Results<'_, Bifurcation>) -> 
     let refinements = study
         .meshes
         .iter()
-        .map(|&n| Refinement::new(format!("n = {n}"), &[("elements", n)], mean_width(n)));
+        .map(|&n| level_of_mesh(format!("n = {n}"), n));
     let levels = Levels::new(Axis::Space, refinements, [column]);
     let rates = levels.judge();
     let events: Vec<String> = scenes

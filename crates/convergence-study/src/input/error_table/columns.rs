@@ -68,7 +68,26 @@ impl<'t> Cells<'t> {
         let numbers = rows.iter().map(|row| self.numbers[*row]).collect();
         Self {
             is_claimed: self.is_claimed,
+            halves: rows.iter().map(|row| self.halves[*row]).collect(),
             ..Self::new(self.head, name, texts, numbers)
+        }
+    }
+
+    /// The errors of computed values, which a table has beside the exact ones.
+    pub(super) fn difference(&self, exact: &Self) -> Self {
+        let name = ColumnName {
+            name: format!("|{} - {}|", self.name, exact.name),
+            word: Word::Error,
+        };
+        let error = |row: usize| {
+            let is_number = self.is_number(row) && exact.is_number(row);
+            is_number.then(|| Number::exact((self.values[row] - exact.values[row]).abs()))
+        };
+        let numbers = (0..self.texts.len()).map(error).collect();
+        let halves = self.halves.iter().zip(&exact.halves);
+        Self {
+            halves: halves.map(|(own, exact)| own + exact).collect(),
+            ..Self::new(self.head, name, self.texts.clone(), numbers)
         }
     }
 

@@ -55,18 +55,23 @@ const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations itera
     cfl row index cycle level lvl refinement i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
     temperature stress flux solution gradient";
-/// Names of values and of their limits.
-const VALUE_WORDS: [&str; 14] = [
+/// Names of values.
+const VALUE_WORDS: [&str; 8] = [
     "value",
     "values",
-    "exact",
-    "analytical",
-    "analytic",
     "limit",
     "extrapolated",
     "extrapolation",
-    "reference",
     "computed",
+    "numerical",
+    "approximate",
+];
+/// Names of what values tend to.
+const EXACT_WORDS: [&str; 8] = [
+    "exact",
+    "analytical",
+    "analytic",
+    "reference",
     "theor",
     "theory",
     "theoretical",
@@ -164,7 +169,8 @@ impl Word {
         if STEPS.contains_key(joined.as_str()) {
             return Self::Step;
         }
-        if words.iter().any(|word| VALUE_WORDS.contains(word)) {
+        let is_value = |word: &&str| VALUE_WORDS.contains(word) || EXACT_WORDS.contains(word);
+        if words.iter().any(is_value) {
             return Self::Value;
         }
         if has(&ERRORS) && (words.contains(&"e") || !words.contains(&"time")) {
@@ -309,6 +315,13 @@ pub(super) fn is_failure(cell: &str) -> bool {
 /// Whether a column of states says by `true` or 1 that a level was not solved.
 pub(super) fn is_failure_name(name: &str) -> bool {
     FAILURE_WORDS.contains(&name.trim().to_lowercase().as_str())
+}
+
+/// Whether a name is that of what a value tends to.
+pub(super) fn is_exact(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphanumeric());
+    words.any(|word| EXACT_WORDS.contains(&word))
 }
 
 /// Whether a name is that of groups of rows: of a degree, a method.

@@ -8,7 +8,7 @@ use super::NotError;
 use super::grid::RawTable;
 use super::names::{self, Word};
 use super::number::number;
-use super::original::blank_at;
+use super::original::{blank_at, offset};
 use gap::{Gap, Value, ends_with_mark, name_before};
 
 use crate::text::number::counted;
@@ -102,6 +102,15 @@ fn has_rows_of_latex(text: &str) -> bool {
     text.matches(" & ").nth(ROWS).is_some()
 }
 
+/// The name in parentheses behind a value: `3.03 (computed), 3.00 (exact)`.
+fn value_name(behind: &str) -> Option<&str> {
+    let (name, _) = behind
+        .trim_start_matches(' ')
+        .strip_prefix('(')?
+        .split_once(')')?;
+    (Word::of(name) == Word::Value).then_some(name)
+}
+
 impl<'t> Scan<'t> {
     /// Finds the names and numbers of a text.
     pub(super) fn of(text: &'t str) -> Self {
@@ -134,19 +143,19 @@ impl<'t> Scan<'t> {
             let marks = &before[before.trim_end_matches(is_mark).len()..];
             depth =
                 (depth + marks.matches('[').count()).saturating_sub(before.matches(']').count());
-            let name = name_before(before);
+            let behind = value_name(&text[position..]);
+            let name = behind.unwrap_or_else(|| name_before(before));
             // The first number of a line may have its name on the line above: `"h": [`.
             let is_first = label == 0 || before.contains('\n');
             let is_near = !marks.contains('\n') || marks.contains([':', '=', '[']);
-            let has_name = name.contains(char::is_alphabetic)
-                && is_near
-                && !marks.contains(['(', ',', ';', '{']);
+            let is_name = is_near && !marks.contains(['(', ',', ';', '{']);
+            let has_name = behind.is_some() || is_name && name.contains(char::is_alphabetic);
             is_row = !has_name && (is_first || is_row);
             if has_name {
                 pairs.push(Pair {
                     name,
                     values: vec![word],
-                    is_marked: ends_with_mark(before),
+                    is_marked: behind.is_some() || ends_with_mark(before),
                 });
                 known.insert(name);
             } else if let Some(last) = pairs.last_mut()
@@ -156,6 +165,7 @@ impl<'t> Scan<'t> {
             } else if is_first {
                 rows.push(word);
             }
+            position += behind.map_or(0, |name| offset(&text[position..], name) + name.len());
             label = position;
         }
         Self {

@@ -257,8 +257,7 @@ fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
         let words = words.strip_suffix(two[1].name).filter(|_| is_log);
         match words {
             Some(words) => gap.extend(pieces(two[0].end, words, true)),
-            None if is_log => {}
-            None => gap.extend(pieces(two[0].end, between, false)),
+            None => gap.extend(pieces(two[0].end, between, is_log)),
         }
         let begins_row = if is_log {
             two[0].row != two[1].row

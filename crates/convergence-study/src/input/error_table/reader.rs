@@ -220,7 +220,25 @@ impl<'t> TableReader<'t> {
             reader.rows = Some(reader.columns.len());
             reader.columns.push(numbers_of_rows(rows));
         }
+        reader.columns.extend(reader.difference());
         reader
+    }
+
+    /// The errors of a table that has none, but a column of values and one of what they tend to.
+    fn difference(&self) -> Option<Cells<'t>> {
+        let is_free = |column: &&Cells<'_>| column.word == Word::Value && !column.is_claimed;
+        let values: Vec<&Cells<'_>> = self.columns.iter().filter(is_free).collect();
+        let [one, other] = values[..] else {
+            return None;
+        };
+        if self.columns.iter().any(|column| column.word == Word::Error) {
+            return None;
+        }
+        match [one, other].map(|column| names::is_exact(&column.name)) {
+            [false, true] => Some(one.difference(other)),
+            [true, false] => Some(other.difference(one)),
+            _ => None,
+        }
     }
 
     /// The column with that name, or with that number from 1, which an argument selects.

@@ -227,7 +227,7 @@ impl<'t> Cells<'t> {
     pub(super) fn together(&self, other: &Self) -> f64 {
         let signs = self.values.windows(2).zip(other.values.windows(2));
         signs
-            .map(|(a, b)| (a[1] - a[0]).signum() * (b[1] - b[0]).signum())
+            .map(|(a, b)| sign(a[1] - a[0]) * sign(b[1] - b[0]))
             .sum()
     }
 
@@ -265,6 +265,11 @@ impl<'t> Cells<'t> {
             is_end(0) && agree(&self.values[1..]) || is_end(last) && agree(&self.values[..last])
         })
     }
+}
+
+/// -1, 0 or 1; NaN has none.
+pub(super) fn sign(number: f64) -> f64 {
+    if number == 0.0 { 0.0 } else { number.signum() }
 }
 
 /// Whether a number is a whole one, but for its digits.

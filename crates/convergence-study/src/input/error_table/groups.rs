@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use super::Choice;
-use super::columns::Cells;
+use super::columns::{Cells, sign};
 use super::grid::RawTable;
 use super::names::{self, Word};
 use super::number::is_dash;
@@ -182,10 +182,7 @@ fn returns(steps: &[&Cells<'_>], rows: usize) -> Vec<usize> {
     let mut starts = vec![0];
     let mut directions = vec![0.0; steps.len()];
     for row in 1..rows {
-        let change = |step: &Cells<'_>| match step.values[row] - step.values[row - 1] {
-            0.0 => 0.0,
-            change => change.signum(),
-        };
+        let change = |step: &Cells<'_>| sign(step.values[row] - step.values[row - 1]);
         let changes: Vec<f64> = steps.iter().map(|step| change(step)).collect();
         if changes
             .iter()

@@ -1,7 +1,7 @@
 //! Which column is the step, or the count or level that it is computed from.
 
 use super::Offer;
-use super::columns::{Cells, DIMENSIONS};
+use super::columns::{Cells, DIMENSIONS, sign};
 use super::grid::Turned;
 use super::names::{self, Word, reciprocal};
 use super::reader::{HALVED_ROWS, NEIGHBOURS, TableReader, listed};
@@ -429,7 +429,7 @@ impl TableReader<'_> {
             Word::Unknown
         };
         let errors = others.iter().filter(|other| other.word == word);
-        errors.map(|other| cells.together(other).signum()).sum()
+        errors.map(|other| sign(cells.together(other))).sum()
     }
 }
 

@@ -9,19 +9,17 @@ const CLOSING: [&str; 6] = ["mean", "average", "avg", "median", "overall", "tota
 /// The cells of a line: between separators outside quotes, or between blanks. `0.1 (2.0)` are two
 /// cells.
 pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
-    // A frame has an edge on either side; without one, the last cell may be blank.
-    let framed = line
-        .trim()
-        .strip_prefix('|')
-        .filter(|_| separator == Some('|'));
-    let line = framed.map_or(line, |line| line.strip_suffix('|').unwrap_or(line));
+    let framed = line.trim_start().strip_prefix('|');
+    let line = framed.filter(|_| separator == Some('|')).unwrap_or(line);
     let mut quoted = false;
     let mut is_start = true;
+    let mut is_escaped = false;
     let separates = |c: char| {
         quoted ^= c == '"' && (quoted || is_start);
-        let is_end =
-            !quoted && separator.map_or(c.is_whitespace() || c == '|', |separator| c == separator);
+        let is_separator = separator.map_or(c.is_whitespace() || c == '|', |own| c == own);
+        let is_end = !quoted && !is_escaped && is_separator;
         is_start = is_end || (is_start && c.is_whitespace());
+        is_escaped = c == '\\';
         is_end
     };
     line.split(separates)
@@ -34,7 +32,7 @@ pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
 /// The two cells of `0.1 (2.0)`; any other cell alone.
 fn split_parenthesis(cell: &str) -> Vec<&str> {
     match cell.split_once(" (") {
-        Some((one, two)) if number(one, false).is_some() => vec![one, two.trim_end_matches(')')],
+        Some((one, two)) if number(one, false).is_some() => vec![one, &cell[cell.len() - two.len() - 1..]],
         _ => vec![cell],
     }
 }
@@ -62,6 +60,49 @@ pub(super) fn span(line: &str, cell: &str) -> [usize; 2] {
 /// Whether a line is a comment.
 pub(super) fn is_comment(line: &&str) -> bool {
     line.trim_start().starts_with(['#', '%', '!'])
+}
+
+/// Whether a line stands between bars.
+fn is_framed(line: &str) -> bool {
+    let line = line.trim();
+    line.len() > 1 && line.starts_with('|') && line.ends_with('|')
+}
+
+/// Whether a text has rows between bars.
+fn has_framed_rows(text: &str) -> bool {
+    let is_row = |line: &&str| {
+        let mut cells = line.split('|').map(str::trim);
+        is_framed(line) && cells.any(|cell| number(cell, true).is_some())
+    };
+    text.lines().filter(is_row).nth(1).is_some()
+}
+
+/// Whether a text has rows between bars, or of LaTeX: what stands around them is prose, whatever
+/// numbers it has.
+pub(super) fn has_table_in_prose(text: &str) -> bool {
+    /// More ampersands than a sentence has.
+    const MARKS: usize = 4;
+    has_framed_rows(text) || text.matches(" & ").nth(MARKS - 1).is_some()
+}
+
+/// The lines that may be names and rows of a table: those between bars, if there are such rows. A
+/// bar that ends all lines is an edge.
+pub(super) fn table_lines(text: &str) -> Vec<&str> {
+    let lines = text.lines().filter(|line| !line.trim().is_empty() && !is_rule(line));
+    let mut lines: Vec<&str> = lines.collect();
+    let are_framed = has_framed_rows(text);
+    if are_framed {
+        lines.retain(|line| is_framed(line));
+    }
+    let with_bars = || lines.iter().filter(|line| line.contains('|'));
+    let has_edge = with_bars().any(begins_with_number)
+        && with_bars().all(|line| line.trim_end().ends_with('|'));
+    if are_framed || has_edge {
+        for line in &mut lines {
+            *line = line.trim_end().strip_suffix('|').unwrap_or(line);
+        }
+    }
+    lines
 }
 
 /// A line of dashes, or the border of a box.

@@ -6,6 +6,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::NotError;
 use super::grid::RawTable;
+use super::line::has_table_in_prose;
 use super::names::{self, Word};
 use super::number::number;
 use super::original::{blank_at, offset};
@@ -96,12 +97,6 @@ fn is_log(pairs: &[Pair<'_>], rows: usize) -> bool {
     marked.len() >= 2 && marked.len() > rows && !is_head
 }
 
-/// Whether a text has rows of LaTeX, whose names may be `k=1`.
-fn has_rows_of_latex(text: &str) -> bool {
-    const ROWS: usize = 3;
-    text.matches(" & ").nth(ROWS).is_some()
-}
-
 /// The name in parentheses behind a value: `3.03 (computed), 3.00 (exact)`.
 fn value_name(behind: &str) -> Option<&str> {
     let (name, _) = behind
@@ -169,7 +164,7 @@ impl<'t> Scan<'t> {
             label = position;
         }
         Self {
-            is_log: is_log(&pairs, rows.len()) && !has_rows_of_latex(text),
+            is_log: is_log(&pairs, rows.len()) && !has_table_in_prose(text),
             pairs,
             rows,
             worded,

@@ -2,7 +2,7 @@
 
 use super::grid::RawTable;
 use super::heads::{self, Names};
-use super::line::{begins_with_number, is_closing, is_comment, is_number, is_rule, span, split};
+use super::line::{begins_with_number, is_closing, is_comment, is_number, span, split, table_lines};
 use super::names;
 use super::number::number;
 use super::original::{blank_at, offset};
@@ -119,14 +119,12 @@ struct Lines<'t> {
 
 /// Separates rows of numbers from the lines above them.
 fn sort_lines(text: &str) -> Lines<'_> {
-    let lines = text
-        .lines()
-        .filter(|line| !line.trim().is_empty() && !is_rule(line));
-    let separator = separator(lines.clone().filter(|line| !is_comment(line)));
+    let lines = table_lines(text);
+    let separator = separator(lines.iter().copied().filter(|line| !is_comment(line)));
     let mut heads = vec![];
     let mut rows: Vec<(&str, Vec<&str>)> = vec![];
     let mut quoted_names = None;
-    let mut lines = lines.peekable();
+    let mut lines = lines.into_iter().peekable();
     while let Some(line) = lines.next() {
         if rows.is_empty()
             && let Some(below) = lines.peek()

@@ -1,5 +1,6 @@
 //! A text without colours, types and other signs that are not of its table.
 
+use super::failed_run;
 use super::markup;
 
 /// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
@@ -50,10 +51,22 @@ fn without_numpy_types(text: &str) -> String {
     parts.fold(first, |text, part| text + &part.replacen(')', "", 1))
 }
 
-/// A line without the end of a row of LaTeX, and with single bars in place of Jira's double ones:
-/// it writes `||h||L2||` above `|0.1|1.6e-3|`.
+/// Whether a line is a command that somebody has typed, whose numbers are arguments: no message of
+/// such a program, as `mpirun noticed that a process exited on signal 9`.
+fn is_command(line: &str) -> bool {
+    const PROGRAMS: [&str; 5] = ["./", "$ ", "mpirun ", "mpiexec ", "srun "];
+    let words = line.trim_start_matches(|c: char| c.is_whitespace() || "/#%>".contains(c));
+    PROGRAMS.iter().any(|program| words.starts_with(program))
+        && !words.contains(['&', '|'])
+        && !words.trim_end().ends_with('$')
+        && failed_run::line(words).is_none()
+}
+
+/// A line without the end of a row of LaTeX, a command as a blank one, and single bars in place of
+/// Jira's double ones: it writes `||h||L2||` above `|0.1|1.6e-3|`.
 fn plain_line(line: &str) -> String {
     match line.find("\\\\").filter(|_| line.contains('&')) {
+        _ if is_command(line) => "\n".to_owned(),
         Some(end) => line[..end].to_owned() + "\n",
         None if line.ends_with("||") => line.replace("||", "|") + "\n",
         None => line.to_owned() + "\n",

@@ -47,12 +47,12 @@ impl<'t> Cells<'t> {
         let value = |number: &Option<Number>| number.map_or(f64::NAN, |number| number.value);
         Self {
             head,
+            is_index: may_count && counts_rows(&texts, names::is_level(&name)),
             name,
             word,
             values: numbers.iter().map(value).collect(),
             halves: halves(&numbers),
             is_claimed: false,
-            is_index: may_count && counts_rows(&texts),
             texts,
             numbers,
         }

@@ -2,6 +2,7 @@
 
 use super::NotError;
 use super::names::{self, Word};
+use super::number::{is_dash, number};
 
 /// A table as written. Names and cells are slices of the text, which give their places.
 #[derive(Debug, Clone, Default)]
@@ -85,10 +86,21 @@ impl<'t> RawTable<'t> {
         self.names.iter().enumerate().map(name).collect()
     }
 
-    /// Whether some name is not that of a step, a count, a rate or a cost.
+    /// Whether some column with numbers has a name that is not that of a step, a count, a rate or a
+    /// cost.
     pub(super) fn may_have_errors(&self, chosen: Option<&[String]>) -> bool {
-        let mut names = self.column_names(chosen).into_iter();
-        self.uneven.is_some() || names.any(|column| column.word.noun().is_none())
+        let stands_for_number = |cell: &&str| {
+            number(cell, self.decimal_comma).is_some()
+                || names::is_failure(cell)
+                || is_dash(cell) && !cell.is_empty()
+        };
+        let has_numbers = |k: usize| {
+            let mut cells = self.rows.iter().filter_map(|row| row.get(k).copied());
+            cells.any(|cell| stands_for_number(&cell))
+        };
+        let mut names = self.column_names(chosen).into_iter().enumerate();
+        self.uneven.is_some()
+            || names.any(|(k, column)| column.word.noun().is_none() && has_numbers(k))
     }
 
     /// Leaves out a name with more numbers or fewer than there are levels. If its name does not say

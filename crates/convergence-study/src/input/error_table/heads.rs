@@ -120,16 +120,20 @@ fn by_place<'t>(line: &'t str, rows: &[Vec<&str>], spans: &[[usize; 2]]) -> Opti
     (has_all && !names.iter().any(is_no_name)).then_some(names)
 }
 
-/// The columns that begin or end with a dash, as rates do.
+/// The columns that begin or end with a dash, as rates do, or stand in parentheses behind others.
 fn columns_of_rates(rows: &[Vec<&str>], width: usize) -> Vec<bool> {
     let ends = [rows.first(), rows.last()];
     let is_rate = |k: usize| {
-        ends.iter().flatten().any(|row| {
-            row.get(k)
-                .is_some_and(|cell| !cell.is_empty() && is_dash(cell))
-        })
+        let cells = || ends.iter().flatten().filter_map(|row| row.get(k));
+        cells().any(|cell| !cell.is_empty() && is_dash(cell))
+            || k > 0 && cells().count() > 1 && cells().all(|cell| cell.starts_with('('))
     };
     (0..width).map(is_rate).collect()
+}
+
+/// How many cells are not blank: one alone is a heading over all columns.
+fn filled(cells: &[&str]) -> usize {
+    cells.iter().filter(|cell| !cell.is_empty()).count()
 }
 
 /// The names of an earlier table of this width, if no line has a word for each column.
@@ -141,7 +145,7 @@ pub(super) fn shared<'t>(
 ) -> Option<Vec<&'t str>> {
     let are_few = heads
         .iter()
-        .all(|head| split(head, separator).len() < width.max(2));
+        .all(|head| filled(&split(head, separator)) < width.max(2));
     (earlier.len() == width && are_few).then(|| earlier.to_vec())
 }
 
@@ -190,7 +194,7 @@ fn names<'t>(
 ) -> Option<NamesInLine<'t>> {
     let firsts: Vec<&str> = rows.iter().map(|row| row[0]).collect();
     let is_even = rows.iter().all(|row| row.len() == width);
-    let is_index = counts_rows(&firsts);
+    let is_index = counts_rows(&firsts, false);
     let is_rate = columns_of_rates(rows, width);
     let masks = [(0, false), (0, true), (1, false), (1, true)].map(|(first, without_rates)| {
         (first..width)
@@ -211,11 +215,12 @@ fn names<'t>(
                     .all(|(k, cell)| !is_rate[*k] || Word::of(cell) == Word::Rate);
             cells.len() == mask.len()
                 && is_sure
+                && (mask.len() < 3 || filled(cells) > 1)
                 && !cells.iter().all(is_type)
                 && !cells.iter().any(is_no_name)
         };
         // A data frame writes the name of its index below the others.
-        let may_lack = is_even && (is_index || line.starts_with(' '));
+        let may_lack = separator.is_none() && is_even && (is_index || line.starts_with(' '));
         for mask in masks
             .iter()
             .filter(|mask| mask.len() == width || is_even && mask.first() == Some(&0) || may_lack)

@@ -47,12 +47,13 @@ const STEP_WORDS: &str = "h dt dx dy dz hmax hmin maxh hk diam diameter cellsize
 /// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns, last here, this holds
 /// only in the limit.
 const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
-    pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof unknowns kdofs \
-    mdofs finiteelementunknowns";
+    subintervals pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof \
+    unknowns kdofs mdofs finiteelementunknowns samples paths particles";
 const RATE_WORDS: &str =
-    "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence";
-const COST_WORDS: &str = "time cpu wall seconds elapsed runtime iterations iteration iter iters niter its nit gflops mem memory nnz cond \
-    cfl row index cycle level lvl refinement i k l";
+    "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
+const COST_WORDS: &str = "time cpu wall seconds elapsed runtime ms tiempo zeit temps setup solve assembly iterations iteration iter iters \
+    niter its nit sweeps gflops mem memory nnz cond cfl tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
+    refinement refinements refine ref i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
     temperature stress flux solution gradient";
 /// Names of values.
@@ -105,6 +106,8 @@ const STATE_WORDS: [&str; 13] = [
 ];
 /// Those in which `true` and 1 say that a level was not solved.
 const FAILURE_WORDS: [&str; 2] = ["failed", "diverged"];
+/// Units behind the name of a cost: `PSOR, s`.
+const TIME_UNITS: [&str; 5] = ["s", "sec", "secs", "ms", "min"];
 /// Words in the name of a step: `panel_size`.
 const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
 /// Words of what has a size that counts: `size of linear system`.
@@ -156,8 +159,13 @@ impl Word {
         }
         // `Nonlinear solve converged due to CONVERGED_FNORM_RELATIVE iterations`.
         let last = words.last().copied().unwrap_or_default();
-        if ["iterations", "iters", "its"].contains(&last) {
+        if ["iterations", "iters", "its", "sweeps"].contains(&last) {
             return Self::Cost;
+        }
+        // What a level should give is no error, and no result.
+        let is_expected = words.iter().any(|word| ["expected", "predicted"].contains(word));
+        if is_expected && !joined.contains("err") {
+            return Self::Value;
         }
         if NORMS
             .iter()
@@ -199,6 +207,9 @@ impl Word {
                 .strip_prefix('n')
                 .is_some_and(|rest| COSTS.contains_key(rest))
         {
+            return Self::Cost;
+        }
+        if words.len() > 1 && words.last().is_some_and(|word| TIME_UNITS.contains(word)) {
             return Self::Cost;
         }
         if words.len() > 1 && words.iter().any(|word| SIZE_WORDS.contains(word)) {
@@ -263,7 +274,7 @@ const FAILURES: &str = "nan nanq nans nat inf infinity ∞ \\infty diverged div 
 const FAILURE_BEGINNINGS: [&str; 4] = ["not conv", "no conv", "did not", "out of memory"];
 
 /// Names of what tells several tables in one apart.
-const GROUP_WORDS: [&str; 15] = [
+const GROUP_WORDS: [&str; 21] = [
     "p",
     "q",
     "deg",
@@ -279,6 +290,12 @@ const GROUP_WORDS: [&str; 15] = [
     "element",
     "family",
     "variant",
+    "re",
+    "reynolds",
+    "pe",
+    "peclet",
+    "ra",
+    "rayleigh",
 ];
 
 /// Whether a cell says that its level was solved, or that it was not; `None` if it says neither.
@@ -338,7 +355,8 @@ pub(super) fn is_level(name: &str) -> bool {
         .chars()
         .filter(|c| c.is_alphanumeric())
         .collect();
-    ["level", "lvl", "cycle", "refinement", "refinements"].contains(&&*joined)
+    let noun = joined.strip_prefix("numberof").unwrap_or(&joined);
+    ["level", "lvl", "cycle", "refinement", "refinements", "refine", "ref", "nref"].contains(&noun)
 }
 
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.

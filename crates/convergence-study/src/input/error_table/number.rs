@@ -233,8 +233,9 @@ fn decimals(text: &str) -> i32 {
         .map_or(0, |(_, decimals)| decimals.len() as i32)
 }
 
-/// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below.
-pub(super) fn counts_rows(cells: &[&str]) -> bool {
+/// Whether a column is 0, 1, 2, ... or 1, 2, 3, ..., from above or from below; levels may begin with
+/// any number.
+pub(super) fn counts_rows(cells: &[&str], are_levels: bool) -> bool {
     let Ok(values) = cells
         .iter()
         .map(|cell| cell.parse::<i64>())
@@ -246,7 +247,7 @@ pub(super) fn counts_rows(cells: &[&str]) -> bool {
         return matches!(values[..], [0 | 1]);
     };
     first != last
-        && matches!(first.min(last), 0 | 1)
+        && (are_levels || matches!(first.min(last), 0 | 1))
         && values
             .windows(2)
             .all(|two| two[1] - two[0] == (last - first).signum())

@@ -3,6 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{Column, NotError};
+use crate::input::InputError;
 use crate::judge::fit::pairwise_rates;
 use crate::text::number::{counted, plain_text};
 use crate::text::visible::visible;
@@ -28,6 +29,8 @@ pub enum Doubt {
         /// How many there are.
         count: usize,
     },
+    /// Another table of the text cannot be read.
+    Unread(Box<InputError>),
     /// The errors fall by steady rates on either side of a jump, as those of two tables do.
     Jump {
         /// The name of the column.
@@ -78,6 +81,7 @@ impl Display for Doubt {
                 "outside the tables: {} of numbers, from line {line}",
                 counted(*count, "line")
             ),
+            Self::Unread(error) => write!(f, "a table is not read: {error}"),
             Self::Jump {
                 column,
                 before,

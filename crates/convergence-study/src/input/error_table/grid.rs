@@ -12,6 +12,8 @@ pub(super) struct RawTable<'t> {
     pub(super) rows: Vec<Vec<&'t str>>,
     /// For each column the name above its name; may be empty.
     pub(super) groups: Vec<&'t str>,
+    /// Whether a blank cell stands between two separators: a level without a result.
+    pub(super) is_separated: bool,
     /// Whether a comma in a cell is a decimal comma.
     pub(super) decimal_comma: bool,
     /// Whether the columns stand as rows in the text.

@@ -32,7 +32,9 @@ pub(super) fn split(line: &str, separator: Option<char>) -> Vec<&str> {
 /// The two cells of `0.1 (2.0)`; any other cell alone.
 fn split_parenthesis(cell: &str) -> Vec<&str> {
     match cell.split_once(" (") {
-        Some((one, two)) if number(one, false).is_some() => vec![one, &cell[cell.len() - two.len() - 1..]],
+        Some((one, two)) if number(one, false).is_some() => {
+            vec![one, &cell[cell.len() - two.len() - 1..]]
+        }
         _ => vec![cell],
     }
 }
@@ -88,7 +90,9 @@ pub(super) fn has_table_in_prose(text: &str) -> bool {
 /// The lines that may be names and rows of a table: those between bars, if there are such rows. A
 /// bar that ends all lines is an edge.
 pub(super) fn table_lines(text: &str) -> Vec<&str> {
-    let lines = text.lines().filter(|line| !line.trim().is_empty() && !is_rule(line));
+    let lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !is_rule(line));
     let mut lines: Vec<&str> = lines.collect();
     let are_framed = has_framed_rows(text);
     if are_framed {

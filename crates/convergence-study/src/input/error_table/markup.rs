@@ -140,7 +140,7 @@ fn add(cells: &mut [String], span: usize, words: &str) {
     if !cell.is_empty() && !words.is_empty() {
         cell.push(' ');
     }
-    *cell += &words.join(" ").replace('|', "");
+    *cell += &words.join(" ").replace("\\|", "|").replace('|', "\\|");
 }
 
 /// A text with the characters that HTML names.

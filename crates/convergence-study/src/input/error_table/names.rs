@@ -49,10 +49,9 @@ const STEP_WORDS: &str = "h dt dx dy dz hmax hmin maxh hk diam diameter cellsize
 const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
     subintervals pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof \
     unknowns kdofs mdofs finiteelementunknowns samples paths particles";
-const RATE_WORDS: &str =
-    "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
+const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
 const COST_WORDS: &str = "time cpu wall seconds elapsed runtime ms tiempo zeit temps setup solve assembly iterations iteration iter iters \
-    niter its nit sweeps gflops mem memory nnz cond cfl tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
+    niter it its nit sweeps gflops mem memory nnz cond cfl tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
     refinement refinements refine ref i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
     temperature stress flux solution gradient";
@@ -163,7 +162,9 @@ impl Word {
             return Self::Cost;
         }
         // What a level should give is no error, and no result.
-        let is_expected = words.iter().any(|word| ["expected", "predicted"].contains(word));
+        let is_expected = words
+            .iter()
+            .any(|word| ["expected", "predicted"].contains(word));
         if is_expected && !joined.contains("err") {
             return Self::Value;
         }
@@ -326,6 +327,7 @@ pub(super) fn is_failure(cell: &str) -> bool {
     is_stars
         || is_mark_of_c
         || FAILURES.split_whitespace().any(|known| known == word)
+            && (word != "error" || phrase == word)
         || FAILURE_BEGINNINGS.iter().any(has_beginning)
 }
 
@@ -356,7 +358,17 @@ pub(super) fn is_level(name: &str) -> bool {
         .filter(|c| c.is_alphanumeric())
         .collect();
     let noun = joined.strip_prefix("numberof").unwrap_or(&joined);
-    ["level", "lvl", "cycle", "refinement", "refinements", "refine", "ref", "nref"].contains(&noun)
+    [
+        "level",
+        "lvl",
+        "cycle",
+        "refinement",
+        "refinements",
+        "refine",
+        "ref",
+        "nref",
+    ]
+    .contains(&noun)
 }
 
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.

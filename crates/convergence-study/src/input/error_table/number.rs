@@ -139,6 +139,20 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     }
 }
 
+/// `1,000,000` without the commas of its thousands.
+pub(super) fn without_thousands(cell: &str) -> Option<String> {
+    let (whole, decimals) = cell.split_once('.').unwrap_or((cell, "0"));
+    let mut groups = whole.trim_start_matches(['+', '-']).split(',');
+    let first = groups.next()?;
+    let are_digits = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
+    let are_thousands = (1..=3).contains(&first.len())
+        && are_digits(first)
+        && are_digits(decimals)
+        && whole.contains(',')
+        && groups.all(|group| group.len() == 3 && are_digits(group));
+    are_thousands.then(|| cell.replace(',', ""))
+}
+
 /// Whether a cell, which is not a number as it stands, is a word or several numbers. A text may have
 /// a hundred thousand words: they are recognised without more work.
 fn is_no_number(cell: &str) -> bool {

@@ -24,7 +24,7 @@ pub(super) fn of_text(text: &str, parts: &[Part<'_>]) -> Outside {
     let unused = unused_lines(text, parts);
     let logged = logged_levels(&unused, parts);
     let mut outside = Outside::default();
-    for Line { number, text } in unused {
+    for Line { number, text, .. } in unused {
         outside.lines += 1;
         if !looks_like_row(text) && !logged.contains(&number) {
             continue;
@@ -46,6 +46,8 @@ pub(super) fn of_text(text: &str, parts: &[Part<'_>]) -> Outside {
 struct Line<'t> {
     /// From 1.
     number: usize,
+    /// How many pieces of tables stand above it.
+    above: usize,
     text: &'t str,
 }
 
@@ -62,16 +64,18 @@ fn unused_lines<'t>(text: &'t str, parts: &[Part<'_>]) -> Vec<Line<'t>> {
     let mut used = used.into_iter().peekable();
     let mut unused = vec![];
     let mut end = 0;
+    let mut above = 0;
     for (k, line) in text.split_inclusive('\n').enumerate() {
         end += line.len();
-        let mut is_used = false;
+        let before = above;
         while used.next_if(|start| *start < end).is_some() {
-            is_used = true;
+            above += 1;
         }
         let is_markup = line.trim_start().starts_with('\\');
-        if !is_used && !is_markup && line.contains(char::is_alphanumeric) {
+        if above == before && !is_markup && line.contains(char::is_alphanumeric) {
             unused.push(Line {
                 number: k + 1,
+                above,
                 text: line,
             });
         }
@@ -80,13 +84,18 @@ fn unused_lines<'t>(text: &'t str, parts: &[Part<'_>]) -> Vec<Line<'t>> {
 }
 
 /// The numbers of the lines with the errors of several levels behind their names, as a log beside a
-/// table has them. What a table leaves out is no such error, unless it has the name as well.
+/// table has them; the settings above each of several tables are no levels. What a table leaves out is no such error, unless it has the name as well.
 fn logged_levels(unused: &[Line<'_>], parts: &[Part<'_>]) -> Vec<usize> {
-    let mut lines: HashMap<&str, Vec<usize>> = HashMap::new();
-    for Line { number, text } in unused {
+    let mut lines: HashMap<(usize, &str), Vec<usize>> = HashMap::new();
+    for Line {
+        number,
+        above,
+        text,
+    } in unused
+    {
         let pairs = Scan::of(text).pairs.into_iter();
         for pair in pairs.filter(|pair| pair.is_marked) {
-            let lines = lines.entry(pair.name).or_default();
+            let lines = lines.entry((*above, pair.name)).or_default();
             lines.extend(pair.values.iter().map(|_| *number));
         }
     }
@@ -94,7 +103,7 @@ fn logged_levels(unused: &[Line<'_>], parts: &[Part<'_>]) -> Vec<usize> {
     let left_out = tables().flat_map(|table| &table.left_out);
     let left_out: HashSet<&str> = left_out.map(|one| one.column.as_str()).collect();
     let names: HashSet<&str> = tables().flat_map(|table| &table.names).copied().collect();
-    lines.retain(|name, lines| {
+    lines.retain(|(_, name), lines| {
         let is_said = left_out.contains(name) && !names.contains(name);
         lines.len() > 1 && Word::of(&without_markup(name)).noun().is_none() && !is_said
     });

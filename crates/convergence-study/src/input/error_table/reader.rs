@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::columns::Cells;
 use super::grid::{ColumnName, RawTable, Turned};
 use super::names::{self, Word};
-use super::number::{Number, common_unit, number};
+use super::number::{Number, common_unit, number, without_thousands};
 use super::original::Original;
 use super::{Choice, NotError, Offer};
 use crate::input::advice::{Argument, Text};
@@ -37,6 +37,8 @@ pub(super) struct TableReader<'t> {
     pub(super) left_out: Vec<NotError>,
     /// For each row whether its level was solved, as a column of states says.
     pub(super) is_solved: Vec<bool>,
+    /// Whether a blank cell is a level without a result.
+    is_separated: bool,
     /// Whether the rows were in no order and have been sorted.
     pub(super) is_shuffled: bool,
 }
@@ -157,19 +159,22 @@ fn columns_of<'t>(
         names::claimed_position(names.iter().map(|column| column.name.as_str()), name)
     });
     let claims: HashSet<usize> = claims.collect();
-    // With decimal commas, `1.024` may be 1024.
-    let has_comma = table.decimal_comma
-        && table
-            .rows
-            .iter()
-            .flatten()
-            .any(|cell| cell.contains(',') && number(cell, true).is_some());
+    let has = |mark: char| {
+        let mut cells = table.rows.iter().flatten();
+        cells.any(|cell| cell.contains(mark) && number(cell, table.decimal_comma).is_some())
+    };
+    // With decimal commas, `1.024` may be 1024; with decimal points, `1,024` is.
+    let (has_comma, has_point) = (has(','), has('.'));
     let mut columns = Vec::with_capacity(names.len());
     for (k, name) in names.into_iter().enumerate() {
         let texts = without_unit(table.column(k));
         let number = |text: &&str| {
-            let is_ambiguous = has_comma && text.contains('.');
-            number(text, table.decimal_comma).filter(|_| !is_ambiguous)
+            let thousands = || without_thousands(text).filter(|_| has_point && !has_comma);
+            match text.contains(',').then(thousands).flatten() {
+                Some(plain) => number(&plain, false),
+                None if has_comma && text.contains('.') => None,
+                None => number(text, table.decimal_comma),
+            }
         };
         let numbers = texts.iter().map(number).collect();
         columns.push(Cells {
@@ -213,6 +218,7 @@ impl<'t> TableReader<'t> {
             rows: None,
             left_out: table.left_out.clone(),
             is_solved: vec![true; rows],
+            is_separated: table.is_separated,
             is_shuffled: false,
         };
         let has_levels = reader.columns.iter().any(|column| column.is_index);
@@ -274,6 +280,13 @@ impl<'t> TableReader<'t> {
         };
         let found = format!("`{}`", shorten(cell));
         Err(self.error(cell, Some(&cells.name), format!("a number{more}"), &found))
+    }
+
+    /// Whether a level has no result in a column: the code says so, or its cell is blank.
+    pub(super) fn has_failed(&self, row: usize, column: usize) -> bool {
+        let cells = &self.columns[column];
+        let is_blank = self.is_separated && cells.texts[row].is_empty();
+        !self.is_solved[row] || cells.has_failed(row) || is_blank
     }
 
     pub(super) fn names(&self, columns: &[usize]) -> Vec<String> {

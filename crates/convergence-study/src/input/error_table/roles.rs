@@ -33,7 +33,7 @@ fn repeated<K: Copy, N: Eq + Hash>(
 }
 
 /// Reads each table of a text, with its heading. A refusal offers the choices that read all tables
-/// and find the claimed columns.
+/// and find the claimed columns; beside others, a table without such a choice is a doubt.
 pub(super) fn read_all(
     original: Original<'_>,
     choice: &Choice,
@@ -43,26 +43,28 @@ pub(super) fn read_all(
     limits::check(original, &parts)?;
     let failure = failed_run::line(original.text);
     let outside = outside::of_text(original.text, &parts);
-    let tables = attempt_all(original, choice, &parts);
-    let tables = tables.map(|mut tables| {
-        for (_, table) in &mut tables {
-            table.doubts.extend(failure.clone());
-        }
-        if let Some((_, first)) = tables.first_mut()
-            && outside.lines > 0
-        {
-            first.reading += &format!("; outside the tables: {}", counted(outside.lines, "line"));
-            first.doubts.extend(outside.rows);
-        }
-        tables
-    });
-    tables.map_err(|mut error| {
+    let Attempt { mut tables, unread } = attempt_all(original, choice, &parts);
+    if let Some(mut error) = unread {
         error.offers.retain(|offer| {
-            attempt_all(original, &offer.choice, &parts)
-                .is_ok_and(|tables| has_claimed_columns(&tables, choice))
+            let Attempt { tables, unread } = attempt_all(original, &offer.choice, &parts);
+            unread.is_none() && has_claimed_columns(&tables, choice)
         });
-        error
-    })
+        let is_alone = error.offers.is_empty() && has_claimed_columns(&tables, choice);
+        match tables.first_mut() {
+            Some((_, first)) if is_alone => first.doubts.push(Doubt::Unread(Box::new(error))),
+            _ => return Err(error),
+        }
+    }
+    for (_, table) in &mut tables {
+        table.doubts.extend(failure.clone());
+    }
+    if let Some((_, first)) = tables.first_mut()
+        && outside.lines > 0
+    {
+        first.reading += &format!("; outside the tables: {}", counted(outside.lines, "line"));
+        first.doubts.extend(outside.rows);
+    }
+    Ok(tables)
 }
 
 /// Reads the only table of a text; refuses several.
@@ -91,6 +93,14 @@ fn has_claimed_columns(tables: &[(String, RateTable)], choice: &Choice) -> bool 
     claimed.all(|name| tables.iter().any(|(_, table)| has(table, name)))
 }
 
+/// What was read with one choice.
+struct Attempt {
+    /// Each table with its heading.
+    tables: Vec<(String, RateTable)>,
+    /// Why the first of those that cannot be read is refused.
+    unread: Option<InputError>,
+}
+
 /// Columns of a part, which are a table or several below each other.
 struct Grid<'p, 't> {
     part: &'p Part<'t>,
@@ -99,11 +109,7 @@ struct Grid<'p, 't> {
 
 /// Reads all tables with one choice. Beside others, a table that holds no errors by its names is
 /// left out, which the first one says.
-fn attempt_all(
-    original: Original<'_>,
-    choice: &Choice,
-    parts: &[Part<'_>],
-) -> Result<Vec<(String, RateTable)>, InputError> {
+fn attempt_all(original: Original<'_>, choice: &Choice, parts: &[Part<'_>]) -> Attempt {
     let sides = parts.iter().flat_map(|part| {
         let sides = groups::side_by_side(&part.table, choice).into_iter();
         sides.map(move |side| Grid { part, side })
@@ -114,9 +120,39 @@ fn attempt_all(
     if grids.is_empty() {
         std::mem::swap(&mut grids, &mut others);
     }
+    let is_only = parts.len() == 1;
+    // One table may have counts or levels, another one steps by their name.
+    let without_measure = Choice {
+        dim: None,
+        ratio: None,
+        ..choice.clone()
+    };
     let mut tables = vec![];
+    let mut unread = None;
+    let mut with_own_step = None;
+    let mut is_measured = false;
     for grid in &grids {
-        attempt_grid(original, choice, grid, parts.len() == 1, &mut tables)?;
+        let error = match attempt_grid(original, choice, grid, is_only) {
+            Ok(more) => {
+                tables.extend(more);
+                is_measured = true;
+                continue;
+            }
+            Err(error) => error,
+        };
+        match attempt_grid(original, &without_measure, grid, is_only) {
+            Ok(more) if more.iter().all(|(_, table)| !table.is_guessed) => {
+                tables.extend(more);
+                with_own_step = with_own_step.or(Some(error));
+            }
+            _ => unread = unread.or(Some(error)),
+        }
+    }
+    if !is_measured && let Some(error) = with_own_step {
+        return Attempt {
+            tables: vec![],
+            unread: Some(error),
+        };
     }
     if let Some((_, first)) = tables.first_mut()
         && !others.is_empty()
@@ -138,7 +174,7 @@ fn attempt_all(
                 is_checked: false,
             }));
     }
-    Ok(tables)
+    Attempt { tables, unread }
 }
 
 /// Reads the tables below each other in some columns.
@@ -149,8 +185,8 @@ fn attempt_grid(
     choice: &Choice,
     Grid { part, side }: &Grid<'_, '_>,
     is_only: bool,
-    tables: &mut Vec<(String, RateTable)>,
-) -> Result<(), InputError> {
+) -> Result<Vec<(String, RateTable)>, InputError> {
+    let mut tables = vec![];
     let group = Group {
         heading: side.heading.clone(),
         columns: reader::columns(original, choice, &side.table)?,
@@ -176,7 +212,7 @@ fn attempt_grid(
         };
         tables.push((heading, table));
     }
-    Ok(())
+    Ok(tables)
 }
 
 /// The k-th column over the steps.
@@ -197,11 +233,10 @@ fn column(
     };
     let mut levels = Vec::with_capacity(steps.len());
     for (row, step) in steps.iter().enumerate().skip(missing) {
-        let has_result = reader.is_solved[row] && !cells.has_failed(row);
-        let error = if has_result {
-            reader.must(row, k)?
-        } else {
+        let error = if reader.has_failed(row, k) {
             f64::NAN
+        } else {
+            reader.must(row, k)?
         };
         levels.push(Level { step: *step, error });
     }

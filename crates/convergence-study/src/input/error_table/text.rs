@@ -2,7 +2,9 @@
 
 use super::grid::RawTable;
 use super::heads::{self, Names};
-use super::line::{begins_with_number, is_closing, is_comment, is_number, span, split, table_lines};
+use super::line::{
+    begins_with_number, is_closing, is_comment, is_number, span, split, table_lines,
+};
 use super::names;
 use super::number::number;
 use super::original::{blank_at, offset};
@@ -52,6 +54,7 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
     }
     let table = RawTable {
         decimal_comma: separator != Some(','),
+        is_separated: separator.is_some(),
         ..RawTable::default()
     };
     let quoted_names = quoted_names.and_then(|names| fitting(names, width, text));

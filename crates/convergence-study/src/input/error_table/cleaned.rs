@@ -5,7 +5,7 @@ use super::markup;
 
 /// Characters with simpler equivalents. Spreadsheets write a byte order mark; the first Macintosh
 /// ended lines with \r.
-const MARKS: [(&str, &str); 9] = [
+const MARKS: [(&str, &str); 10] = [
     ("\u{feff}", ""),
     ("\r\n", "\n"),
     ("\r", "\n"),
@@ -13,6 +13,7 @@ const MARKS: [(&str, &str); 9] = [
     ("┃", "|"),
     ("┆", "|"),
     ("║", "|"),
+    (":math:", ""),
     ("array(", "("),
     ("\\hline", "      "),
 ];

@@ -1,9 +1,10 @@
-//! Tables in HTML, columns of LaTeX that span others, and quoted mail, as plain rows of cells.
+//! Tables in HTML, lists as tables, columns of LaTeX that span others, and quoted mail, as plain rows
+//! of cells.
 
-/// A text without the marks of quoted mail; a line of its own for each row of HTML.
+/// A text without the marks of quoted mail; a line of its own for each row of HTML and of a list.
 pub(super) fn plain(text: &str) -> String {
     let text: String = text.split_inclusive('\n').map(unquoted).collect();
-    let text = with_spans(&text);
+    let text = with_spans(&list_tables(&text));
     let lower = text.to_ascii_lowercase();
     if lower.contains("<tr") && (lower.contains("<td") || lower.contains("<th")) {
         html(&text)
@@ -22,6 +23,32 @@ fn unquoted(line: &str) -> &str {
         rest = inner.strip_prefix(' ').unwrap_or(inner);
     }
     rest
+}
+
+/// The list tables of reStructuredText as rows between bars, each in its first line: a row begins
+/// with `* -`, its other cells with `-`.
+fn list_tables(text: &str) -> String {
+    if !text.contains(".. list-table::") {
+        return text.to_owned();
+    }
+    let mut plain = String::new();
+    let mut row: Vec<&str> = vec![];
+    for line in text.lines().chain([""]) {
+        let words = line.trim();
+        let first = words.strip_prefix("* -");
+        let next = words.strip_prefix('-').filter(|_| !row.is_empty());
+        if next.is_none() && !row.is_empty() {
+            plain += &format!("| {} |{}", row.join(" | "), "\n".repeat(row.len()));
+            row.clear();
+        }
+        match first.or(next) {
+            Some(cell) => row.push(cell.trim()),
+            // `:widths: 20,40`.
+            None if words.starts_with(':') => plain.push('\n'),
+            None => plain = plain + line + "\n",
+        }
+    }
+    plain
 }
 
 /// `\multicolumn{3}{|c|}{name}` as a cell with this name, and two without; `\multirow{2}{*}{name}`

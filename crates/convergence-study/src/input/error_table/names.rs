@@ -51,12 +51,12 @@ const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals t
     unknowns kdofs mdofs finiteelementunknowns samples paths particles";
 const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
 const COST_WORDS: &str = "time cpu wall seconds elapsed runtime ms tiempo zeit temps setup solve assembly iterations iteration iter iters \
-    niter it its nit sweeps gflops mem memory nnz cond cfl tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
+    niter it its nit sweeps gflops mem memory nnz cond cfl courant tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
     refinement refinements refine ref i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
     temperature stress flux solution gradient";
 /// Names of values.
-const VALUE_WORDS: [&str; 8] = [
+const VALUE_WORDS: [&str; 9] = [
     "value",
     "values",
     "limit",
@@ -65,6 +65,7 @@ const VALUE_WORDS: [&str; 8] = [
     "computed",
     "numerical",
     "approximate",
+    "price",
 ];
 /// Names of what values tend to.
 const EXACT_WORDS: [&str; 8] = [
@@ -107,8 +108,13 @@ const STATE_WORDS: [&str; 13] = [
 const FAILURE_WORDS: [&str; 2] = ["failed", "diverged"];
 /// Units behind the name of a cost: `PSOR, s`.
 const TIME_UNITS: [&str; 5] = ["s", "sec", "secs", "ms", "min"];
-/// Words in the name of a step: `panel_size`.
+/// Words in the name of a step, beside that of what has the size: `panel_size`.
 const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
+/// Words of what has a size that is a step.
+const MESH_WORDS: [&str; 12] = [
+    "mesh", "cell", "grid", "element", "edge", "panel", "bin", "time", "normalized", "max", "min",
+    "average",
+];
 /// Words of what has a size that counts: `size of linear system`.
 const SYSTEM_WORDS: [&str; 3] = ["system", "matrix", "problem"];
 const NORMS: [&str; 11] = [
@@ -150,7 +156,8 @@ impl Word {
         if argument.is_some_and(|argument| !argument.starts_with(char::is_alphabetic)) {
             return Self::Logarithm;
         }
-        if has(&RATES) || joined.starts_with("eoc") || joined.starts_with("order") {
+        let is_rate = has(&RATES) || lower.contains("c.r.");
+        if is_rate || joined.starts_with("eoc") || joined.starts_with("order") {
             return Self::Rate;
         }
         if joined.contains("resid") || joined.contains("functionnorm") {
@@ -168,9 +175,12 @@ impl Word {
         if is_expected && !joined.contains("err") {
             return Self::Value;
         }
-        if NORMS
-            .iter()
-            .any(|part| lower.contains(part) || joined.contains(part))
+        let has_norm = |name: &str| {
+            let name = name.replace("normal", "");
+            NORMS.iter().any(|part| name.contains(part))
+        };
+        if has_norm(&lower)
+            || has_norm(&joined)
             || words.iter().any(|word| DIFFERENCE_WORDS.contains(word))
         {
             return Self::Error;
@@ -203,6 +213,11 @@ impl Word {
         if let Some(rank) = count(joined) {
             return Self::Count(rank);
         }
+        // `refinement cells`, but neither `time per element` nor `solver steps`.
+        let last = words.last().filter(|word| is_counted(word) && **word != "steps");
+        if last.is_some() && !words.contains(&"per") {
+            return Self::Count(COUNTS.len());
+        }
         if some(&COSTS)
             || joined
                 .strip_prefix('n')
@@ -213,22 +228,17 @@ impl Word {
         if words.len() > 1 && words.last().is_some_and(|word| TIME_UNITS.contains(word)) {
             return Self::Cost;
         }
-        if words.len() > 1 && words.iter().any(|word| SIZE_WORDS.contains(word)) {
-            let is_count = words.iter().any(|word| SYSTEM_WORDS.contains(word));
-            return if is_count {
-                Self::Count(COUNTS.len())
-            } else {
-                Self::Step
-            };
-        }
+        let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
         // `inside_cells`, which may be some of them.
-        if words
-            .iter()
-            .any(|word| word.len() > 3 && COUNTS.contains_key(word))
-        {
-            return Self::Count(COUNTS.len());
+        let is_size = has(&SIZE_WORDS);
+        let is_count = is_size && has(&SYSTEM_WORDS) || words.iter().any(|word| is_counted(word));
+        if is_size && has(&MESH_WORDS) {
+            Self::Step
+        } else if is_count {
+            Self::Count(COUNTS.len())
+        } else {
+            Self::Unknown
         }
-        Self::Unknown
     }
 
     /// What a column that is not an error holds; `None` if the name does not say so.
@@ -371,6 +381,11 @@ pub(super) fn is_level(name: &str) -> bool {
     .contains(&noun)
 }
 
+/// Whether a word is that of what is counted, beside others.
+fn is_counted(word: &str) -> bool {
+    word.len() > 3 && COUNTS.contains_key(word)
+}
+
 /// The rank of `cells`, `ncells`, `number of cells`, `#cells`.
 fn count(name: &str) -> Option<usize> {
     let find = |name: &str| {
@@ -394,7 +409,7 @@ pub(super) fn reciprocal(name: &str) -> Option<&str> {
 pub(super) fn without_markup(text: &str) -> String {
     let text = text
         .trim_matches(|c: char| c.is_whitespace() || "*`$".contains(c))
-        .replace('$', "");
+        .replace(['$', '`'], "");
     let inner = text
         .strip_prefix('{')
         .and_then(|text| text.strip_suffix('}'))

@@ -233,6 +233,9 @@ fn separator<'t>(mut lines: impl DoubleEndedIterator<Item = &'t str> + Clone) ->
         .clone()
         .find(begins_with_number)
         .or_else(|| lines.next_back())?;
+    if line.trim_start().starts_with('|') && line.matches('|').count() > 1 {
+        return Some('|');
+    }
     ['&', '|', ';', '\t', ',']
         .into_iter()
         .find(|c| line.contains(*c) && !split(line, Some(*c)).iter().any(holds_two_numbers))

@@ -112,7 +112,17 @@ const TIME_UNITS: [&str; 5] = ["s", "sec", "secs", "ms", "min"];
 const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
 /// Words of what has a size that is a step.
 const MESH_WORDS: [&str; 12] = [
-    "mesh", "cell", "grid", "element", "edge", "panel", "bin", "time", "normalized", "max", "min",
+    "mesh",
+    "cell",
+    "grid",
+    "element",
+    "edge",
+    "panel",
+    "bin",
+    "time",
+    "normalized",
+    "max",
+    "min",
     "average",
 ];
 /// Words of what has a size that counts: `size of linear system`.
@@ -214,7 +224,9 @@ impl Word {
             return Self::Count(rank);
         }
         // `refinement cells`, but neither `time per element` nor `solver steps`.
-        let last = words.last().filter(|word| is_counted(word) && **word != "steps");
+        let last = words
+            .last()
+            .filter(|word| is_counted(word) && **word != "steps");
         if last.is_some() && !words.contains(&"per") {
             return Self::Count(COUNTS.len());
         }

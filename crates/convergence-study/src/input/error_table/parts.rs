@@ -9,7 +9,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::grid::{RawTable, Turned};
-use super::line::{is_closing, is_rule, looks_like_row};
+use super::line::{begins_with_number, is_closing, is_rule, looks_like_row};
 use super::names::{self, Word};
 use super::number::number;
 use super::original::offset;
@@ -84,6 +84,9 @@ fn cuts(text: &str) -> Cuts<'_> {
     let mut at = vec![];
     if scan.is_log {
         at = log_cuts(text, &scan);
+        if at.is_empty() {
+            at = row_cuts(text);
+        }
     }
     if !at.is_empty() {
         return Cuts { at, table: None };
@@ -180,9 +183,10 @@ impl Occurrences<'_> {
 }
 
 /// Where gaps have a piece that others lack, or a name with other words behind it than in the gap
-/// before: the first such piece of each gap.
-fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
-    let values: Vec<HashMap<&str, Vec<&str>>> = gaps.iter().map(|gap| values(gap)).collect();
+/// before: the first such piece of each gap. So does a row whose numbers have other names than those
+/// above it.
+fn gap_cuts(gaps: &[Gap]) -> Vec<usize> {
+    let values: Vec<HashMap<&str, Vec<&str>>> = gaps.iter().map(Gap::values).collect();
     let mut occurrences: HashMap<&str, Occurrences<'_>> = HashMap::new();
     for (k, values) in values.iter().enumerate() {
         for (shape, values) in values {
@@ -192,16 +196,30 @@ fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
             shape.values.insert(values);
         }
     }
+    let is_common = |piece: &&Piece| occurrences[&*piece.shape].is_common(piece, gaps.len());
     let mut before: HashMap<&str, &[&str]> = HashMap::new();
+    let mut above: Option<Row<'_>> = None;
     let mut cuts = vec![];
     for (gap, values) in gaps.iter().zip(&values) {
-        let cut = gap.iter().find(|piece| {
+        let (named, words): (Vec<&Piece>, Vec<&Piece>) =
+            gap.pieces.iter().partition(|piece| piece.is_named);
+        let own = named.into_iter().filter(|piece| !is_common(piece));
+        let row = Row {
+            names: own.map(|piece| piece.shape.as_str()).collect(),
+            end: gap.end,
+        };
+        if let Some(Row { names, end }) = above.replace(row)
+            && above.as_ref().is_some_and(|row| row.names != names)
+            && cuts.last().is_none_or(|last| *last < end)
+        {
+            cuts.push(end);
+        }
+        let cut = words.into_iter().find(|piece| {
             let shape = piece.shape.as_str();
             let changes = before
                 .get(shape)
                 .is_some_and(|before| *before != values[shape]);
-            let shape = &occurrences[shape];
-            !shape.is_common(piece, gaps.len()) || changes && shape.is_group(gaps.len())
+            !is_common(piece) || changes && occurrences[shape].is_group(gaps.len())
         });
         cuts.extend(cut.map(|piece| piece.offset));
         before.extend(values.iter().map(|(shape, values)| (*shape, &values[..])));
@@ -209,16 +227,33 @@ fn gap_cuts(gaps: &[Vec<Piece>]) -> Vec<usize> {
     cuts
 }
 
-/// The values of each shape in a gap, which may have several lines of one, as a log has levels.
-fn values(gap: &[Piece]) -> HashMap<&str, Vec<&str>> {
-    let mut values: HashMap<&str, Vec<&str>> = HashMap::new();
-    for piece in gap {
-        let values = values.entry(&piece.shape).or_default();
-        if !piece.value.is_empty() {
-            values.push(&piece.value);
+/// A row of a log.
+struct Row<'g> {
+    /// The names in it that are not in all rows.
+    names: Vec<&'g str>,
+    /// The byte behind its last number.
+    end: usize,
+}
+
+/// What stands between the first number of a row and that of the next one.
+struct Gap {
+    pieces: Vec<Piece>,
+    /// The byte behind the last number of the row.
+    end: usize,
+}
+
+impl Gap {
+    /// The values of each shape, of which there may be several lines, as a log has levels.
+    fn values(&self) -> HashMap<&str, Vec<&str>> {
+        let mut values: HashMap<&str, Vec<&str>> = HashMap::new();
+        for piece in &self.pieces {
+            let values = values.entry(&piece.shape).or_default();
+            if !piece.value.is_empty() {
+                values.push(&piece.value);
+            }
         }
+        values
     }
-    values
 }
 
 /// A cell of a table in its text.
@@ -231,7 +266,7 @@ struct Place<'t> {
 }
 
 /// What stands between the rows of a table, in a log with the names of its numbers.
-fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
+fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Gap> {
     let mut places: Vec<Place<'_>> = vec![];
     // Between steps in the head and the first row stands a ruler at most.
     let head = usize::from(table.turned == Some(Turned::Stepped));
@@ -265,7 +300,10 @@ fn gaps(text: &str, table: &RawTable<'_>, is_log: bool) -> Vec<Vec<Piece>> {
             between.contains('\n')
         };
         if begins_row {
-            gaps.push(std::mem::take(&mut gap));
+            gaps.push(Gap {
+                pieces: std::mem::take(&mut gap),
+                end: two[0].end,
+            });
         } else if let Some(words) = words {
             gap.push(Piece {
                 offset: two[0].end + words.len(),
@@ -321,6 +359,36 @@ fn log_cuts(text: &str, scan: &Scan<'_>) -> Vec<usize> {
     let lists: Vec<&Pair<'_>> = scan.pairs.iter().filter(is_list).collect();
     let again = lists.windows(2).filter(|two| two[1].name == first);
     again.map(|two| end_of_numbers(text, two[0])).collect()
+}
+
+/// Where rows of numbers begin and end in a log, with the line above them, which has their names.
+fn row_cuts(text: &str) -> Vec<usize> {
+    let is_row = |line: &str| {
+        let is_list = line.contains(['[', ']', '{', '}', '"']) || line.ends_with(',');
+        let has_cells = line.split_whitespace().count() > 1;
+        !is_list && has_cells && begins_with_number(&line) && looks_like_row(line)
+    };
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| !line.trim().is_empty())
+        .collect();
+    let runs = lines.chunk_by(|a, b| is_row(a) == is_row(b));
+    let mut cuts = vec![];
+    let mut above: Option<&str> = None;
+    for run in runs {
+        if run.len() > 1 && is_row(run[0]) {
+            let begin = above
+                .filter(|line| !line.contains([':', '=']))
+                .unwrap_or(run[0]);
+            cuts.push(offset(text, begin));
+            let last = run[run.len() - 1];
+            cuts.push(offset(text, last) + last.len());
+        }
+        above = run.last().copied();
+    }
+    cuts.retain(|cut| (1..text.trim_end().len()).contains(cut));
+    cuts.dedup();
+    cuts
 }
 
 /// The end of the numbers behind a name, of the brackets that close there, or of their line.

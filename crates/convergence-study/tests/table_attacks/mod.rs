@@ -2,6 +2,7 @@
 
 mod claims;
 mod cuts;
+mod documents;
 mod forms;
 mod found;
 mod laws;

@@ -53,13 +53,14 @@ fn without_numpy_types(text: &str) -> String {
 }
 
 /// Whether a line is a command that somebody has typed, whose numbers are arguments: no message of
-/// such a program, as `mpirun noticed that a process exited on signal 9`.
+/// such a program, as `mpirun noticed that a process exited on signal 9`, and no names with numbers.
 fn is_command(line: &str) -> bool {
-    const PROGRAMS: [&str; 5] = ["./", "$ ", "mpirun ", "mpiexec ", "srun "];
+    const PROGRAMS: [&str; 4] = ["./", "mpirun ", "mpiexec ", "srun "];
     let words = line.trim_start_matches(|c: char| c.is_whitespace() || "/#%>".contains(c));
+    let words = words.strip_prefix("$ ").unwrap_or(words);
     PROGRAMS.iter().any(|program| words.starts_with(program))
         && !words.contains(['&', '|'])
-        && !words.trim_end().ends_with('$')
+        && ![" = ", ": "].iter().any(|mark| words.contains(mark))
         && failed_run::line(words).is_none()
 }
 

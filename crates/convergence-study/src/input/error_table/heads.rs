@@ -231,6 +231,13 @@ fn names<'t>(
                 for (column, cell) in mask.iter().zip(cells) {
                     names[*column] = cell;
                 }
+                // `28 (20)` below `iterations`.
+                for k in 1..width {
+                    let is_second = rows[0].get(k).is_some_and(|cell| cell.starts_with('('));
+                    if is_second && names[k].is_empty() && Word::of(names[k - 1]) == Word::Cost {
+                        names[k] = names[k - 1];
+                    }
+                }
                 return Some(NamesInLine { names, line: k });
             }
         }

@@ -47,7 +47,7 @@ const STEP_WORDS: &str = "h dt dx dy dz hmax hmin maxh hk diam diameter cellsize
 /// A mesh of n cells has the step n^(-1/dim) up to a constant; for unknowns, last here, this holds
 /// only in the limit.
 const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals triangles tetrahedra quads hexes faces edges \
-    subintervals pointsperwavelength n nx ny nz nt m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof \
+    subintervals pointsperwavelength n nx ny nz nt ni nj nk npts m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof \
     unknowns kdofs mdofs finiteelementunknowns samples paths particles";
 const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
 const COST_WORDS: &str = "time cpu wall seconds elapsed runtime ms tiempo zeit temps setup solve assembly iterations iteration iter iters \

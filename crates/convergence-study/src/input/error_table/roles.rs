@@ -148,10 +148,10 @@ fn attempt_all(original: Original<'_>, choice: &Choice, parts: &[Part<'_>]) -> A
             _ => unread = unread.or(Some(error)),
         }
     }
-    if !is_measured && let Some(error) = with_own_step {
+    if !is_measured && with_own_step.is_some() {
         return Attempt {
             tables: vec![],
-            unread: Some(error),
+            unread: unread.or(with_own_step),
         };
     }
     if let Some((_, first)) = tables.first_mut()

@@ -25,9 +25,9 @@ use crate::text::names::quoted;
 /// The input may be tables, logs, lists or JSON. A column is judged unless its name, or arithmetic
 /// that can be checked, says that it is something else; a line says how the table was read. Several
 /// tables of one file are judged each under its heading, and the worst verdict decides. Exit status 0
-/// if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell or
-/// nothing is claimed in a table, 2 if a table cannot be read: then the message has the command that
-/// reads it.
+/// if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell,
+/// nothing is claimed in a table or a table cannot be read beside others, 2 if no table can be read,
+/// or only by another command, which the message has.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The tables; `-` is standard input, which is read without a file, too

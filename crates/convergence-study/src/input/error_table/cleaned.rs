@@ -53,7 +53,7 @@ fn without_numpy_types(text: &str) -> String {
 }
 
 /// Whether a line is a command that somebody has typed, whose numbers are arguments: no message of
-/// such a program, as `mpirun noticed that a process exited on signal 9`, and no names with numbers.
+/// such a program, as `mpirun noticed that a process exited on signal 9`, and no results.
 fn is_command(line: &str) -> bool {
     const PROGRAMS: [&str; 4] = ["./", "mpirun ", "mpiexec ", "srun "];
     let words = line.trim_start_matches(|c: char| c.is_whitespace() || "/#%>".contains(c));

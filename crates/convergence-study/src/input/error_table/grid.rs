@@ -50,6 +50,17 @@ impl ColumnName {
 }
 
 impl<'t> RawTable<'t> {
+    /// A table without cells.
+    ///
+    /// * `separator`: of its cells; `None` for blanks.
+    pub(super) fn with_separator(separator: Option<char>) -> Self {
+        Self {
+            decimal_comma: separator != Some(','),
+            is_separated: separator.is_some(),
+            ..Self::default()
+        }
+    }
+
     /// Cells in the longest row.
     pub(super) fn width(&self) -> usize {
         self.rows.iter().map(Vec::len).max().unwrap_or(0)

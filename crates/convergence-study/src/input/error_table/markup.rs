@@ -1,5 +1,5 @@
-//! Tables in HTML, lists as tables, columns of LaTeX that span others, and quoted mail, as plain rows
-//! of cells.
+//! Tables in HTML, lists as tables, columns of LaTeX that span others, and quoted mail, as plain
+//! rows of cells.
 
 /// A text without the marks of quoted mail; a line of its own for each row of HTML and of a list.
 pub(super) fn plain(text: &str) -> String {

@@ -183,7 +183,8 @@ impl RateTable {
     /// `method`: two tables that are read as one could pass where one of them fails.
     ///
     /// # Errors
-    /// As [`RateTable::parse_with`], about the table that cannot be read.
+    /// As [`RateTable::parse_with`], about the first table that cannot be read, if another choice
+    /// reads it or the text has no other; otherwise it is a doubt of the first table that can.
     pub fn parse_all_with(
         text: &str,
         file_name: &str,

@@ -178,22 +178,8 @@ impl Word {
         if ["iterations", "iters", "its", "sweeps"].contains(&last) {
             return Self::Cost;
         }
-        // What a level should give is no error, and no result.
-        let is_expected = words
-            .iter()
-            .any(|word| ["expected", "predicted"].contains(word));
-        if is_expected && !joined.contains("err") {
-            return Self::Value;
-        }
-        let has_norm = |name: &str| {
-            let name = name.replace("normal", "");
-            NORMS.iter().any(|part| name.contains(part))
-        };
-        if has_norm(&lower)
-            || has_norm(&joined)
-            || words.iter().any(|word| DIFFERENCE_WORDS.contains(word))
-        {
-            return Self::Error;
+        if let Some(word) = Self::of_norm(&lower, &joined, &words) {
+            return word;
         }
         if STEPS.contains_key(joined.as_str()) {
             return Self::Step;
@@ -212,6 +198,20 @@ impl Word {
             return Self::Group;
         }
         Self::of_counts_and_costs(&words, &joined)
+    }
+
+    /// The meaning of a name with a norm or a difference in it; what a level should give is no
+    /// error, and no result.
+    fn of_norm(lower: &str, joined: &str, words: &[&str]) -> Option<Self> {
+        let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
+        if has(&["expected", "predicted"]) && !joined.contains("err") {
+            return Some(Self::Value);
+        }
+        let has_norm = |name: &str| {
+            let name = name.replace("normal", "");
+            NORMS.iter().any(|part| name.contains(part))
+        };
+        (has_norm(lower) || has_norm(joined) || has(&DIFFERENCE_WORDS)).then_some(Self::Error)
     }
 
     /// The meaning of a name that is not that of an error.

@@ -83,8 +83,9 @@ fn unused_lines<'t>(text: &'t str, parts: &[Part<'_>]) -> Vec<Line<'t>> {
     unused
 }
 
-/// The numbers of the lines with the errors of several levels behind their names, as a log beside a
-/// table has them; the settings above each of several tables are no levels. What a table leaves out is no such error, unless it has the name as well.
+/// The numbers of the lines with the errors of several levels behind their names, as a log beside
+/// a table has them; the settings above each of several tables are no levels. What a table leaves
+/// out is no such error, unless it has the name as well.
 fn logged_levels(unused: &[Line<'_>], parts: &[Part<'_>]) -> Vec<usize> {
     let mut lines: HashMap<(usize, &str), Vec<usize>> = HashMap::new();
     for Line {

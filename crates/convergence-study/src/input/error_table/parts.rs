@@ -182,9 +182,9 @@ impl Occurrences<'_> {
     }
 }
 
-/// Where gaps have a piece that others lack, or a name with other words behind it than in the gap
-/// before: the first such piece of each gap. So does a row whose numbers have other names than those
-/// above it.
+/// Where a text is cut: at the first piece of a gap that others lack, or that is a name with other
+/// words behind it than in the gap before, and above a row whose numbers have other names than those
+/// before it.
 fn gap_cuts(gaps: &[Gap]) -> Vec<usize> {
     let values: Vec<HashMap<&str, Vec<&str>>> = gaps.iter().map(Gap::values).collect();
     let mut occurrences: HashMap<&str, Occurrences<'_>> = HashMap::new();

@@ -154,27 +154,30 @@ fn attempt_all(original: Original<'_>, choice: &Choice, parts: &[Part<'_>]) -> A
             unread: unread.or(with_own_step),
         };
     }
-    if let Some((_, first)) = tables.first_mut()
-        && !others.is_empty()
-    {
-        let headings = others
-            .iter()
-            .map(|Grid { part, side }| match &*side.heading {
-                "" => part.heading.clone(),
-                heading => heading.to_owned(),
-            });
-        let headings: Vec<String> = headings.collect();
-        let quoted = headings.iter().map(|heading| format!("`{heading}`"));
-        first.reading += &format!("; without errors: {}", listed(quoted));
-        first
-            .not_errors
-            .extend(headings.into_iter().map(|column| NotError {
-                column,
-                because: "a table without errors".to_owned(),
-                is_checked: false,
-            }));
+    if let Some((_, first)) = tables.first_mut() {
+        leave_out(first, &others);
     }
     Attempt { tables, unread }
+}
+
+/// Says in the first table which others have no errors.
+fn leave_out(first: &mut RateTable, others: &[Grid<'_, '_>]) {
+    if others.is_empty() {
+        return;
+    }
+    let heading = |Grid { part, side }: &Grid<'_, '_>| match &*side.heading {
+        "" => part.heading.clone(),
+        heading => heading.to_owned(),
+    };
+    let headings: Vec<String> = others.iter().map(heading).collect();
+    let quoted = headings.iter().map(|heading| format!("`{heading}`"));
+    first.reading += &format!("; without errors: {}", listed(quoted));
+    let not_errors = headings.into_iter().map(|column| NotError {
+        column,
+        because: "a table without errors".to_owned(),
+        is_checked: false,
+    });
+    first.not_errors.extend(not_errors);
 }
 
 /// Reads the tables below each other in some columns.

@@ -52,11 +52,7 @@ pub(super) fn read<'t>(text: &'t str, scan: &Scan<'t>, earlier: &[&'t str]) -> R
     if turned::has_steps_in_head(&rows, &heads) {
         return turned::transpose(&rows, &heads);
     }
-    let table = RawTable {
-        decimal_comma: separator != Some(','),
-        is_separated: separator.is_some(),
-        ..RawTable::default()
-    };
+    let table = RawTable::with_separator(separator);
     let quoted_names = quoted_names.and_then(|names| fitting(names, width, text));
     let with_names = |names| Names {
         names,

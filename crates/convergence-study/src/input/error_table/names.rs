@@ -51,7 +51,7 @@ const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals t
     unknowns kdofs mdofs finiteelementunknowns samples paths particles";
 const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
 const COST_WORDS: &str = "time cpu wall seconds elapsed runtime ms tiempo zeit temps setup solve assembly iterations iteration iter iters \
-    niter it its nit sweeps gflops mem memory nnz cond cfl courant tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
+    niter its nit sweeps gflops mem memory nnz cond cfl courant tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
     refinement refinements refine ref i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
     temperature stress flux solution gradient";
@@ -175,7 +175,7 @@ impl Word {
         }
         // `Nonlinear solve converged due to CONVERGED_FNORM_RELATIVE iterations`.
         let last = words.last().copied().unwrap_or_default();
-        if ["iterations", "iters", "its", "sweeps"].contains(&last) {
+        if ["iterations", "iters", "its", "it", "sweeps"].contains(&last) {
             return Self::Cost;
         }
         if let Some(word) = Self::of_norm(&lower, &joined, &words) {

@@ -107,7 +107,7 @@ const STATE_WORDS: [&str; 13] = [
 /// Those in which `true` and 1 say that a level was not solved.
 const FAILURE_WORDS: [&str; 2] = ["failed", "diverged"];
 /// Units behind the name of a cost: `PSOR, s`.
-const TIME_UNITS: [&str; 5] = ["s", "sec", "secs", "ms", "min"];
+const TIME_UNITS: [&str; 4] = ["s", "sec", "secs", "ms"];
 /// Words in the name of a step, beside that of what has the size: `panel_size`.
 const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
 /// Words of what has a size that is a step.
@@ -197,6 +197,9 @@ impl Word {
         if joined.len() > 1 && is_group(name) {
             return Self::Group;
         }
+        if words.len() > 1 && has_time_unit(&lower) {
+            return Self::Cost;
+        }
         Self::of_counts_and_costs(&words, &joined)
     }
 
@@ -235,9 +238,6 @@ impl Word {
                 .strip_prefix('n')
                 .is_some_and(|rest| COSTS.contains_key(rest))
         {
-            return Self::Cost;
-        }
-        if words.len() > 1 && words.last().is_some_and(|word| TIME_UNITS.contains(word)) {
             return Self::Cost;
         }
         let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
@@ -391,6 +391,13 @@ pub(super) fn is_level(name: &str) -> bool {
         "nref",
     ]
     .contains(&noun)
+}
+
+/// Whether a name ends with a unit of time: `PSOR, s`, `solver [ms]`; `T_s` does not.
+fn has_time_unit(name: &str) -> bool {
+    let name = name.trim_end_matches([')', ']']);
+    let unit = name.rsplit([' ', '(', '[']).next();
+    unit.is_some_and(|unit| TIME_UNITS.contains(&unit))
 }
 
 /// Whether a word is that of what is counted, beside others.

@@ -50,7 +50,7 @@ const COUNT_WORDS: &str = "cells elements elems elem steps timesteps intervals t
     subintervals pointsperwavelength n nx ny nz nt ni nj nk npts m ne nel sqrtn mesh grid resolution nodes vertices points dofs dof \
     unknowns kdofs mdofs finiteelementunknowns samples paths particles";
 const RATE_WORDS: &str = "rate rates order eoc roc slope orders red reduction conv ratio ratios convergence orden ordnung ordre";
-const COST_WORDS: &str = "time cpu wall seconds elapsed runtime ms tiempo zeit temps setup solve assembly iterations iteration iter iters \
+const COST_WORDS: &str = "time cpu wall seconds elapsed runtime duration sec secs ms tiempo zeit temps setup solve assembly iterations iteration iter iters \
     niter its nit sweeps gflops mem memory nnz cond cfl courant tol tolerance rtol atol ranks threads procs row index cycle level levels lvl \
     refinement refinements refine ref i k l";
 const ERROR_WORDS: &str = "max maximum sup inf e energy mae mse rms u v w p velocity pressure displacement \
@@ -107,7 +107,7 @@ const STATE_WORDS: [&str; 13] = [
 /// Those in which `true` and 1 say that a level was not solved.
 const FAILURE_WORDS: [&str; 2] = ["failed", "diverged"];
 /// Units behind the name of a cost: `PSOR, s`.
-const TIME_UNITS: [&str; 4] = ["s", "sec", "secs", "ms"];
+const TIME_UNITS: [&str; 2] = ["s", "ms"];
 /// Words in the name of a step, beside that of what has the size: `panel_size`.
 const SIZE_WORDS: [&str; 4] = ["size", "spacing", "width", "diameter"];
 /// Words of what has a size that is a step.

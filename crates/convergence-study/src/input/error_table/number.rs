@@ -1,4 +1,5 @@
-//! Numbers as tables write them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `0,1`, `32x32`.
+//! Numbers as tables write them: `1/8`, `1.0D-01`, `2^-3`, `$1.2 \times 10^{-3}$`, `1.2 × 10⁻³`,
+//! `0,1`, `32x32`.
 
 /// What tables write if there is no number: the rate of the coarsest level.
 const DASHES: [&str; 14] = [
@@ -115,7 +116,7 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
     if edge.bytes().all(|c| c.is_ascii_digit()) && edges.all(|other| other == edge) {
         return real(edge);
     }
-    let mut text = cell.trim_matches(|c| "`_".contains(c)).to_owned();
+    let mut text = without_superscripts(cell.trim_matches(|c| "`_".contains(c)));
     if let Some(bold) = text
         .strip_prefix("**")
         .and_then(|text| text.strip_suffix("**"))
@@ -137,6 +138,22 @@ pub(super) fn number(cell: &str, decimal_comma: bool) -> Option<Number> {
         Some(_) => None,
         None => value(&text),
     }
+}
+
+/// `10⁻³` as `10^-3`.
+fn without_superscripts(cell: &str) -> String {
+    const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
+    let mut plain = String::new();
+    let mut is_above = false;
+    for c in cell.chars() {
+        let place = SUPERSCRIPTS.chars().position(|above| above == c);
+        if place.is_some() && !is_above {
+            plain.push('^');
+        }
+        is_above = place.is_some();
+        plain.push(place.map_or(c, |place| char::from(b"0123456789-"[place])));
+    }
+    plain
 }
 
 /// `1,000,000` without the commas of its thousands.

@@ -82,7 +82,7 @@ pub(super) fn columns<'t>(
 ) -> Result<Vec<Cells<'t>>, InputError> {
     let width = table.width();
     let mut cells = table.rows.iter().flatten();
-    if let Some(power) = cells.find(|cell| cell.contains("10⁻")) {
+    if let Some(power) = cells.find(|cell| cell.starts_with("10⁻")) {
         let expected = "a number with its power of ten as in `1.6e-3`";
         return Err(original.error(power, None, expected, &format!("`{}`", shorten(power))));
     }

@@ -28,6 +28,29 @@ fn a_failing_run_outside_the_bars_lets_nothing_pass() {
     }
 }
 
+/// A last row that has lost a bar, a cell or its form lets nothing pass.
+#[test]
+fn a_row_that_has_lost_its_frame_is_not_skipped() {
+    let sound = "| 0.05 | 0.0025 |";
+    assert!(passes(&format!("{SOUND}{sound}\n")));
+    for row in [
+        "0.05 | 0.0090",
+        "| 0.05 | 0.0090",
+        "| 0.05 | diverged",
+        "| 0.05 | nan",
+        "| 0.05 | | 0.0090 |",
+        "| 0.05 |",
+        "| | 0.0090 |",
+        "| 0.05 | 0.0090 | x |",
+        "0.05 & 0.0090 \\\\",
+        "| not converged | 0.05 |",
+        "| 0.05 | not converged |",
+        "<tr><td>0.05</td><td>0.0090</td></tr>",
+    ] {
+        assert!(!passes(&format!("{SOUND}{row}\n")), "{row}");
+    }
+}
+
 /// A table that no choice reads is a doubt beside others, with its message; alone it is refused.
 #[test]
 fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {

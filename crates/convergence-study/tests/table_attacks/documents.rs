@@ -57,17 +57,17 @@ fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {
     let broken = "| h | H1 |\n|---|---|\n| 0.4 | 0.4 |\n| 0.2 | abc |\n| 0.1 | 0.1 |\n";
     assert!(answer(broken, &["2"]).is_none());
     for text in [format!("{SOUND}\n{broken}"), format!("{broken}\n{SOUND}")] {
-        let answer = answer(&text, &["2"]).expect("the other table");
-        assert!(!answer.verdict.is_pass(), "{}", answer.text);
+        let sheet = answer(&text, &["2"]).expect("the other table");
+        assert!(!sheet.verdict.is_pass(), "{}", sheet.text);
         for words in [
             "1 of 1 column agrees",
             "a table is not read",
             "expected a number, found `abc`",
         ] {
-            assert!(answer.sentence.contains(words), "{}", answer.sentence);
+            assert!(sheet.sentence.contains(words), "{}", sheet.sentence);
         }
         // A claim about its column is one about a column that is not there.
-        assert!(super::answer(&text, &["L2=2", "H1=1"]).is_none());
+        assert!(answer(&text, &["L2=2", "H1=1"]).is_none());
     }
 }
 
@@ -112,4 +112,19 @@ fn a_dimension_goes_to_the_tables_with_counts() {
         .collect();
     assert_eq!(labels, ["1/n", "dt"]);
     assert!(read(steps).is_err());
+    // `eps` could be the step by its numbers alone.
+    let levels = "Space\nlevel,L2\n0,0.1600\n1,0.0400\n2,0.0100\n";
+    let nameless = steps.replace("dt", "eps");
+    let choice = Choice {
+        ratio: Some(2.0),
+        ..Choice::default()
+    };
+    let tables = RateTable::parse_all_with(&format!("{levels}{nameless}"), "t", &choice);
+    let tables = tables.expect("the table with levels");
+    let labels: Vec<&str> = tables
+        .iter()
+        .map(|(_, table)| table.step.as_str())
+        .collect();
+    assert_eq!(labels, ["2^(-level)"]);
+    assert_eq!(tables[0].1.doubts.len(), 1);
 }

@@ -169,12 +169,14 @@ fn columns_of<'t>(
     for (k, name) in names.into_iter().enumerate() {
         let texts = without_unit(table.column(k));
         let number = |text: &&str| {
-            let thousands = || without_thousands(text).filter(|_| has_point && !has_comma);
-            match text.contains(',').then(thousands).flatten() {
-                Some(plain) => number(&plain, false),
-                None if has_comma && text.contains('.') => None,
-                None => number(text, table.decimal_comma),
+            if has_point
+                && !has_comma
+                && let Some(plain) = without_thousands(text)
+            {
+                return number(&plain, false);
             }
+            let is_ambiguous = has_comma && text.contains('.');
+            number(text, table.decimal_comma).filter(|_| !is_ambiguous)
         };
         let numbers = texts.iter().map(number).collect();
         columns.push(Cells {

@@ -122,11 +122,12 @@ fn attempt_all(original: Original<'_>, choice: &Choice, parts: &[Part<'_>]) -> A
     }
     let is_only = parts.len() == 1;
     // One table may have counts or levels, another one steps by their name.
-    let without_measure = Choice {
+    let has_measure = choice.dim.is_some() || choice.ratio.is_some();
+    let without_measure = has_measure.then(|| Choice {
         dim: None,
         ratio: None,
         ..choice.clone()
-    };
+    });
     let mut tables = vec![];
     let mut unread = None;
     let mut with_own_step = None;
@@ -140,8 +141,9 @@ fn attempt_all(original: Original<'_>, choice: &Choice, parts: &[Part<'_>]) -> A
             }
             Err(error) => error,
         };
-        match attempt_grid(original, &without_measure, grid, is_only) {
-            Ok(more) if more.iter().all(|(_, table)| !table.is_guessed) => {
+        let again = without_measure.as_ref();
+        match again.map(|choice| attempt_grid(original, choice, grid, is_only)) {
+            Some(Ok(more)) if more.iter().all(|(_, table)| !table.is_guessed) => {
                 tables.extend(more);
                 with_own_step = with_own_step.or(Some(error));
             }

@@ -33,10 +33,6 @@ pub mod cli {
         pub use crate::cli::workspace::{root, studies};
     }
 }
-#[cfg(feature = "reports")]
-pub mod compare {
-    pub use crate::compare::{RecordComparison, Shift, WITHIN, compare};
-}
 #[cfg(feature = "files")]
 pub mod input {
     pub use crate::input::{POSITIVE, parse, parse_beside, parse_overlaid, read_text};

@@ -70,15 +70,13 @@
 // of it. The rule knows neither norm nor scheme, only steps and errors: crate `convergence-judge`.
 //
 // Each module uses only those before it: `input`, `plots`, `exchange`, `rates`, `study`, `run`,
-// `where_lost`, `project`, `store`, `program`, `compare`, `report`, `verify`, `cli`. Nothing is
+// `where_lost`, `project`, `store`, `program`, `report`, `verify`, `cli`. Nothing is
 // public but what is named here and in `internal`, so that the compiler finds what nobody uses.
 // With fewer features some items serve no one: they are searched for with all.
 #![cfg_attr(not(feature = "command-line"), allow(dead_code, unused_imports))]
 
 #[cfg(feature = "command-line")]
 mod cli;
-#[cfg(feature = "reports")]
-mod compare;
 #[cfg(feature = "tables")]
 mod exchange;
 #[cfg(feature = "files")]

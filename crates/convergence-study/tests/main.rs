@@ -4,7 +4,6 @@ mod asserted;
 #[cfg(feature = "command-line")]
 mod ci;
 #[cfg(feature = "reports")]
-mod compare;
 #[cfg(feature = "files")]
 mod error_table;
 #[cfg(feature = "command-line")]

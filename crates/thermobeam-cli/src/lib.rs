@@ -37,13 +37,12 @@ pub enum Command {
 }
 
 /// The commands, grouped by the user's purpose.
-pub const GROUPS: [(&str, &[&str]); 6] = [
+pub const GROUPS: [(&str, &[&str]); 5] = [
     ("Simulate a scene", &["run", "equilibria"]),
     (
         "Verify",
-        &["verify", "study", "list", "explain", "new", "manufacture"],
+        &["verify", "study", "list", "explain", "report", "new", "manufacture"],
     ),
-    ("Records of runs", &["compare", "report"]),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep"]),
     ("Everything else", OTHERS),

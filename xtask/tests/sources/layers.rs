@@ -46,7 +46,6 @@ const ORDER: [&str; 14] = [
     "project",
     "store",
     "program",
-    "compare",
     "report",
     "verify",
     "cli",

@@ -1,4 +1,4 @@
-//! What has changed: `compare`, and what is accepted into the baseline.
+//! Reports made anew, and what is accepted into the baseline.
 
 use std::fs;
 use std::process::Stdio;
@@ -14,87 +14,6 @@ const NO_FILE: &str = if cfg!(windows) {
 } else {
     "No such file"
 };
-
-#[test]
-fn records_are_compared_with_0_1_or_2() {
-    let root = workspace(true);
-    let write = |name: &str, files: &[&str]| {
-        let (_, out, _) = run(&root, &[&["study", "--format", "json"], files].concat());
-        fs::write(root.path().join(name), out).unwrap();
-    };
-    write("old.json", &["studies/one.toml", "studies/two.toml"]);
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 0.8)).unwrap();
-    write("new.json", &["studies/one.toml", "studies/two.toml"]);
-    write("part.json", &["studies/two.toml"]);
-    let (status, out, err) = run(&root, &["compare", "old.json", "new.json"]);
-    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
-    let (finding, rest) = out.split_once('\n').unwrap();
-    assert!(
-        finding.starts_with("one: error: worse: order 1.000 (1.000 to 1.000) → 0.800"),
-        "{out}"
-    );
-    assert_eq!(rest, "worse: 1 worse, 0 better, 1 the same, in 2 studies\n");
-    let (status, out, _) = run(&root, &["compare", "new.json", "old.json"]);
-    assert!(
-        status == Some(0) && out.contains("\nbetter: 0 worse, 1 better, 1 the same"),
-        "{out}"
-    );
-    let (status, out, _) = run(&root, &["compare", "old.json", "part.json"]);
-    let named = "one: lost: the new record does not have the study\n";
-    let all = "lost: 1 lost, 0 worse, 0 better, 1 the same, in 1 study\n";
-    assert_eq!((status, out.as_str()), (Some(1), &*format!("{named}{all}")));
-    let (status, out, _) = run(&root, &["compare", "part.json", "old.json"]);
-    assert!(
-        status == Some(0) && out.starts_with("note: only the new record has the study one\nsame: "),
-        "{out}"
-    );
-    let (_, out, _) = run(
-        &root,
-        &["compare", "old.json", "new.json", "--format", "json"],
-    );
-    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(
-        (&object["change"], &object["findings"][0]["change"]),
-        (&"worse".into(), &"worse".into())
-    );
-    assert!(
-        object["findings"][0]["orders"]["new"]["interval"].is_array(),
-        "{out}"
-    );
-    let (_, out, _) = run(&root, &["compare", "old.json", "new.json", "--all"]);
-    assert!(
-        out.contains("two: error: same: errors the same at 5 levels"),
-        "{out}"
-    );
-    fs::write(root.path().join("bad.json"), "{\n}").unwrap();
-    write("other.json", &["studies/one.toml"]);
-    let missing = format!("none.json: {NO_FILE}");
-    for (arguments, message) in [
-        (
-            &["compare", "old.json", "bad.json"][..],
-            "bad.json: missing field `schema` at line 2 column 1; expected a record",
-        ),
-        (&["compare", "old.json", "none.json"], &missing),
-        (
-            &["compare", "part.json", "other.json"],
-            "other.json: found no study that part.json has, too",
-        ),
-        (
-            &["compare", "old.json", "new.json", "--within", "-1"],
-            "expected a number >= 0",
-        ),
-        (
-            &["compare", "old.json", "new.json", "--floor", "-1"],
-            "floor = -1: expected a finite number >= 0",
-        ),
-    ] {
-        let (status, out, err) = run(&root, arguments);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(message),
-            "{err}"
-        );
-    }
-}
 
 /// The message of the badge in a folder of a report, which is the same in the picture.
 fn badge(root: &TempDir, folder: &str) -> String {

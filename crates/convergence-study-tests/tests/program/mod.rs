@@ -130,7 +130,7 @@ fn a_program_is_judged_by_its_errors() {
     // The same bytes for any number of simultaneous processes, except for the seconds.
     let record = |jobs| place.study(&["--format", "json", "--jobs", jobs]).1;
     assert_eq!(record("1"), record("4"));
-    // `compare` needs this for the work at the same error.
+    // Work and step are in the record.
     let object: serde_json::Value = serde_json::from_str(&record("1")).unwrap();
     let levels = object["studies"][0]["levels"].as_array().unwrap();
     assert!(

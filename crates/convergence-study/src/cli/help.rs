@@ -49,7 +49,7 @@ const PAGES_OF_MANUAL: [HelpPage; 2] = [
     },
 ];
 
-const PAGES: [HelpPage; 10] = [
+const PAGES: [HelpPage; 9] = [
     HelpPage {
         command: "new",
         without: &["jobs"],
@@ -128,20 +128,6 @@ const PAGES: [HelpPage; 10] = [
             (
                 "What a solver prints, with cells in the plane",
                 "cat log.txt | PROGRAM rates --order 2 --dim 2",
-            ),
-        ],
-    },
-    HelpPage {
-        command: "compare",
-        without: &["jobs"],
-        examples: &[
-            (
-                "Two versions",
-                "PROGRAM compare old.json reports/results.json",
-            ),
-            (
-                "Every error",
-                "PROGRAM compare old.json reports/results.json --all",
             ),
         ],
     },

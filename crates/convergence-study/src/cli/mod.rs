@@ -1,11 +1,10 @@
-//! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `compare`, `report`,
+//! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `report`,
 //! `explain`, `schema`, `completions`, `man`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
 //! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
 //! standard output, everything else to standard error. Exit status: [`exit::HELP`].
 
-mod compare;
 pub(crate) mod exit;
 pub(crate) mod explain;
 pub(crate) mod flags;
@@ -47,7 +46,6 @@ pub enum Command {
     List(list::Arguments),
     Explain(explain::Arguments),
     Rates(rates::Arguments),
-    Compare(compare::Arguments),
     Report(report::Arguments),
     Schema(schema::Arguments),
     New(new::Arguments),
@@ -69,7 +67,6 @@ pub const COMMANDS: &[&str] = &[
     "list",
     "explain",
     "rates",
-    "compare",
     "report",
     "schema",
     #[cfg(feature = "manual")]
@@ -92,7 +89,6 @@ impl Command {
             Self::List(arguments) => list::run(project, arguments),
             Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
-            Self::Compare(arguments) => compare::run(arguments),
             Self::Report(arguments) => report::run(project, arguments),
             Self::Schema(arguments) => schema::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),

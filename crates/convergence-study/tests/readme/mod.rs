@@ -8,14 +8,6 @@ use std::path::Path;
 use std::process::Command;
 
 use blocks::{Printed, fenced, missing, printed};
-use convergence_study::{
-    Finished, Header, LevelErrors, NamedNumber, NamedRate, Outcome, Verdict,
-    internal::{
-        run::Spent,
-        store::{Record, json},
-    },
-    judge_pairs,
-};
 
 const README: &str = include_str!("../../README.md");
 
@@ -23,10 +15,7 @@ const README: &str = include_str!("../../README.md");
 const FIRST: &str = include_str!("../../../../README.md");
 
 /// Pages of the book that show output.
-const BOOK: [(&str, usize); 2] = [
-    (include_str!("../../book/src/start.md"), 3),
-    (include_str!("../../book/src/compare.md"), 1),
-];
+const BOOK: [(&str, usize); 1] = [(include_str!("../../book/src/start.md"), 3)];
 
 /// What published tools passed: the name in the first column of the page's table, and a table of
 /// errors like theirs.
@@ -42,77 +31,6 @@ const MISTAKES: [(&str, &str); 2] = [
     ),
 ];
 
-/// A study with errors `L2`, claimed to be of order 2, and `H1`, of order 1, for n = 8, 16, ...;
-/// NaN: no such error.
-fn study(id: &str, levels: usize, l2: impl Fn(f64) -> f64, h1: impl Fn(f64) -> f64) -> Finished {
-    let counts: Vec<f64> = (0..levels)
-        .map(|k| 8.0 * f64::powi(2.0, k as i32))
-        .collect();
-    let errors = |n: f64| {
-        [("L2", l2(1.0 / n)), ("H1", h1(1.0 / n))]
-            .map(|(name, error)| NamedNumber::new(name, error))
-    };
-    let level = |n: &f64| LevelErrors {
-        parameters: vec![NamedNumber::new("n", *n)],
-        step: Some(1.0 / n),
-        work: None,
-        errors: errors(*n)
-            .into_iter()
-            .filter(|error| !error.value.is_nan())
-            .collect(),
-        without: vec![],
-    };
-    let rate = |k: usize, order: f64| {
-        let pairs = counts
-            .iter()
-            .map(|n| (1.0 / n, errors(*n)[k].value))
-            .filter(|(_, error)| !error.is_nan());
-        NamedRate::new(["L2", "H1"][k], judge_pairs(pairs, order, 0.1))
-    };
-    let levels = counts.iter().map(level).collect();
-    Finished {
-        header: Header::new(id, "c"),
-        outcome: Outcome {
-            levels,
-            ..Outcome::new("s", vec![rate(0, 2.0), rate(1, 1.0)], vec![])
-        },
-        failed_cases: vec![],
-        not_finite: vec![],
-        untested: vec![],
-        located: None,
-        spent: Spent::default(),
-        work: vec![],
-    }
-}
-
-/// Smooth, with the next power of the step.
-fn smooth(constant: f64, order: f64) -> impl Fn(f64) -> f64 {
-    move |h: f64| constant * h.powf(order) * (1.0 + 0.3 * h)
-}
-
-/// Two records: the new one has a larger error, a lost order, and lacks an error on the finest
-/// level.
-fn records() -> [Record; 2] {
-    let coarse = |h: f64| {
-        if h < 1.0 / 200.0 {
-            f64::NAN
-        } else {
-            smooth(1.0, 2.0)(h)
-        }
-    };
-    let old = vec![
-        study("poisson", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
-        study("heat", 6, smooth(1.0, 2.0), smooth(3.0, 1.0)),
-        study("wave", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
-    ];
-    let new = vec![
-        study("poisson", 5, smooth(1.05, 2.0), smooth(3.0, 0.5)),
-        study("heat", 6, coarse, smooth(3.0, 1.0)),
-        study("wave", 5, smooth(1.0, 2.0), smooth(3.0, 1.0)),
-    ];
-    [old, new].map(|studies| Record::new("files", "test", Verdict::Pass, None, studies))
-}
-
 /// The files that the commands of a page read: the table is on the page, or on that of the program.
 fn fill(folder: &Path, page: &str) {
     let table_on = |page: &str| fenced(page).into_iter().find(|block| block.0 == "csv");
@@ -120,9 +38,6 @@ fn fill(folder: &Path, page: &str) {
         .or_else(|| table_on(README))
         .expect("a table");
     fs::write(folder.join("errors.csv"), table + "\n").unwrap();
-    for (name, record) in ["old.json", "new.json"].iter().zip(records()) {
-        fs::write(folder.join(name), json(&record).unwrap()).unwrap();
-    }
 }
 
 #[test]

@@ -164,7 +164,7 @@ fn every_shell_gets_completions_that_know_the_commands() {
         let ended = ended(thermobeam().args(["completions", shell]));
         assert_eq!(ended.status, Some(0));
         assert!(
-            ["sweep", "compare", "rates", "explain"]
+            ["sweep", "report", "rates", "explain"]
                 .iter()
                 .all(|name| ended.stdout.contains(name)),
             "{shell}"

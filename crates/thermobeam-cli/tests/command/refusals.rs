@@ -19,7 +19,7 @@ const WITHOUT: &str = "required arguments were not provided";
 const REFUSED: [(&str, &str); 92] = [
     (
         "rnu scene.toml",
-        "the commands are compare, completions, equilibria, ",
+        "the commands are completions, equilibria, ",
     ),
     ("--colour never list", "'--color'"),
     ("--color blue list", "possible values: auto, always, never"),
@@ -183,18 +183,10 @@ const REFUSED: [(&str, &str); 92] = [
         "manufacture heat.toml --seed -1",
         "expected a whole number >= 0",
     ),
-    ("compare missing record.json", "missing: "),
+    ("report missing", "missing: "),
     (
-        "compare bytes bytes",
+        "report bytes",
         "found bytes that are no UTF-8; expected UTF-8 text",
-    ),
-    (
-        "compare record.json rates.csv",
-        "expected a record as `verify` writes it",
-    ),
-    (
-        "compare record.json record.json --floor low",
-        "expected a number",
     ),
     (
         "report rates.csv",
@@ -218,7 +210,7 @@ const REFUSED: [(&str, &str); 92] = [
     ("completions tcsh", "possible values: bash, "),
     (
         "man guard",
-        "man: found `guard`; expected one of compare, completions, ",
+        "man: found `guard`; expected one of completions, ",
     ),
 ];
 

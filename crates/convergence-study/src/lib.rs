@@ -53,7 +53,7 @@
 //! `default-features = false` leaves the rule and [`levels`]: verdicts in the tests of a solver, on
 //! all threads. `files` adds study files and tables of errors, `tables` their verdicts without
 //! files, threads or clocks, `reports` plots, reports and the baseline, `command-line` the commands,
-//! and `manual`, the default, man pages and completions.
+//! and `completions`, the default, completions for shells.
 //!
 //! # Stability
 //!

@@ -49,8 +49,8 @@ pub const GROUPS: [(&str, &[&str]); 5] = [
 ];
 
 /// The commands of no other group.
-const OTHERS: &[&str] = if cfg!(feature = "manual") {
-    &["schema", "completions", "man"]
+const OTHERS: &[&str] = if cfg!(feature = "completions") {
+    &["schema", "completions"]
 } else {
     &["schema"]
 };

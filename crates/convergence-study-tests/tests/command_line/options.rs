@@ -1,4 +1,4 @@
-//! Options of several commands: colours, short forms, `--dry-run`, what helps say, man pages.
+//! Options of several commands: colours, short forms, `--dry-run`, what helps say.
 
 use std::fs;
 use std::process::Command;
@@ -156,37 +156,4 @@ fn a_misspelt_id_among_many_has_its_nearest() {
         ) && err.contains(" are nearest, or a pattern such as '*-space'"),
         "{err}"
     );
-}
-
-#[test]
-fn each_command_has_a_man_page() {
-    let root = workspace(false);
-    let (status, out, _) = run(&root, &["man"]);
-    assert!(
-        status == Some(0) && out.contains(".TH powers 1") && out.contains("verify"),
-        "{out}"
-    );
-    for name in cli::COMMANDS {
-        let (status, out, _) = run(&root, &["man", name]);
-        assert!(
-            status == Some(0) && out.contains(&format!("{name} 1")) && out.contains("\\-\\-color"),
-            "{out}"
-        );
-    }
-    let (status, out, err) = run(&root, &["man", "verfy"]);
-    assert!(
-        status == Some(2)
-            && out.is_empty()
-            && err.contains("man: found `verfy`; expected one of completions, explain,"),
-        "{err}"
-    );
-    // Where `man` is installed, it finds no fault.
-    if Command::new("groff").arg("--version").output().is_ok() {
-        let (_, page, _) = run(&root, &["man", "rates"]);
-        fs::write(root.path().join("rates.1"), page).unwrap();
-        let mut groff = Command::new("groff");
-        let arguments = ["-man", "-Tutf8", "-ww", "-z", "rates.1"];
-        let (status, _, err) = texts(groff.args(arguments).current_dir(root.path()));
-        assert_eq!((status, err.as_str()), (Some(0), ""));
-    }
 }

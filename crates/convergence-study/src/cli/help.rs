@@ -23,31 +23,21 @@ pub struct HelpPage {
 /// the program `convergence-study` fills.
 pub fn pages<'p>() -> impl Iterator<Item = &'p HelpPage> {
     let pages = PAGES.iter();
-    #[cfg(feature = "manual")]
-    let pages = pages.chain(&PAGES_OF_MANUAL);
+    #[cfg(feature = "completions")]
+    let pages = pages.chain([&COMPLETIONS]);
     pages
 }
 
-/// Those of commands that only an installed program has.
-#[cfg(feature = "manual")]
-const PAGES_OF_MANUAL: [HelpPage; 2] = [
-    HelpPage {
-        command: "completions",
-        without: &[],
-        examples: &[
-            ("For bash", "PROGRAM completions bash > completions.bash"),
-            ("For fish", "PROGRAM completions fish > completions.fish"),
-        ],
-    },
-    HelpPage {
-        command: "man",
-        without: &[],
-        examples: &[
-            ("The page of the program", "PROGRAM man > program.1"),
-            ("The page of a command", "PROGRAM man rates > rates.1"),
-        ],
-    },
-];
+/// That of a command that only an installed program has.
+#[cfg(feature = "completions")]
+const COMPLETIONS: HelpPage = HelpPage {
+    command: "completions",
+    without: &[],
+    examples: &[
+        ("For bash", "PROGRAM completions bash > completions.bash"),
+        ("For fish", "PROGRAM completions fish > completions.fish"),
+    ],
+};
 
 const PAGES: [HelpPage; 9] = [
     HelpPage {

@@ -1,18 +1,18 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `report`,
-//! `explain`, `schema`, `completions`, `man`, for any project.
+//! `explain`, `schema`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
 //! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
 //! standard output, everything else to standard error. Exit status: [`exit::HELP`].
 
+#[cfg(feature = "completions")]
+mod completions;
 pub(crate) mod exit;
 pub(crate) mod explain;
 pub(crate) mod flags;
 mod github;
 pub(crate) mod help;
 mod list;
-#[cfg(feature = "manual")]
-mod manual;
 mod manufacture;
 mod new;
 pub(crate) mod rates;
@@ -50,9 +50,8 @@ pub enum Command {
     Schema(schema::Arguments),
     New(new::Arguments),
     Manufacture(manufacture::Arguments),
-    #[cfg(feature = "manual")]
-    #[command(flatten)]
-    Manual(manual::Command),
+    #[cfg(feature = "completions")]
+    Completions(completions::Arguments),
     /// Start a program, and end all that it has started (the harness starts this itself)
     #[command(hide = true)]
     Guard,
@@ -69,18 +68,16 @@ pub const COMMANDS: &[&str] = &[
     "rates",
     "report",
     "schema",
-    #[cfg(feature = "manual")]
+    #[cfg(feature = "completions")]
     "completions",
-    #[cfg(feature = "manual")]
-    "man",
 ];
 
 impl Command {
-    /// Runs the command for a project; `whole` is the whole command line, for the manual.
+    /// Runs the command for a project; `whole` is the whole command line, for completions.
     ///
     /// # Errors
     /// [`exit::Unusable`]: exit status 2.
-    #[cfg_attr(not(feature = "manual"), expect(unused_variables))]
+    #[cfg_attr(not(feature = "completions"), expect(unused_variables))]
     pub fn run(&self, project: &Project, whole: clap::Command) -> exit::CommandOutcome {
         guard::enable();
         match self {
@@ -93,8 +90,8 @@ impl Command {
             Self::Schema(arguments) => schema::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
             Self::Manufacture(arguments) => manufacture::run(arguments),
-            #[cfg(feature = "manual")]
-            Self::Manual(command) => command.run(project, whole),
+            #[cfg(feature = "completions")]
+            Self::Completions(arguments) => completions::run(project, arguments, whole),
             Self::Guard => serve(),
         }
     }

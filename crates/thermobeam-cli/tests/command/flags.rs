@@ -30,8 +30,8 @@ const COMMANDS: [(&[&str], i32, &str); 12] = [
     (&["manufacture", "heat.toml"], 0, "manufacture.json"),
 ];
 
-/// Commands missing from [`COMMANDS`]: a script for a shell; the help; man pages; the schema.
-const OTHERS: [&str; 4] = ["schema", "completions", "help", "man"];
+/// Commands missing from [`COMMANDS`]: a script for a shell; the help; the schema.
+const OTHERS: [&str; 3] = ["schema", "completions", "help"];
 
 pub(super) fn place(folder: &Folder) -> PathBuf {
     let root = workspace(folder, "w", &[("short", quick("short"))]);

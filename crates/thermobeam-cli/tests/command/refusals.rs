@@ -208,10 +208,6 @@ const REFUSED: [(&str, &str); 92] = [
         "schema: found `mesh`; expected one of study, scene, manufacture",
     ),
     ("completions tcsh", "possible values: bash, "),
-    (
-        "man guard",
-        "man: found `guard`; expected one of completions, ",
-    ),
 ];
 
 /// All files below a folder, with their bytes, and all folders.

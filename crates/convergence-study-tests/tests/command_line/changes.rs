@@ -15,34 +15,6 @@ const NO_FILE: &str = if cfg!(windows) {
     "No such file"
 };
 
-/// The message of the badge in a folder of a report, which is the same in the picture.
-fn badge(root: &TempDir, folder: &str) -> String {
-    let read = |name: &str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();
-    let object: serde_json::Value = serde_json::from_str(&read("badge.json")).unwrap();
-    assert_eq!(object["schemaVersion"], 1);
-    assert_eq!(object["label"], "orders");
-    let message = object["message"].as_str().unwrap().to_owned();
-    let picture = read("badge.svg");
-    let picture = roxmltree::Document::parse(&picture).unwrap();
-    let title = picture
-        .descendants()
-        .find(|node| node.has_tag_name("title"));
-    assert_eq!(title.unwrap().text(), Some(&*format!("orders: {message}")));
-    message
-}
-
-#[test]
-fn the_badge_has_the_verdict_of_the_run() {
-    let root = workspace(false);
-    assert_eq!(run(&root, &["verify"]).0, Some(1));
-    assert_eq!(badge(&root, "reports/local/quick"), "not accepted");
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    assert_eq!(badge(&root, "reports"), "1 verified");
-    let root = workspace(true);
-    assert_eq!(run(&root, &["verify"]).0, Some(1));
-    assert_eq!(badge(&root, "reports/local/quick"), "1 lost");
-}
-
 /// The pages of a record equal those of the run, and come only from the record and its pictures.
 #[test]
 fn a_report_is_made_anew_from_its_record() {
@@ -56,8 +28,6 @@ fn a_report_is_made_anew_from_its_record() {
             "errors.csv",
             "results.json",
             "manifest.txt",
-            "badge.svg",
-            "badge.json",
         ];
         let figures = ["figures/one-errors.svg", "figures/rates.svg"];
         let read = |name: &&str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();

@@ -4,7 +4,6 @@
 //! The same outcomes give the same bytes, except for the page: it names its commit, day and
 //! machine, if given, and should not be committed.
 
-mod badge;
 mod changes;
 mod failures;
 mod forest;
@@ -94,8 +93,6 @@ impl Findings<'_> {
         set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;
-        set.add("badge.svg", badge::svg(record))?;
-        set.add("badge.json", badge::endpoint(record))?;
         set.add("junit.xml", junit(project.name, record))?;
         set.add("errors.csv", self.errors_csv())?;
         // A project's own pages show the figures of the quick tier.

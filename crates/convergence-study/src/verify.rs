@@ -11,7 +11,6 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::thread;
 
-use glob::Pattern;
 use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
@@ -106,8 +105,6 @@ pub struct VerifyRequest {
     pub bless: bool,
     /// Why claims have changed, for blessing them.
     pub reason: Option<String>,
-    /// Names or patterns of the changes to accept; if empty, all. Needs a reason.
-    pub only: Vec<String>,
     /// The project's folder, which contains `studies/baseline.json`.
     pub root: PathBuf,
     /// The folder of its reports, usually `reports/` in it.
@@ -127,7 +124,6 @@ impl VerifyRequest {
             effort: jobs.into(),
             bless: false,
             reason: None,
-            only: vec![],
             reports: root.join("reports"),
             root,
         }
@@ -167,12 +163,6 @@ pub enum Blessing {
     Refused(BlessingRefusal),
 }
 
-impl Blessing {
-    fn of(taken: Result<(), BlessingRefusal>) -> Self {
-        taken.map_or_else(Self::Refused, |()| Self::Taken)
-    }
-}
-
 /// The result of a verification.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -196,16 +186,6 @@ pub enum VerificationError {
     /// The baseline cannot be used, or the reports cannot be written.
     #[error(transparent)]
     Files(#[from] io::Error),
-    /// A pattern of [`VerifyRequest::only`] that matches no change.
-    #[error("--only: found `{pattern}`, which matches no change; expected one of {changes}{}", .some.iter().map(|id| format!(", `{id}`")).collect::<String>())]
-    NoChange {
-        /// The pattern.
-        pattern: String,
-        /// How many changes there are.
-        changes: usize,
-        /// The first of them.
-        some: Vec<String>,
-    },
 }
 
 /// Runs the studies and writes the reports, and the baseline if requested.
@@ -277,7 +257,7 @@ fn run_and_write(
     let _writing = atomic::begin_write();
     // Another run may have blessed in the meantime: the baseline is read again under the lock.
     let mut baseline = Baseline::read(&baseline_file)?;
-    let blessing = bless(&mut baseline, &finished, request)?;
+    let blessing = bless(&mut baseline, &finished, request);
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
     let record = diagnosed(project, studies, request, finished, &changes);
@@ -289,7 +269,7 @@ fn run_and_write(
         &record.studies,
     );
     let committed = record.clone().committed();
-    // A blessing of some changes, or of one tier, can leave others: the run then still fails.
+    // A blessing of one tier can leave changes of the other: the run then still fails.
     let passes = record.verdict == Verdict::Pass;
     let destination = Destination::new(&request.scope, reports, passes);
     let see_also = destination.see_also(&committed);
@@ -337,50 +317,14 @@ fn diagnosed(
     record
 }
 
-/// Accepts all changes into the baseline, or those selected: all of them or none.
-fn bless(
-    baseline: &mut Baseline,
-    finished: &[Finished],
-    request: &VerifyRequest,
-) -> Result<Blessing, VerificationError> {
-    let known = request.scope.known();
-    let reason = request.reason.as_deref();
+/// Accepts all changes into the baseline, if that is asked for.
+fn bless(baseline: &mut Baseline, finished: &[Finished], request: &VerifyRequest) -> Blessing {
     if !request.bless {
-        return Ok(Blessing::NotAsked);
+        return Blessing::NotAsked;
     }
-    if request.only.is_empty() {
-        return Ok(Blessing::of(baseline.bless(finished, known, reason)));
-    }
-    let changes = baseline.compare(finished, known);
-    let mut is_chosen = vec![false; changes.len()];
-    for word in &request.only {
-        let pattern = Pattern::new(word).ok();
-        let matches =
-            |id: &str| id == word || pattern.as_ref().is_some_and(|pattern| pattern.matches(id));
-        let mut occurs = false;
-        for (change, is_chosen) in changes.iter().zip(&mut is_chosen) {
-            if matches(&change.id()) {
-                *is_chosen = true;
-                occurs = true;
-            }
-        }
-        if !occurs {
-            return Err(VerificationError::NoChange {
-                pattern: word.clone(),
-                changes: changes.len(),
-                some: changes.iter().take(3).map(GuardedChange::id).collect(),
-            });
-        }
-    }
-    let mut new = baseline.clone();
-    let chosen = changes.iter().zip(is_chosen).filter(|(_, chosen)| *chosen);
-    for (change, _) in chosen {
-        if let Err(refusal) = new.accept(finished, change, reason.unwrap_or_default()) {
-            return Ok(Blessing::Refused(refusal));
-        }
-    }
-    *baseline = new;
-    Ok(Blessing::Taken)
+    let known = request.scope.known();
+    let taken = baseline.bless(finished, known, request.reason.as_deref());
+    taken.map_or_else(Blessing::Refused, |()| Blessing::Taken)
 }
 
 /// Completes or removes what runs that were killed have left.

@@ -35,7 +35,7 @@ const FOREIGN: [&str; 21] = [
 ];
 
 /// The modules of the harness from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 13] = [
     "input",
     "plots",
     "exchange",

@@ -24,7 +24,7 @@ use crate::text::visible::visible;
 use crate::verify;
 use crate::verify::{Blessing, Scope, Verification, VerifyRequest};
 use crate::where_lost::{summary_of_located, text_of_located};
-use selection::{dry_run, failed, files, scope};
+use selection::{dry_run, files, scope};
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
 #[derive(Debug, clap::Args)]
@@ -40,10 +40,6 @@ pub struct Arguments {
     /// Why; required for a changed claim, and kept in the baseline with the change
     #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
     reason: Option<String>,
-    /// Accept only these: STUDY:NAME of a number, STUDY:claim PATH, or a pattern such as
-    /// 'heat-*:rate *'
-    #[arg(long, value_name = "PATTERN", requires = "reason")]
-    only: Vec<String>,
     /// Every study even if some fail, and every number that moved, not only the worst of each study
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
@@ -53,9 +49,6 @@ pub struct Arguments {
     /// Begin no case once a study has failed; the report is then that of a selection
     #[arg(long, conflicts_with = "bless")]
     fail_fast: bool,
-    /// Only the studies that did not pass, or moved, in the newest record
-    #[arg(long, conflicts_with_all = ["ids", "bless"])]
-    failed: bool,
     /// Search where the order of studies that do not pass is lost, by variants of their solutions
     #[arg(long = "where", conflicts_with = "dry_run")]
     located: bool,
@@ -90,16 +83,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
     let list = format!("{} list", project.command);
-    let ids = if arguments.failed {
-        failed(&root)?
-    } else {
-        arguments.ids.clone()
-    };
-    let mask = workspace::select(&headers, arguments.tier, &ids, &list)?;
+    let mask = workspace::select(&headers, arguments.tier, &arguments.ids, &list)?;
     if arguments.dry_run {
         return dry_run(arguments, &root, &all, &mask);
     }
-    let scope = match scope(arguments.tier, &ids, &all) {
+    let scope = match scope(arguments.tier, &arguments.ids, &all) {
         // Studies may be missing: this is not a report on a tier.
         Scope::Tier(..) if arguments.fail_fast => Scope::Selection(vec!["--fail-fast".to_owned()]),
         scope => scope,
@@ -167,7 +155,6 @@ fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> VerifyRequest 
         },
         bless: arguments.bless,
         reason: arguments.reason.clone(),
-        only: arguments.only.clone(),
         reports: flags.out.clone().unwrap_or_else(|| root.join("reports")),
         root,
     }

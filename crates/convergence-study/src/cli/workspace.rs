@@ -128,7 +128,7 @@ const RECORDS: [&str; 3] = [
 const TIMES: &str = "reports/local/provenance.json";
 
 /// All existing records, the newest last.
-pub(super) fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
+fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
     let mut records: Vec<(SystemTime, Record)> = vec![];
     for path in RECORDS
         .map(|path| root.join(path))

@@ -198,7 +198,6 @@ pub(crate) fn request(root: &Path, known: &[&str]) -> VerifyRequest {
         effort: jobs(2).into(),
         bless: false,
         reason: None,
-        only: vec![],
         root: root.to_owned(),
         reports: root.join("reports"),
     }

@@ -51,12 +51,7 @@ pub(super) fn place(folder: &Folder) -> PathBuf {
             .current_dir(&root),
     );
     assert_eq!(swept.status, Some(0), "{}", swept.stderr);
-    let arguments = [
-        "study",
-        "studies/short.toml",
-        "--out",
-        "reported",
-    ];
+    let arguments = ["study", "studies/short.toml", "--out", "reported"];
     let reported = ended(thermobeam().args(arguments).current_dir(&root));
     assert_eq!(reported.status, Some(0), "{}", reported.stderr);
     root

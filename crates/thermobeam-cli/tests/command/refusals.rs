@@ -16,7 +16,7 @@ const POSITIVE: &str = "expected a number > 0";
 const WITHOUT: &str = "required arguments were not provided";
 
 /// Command lines, and words of the message.
-const REFUSED: [(&str, &str); 92] = [
+const REFUSED: [(&str, &str); 87] = [
     (
         "rnu scene.toml",
         "the commands are completions, equilibria, ",
@@ -111,12 +111,10 @@ const REFUSED: [(&str, &str); 92] = [
     ("verify --tier slow", "possible values: quick, full"),
     ("verify --case-limit 3", "'--time-limit'"),
     ("verify --time-limit soon", POSITIVE),
-    ("verify --only a", "--reason <TEXT>"),
     (
         "verify --bless --dry-run",
         "cannot be used with '--dry-run'",
     ),
-    ("verify --failed", "--failed: found no record of a run"),
     ("verify --out rates.csv", TAKEN),
     ("study", WITHOUT),
     ("study missing", NO_FILE),

@@ -6,7 +6,6 @@ use super::Arguments;
 use crate::cli::exit::{CommandOutcome, Unusable};
 use crate::cli::{screen, workspace};
 use crate::judge::verdict::Verdict;
-use crate::store::Record;
 use crate::study::{StudyFile, Tier};
 use crate::text::number::{counted, counted_as};
 use crate::verify::Scope;
@@ -50,30 +49,6 @@ pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
         )
     } else {
         Scope::Selection(ids.to_vec())
-    }
-}
-
-/// The studies that did not pass, or with a number that moved, in the newest record.
-pub(super) fn failed(root: &Path) -> Result<Vec<String>, Unusable> {
-    let Some(Record {
-        changes, studies, ..
-    }) = workspace::records(root)?.pop()
-    else {
-        return Err(Unusable::because(
-            "--failed: found no record of a run; expected reports/results.json",
-        ));
-    };
-    let moved = |id: &str| changes.iter().flatten().any(|change| change.study == id);
-    let ids = studies
-        .into_iter()
-        .filter(|study| study.outcome.verdict != Verdict::Pass || moved(&study.header.id));
-    let ids: Vec<String> = ids.map(|study| study.header.id).collect();
-    if ids.is_empty() {
-        Err(Unusable::because(
-            "--failed: nothing failed in the newest record",
-        ))
-    } else {
-        Ok(ids)
     }
 }
 

@@ -54,7 +54,6 @@ fn place() -> TempDir {
         "convergence-study new program poisson --language shell",
         "convergence-study new manufacture heat",
         "convergence-study verify --bless",
-        "cp reports/results.json old.json",
     ] {
         let (status, text) = shell(folder, line);
         assert_eq!(status, Some(0), "{line}: {text}");

@@ -4,7 +4,6 @@ use std::fs;
 use std::process::Stdio;
 
 use convergence_study_tests::finished;
-use tempfile::TempDir;
 
 use super::{ORDER, command, run, study, texts, workspace};
 

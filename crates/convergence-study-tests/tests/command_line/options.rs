@@ -1,9 +1,6 @@
 //! Options of several commands: colours, short forms, `--dry-run`, what helps say.
 
 use std::fs;
-use std::process::Command;
-
-use convergence_study::internal::cli;
 
 use super::{command, run, study, texts, workspace};
 

@@ -283,8 +283,8 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let mut request = request(root.path(), &["a", "b", "c"]);
     run(studies(), &request);
     let first = committed(&reports);
-    // Eight files of the set, the picture of all rates, one figure for each study.
-    assert_eq!(first.len(), 8 + 1 + 3);
+    // Six files of the set, the picture of all rates, one figure for each study.
+    assert_eq!(first.len(), 6 + 1 + 3);
     for count in [1, 4] {
         request.effort = jobs(count).into();
         run(studies(), &request);

@@ -5,7 +5,7 @@
 //! | folder or file | holds |
 //! | --- | --- |
 //! | `language/`, `problem/` | text to tree; a file, read and checked, each message with its place |
-//! | `arithmetic/` | the graph of expressions with its derivatives, its evaluation with sizes, enclosures over boxes, Taylor jets, quadrature |
+//! | `arithmetic/` | the graph of expressions with its derivatives, its evaluation with sizes, Taylor jets, quadrature |
 //! | `derive/` | tensors, four coordinate systems, operators: generic in the arithmetic; the quantities of a file |
 //! | `model.rs`, `sample.rs`, `fit.rs` | a file as one graph and as jets; points of domains and faces; least squares |
 //! | `check/`, `against/` | what is right, wrong, or not noticed; foreign sources and their causes |

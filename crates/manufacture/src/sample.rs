@@ -10,8 +10,14 @@ const FROM_SWITCHES: f64 = 1e-6;
 /// Points keep this share of the interval from an axis, where 1/r is not evaluated.
 pub(crate) const FROM_AXIS: f64 = 1e-6;
 
+/// A point so near to an end of a side, in lengths of it, is there.
+const AT_END: f64 = 1e-12;
+
 /// Draws for each point that is wanted before a domain counts as empty.
 const TRIES: usize = 1000;
+
+/// Draws for each point that may be left out.
+const FEW_TRIES: usize = 20;
 
 /// Random numbers: `splitmix64` by Vigna, which has a period of 2^64 and needs no table.
 #[derive(Debug, Clone)]
@@ -58,6 +64,7 @@ impl<'m> Sampler<'m> {
         let rows = TensorRows::new(&self.model.graph, quantities.iter().map(|q| &q.tensor));
         let mut points = vec![];
         let mut is_empty = true;
+        let mut lies_on: Option<Vec<bool>> = None;
         for _ in 0..count.saturating_mul(TRIES) {
             if points.len() == count {
                 break;
@@ -67,9 +74,15 @@ impl<'m> Sampler<'m> {
             };
             is_empty = false;
             let switches = rows.at(&point).switches;
-            if !switches.iter().any(|switch| switch.abs() < FROM_SWITCHES) {
-                points.push(point);
+            let near = switches.iter().map(|s| s.abs() < FROM_SWITCHES).enumerate();
+            let mut near = near.filter(|entry| entry.1).peekable();
+            if near.peek().is_some() {
+                let lies_on = lies_on.get_or_insert_with(|| self.lies_on(part, &rows));
+                if near.any(|(switch, _)| !lies_on[switch]) {
+                    continue;
+                }
             }
+            points.push(point);
         }
         if points.len() == count {
             return Ok(points);
@@ -90,6 +103,14 @@ impl<'m> Sampler<'m> {
             count.saturating_mul(TRIES)
         );
         Err(InputError::whole(&self.model.problem.file, problem))
+    }
+
+    /// For each switch whether all of a part lies on it: no point is away from it.
+    fn lies_on(&self, part: Part, rows: &TensorRows<'_>) -> Vec<bool> {
+        const DRAWS: usize = 100;
+        let mut other = Self::new(self.model, self.random.0);
+        let draws = (0..DRAWS).filter_map(|_| other.draw(part));
+        on_switches(rows, draws)
     }
 
     /// The error of levels that leave no domain, or of a level that is zero nowhere in it.
@@ -131,11 +152,95 @@ impl<'m> Sampler<'m> {
         point
     }
 
+    /// The sides of a part, those along which it does not extend of length zero; none on a level.
+    pub(crate) fn sides(&self, part: Part) -> Vec<[f64; 2]> {
+        let problem = &self.model.problem;
+        let mut sides = problem.intervals.clone();
+        match part {
+            Part::Interior => (),
+            Part::Initial => {
+                if let (Some(first), Some(time)) = (problem.first_time(), sides.last_mut()) {
+                    *time = [first; 2];
+                }
+            }
+            Part::Face(index) => match problem.faces[index].surface {
+                Surface::Level(_) => return vec![],
+                Surface::Side {
+                    coordinate,
+                    is_upper,
+                } => {
+                    let end = sides[coordinate][usize::from(is_upper)];
+                    sides[coordinate] = [end; 2];
+                }
+            },
+        }
+        let [low, high] = problem.intervals[0];
+        if problem.system != System::Cartesian {
+            sides[0] = sides[0].map(|radius| radius.max(low + FROM_AXIS * (high - low)));
+        }
+        sides
+    }
+
+    /// So many points inside a part, then as many on all its faces, edges and corners together.
+    pub(crate) fn everywhere(&mut self, part: Part, count: usize) -> Vec<Vec<f64>> {
+        let sides = self.sides(part);
+        if sides.is_empty() {
+            let draws = 0..TRIES * count;
+            return draws.filter_map(|_| self.draw(part)).take(count).collect();
+        }
+        let mut boxes: Vec<Vec<[f64; 2]>> = vec![vec![]];
+        for [low, high] in sides {
+            let ends = [[low, high], [low; 2], [high; 2]];
+            let longer = boxes
+                .iter()
+                .flat_map(|sides| ends.map(|end| [sides, &[end][..]].concat()));
+            boxes = longer.collect();
+            boxes.dedup();
+        }
+        let share = count.div_ceil(boxes.len());
+        let mut points = vec![];
+        for (place, sides) in boxes.iter().enumerate() {
+            let is_point = sides.iter().all(|[low, high]| low == high);
+            let wanted = match place {
+                _ if is_point => 1,
+                0 => count,
+                _ => share,
+            };
+            points.extend(self.within(sides, wanted));
+        }
+        points
+    }
+
+    /// Points of the domain in a box, so many if it has them.
+    pub(crate) fn within(&mut self, sides: &[[f64; 2]], wanted: usize) -> Vec<Vec<f64>> {
+        let mut points = vec![];
+        for _ in 0..FEW_TRIES * wanted {
+            let sides = sides.iter();
+            let along = sides.map(|[low, high]| low + self.random.share() * (high - low));
+            let point: Vec<f64> = along.collect();
+            if points.len() < wanted && self.is_inside(&point, None) {
+                points.push(point);
+            }
+        }
+        points
+    }
+
     /// Whether all levels but that of one face are negative.
-    fn is_inside(&self, point: &[f64], but: Option<&str>) -> bool {
+    pub(crate) fn is_inside(&self, point: &[f64], but: Option<&str>) -> bool {
         let values = self.levels.at(point).tensors;
         let mut levels = self.level_faces.iter().zip(values);
         levels.all(|(face, value)| Some(face.as_str()) == but || value[0].value < 0.0)
+    }
+
+    /// Whether a point is on a level but for rounding, or at an end of a side along which the part
+    /// extends.
+    pub(crate) fn is_on_boundary(&self, part: Part, point: &[f64]) -> bool {
+        let levels = self.levels.at(point).tensors;
+        let mut ends = point.iter().zip(self.sides(part));
+        ends.any(|(x, [low, high])| low < high && (x - low).min(high - x) <= AT_END * (high - low))
+            || levels
+                .iter()
+                .any(|level| level[0].value.abs() <= AT_END * level[0].size)
     }
 
     pub(crate) fn is_in_domain(&self, point: &[f64]) -> bool {
@@ -210,4 +315,20 @@ impl<'m> Sampler<'m> {
         }
         Some(between(bracket[0]))
     }
+}
+
+/// For each switch whether all of some points lie on it.
+pub(crate) fn on_switches(
+    rows: &TensorRows<'_>,
+    points: impl Iterator<Item = Vec<f64>>,
+) -> Vec<bool> {
+    let mut all: Option<Vec<bool>> = None;
+    for point in points {
+        let switches = rows.at(&point).switches;
+        let all = all.get_or_insert_with(|| vec![true; switches.len()]);
+        for (all, switch) in all.iter_mut().zip(switches) {
+            *all &= switch.abs() < FROM_SWITCHES;
+        }
+    }
+    all.unwrap_or_default()
 }

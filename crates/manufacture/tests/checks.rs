@@ -270,17 +270,6 @@ fn polynomials_and_symmetries_are_noted() {
 }
 
 #[test]
-fn kinks_are_noted() {
-    finds(
-        &plane("u = \"abs(x - 0.5)*y\"", "", "a = \"u\""),
-        "kink",
-        "exact.u",
-        false,
-    );
-    does_not_find(&plane("u = \"abs(x + 0.5)*y\"", "", "a = \"u\""), "kink");
-}
-
-#[test]
 fn initial_data_agree_with_conditions() {
     let file = |condition: &str| {
         format!("{HEAT}\n[boundary.y_max]\nT = {{ of = \"T\", is = \"{condition}\" }}\n")

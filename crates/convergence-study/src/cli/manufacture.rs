@@ -294,7 +294,13 @@ fn sentence(check: &Check) -> String {
         .filter(|finding| finding.fails)
         .count();
     let notes = check.findings.len() - failures;
-    format!("{failures} failure(s), {notes} note(s)")
+    let of_domain = ["pole", "removable", "singular"];
+    let mut findings = check.findings.iter();
+    let domain = match findings.any(|finding| of_domain.contains(&finding.code)) {
+        true => String::new(),
+        false => format!("; poles: nothing found at {} points", check.domain_points),
+    };
+    format!("{failures} failure(s), {notes} note(s){domain}")
 }
 
 /// The shares of all terms, the findings, and the verdict.

@@ -1,20 +1,12 @@
 //! Arithmetics that expressions are computed in: a graph with symbolic derivatives, Taylor jets at
 //! a point, and the number of derivatives that a jet needs.
 
-mod branches;
-pub(crate) mod conditions;
 mod depth;
-pub(crate) mod enclosure;
 pub(crate) mod graph;
-mod guards;
-pub(crate) mod interval;
 pub(crate) mod jet;
 mod node;
 pub(crate) mod quadrature;
-mod signs;
 pub(crate) mod tape;
-#[cfg(test)]
-mod tests;
 
 use crate::language::names::Function;
 use crate::language::tree::{Binary, Relation};

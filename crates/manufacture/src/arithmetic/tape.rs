@@ -36,6 +36,12 @@ pub(crate) struct Tape<'g> {
     rule: Vec<[f64; 2]>,
 }
 
+/// The values of all steps of a tape at a point, and its switches.
+struct Steps {
+    values: Vec<SizedValue>,
+    switches: Vec<f64>,
+}
+
 /// The values of the roots of a tape at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Evaluated {
@@ -91,11 +97,54 @@ impl<'g> Tape<'g> {
 
     /// The roots at a point.
     pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> Evaluated {
+        let Steps { values, switches } = self.steps(point, parameters);
+        let roots = self.roots.iter();
+        Evaluated {
+            roots: roots.map(|id| values[self.place(*id)]).collect(),
+            switches,
+        }
+    }
+
+    /// For each node up to the last root its value at a point; `None` where no root needs it: of a
+    /// choice only the branch counts that is taken.
+    pub(crate) fn needed(&self, point: &[f64]) -> Vec<Option<SizedValue>> {
+        let Steps { values, .. } = self.steps(point, &self.graph.parameters);
+        let mut needed: Vec<Option<SizedValue>> = vec![None; self.places.len()];
+        for root in &self.roots {
+            needed[root.0 as usize] = Some(values[self.place(*root)]);
+        }
+        for id in self.steps.iter().rev() {
+            if needed[id.0 as usize].is_none() {
+                continue;
+            }
+            let node = self.graph.node(*id);
+            let skipped = match node {
+                Node::Choose(comparison, [left, right, ..]) => {
+                    let [left, right] = [left, right].map(|id| values[self.place(*id)].value);
+                    Some(if comparison.holds(left, right) { 3 } else { 2 })
+                }
+                _ => None,
+            };
+            for (number, operand) in node.operands().iter().enumerate() {
+                if Some(number) != skipped {
+                    needed[operand.0 as usize] = Some(values[self.place(*operand)]);
+                }
+            }
+        }
+        needed
+    }
+
+    fn place(&self, id: NodeId) -> usize {
+        self.places[id.0 as usize] as usize
+    }
+
+    /// All steps at a point.
+    fn steps(&self, point: &[f64], parameters: &[f64]) -> Steps {
         let mut values: Vec<SizedValue> = Vec::with_capacity(self.steps.len());
         let mut switches = vec![];
         let mut integrals = self.integrals.iter();
         for id in &self.steps {
-            let of = |id: &NodeId| values[self.places[id.0 as usize] as usize];
+            let of = |id: &NodeId| values[self.place(*id)];
             let value = match self.graph.node(*id) {
                 Node::Number(bits) => exactly(f64::from_bits(*bits)),
                 Node::Variable(index) => exactly(point[*index]),
@@ -130,13 +179,7 @@ impl<'g> Tape<'g> {
             };
             values.push(value);
         }
-        let roots = self.roots.iter();
-        Evaluated {
-            roots: roots
-                .map(|id| values[self.places[id.0 as usize] as usize])
-                .collect(),
-            switches,
-        }
+        Steps { values, switches }
     }
 
     /// The integral of the first root over a variable.

@@ -7,9 +7,9 @@ use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::derive::{Part, Role};
 use crate::language::tree::Binary;
-use crate::model::Model;
-use crate::problem::InputError;
-use crate::sample::Sampler;
+use crate::model::{Model, TensorRows};
+use crate::problem::{InputError, Surface};
+use crate::sample::{Sampler, on_switches};
 
 pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = unseen::edits(model, sampled);
@@ -80,6 +80,47 @@ pub(super) fn data(sampled: &Sampled<'_>) -> Vec<Finding> {
         if is_datum && !has_condition && sampled.over(index).all(|entry| is_zero(entry.1)) {
             let text = "zero on its face: a term that is lost there would not be noticed";
             findings.push(finding("data-zero", &quantity.key, text.to_owned(), None));
+        }
+    }
+    findings
+}
+
+/// Faces on which a switch lies, of the first quantity that has one: there the values are those of
+/// one branch.
+pub(super) fn switches(model: &Model, sampler: &mut Sampler<'_>) -> Vec<Finding> {
+    const POINTS: usize = 20;
+    let names = model.problem.variables();
+    let mut faces = vec![];
+    for (axis, interval) in model.problem.intervals.iter().enumerate() {
+        for end in interval {
+            let mut sides = model.problem.intervals.clone();
+            sides[axis] = [*end; 2];
+            let face = format!("{} = {end}", names[axis]);
+            faces.push((face, sampler.within(&sides, POINTS)));
+        }
+    }
+    for (index, face) in model.problem.faces.iter().enumerate() {
+        if let Surface::Level(_) = face.surface {
+            let points = sampler.everywhere(Part::Face(index), POINTS);
+            faces.push((face.name.clone(), points));
+        }
+    }
+    let quantities = model.part(Part::Interior).iter();
+    let quantities = quantities.filter(|q| matches!(q.role, Role::Exact | Role::Source));
+    let quantities: Vec<_> = quantities
+        .map(|q| (q, TensorRows::new(&model.graph, std::iter::once(&q.tensor))))
+        .collect();
+    let mut findings = vec![];
+    for (face, points) in faces {
+        let first = quantities
+            .iter()
+            .find(|(_, rows)| on_switches(rows, points.iter().cloned()).contains(&true));
+        if let Some((quantity, _)) = first {
+            let text = format!(
+                "a switch of abs, min, max, where or heaviside lies on the face {face}: the values \
+                 there are those of one branch, and so are those of a solver with points on it"
+            );
+            findings.push(finding("switch-on-face", &quantity.key, text, None));
         }
     }
     findings

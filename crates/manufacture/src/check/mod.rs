@@ -1,9 +1,11 @@
 //! The check: what is right, what is wrong, and what a test with this solution would not notice.
 
 mod blindness;
+mod descent;
 mod domain;
 pub(crate) mod emitted;
 mod general;
+mod margin;
 mod second_way;
 mod session;
 mod spot;
@@ -41,6 +43,13 @@ pub struct Finding {
     pub fails: bool,
 }
 
+impl Finding {
+    /// Whether it is the same thing about the same key.
+    fn is_like(&self, other: &Self) -> bool {
+        self.code == other.code && self.key == other.key
+    }
+}
+
 /// How much each term of an equation contributes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Share {
@@ -61,6 +70,8 @@ pub struct Check {
     pub findings: Vec<Finding>,
     /// The shares of all terms.
     pub shares: Vec<Share>,
+    /// The points at which poles and ends of the domain were looked for.
+    pub domain_points: usize,
 }
 
 impl Check {
@@ -120,7 +131,10 @@ pub(crate) fn check(
     is_strict: bool,
 ) -> Result<Check, InputError> {
     let mut sampler = Sampler::new(model, seed);
-    let mut findings = domain::examine(model)?;
+    let domain::Examined {
+        mut findings,
+        points: domain_points,
+    } = domain::examine(model, seed)?;
     let mut shares = vec![];
     for (part, quantities) in &model.parts {
         // Data that depend on nothing need no more points than others: one rule for all.
@@ -128,7 +142,9 @@ pub(crate) fn check(
         debug_assert_eq!(sampled.quantities.len(), quantities.len());
         let singular = singular(model, &sampled);
         let is_regular = singular.is_empty();
-        findings.extend(singular);
+        let is_new = |new: &Finding| !findings.iter().any(|known| known.is_like(new));
+        let new: Vec<Finding> = singular.into_iter().filter(is_new).collect();
+        findings.extend(new);
         if is_regular {
             findings.extend(second_way::compare(model, &sampled)?);
             findings.extend(conditions(model, &sampled));
@@ -144,11 +160,13 @@ pub(crate) fn check(
             }
         }
     }
+    findings.extend(blindness::switches(model, &mut sampler));
     findings.extend(blindness::initial_mismatch(model, &mut sampler)?);
     let mut check = Check {
         verdict: "pass",
         findings: vec![],
         shares,
+        domain_points,
     };
     check.add(findings, is_strict);
     Ok(check)

@@ -1,25 +1,22 @@
 //! The part of a file that an operation of the graph comes from.
 
-use crate::against::site::{Span, parts};
-use crate::arithmetic::conditions::Condition;
+use super::margin::Margin;
+use crate::against::candidates::homes;
+use crate::against::site::Span;
 use crate::arithmetic::{Graph, NodeId};
 use crate::derive::{Elaborator, Part};
 use crate::language::names::Callee;
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
-use crate::problem::{Expression, InputError, Problem, Surface};
+use crate::problem::{Expression, InputError};
 
-/// A part of an expression: what an operation is applied to.
+/// What an operation is applied to.
 pub(super) struct Spot<'p> {
-    within: &'p Expression,
-    argument: &'p Tree,
+    pub(super) within: &'p Expression,
+    pub(super) argument: &'p Tree,
 }
 
 impl Spot<'_> {
-    pub(super) fn argument(&self) -> String {
-        self.argument.to_string()
-    }
-
     pub(super) fn error(&self, problem: &str) -> InputError {
         let Expression { place, text, .. } = self.within;
         place.error_at(text, Span::of(self.argument, text).start, problem)
@@ -30,15 +27,16 @@ impl Spot<'_> {
 ///
 /// The file is derived anew: equal expressions are one node, so that a part of a text is known by
 /// its node.
-pub(super) fn find<'m>(model: &'m Model, condition: &Condition) -> Option<Spot<'m>> {
+pub(super) fn find<'m>(model: &'m Model, part: Part, margin: &Margin) -> Option<Spot<'m>> {
     let problem = &model.problem;
     let graph = Graph::new(problem.intervals.clone(), model.graph.parameters.clone());
     let mut elaborator = Elaborator::new(problem, graph);
     for part in Part::all(problem) {
         elaborator.part(part).ok()?;
     }
-    for node in [condition.operation, condition.argument] {
-        for within in expressions(problem) {
+    for node in [margin.operations[0], margin.argument] {
+        for home in homes(problem, part) {
+            let within = home.expression(problem)?;
             if let Some(argument) = inside(&mut elaborator, &within.tree, within, node) {
                 return Some(Spot { within, argument });
             }
@@ -65,37 +63,12 @@ fn inside<'t>(
         TreeKind::Call(Callee::Function(_) | Callee::Operator(_), parts) => parts.first()?,
         _ => return None,
     };
-    let mut has = |tree: &Tree| {
+    let has_node = [tree, argument].into_iter().any(|tree| {
         let value = elaborator.tree(tree, within);
         value.is_ok_and(|value| value.parts.contains(&node))
-    };
-    if !has(tree) && !has(argument) {
-        return None;
-    }
-    match &argument.kind {
-        TreeKind::Bracket(inner) => Some(inner),
-        _ => Some(argument),
-    }
-}
-
-fn expressions(problem: &Problem) -> Vec<&Expression> {
-    let mut all: Vec<&Expression> = vec![];
-    for definition in problem.definitions.values() {
-        all.extend(parts(&definition.value));
-    }
-    for equation in &problem.equations {
-        all.extend(equation.terms.iter().map(|term| &term.expression));
-    }
-    for face in &problem.faces {
-        if let Surface::Level(level) = &face.surface {
-            all.push(level);
-        }
-    }
-    let faces = problem.faces.iter().flat_map(|face| &face.data);
-    for datum in faces.chain(&problem.initial) {
-        all.extend(parts(&datum.value));
-        all.extend(datum.condition.iter().flat_map(parts));
-    }
-    all.extend(problem.positive.iter().chain(&problem.zero));
-    all
+    });
+    has_node.then_some(match &argument.kind {
+        TreeKind::Bracket(inner) => inner,
+        _ => argument,
+    })
 }

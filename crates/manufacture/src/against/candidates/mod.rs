@@ -114,7 +114,7 @@ pub(crate) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<C
 }
 
 /// The definitions, and the terms of equations or the data of a face.
-fn homes(problem: &Problem, part: Part) -> Vec<Home> {
+pub(crate) fn homes(problem: &Problem, part: Part) -> Vec<Home> {
     let mut homes = vec![];
     for (name, definition) in &problem.definitions {
         let parts = site::parts(&definition.value);

@@ -1,0 +1,355 @@
+//! Whether operations have their values: at points of the domain, and where a margin goes to zero.
+//!
+//! A *margin* is a number that is zero where an operation loses its value: a divisor, the argument
+//! of a logarithm or a root, the cosine of the angle of `tan`, 1 - |argument| of `asin` and `acos`.
+//! Points are drawn inside, on all faces, edges and corners. Between two points at which a divisor
+//! has different signs the way is halved, along points where its operation is evaluated: a
+//! continuous margin has a zero there, to the last digit. From the points with the smallest
+//! margins a pattern search goes down, to a zero or to a minimum.
+//!
+//! What that guarantees. A divisor that changes its sign between points of the sample is found. A
+//! region of the share p of the domain, in which an operation has no value, is missed by N points
+//! with the probability (1 - p)^N. The search finds a minimum near its start, not the least one: a
+//! zero is missed that is in no valley of the smallest margins of the sample, such as one of even
+//! order in a needle far narrower than the distance of the points, beside other minima. On a level
+//! nothing is followed: there only the points count. So nothing found is not "free of poles".
+//!
+//! A margin that goes to zero matters if a quantity grows without bound there: by a power, or by as
+//! much for each factor of ten in distance as a logarithm. The quotient `sin(x)/x` does not.
+
+use super::descent::{AtPoint, Descent};
+use super::margin::{Margin, Need, margins};
+use super::{Finding, Sampled, finding, role_words, singular, spot};
+use crate::arithmetic::tape::{SizedValue, Tape, nodes_below};
+use crate::arithmetic::{Node, NodeId, SAME};
+use crate::derive::{DerivedQuantity, Part, Role};
+use crate::model::{Model, TensorRows};
+use crate::problem::InputError;
+use crate::sample::{Random, Sampler};
+
+/// Points inside each part; as many lie on its faces, edges and corners together.
+const POINTS: usize = 2000;
+
+/// Digits of the distance from a place down to which values are looked at.
+const DIGITS: i32 = 8;
+
+/// What was found, and at how many points.
+pub(super) struct Examined {
+    pub(super) findings: Vec<Finding>,
+    pub(super) points: usize,
+}
+
+/// Examines all parts of the domain.
+///
+/// # Errors
+/// The solution grows without bound, or has no value; or a source or a datum, but at the boundary.
+pub(super) fn examine(model: &Model, seed: u64) -> Result<Examined, InputError> {
+    let mut sampler = Sampler::new(model, seed);
+    let mut examined = Examined {
+        findings: vec![],
+        points: 0,
+    };
+    for (part, quantities) in &model.parts {
+        let points = sampler.everywhere(*part, POINTS);
+        let nodes = quantities
+            .iter()
+            .map(|q| nodes_below(&model.graph, &q.tensor.parts));
+        let region = Region {
+            nodes: nodes.collect(),
+            part: *part,
+            rows: TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor)),
+            sampler: &sampler,
+            quantities,
+            model,
+        };
+        examined.points += points.len();
+        examined.findings.extend(region.examine(points)?);
+    }
+    Ok(examined)
+}
+
+/// A part of the domain, and its quantities.
+struct Region<'r, 'm> {
+    model: &'m Model,
+    part: Part,
+    quantities: &'m [DerivedQuantity<NodeId>],
+    rows: TensorRows<'m>,
+    /// Below each quantity.
+    nodes: Vec<Vec<NodeId>>,
+    sampler: &'r Sampler<'m>,
+}
+
+/// What becomes of quantities where a margin is lost, from the least on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Effect {
+    /// They stay bounded around.
+    Bounded,
+    /// One grows without bound, or ends: a gradient, or at the boundary.
+    Noted,
+    Refused,
+}
+
+struct Trouble {
+    effect: Effect,
+    is_inside: bool,
+    quantity: usize,
+    point: Vec<f64>,
+}
+
+/// The largest component of a quantity, and what may be rounding of it.
+struct Largest {
+    value: f64,
+    noise: f64,
+}
+
+impl Largest {
+    fn of(values: &[SizedValue]) -> Self {
+        let mut largest = Self {
+            value: 0.0,
+            noise: 0.0,
+        };
+        for v in values {
+            let is_number = v.value.is_finite();
+            let size = if is_number {
+                v.value.abs()
+            } else {
+                f64::INFINITY
+            };
+            largest.value = largest.value.max(size);
+            largest.noise = largest.noise.max(SAME * v.size);
+        }
+        largest
+    }
+}
+
+/// Whether values grow without bound, each nearer by the same factor than the one before: those of a
+/// power do, and those of a logarithm by as much each time.
+///
+/// * `least`: growth by less is rounding of the place.
+fn is_growing(values: &[Largest], least: f64) -> bool {
+    let sure = values.iter().take_while(|at| 10.0 * at.noise <= at.value);
+    match sure.collect::<Vec<_>>().as_slice() {
+        [.., last] if last.value.is_infinite() => true,
+        [.., far, near, next] => {
+            let before = near.value - far.value;
+            let last = next.value - near.value;
+            before > 0.0 && last > 0.9 * before && last > next.noise.max(least)
+        }
+        _ => false,
+    }
+}
+
+impl<'m> Region<'_, 'm> {
+    fn examine(&self, points: Vec<Vec<f64>>) -> Result<Vec<Finding>, InputError> {
+        let graph = &self.model.graph;
+        let tensors = self.quantities.iter().map(|quantity| &quantity.tensor);
+        let roots: Vec<NodeId> = tensors.flat_map(|tensor| tensor.parts.clone()).collect();
+        let nodes = nodes_below(graph, &roots);
+        let has_choices = nodes
+            .iter()
+            .any(|id| matches!(graph.node(*id), Node::Choose(..)));
+        let margins = margins(graph, &roots);
+        let tape = Tape::new(graph, &roots);
+        let mut samples: Vec<Vec<AtPoint<'_>>> = vec![vec![]; margins.len()];
+        let mut regular = vec![];
+        for point in &points {
+            let needed = tape.needed(point);
+            let mut is_regular = true;
+            for (margin, sample) in margins.iter().zip(&mut samples) {
+                if let Some(at) = margin.at(&needed) {
+                    sample.push((point, at));
+                    is_regular &= !margin.is_lost(at, 0.0);
+                }
+            }
+            regular.extend(is_regular.then(|| point.clone()));
+        }
+        let mut findings = singular(self.model, &Sampled::new(self.model, self.part, regular));
+        for (margin, sample) in margins.iter().zip(&samples) {
+            let own = [margin.argument];
+            let values = sample.iter().map(|entry| entry.1.value.abs());
+            let descent = Descent {
+                tape: Tape::new(graph, if has_choices { &roots } else { &own }),
+                sampler: self.sampler,
+                sides: self.sampler.sides(self.part),
+                scale: values.fold(0.0, f64::max),
+                margin,
+            };
+            let places = descent.places(sample).into_iter();
+            let troubles = places.filter_map(|point| self.trouble(&descent, point));
+            let Some(worst) = troubles.max_by_key(|trouble| (trouble.effect, trouble.is_inside))
+            else {
+                continue;
+            };
+            let found = self.reported(margin, &worst)?;
+            if !findings.iter().any(|known| known.is_like(&found)) {
+                findings.push(found);
+            }
+        }
+        Ok(findings)
+    }
+
+    /// What becomes of the quantities that have an operation of a margin where that is lost.
+    fn trouble(&self, descent: &Descent<'_, '_>, point: Vec<f64>) -> Option<Trouble> {
+        let margin = descent.margin;
+        let at = descent
+            .at(&point)
+            .or_else(|| margin.at(&descent.tape.needed(&point)))?;
+        let values = self.rows.at(&point).tensors.into_iter();
+        let is_missing: Vec<bool> = values
+            .map(|values| values.iter().any(|v| !v.value.is_finite()))
+            .collect();
+        let is_unbounded = match margin.is_outside(at) || descent.sides.is_empty() {
+            true => is_missing.clone(),
+            false => self.grow(descent, &point, is_missing.clone()),
+        };
+        let is_inside = !self.sampler.is_on_boundary(self.part, &point);
+        let is_zero = margin.is_lost(at, 0.0);
+        let quantities = self
+            .quantities
+            .iter()
+            .enumerate()
+            .filter_map(|(place, quantity)| {
+                let mut operations = margin.operations.iter();
+                if !operations.any(|operation| self.nodes[place].binary_search(operation).is_ok()) {
+                    return None;
+                }
+                let effect = match quantity.role {
+                    _ if !is_unbounded[place] && !is_missing[place] && !is_zero => return None,
+                    _ if !is_unbounded[place] => Effect::Bounded,
+                    Role::Exact => Effect::Refused,
+                    Role::Gradient => Effect::Noted,
+                    _ if is_inside => Effect::Refused,
+                    _ => Effect::Noted,
+                };
+                Some((effect, place))
+            });
+        // Of equal effects that of the solution, that of its gradient last.
+        let rank = |place: usize| match self.quantities[place].role {
+            Role::Exact => 2,
+            Role::Gradient => 0,
+            _ => 1,
+        };
+        let worst = quantities.max_by_key(|(effect, place)| (*effect, rank(*place)));
+        worst.map(|(effect, quantity)| Trouble {
+            effect,
+            is_inside,
+            quantity,
+            point,
+        })
+    }
+
+    /// Whether each quantity grows without bound towards a point from some direction.
+    ///
+    /// * `is_missing`: at the point, which counts if the margin is lost all around.
+    fn grow(&self, descent: &Descent<'_, '_>, point: &[f64], is_missing: Vec<bool>) -> Vec<bool> {
+        let around =
+            |half: i32| descent.around(point, 10_f64.powf(-0.5 * f64::from(half)), &mut Random(1));
+        let distances: Vec<Vec<Vec<f64>>> = (1..=2 * DIGITS).map(around).collect();
+        let directions = distances[0].len();
+        // Of each quantity, for each direction.
+        let mut values: Vec<Vec<Vec<Largest>>> = vec![];
+        for _ in &is_missing {
+            values.push((0..directions).map(|_| vec![]).collect());
+        }
+        let mut is_lost = true;
+        for direction in 0..directions {
+            for points in &distances {
+                let point = &points[direction];
+                match descent.at(point) {
+                    Some(at) if descent.is_lost(at) => break,
+                    Some(_) => is_lost = false,
+                    None => continue,
+                }
+                let row = self.rows.at(point).tensors;
+                for (values, row) in values.iter_mut().zip(&row) {
+                    values[direction].push(Largest::of(row));
+                }
+            }
+        }
+        if is_lost {
+            return is_missing;
+        }
+        let grows = values.iter().map(|values| {
+            let all = values.iter().flatten().map(|at| at.value);
+            let least = 1e-9 * all.filter(|value| value.is_finite()).fold(0.0, f64::max);
+            values.iter().any(|values| is_growing(values, least))
+        });
+        grows.collect()
+    }
+
+    /// A note.
+    ///
+    /// # Errors
+    /// A trouble that is refused, with its place in the file.
+    fn reported(&self, margin: &Margin, trouble: &Trouble) -> Result<Finding, InputError> {
+        let quantity = &self.quantities[trouble.quantity];
+        let spot = spot::find(self.model, self.part, margin);
+        let argument = spot.as_ref().map(|spot| spot.argument.to_string());
+        let argument = argument.unwrap_or("a part".to_owned());
+        let words = self.words(margin, trouble, &argument);
+        let name = format!("{} {}", role_words(quantity.role), quantity.name);
+        match (trouble.effect, spot) {
+            (Effect::Refused, Some(spot)) if spot.within.place.key == quantity.key => {
+                Err(spot.error(&words))
+            }
+            (Effect::Refused, Some(spot)) => Err(spot.error(&format!("{name}: {words}"))),
+            (Effect::Refused, None) => Err(InputError {
+                key: quantity.key.clone(),
+                ..InputError::whole(&self.model.problem.file, format!("{name}: {words}"))
+            }),
+            (Effect::Noted, _) => Ok(finding(
+                "pole",
+                &quantity.key,
+                format!("{name}: {words}"),
+                None,
+            )),
+            (Effect::Bounded, _) => Ok(finding(
+                "removable",
+                &quantity.key,
+                format!("{name}: {words}"),
+                None,
+            )),
+        }
+    }
+
+    fn words(&self, margin: &Margin, trouble: &Trouble, argument: &str) -> String {
+        let graph = &self.model.graph;
+        let whole = self.model.place_in_words(&trouble.point);
+        let parts = whole.split(", ").enumerate();
+        let parts = parts.filter(|(axis, _)| graph.depends_on(margin.argument, *axis));
+        let parts: Vec<&str> = parts.map(|part| part.1).collect();
+        let at = match parts.is_empty() {
+            true => "every point".to_owned(),
+            false => parts.join(", "),
+        };
+        let [is, expected] = match margin.need {
+            Need::NonZero => ["is zero", "a divisor that is zero nowhere"],
+            Need::Tangent => ["has no tangent", "an angle that is no odd multiple of pi/2"],
+            Need::Positive => ["is not positive", "a positive number"],
+            Need::NotNegative => ["is negative", "a number that is not negative"],
+            Need::Unit => ["is not between -1 and 1", "a number from -1 to 1"],
+        };
+        let side = match trouble.is_inside {
+            true => "inside",
+            false => "on the boundary of",
+        };
+        let part = match self.part {
+            Part::Face(index) => format!(" on the face {}", self.model.problem.faces[index].name),
+            Part::Initial => " at the first time".to_owned(),
+            Part::Interior => String::new(),
+        };
+        let what = match (trouble.effect, margin.need) {
+            (Effect::Bounded, _) => {
+                return format!(
+                    "`{argument}` {is}{part} at about {at}, where the value stays bounded: it is a \
+                     limit there, which a program has to know"
+                );
+            }
+            (_, Need::NonZero) => "a pole",
+            _ => "no value",
+        };
+        format!(
+            "{what} {side} the domain{part}: `{argument}` {is} at about {at}; expected {expected}"
+        )
+    }
+}

@@ -1,8 +1,9 @@
 //! `dev references`: the schemas and reference pages of study files and scenes, made from the keys
-//! that the readers allow.
+//! that the readers allow; and the book's page on verdicts, made from their reasons.
 
+use convergence_judge::text::lists::grouped;
 use convergence_study::{
-    Verdict,
+    Reason, Verdict,
     internal::{
         cli::{
             exit::CommandOutcome,
@@ -29,7 +30,11 @@ pub(crate) fn run(_: &Arguments) -> CommandOutcome {
 /// Where the references of the harness are.
 const HARNESS: &str = "crates/convergence-study";
 
-/// A file that is made from the keys of the readers.
+/// The page of the book on verdicts, and the title of its last chapter, which is made.
+const VERDICTS: &str = "book/src/inconclusive.md";
+const CHAPTER: &str = "\n## Every reason\n";
+
+/// A file that is made from what the code knows.
 #[derive(Debug)]
 pub struct Reference {
     /// Its path below the folder of the repository.
@@ -40,7 +45,7 @@ pub struct Reference {
 
 /// All of them.
 pub fn files() -> Vec<Reference> {
-    let mut files = vec![];
+    let mut files = vec![verdicts()];
     for (folder, project) in [
         (HARNESS, program::PROJECT),
         ("crates/thermobeam-study", project("thermobeam")),
@@ -60,4 +65,28 @@ pub fn files() -> Vec<Reference> {
         }));
     }
     files
+}
+
+/// The page on verdicts: its own words, and then every reason with what to do. Reasons with the
+/// same mathematics stand together.
+fn verdicts() -> Reference {
+    let page = include_str!("../../crates/convergence-study/book/src/inconclusive.md");
+    let (own, _) = page.split_once(CHAPTER).unwrap_or((page, ""));
+    let mut text = format!("{own}{CHAPTER}");
+    for (mathematics, reasons) in grouped(Reason::all().map(|one| (one.mathematics(), one))) {
+        let codes: Vec<String> = reasons
+            .iter()
+            .map(|reason| format!("`{}`", reason.code()))
+            .collect();
+        text += &format!("\n### {}\n\n", codes.join(", "));
+        for reason in reasons {
+            let [code, words, advice] = [reason.code(), reason.text(), reason.advice()];
+            text += &format!("- `{code}`, {}: {words}. {advice}\n", reason.verdict());
+        }
+        text += &format!("\n{mathematics}\n");
+    }
+    Reference {
+        path: format!("{HARNESS}/{VERDICTS}"),
+        text,
+    }
 }

@@ -31,7 +31,7 @@ impl TimeUp {
         match self.work {
             Some(work) => {
                 format!(
-                    "work limit of {work} passes over a node, three times what it took when blessed (work)"
+                    "work limit of {work} passes over a node, three times what it took when blessed (`verify --bless` limits nothing)"
                 )
             }
             None => format!("time limit of {} s", self.limit.as_secs_f64()),
@@ -240,7 +240,7 @@ mod tests {
         );
         assert_eq!(run(Some(1_000_000)), (stopped, done));
         assert!(
-            up.to_string().ends_with("t = 0.5") && up.to_string().contains("(work)"),
+            up.to_string().ends_with("t = 0.5") && up.to_string().contains("work limit"),
             "{up}"
         );
     }

@@ -175,7 +175,6 @@ def test_values_have_a_limit():
 
 
 def test_the_program_is_there_and_its_guards_end_what_it_has_started(tmp_path):
-    assert "agrees" in run("explain", "agrees", cwd=tmp_path)
     run("new", "program", "mine", "--out", "studies", cwd=tmp_path)
     assert "pass" in run("study", "studies/mine.toml", cwd=tmp_path)
     (tmp_path / "studies/mine.py").write_text(

@@ -9,9 +9,6 @@ pub mod cli {
     pub mod exit {
         pub use crate::cli::exit::{CommandOutcome, Unusable, say};
     }
-    pub mod explain {
-        pub use crate::cli::explain::{contents, nearest_name, study, term, terms};
-    }
     pub mod flags {
         pub use crate::cli::flags::Flags;
     }

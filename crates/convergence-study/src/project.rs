@@ -17,7 +17,7 @@ pub struct Project {
     /// The groups that studies may name, in the order of reports: the property claimed, such as
     /// `space`.
     pub groups: &'static [&'static str],
-    /// Its own words that `explain` knows in addition to kinds and reasons, such as norms.
+    /// Its own words, such as norms: the reference page of its files says what they mean.
     pub terms: &'static [Term],
     /// The files that it reads beside studies: their name, such as `mesh`, and their keys.
     pub tables: &'static [(&'static str, Keys)],
@@ -117,11 +117,11 @@ pub struct Template {
     /// The text of `.gitignore` in the folder that the command runs in, if there is none yet; may
     /// be empty.
     pub ignored: &'static str,
-    /// Commands that take the first file, as the user's next steps: two at most.
-    pub next: &'static [&'static str],
+    /// The command that takes the first file, as the user's next step.
+    pub next: &'static str,
 }
 
-/// A word of a project, for `explain`.
+/// A word of a project, for the reference page of its files.
 #[derive(Debug, Clone, Copy)]
 pub struct Term {
     /// The word.

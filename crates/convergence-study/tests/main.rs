@@ -9,7 +9,6 @@ mod error_table;
 #[cfg(feature = "command-line")]
 mod examples;
 #[cfg(feature = "command-line")]
-mod explain;
 mod fit;
 mod grid;
 #[cfg(feature = "reports")]

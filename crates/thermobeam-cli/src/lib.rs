@@ -41,15 +41,7 @@ pub const GROUPS: [(&str, &[&str]); 5] = [
     ("Simulate a scene", &["run", "equilibria"]),
     (
         "Verify",
-        &[
-            "verify",
-            "study",
-            "list",
-            "explain",
-            "report",
-            "new",
-            "manufacture",
-        ],
+        &["verify", "study", "list", "report", "new", "manufacture"],
     ),
     ("Errors of other codes", &["rates"]),
     ("Many scenes", &["sweep"]),

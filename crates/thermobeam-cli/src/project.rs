@@ -128,55 +128,22 @@ const TEMPLATES: [Template; 5] = [
         about: "A convergence study with a manufactured solution",
         files: &[(".toml", include_str!("begin/study.toml"))],
         ignored: "",
-        next: &["study", "explain"],
+        next: "study",
     },
     Template {
         name: "scene",
         about: "A scene: a beam, how it starts, a mesh, time steps",
         files: &[(".toml", include_str!("begin/scene.toml"))],
         ignored: "",
-        next: &["run"],
+        next: "run",
     },
     Template {
         name: "any-order-scene",
         about: "The same by elements of high degree and dG(q), for many digits",
         files: &[(".toml", include_str!("begin/any-order-scene.toml"))],
         ignored: "",
-        next: &["run"],
+        next: "run",
     },
     program::TEMPLATE,
     program::MANUFACTURE,
 ];
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use convergence_study::Project;
-    use convergence_study::internal::cli::explain;
-
-    use super::project;
-
-    const PROJECT: Project = project("thermobeam");
-
-    #[test]
-    fn every_term_has_one_meaning() {
-        let names = explain::terms(&PROJECT);
-        assert_eq!(
-            names.iter().collect::<BTreeSet<_>>().len(),
-            names.len(),
-            "{names:?}"
-        );
-        for name in names {
-            let text = explain::term(&PROJECT, name).unwrap_or_else(|| panic!("{name}"));
-            assert!(
-                text.starts_with(name) && text.lines().all(|line| line.chars().count() <= 100),
-                "{text}"
-            );
-        }
-        assert_eq!(
-            explain::nearest_name(&PROJECT, [], "superclosed").as_deref(),
-            Some("superclose")
-        );
-    }
-}

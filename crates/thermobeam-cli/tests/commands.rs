@@ -72,11 +72,6 @@ fn a_source_in_place_of_a_kind_is_refused_with_the_name_of_the_kind() {
                 "error: studies/a.toml:5:8: study.kind: found \"{source}\"; expected \"{kind}\"\n"
             ),
         );
-        unusable(
-            &root,
-            &["explain", source],
-            &format!("did you mean {kind}?"),
-        );
     }
 }
 

@@ -13,7 +13,6 @@ use convergence_study::{
     Keys,
     internal::{
         cli::{
-            explain,
             schema::{MANUFACTURE, of_studies, of_tables_file, other_files},
             workspace,
         },
@@ -294,29 +293,4 @@ fn new_files_name_a_committed_schema() {
         named.insert(path);
     }
     assert_eq!(named.len(), 4, "{named:?}");
-}
-
-#[test]
-fn every_study_of_the_repository_is_explained() {
-    let files =
-        workspace::studies(&PROJECT, &Path::new(env!("CARGO_MANIFEST_DIR")).join("..")).unwrap();
-    assert!(files.len() > 10);
-    for file in files {
-        let header = file.study.header();
-        let text = explain::study(&PROJECT, file.study.as_ref());
-        let text =
-            text.unwrap_or_else(|| panic!("{}: the kind `{}` needs a row", header.id, header.kind));
-        for title in [
-            "what is claimed",
-            "why it should hold",
-            "how it is judged",
-            "what a failure would mean",
-        ] {
-            assert!(text.contains(&format!("\n{title}\n")), "{text}");
-        }
-        assert!(
-            text.starts_with(&header.id) && text.lines().all(|line| line.chars().count() <= 100),
-            "{text}"
-        );
-    }
 }

@@ -122,7 +122,7 @@ fn the_cause_is_printed_first_and_what_passes_is_counted() {
         lines[4].starts_with("  passes     the others: 2 of 2"),
         "{out}"
     );
-    let end = &lines[lines.len() - 7..];
+    let end = &lines[lines.len() - 8..];
     assert_eq!(
         end[..2],
         [
@@ -132,11 +132,13 @@ fn the_cause_is_printed_first_and_what_passes_is_counted() {
         "{out}"
     );
     assert!(
-        end[2].starts_with("too-low: The whole interval lies below the band") && end[3].is_empty(),
+        end[2].starts_with("too-low: The whole interval lies below the band")
+            && end[3].ends_with("/inconclusive.html")
+            && end[4].is_empty(),
         "{out}"
     );
     assert_eq!(
-        end[5..],
+        end[6..],
         [
             "report: reports/local/quick/index.html, reports/local/quick/README.md",
             "a run that does not pass leaves the committed report as it is"

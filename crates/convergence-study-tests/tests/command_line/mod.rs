@@ -293,7 +293,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     assert_eq!((status, err.as_str()), (Some(0), ""));
     assert_eq!(
         out,
-        "wrote mine.toml, mine.py\nread  powers explain mine.toml\nrun   powers study mine.toml\n"
+        "wrote mine.toml, mine.py\nrun: powers study mine.toml\n"
     );
     let text = fs::read_to_string(root.path().join("mine.toml")).unwrap();
     assert!(

@@ -118,7 +118,6 @@ fn helps_leave_out_what_means_nothing() {
     let root = workspace(false);
     for (name, with, without) in [
         ("list", "--tier", &["--jobs", "--out"][..]),
-        ("explain", "--dir", &["--jobs", "--out"]),
         ("new", "--out", &["--jobs"]),
         ("rates", "csv", &["--jobs"]),
         ("verify", "--jobs", &["csv"]),

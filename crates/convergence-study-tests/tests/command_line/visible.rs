@@ -51,7 +51,6 @@ fn annotations_are_commands_and_nothing_else_is() {
     assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
     is_harmless(&out);
     is_harmless(&run(&root, &["list"]).1);
-    is_harmless(&run(&root, &["explain", "two"]).1);
 }
 
 #[test]
@@ -109,7 +108,6 @@ fn names_of_columns_and_files_are_no_commands() {
     for arguments in [
         &["rates", file][..],
         &["study", file],
-        &["explain", file],
         &["verify", file],
         &["list", file],
     ] {

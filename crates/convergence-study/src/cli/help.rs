@@ -39,7 +39,7 @@ const COMPLETIONS: HelpPage = HelpPage {
     ],
 };
 
-const PAGES: [HelpPage; 9] = [
+const PAGES: [HelpPage; 8] = [
     HelpPage {
         command: "new",
         without: &["jobs"],
@@ -96,14 +96,6 @@ const PAGES: [HelpPage; 9] = [
         examples: &[
             ("All studies", "PROGRAM list"),
             ("Some of them", "PROGRAM list 'po*' --tier quick"),
-        ],
-    },
-    HelpPage {
-        command: "explain",
-        without: &["jobs", "out"],
-        examples: &[
-            ("A reason for a verdict", "PROGRAM explain too-low"),
-            ("A study", "PROGRAM explain poisson"),
         ],
     },
     HelpPage {

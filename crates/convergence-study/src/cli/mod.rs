@@ -1,5 +1,5 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `report`,
-//! `explain`, `schema`, `completions`, for any project.
+//! `schema`, `completions`, for any project.
 //!
 //! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
 //! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
@@ -8,7 +8,6 @@
 #[cfg(feature = "completions")]
 mod completions;
 pub(crate) mod exit;
-pub(crate) mod explain;
 pub(crate) mod flags;
 mod github;
 pub(crate) mod help;
@@ -44,7 +43,6 @@ pub enum Command {
     Verify(verify::Arguments),
     Study(study::Arguments),
     List(list::Arguments),
-    Explain(explain::Arguments),
     Rates(rates::Arguments),
     Report(report::Arguments),
     Schema(schema::Arguments),
@@ -64,7 +62,6 @@ pub const COMMANDS: &[&str] = &[
     "verify",
     "study",
     "list",
-    "explain",
     "rates",
     "report",
     "schema",
@@ -84,7 +81,6 @@ impl Command {
             Self::Verify(arguments) => verify::run(project, arguments),
             Self::Study(arguments) => study::run(project, arguments),
             Self::List(arguments) => list::run(project, arguments),
-            Self::Explain(arguments) => explain::run(project, arguments),
             Self::Rates(arguments) => rates::run(project, arguments),
             Self::Report(arguments) => report::run(project, arguments),
             Self::Schema(arguments) => schema::run(project, arguments),

@@ -115,7 +115,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         .collect();
     let written = format!("wrote {}", wrote.join(", "));
     let first = wrote.first().map_or("", String::as_str);
-    let text = format!("{written}\n{}", next_steps(project, template, first));
+    let text = format!(
+        "{written}\nrun: {} {} {first}\n",
+        project.command, template.next
+    );
     let words = flags.words(Verdict::Pass, &written, || text);
     Ok(flags.print(Verdict::Pass, &json!({"wrote": wrote}), &words)?)
 }
@@ -199,7 +202,7 @@ impl TargetFolder {
     /// The folder of `--out`; without it `studies/` of the project for a study, if there is one,
     /// and the current folder for anything else.
     fn of(out: Option<&Path>, template: &Template) -> Result<Self, Unusable> {
-        let is_study = template.next.contains(&"study");
+        let is_study = template.next == "study";
         let root = workspace::root().ok().filter(|_| is_study && out.is_none());
         if let Some(root) = root {
             let here = env::current_dir()?;
@@ -230,14 +233,6 @@ impl TargetFolder {
             below,
         })
     }
-}
-
-/// The commands that the user may type next, each on a line, with the first file written.
-fn next_steps(project: &Project, template: &Template, file: &str) -> String {
-    // The command that runs it comes last.
-    let steps = template.next.iter().zip(["run ", "read"]).rev();
-    let line = |(command, then)| format!("{then}  {} {command} {file}\n", project.command);
-    steps.map(line).collect()
 }
 
 /// The folder that the command runs in as seen from the files, and theirs as seen from there, both

@@ -91,15 +91,6 @@ fn has_near_extension(path: &Path) -> bool {
             .any(|end| name.ends_with(end))
 }
 
-/// The readable study files of a folder, for looking one up by its id.
-pub(crate) fn readable_studies(project: &Project, folder: &Path) -> Vec<StudyFile> {
-    let paths = toml_files(folder).unwrap_or_default();
-    paths
-        .iter()
-        .filter_map(|path| StudyFile::read(project.kinds, path).ok())
-        .collect()
-}
-
 fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
     let mut paths = entries.collect::<io::Result<Vec<_>>>()?;

@@ -66,7 +66,7 @@ pub const TEMPLATE: Template = Template {
         (".py", include_str!("begin/program.py")),
     ],
     ignored: "# Reports that are made anew.\n/report/\n/reports/local/\n",
-    next: &["study", "explain"],
+    next: "study",
 };
 
 /// The file that `new manufacture NAME` writes: equations and a chosen solution.
@@ -75,7 +75,7 @@ pub const MANUFACTURE: Template = Template {
     about: "Equations and a chosen exact solution, for sources and data",
     files: &[(".toml", include_str!("begin/manufacture.toml"))],
     ignored: "",
-    next: &["manufacture"],
+    next: "manufacture",
 };
 
 /// The project of the program `convergence-study`: studies of any program, in the folder that it
@@ -227,55 +227,5 @@ impl Kind for Program {
             .push((VARIANT.to_owned(), variant.to_owned()));
         study.is_variant = true;
         Some(study)
-    }
-
-    fn details(&self) -> Vec<(String, String)> {
-        let labels: Vec<String> = self
-            .refine
-            .resolutions()
-            .into_iter()
-            .map(|case| case.label)
-            .collect();
-        let order = |expected: &Expectation| {
-            let Expectation {
-                claim,
-                time,
-                by_degree,
-                exact,
-                ..
-            } = expected;
-            let name = format!("{} {}", expected.what(), expected.name);
-            let least = if claim.at_least { "at least " } else { "" };
-            match exact {
-                Some(bound) => format!("{name} at most {bound}"),
-                None if *by_degree => format!(
-                    "{name} by {least}a factor of {:.4} a degree",
-                    claim.order.exp()
-                ),
-                None if self.refine.grid => format!(
-                    "{name} {} in h, {time} in dt ± {}",
-                    claim.order, claim.tolerance
-                ),
-                None => format!("{name} {claim}"),
-            }
-        };
-        let orders: Vec<String> = self.expect.iter().map(order).collect();
-        let run = format!(
-            "{}, with a time limit of {} s a case.",
-            self.words.join(" "),
-            self.time_limit.as_secs_f64()
-        );
-        vec![
-            ("what is run".to_owned(), run),
-            (
-                "levels".to_owned(),
-                labels.join("; ")
-                    + self
-                        .refine
-                        .budget
-                        .map_or("", |_| "; finer ones until it is decided"),
-            ),
-            ("orders claimed".to_owned(), orders.join("; ")),
-        ]
     }
 }

@@ -20,7 +20,7 @@ pub use claims::{Claimed, ClaimedOrder, claimed};
 pub(crate) use forms::{cases, csv, rows_in_markdown};
 pub(crate) use forms::{figure, markdown, object_of_all};
 pub use refusal::Refusal;
-pub(crate) use shown::{sentence_of_all, text_of_all};
+pub(crate) use shown::{REASONS, sentence_of_all, text_of_all};
 
 /// A column, judged.
 pub(crate) struct JudgedColumn<'t> {

@@ -133,6 +133,9 @@ impl Judgement<'_> {
     }
 }
 
+/// The page of the book on the reasons of verdicts.
+pub(crate) const REASONS: &str = "https://thermobeam.github.io/thermobeam/inconclusive.html";
+
 /// The errors with their rates, a verdict for each column, advice, and the overall verdict.
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {
     let table = &findings.source.table;
@@ -180,6 +183,9 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
             section(&mut text, words.0, &words.1);
             said.push(words);
         }
+    }
+    if !said.is_empty() {
+        text += &format!("\nevery reason, and what to try: {REASONS}\n");
     }
     if !columns.iter().all(JudgedColumn::is_claimed) {
         let command = format!("{} rates {}", findings.command, findings.source.file);

@@ -5,6 +5,7 @@ use super::html::{badge, escape, phrase};
 use super::markdown::{anchor, cell, text};
 use super::section::folded;
 use crate::input::visible;
+use crate::rates::REASONS;
 use crate::run::{Finished, Item, NotPassed, not_passed};
 use crate::store::{Record, diagnosis::Diagnosis};
 
@@ -133,11 +134,14 @@ fn in_html(study: &NotPassed<'_>) -> String {
 ///   them.
 pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let mut studies = not_passed(finished);
+    let has_reasons = studies.iter().any(|study| !study.advice().is_empty());
+    let page = has_reasons.then(|| format!("every reason, and what to try: {REASONS}\n"));
+    let page = page.unwrap_or_default();
     let Some(clearest) = clearest else {
-        return studies
+        let texts = studies
             .iter()
-            .map(|study| in_text(study, &lines(study)) + "\n")
-            .collect();
+            .map(|study| in_text(study, &lines(study)) + "\n");
+        return texts.collect::<String>() + &page;
     };
     studies.retain(|study| place(clearest, study).is_some());
     studies.sort_by_key(|study| place(clearest, study));
@@ -155,7 +159,7 @@ pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> S
         }
     }
     let advice = advice.iter().map(|advice| visible(advice) + "\n");
-    items + &advice.collect::<String>()
+    items + &advice.collect::<String>() + &page
 }
 
 fn in_text(study: &NotPassed<'_>, lines: &[String]) -> String {

@@ -77,7 +77,7 @@ impl Item<'_> {
         }
     }
 
-    /// The code of its reason, which `explain` knows: rates have one.
+    /// The code of its reason, under which the book says more: rates have one.
     pub fn code(&self) -> Option<&'static str> {
         match self {
             Item::Rate { rate, .. } => Some(rate.kind.code()),

@@ -17,9 +17,6 @@ pub trait Study: Send + Sync {
     /// Lists the cases, with a place for the result of each.
     fn plan(&self) -> Box<dyn Plan + '_>;
 
-    /// What this study does, for `explain`: paragraphs, each with its title.
-    fn details(&self) -> Vec<(String, String)>;
-
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
 
@@ -101,10 +98,6 @@ impl<K: Kind> Study for Described<K> {
 
     fn plan(&self) -> Box<dyn Plan + '_> {
         plan(&self.kind)
-    }
-
-    fn details(&self) -> Vec<(String, String)> {
-        self.kind.details()
     }
 
     fn untested(&self) -> Vec<Untested> {

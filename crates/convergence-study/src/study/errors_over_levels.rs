@@ -247,18 +247,6 @@ where
         }
         levels.outcome("errors", None, "Errors over levels of refinement.", checks)
     }
-
-    fn details(&self) -> Vec<(String, String)> {
-        let labels: Vec<String> = self.counts.iter().map(|count| self.label(*count)).collect();
-        let claims = self.claims.iter();
-        let orders: Vec<String> = claims
-            .map(|(name, claim)| format!("{name} {claim}"))
-            .collect();
-        vec![
-            ("orders claimed".to_owned(), orders.join(", ")),
-            ("levels".to_owned(), labels.join(", ")),
-        ]
-    }
 }
 
 #[cfg(test)]

@@ -182,7 +182,7 @@ fn row<'k>(
 ///     }
 /// }
 ///
-/// // How a project lists the kind, for its files and for `explain`.
+/// // How a project lists the kind, for its files and their reference page.
 /// const ROW: KindRow = KindRow {
 ///     name: "sums",
 ///     keys: Sums::KEYS,

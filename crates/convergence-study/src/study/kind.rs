@@ -191,11 +191,6 @@ pub trait Kind: Send + Sync {
     /// show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
-    /// What this study does, for `explain`: paragraphs, each with its title.
-    fn details(&self) -> Vec<(String, String)> {
-        vec![]
-    }
-
     /// The settings that an item exercises, each with its key: by these a diagnosis separates
     /// failing from passing items. By default the values of the study's file.
     ///

@@ -106,65 +106,12 @@ fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
 }
 
 #[test]
-fn studies_norms_reasons_and_files_are_explained() {
-    let folder = Folder::new();
-    let studies = folder.path("studies");
-    let of_repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
-    std::fs::create_dir_all(studies.join("scenes")).expect("a folder");
-    let scenes = std::fs::read_dir(of_repository.join("scenes")).expect("scenes");
-    let scenes = scenes.map(|scene| Path::new("scenes").join(scene.expect("a scene").file_name()));
-    for name in scenes.chain(["theorem-3.4-space.toml", "energy-decay.toml"].map(Into::into)) {
-        std::fs::copy(of_repository.join(&name), studies.join(&name)).expect("a copy");
-    }
-    let explain = |name: &str| ended(thermobeam().args(["explain", name, "--dir"]).arg(&studies));
-    let study = explain("theorem-3.4-space");
-    assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
-    for piece in [
-        "what is claimed",
-        "superclose, order 2",
-        "time error is exactly zero",
-        "what a failure would mean",
-    ] {
-        assert!(study.stdout.contains(piece), "{piece}: {}", study.stdout);
-    }
-    let file = studies.join("energy-decay.toml");
-    assert!(
-        explain(&file.display().to_string())
-            .stdout
-            .contains("Proposition 3.1")
-    );
-    assert!(explain("superclose").stdout.contains("(3.16)"));
-    assert!(explain("too-low").stdout.contains("a reason for fail"));
-    let unknown = explain("theorem-3.4-spce");
-    assert_eq!((unknown.status, unknown.stdout.as_str()), (Some(2), ""));
-    assert!(
-        unknown.stderr.contains("did you mean theorem-3.4-space?"),
-        "{}",
-        unknown.stderr
-    );
-    assert_eq!(explain("missing.toml").status, Some(2));
-    let contents = ended(thermobeam().arg("explain"));
-    assert!(
-        contents.status == Some(0) && contents.stdout.contains("displacement, superclose\n"),
-        "{}",
-        contents.stdout
-    );
-    // From any folder in the workspace, not only from its root.
-    let below = ended(
-        thermobeam()
-            .args(["explain", "energy-decay"])
-            .current_dir(studies.join("scenes")),
-    );
-    assert_eq!(below.status, Some(0), "{}", below.stderr);
-}
-
-#[test]
 fn every_shell_gets_completions_that_know_the_commands() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let ended = ended(thermobeam().args(["completions", shell]));
         assert_eq!(ended.status, Some(0));
         assert!(
-            ["sweep", "report", "rates", "explain"]
+            ["sweep", "report", "rates"]
                 .iter()
                 .all(|name| ended.stdout.contains(name)),
             "{shell}"
@@ -202,7 +149,7 @@ fn nothing_is_coloured_where_nobody_looks() {
         thermobeam().env("NO_COLOR", "1"),
         thermobeam().env("TERM", "dumb"),
     ] {
-        let ended = ended(program.args(["explain", "magic"]));
+        let ended = ended(program.args(["schema", "magic"]));
         let help = super::ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
         for text in [ended.stdout, ended.stderr, help.stdout] {
             assert!(!text.contains('\u{1b}'), "{text}");

@@ -93,7 +93,6 @@ fn output_to_a_full_disk_is_said_and_output_to_nobody_is_no_error() {
         (&["study", "studies/short.toml", "--format", "json"], 0),
         (&["verify", "short"], 1),
         (&["list"], 0),
-        (&["explain", "superclose"], 0),
         (&["completions", "bash"], 0),
         (&["schema"], 0),
         (&["schema", "scene"], 0),

@@ -16,7 +16,7 @@ const POSITIVE: &str = "expected a number > 0";
 const WITHOUT: &str = "required arguments were not provided";
 
 /// Command lines, and words of the message.
-const REFUSED: [(&str, &str); 87] = [
+const REFUSED: [(&str, &str); 85] = [
     (
         "rnu scene.toml",
         "the commands are completions, equilibria, ",
@@ -130,11 +130,6 @@ const REFUSED: [(&str, &str); 87] = [
     ),
     ("list long", "`long` matches no study"),
     ("list --format md", "possible values: text, json"),
-    ("explain too-lw", "did you mean too-low?"),
-    (
-        "explain short --dir missing",
-        "--dir missing: expected a folder with studies, found none",
-    ),
     ("new", WITHOUT),
     ("new solver x", "possible values: study, scene, "),
     ("new study X", "lowercase letters, digits, `.` or `-`"),

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use super::other_files;
 use crate::input::{Form, Key, Keys};
-use crate::project::Project;
-use crate::study::STUDY_TABLE;
+use crate::project::{Project, Term};
+use crate::study::{KindRow, STUDY_TABLE};
 
 /// The reference page of the files of a project: each kind of study, then its other files.
 pub fn page(project: &Project) -> String {
@@ -20,11 +20,12 @@ pub fn page(project: &Project) -> String {
     };
     page.chapter("Every study", &[&[&[STUDY_TABLE]]]);
     for row in project.kinds {
-        page.chapter(&format!("Kind `{}`", row.name), row.keys);
+        page.kind(row);
     }
     for (name, set) in other_files(project) {
         page.chapter(&format!("Files of `{name}`"), &[set]);
     }
+    page.terms(project.terms);
     page.text
 }
 
@@ -35,8 +36,39 @@ struct Page {
 }
 
 impl Page {
+    /// What a kind of study is about, and its keys.
+    fn kind(&mut self, row: &KindRow) {
+        let title = format!("Kind `{}`", row.name);
+        let _ = writeln!(self.text, "\n## {title}\n");
+        for (what, text) in [
+            ("Why the claim should hold", row.why),
+            ("How it is judged", row.judged),
+            ("What a failure would mean", row.failure),
+        ] {
+            let _ = writeln!(self.text, "- {what}: {text}");
+        }
+        self.keys(&title, row.keys);
+    }
+
+    /// The words of a project.
+    fn terms(&mut self, terms: &[Term]) {
+        if terms.is_empty() {
+            return;
+        }
+        self.text
+            .push_str("\n## Words\n\n| word | is | means |\n| --- | --- | --- |\n");
+        for Term { name, what, text } in terms {
+            let _ = writeln!(self.text, "| `{name}` | {what} | {text} |");
+        }
+    }
+
     fn chapter(&mut self, title: &str, sets: &[Keys]) {
         let _ = writeln!(self.text, "\n## {title}");
+        self.keys(title, sets);
+    }
+
+    /// The tables of a file with one of these sets.
+    fn keys(&mut self, title: &str, sets: &[Keys]) {
         if sets.len() > 1 {
             let _ = writeln!(
                 self.text,

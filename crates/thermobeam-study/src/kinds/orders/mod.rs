@@ -71,11 +71,6 @@ pub trait ErrorSource: Send + Sync + Sized + 'static {
         None
     }
 
-    /// As [`Kind::details`].
-    fn details(&self) -> Vec<(String, String)> {
-        vec![]
-    }
-
     /// As [`Kind::untested`].
     fn untested(&self) -> Vec<Untested> {
         vec![]
@@ -258,10 +253,6 @@ impl<S: ErrorSource> Kind for Orders<S> {
 
     fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
         self.0.exercise().settings(header, subject)
-    }
-
-    fn details(&self) -> Vec<(String, String)> {
-        self.0.details()
     }
 
     fn untested(&self) -> Vec<Untested> {

@@ -134,7 +134,7 @@ fn meets(
     Ok(())
 }
 
-/// The norms in the notation of the paper and in words, for `explain`, in the order of
+/// The norms in the notation of the paper and in words, for the reference page, in the order of
 /// [`Norm::ALL`].
 pub const TERMS: [Term; Norm::ALL.len()] = [
     term(

@@ -55,7 +55,7 @@ use crate::{
         orders::planted::untested::untested,
         settings::{ActiveTerms, Exercise, MANUFACTURED},
         tables::{
-            CONTROL, EXACT, EXPECT, REFINE, Refine, TERMS, control, expectations, manufactured,
+            CONTROL, EXACT, EXPECT, REFINE, Refine, control, expectations, manufactured,
             mean_width, refine,
         },
     },
@@ -203,15 +203,6 @@ impl ErrorSource for Convergence {
         })
     }
 
-    fn details(&self) -> Vec<(String, String)> {
-        let mut details = vec![("what is done".to_owned(), self.design())];
-        for &(norm, claim) in &self.expect {
-            let title = format!("{}, order {claim}", norm.name());
-            details.push((title, format!("{}.", TERMS[norm as usize].text)));
-        }
-        details
-    }
-
     fn untested(&self) -> Vec<Untested> {
         let is_wrong_on_purpose = self.solver != self.theory;
         if is_wrong_on_purpose || self.refine.grid {
@@ -269,44 +260,5 @@ impl Convergence {
             columns,
             squares_add: true,
         }
-    }
-
-    /// What is refined, and why the other error does not interfere.
-    fn design(&self) -> String {
-        let refine = &self.refine;
-        let what = match (refine.axis, refine.isolate) {
-            (Axis::Space, true) => {
-                "The mesh is refined. The exact solution is replaced by its own time sequence and the loads by the scheme's \
-                 time-discrete operator on it, so that the time error is exactly zero and few steps are enough."
-            }
-            (Axis::Space, false) => {
-                "The mesh is refined; the time step is fixed, and its error must be far below that of the mesh."
-            }
-            (Axis::Time, true) => {
-                "The time step is refined. The exact solution is replaced by its interpolant and the loads use the discrete \
-                 matrices, so that the space error is exactly zero and a coarse mesh is enough."
-            }
-            (Axis::Time, false) => {
-                "The time step is refined; the mesh is fixed, and its error must be far below that of the steps."
-            }
-            (Axis::Both, _) if refine.grid => {
-                "All combinations of meshes and time steps. With e^2 = A(h)^2 + B(dt)^2 the differences over h at the finest \
-                 time step hold nothing of B, and those over dt on the finest mesh nothing of A: each order by itself."
-            }
-            (Axis::Both, _) => "Mesh and time step are refined together: the theorem as it stands.",
-        };
-        let text = format!(
-            "{what} {} levels; scheme {}.",
-            refine.cases().len(),
-            refine.scheme.name
-        );
-        let changed: Vec<_> = self.solver.differing(self.theory).collect();
-        if changed.is_empty() {
-            return text;
-        }
-        format!(
-            "{text} The solver differs from the sources in {}: a negative control, which must fail.",
-            changed.join(", ")
-        )
     }
 }

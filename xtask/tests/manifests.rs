@@ -180,11 +180,10 @@ fn the_python_package_has_the_metadata_of_the_workspace() {
 fn the_version_is_the_same_in_all_files() {
     use std::process::Command;
 
-    const FILES: [&str; 5] = [
+    const FILES: [&str; 4] = [
         "CHANGELOG.md",
         "CITATION.cff",
         "crates/convergence-study-python/Cargo.toml",
-        ".ci/conda/recipe.yaml",
         "Cargo.toml",
     ];
     let copy = tempfile::tempdir().expect("a folder");
@@ -263,25 +262,6 @@ fn the_citation_is_valid() {
     for key in citation.as_hash().expect("a map").keys() {
         assert!(KEYS.contains(&key.as_str().expect("a text")), "{key:?}");
     }
-}
-
-/// The recipe for conda takes the sdist, under the name that PyPI gives it.
-#[test]
-fn the_recipe_for_conda_builds_the_sdist() {
-    let recipe = yaml(".ci/conda/recipe.yaml");
-    let project = &toml("crates/convergence-study-python/pyproject.toml")["project"];
-    let name = project["name"].as_str().expect("a text");
-    assert_eq!(recipe["context"]["name"].as_str(), Some(name));
-    let file = format!("/{}-${{{{ version }}}}.tar.gz", name.replace('-', "_"));
-    let address = recipe["source"]["url"].as_str().expect("a text");
-    assert!(address.ends_with(&file), "{address}");
-    let script = recipe["build"]["python"]["entry_points"][0].as_str();
-    let command = project["scripts"][name].as_str().expect("a text");
-    assert_eq!(script, Some(&*format!("{name} = {command}")));
-    assert_eq!(
-        recipe["about"]["license"].as_str(),
-        project["license"].as_str()
-    );
 }
 
 /// What GitHub requires of a form.

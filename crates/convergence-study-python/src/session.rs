@@ -45,8 +45,6 @@ pub(crate) struct Request {
     baseline: PathBuf,
     /// Whether to accept the numbers and claims.
     bless: bool,
-    /// Why claims have changed.
-    reason: Option<String>,
     /// The folder of the report.
     report: Option<PathBuf>,
     /// Guarded studies whose tests no longer exist.
@@ -81,9 +79,8 @@ impl Request {
     fn bless(&self, numbers: &mut Baseline, studies: &[Finished]) -> PyResult<Option<String>> {
         let mut known = headers(studies);
         known.extend(self.not_judged(numbers, &known));
-        if let Err(refusal) = numbers.bless(studies, Some(&known), self.reason.as_deref()) {
-            let blessing = "--convergence-bless --convergence-reason TEXT";
-            return Ok(Some(refusal.words(blessing)));
+        if let Err(refusal) = numbers.bless(studies, Some(&known), Some("")) {
+            return Ok(Some(refusal.to_string()));
         }
         if let Some(folder) = self.baseline.parent() {
             atomic::prepare_folder(folder)?;

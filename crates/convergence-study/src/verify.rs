@@ -103,8 +103,6 @@ pub struct VerifyRequest {
     pub effort: Effort,
     /// Whether to accept the new numbers as baseline.
     pub bless: bool,
-    /// Why claims have changed, for blessing them.
-    pub reason: Option<String>,
     /// The project's folder, which contains `studies/baseline.json`.
     pub root: PathBuf,
     /// The folder of its reports, usually `reports/` in it.
@@ -123,7 +121,6 @@ impl VerifyRequest {
             scope: Scope::Tier(tier, headers),
             effort: jobs.into(),
             bless: false,
-            reason: None,
             reports: root.join("reports"),
             root,
         }
@@ -323,7 +320,8 @@ fn bless(baseline: &mut Baseline, finished: &[Finished], request: &VerifyRequest
         return Blessing::NotAsked;
     }
     let known = request.scope.known();
-    let taken = baseline.bless(finished, known, request.reason.as_deref());
+    // The history of the file has the reasons.
+    let taken = baseline.bless(finished, known, Some(""));
     taken.map_or_else(Blessing::Refused, |()| Blessing::Taken)
 }
 

@@ -28,7 +28,6 @@ def pytest_addoption(parser):
     group = parser.getgroup("convergence", "convergence studies")
     group.addoption("--convergence-report", metavar="DIR", help="write the report on all verdicts: page, Markdown, JUnit")
     group.addoption("--convergence-bless", action="store_true", help="take numbers and claims for tests/convergence.json")
-    group.addoption("--convergence-reason", metavar="TEXT", help="why claims have changed; the baseline keeps it")
 
 
 def pytest_configure(config):
@@ -157,8 +156,8 @@ class Run:
             return True
         if self._config.pluginmanager.hasplugin("dsession"):
             self._sort()
-        bless, reason, report = (option(f"--convergence-{name}") for name in ("bless", "reason", "report"))
-        request = {"baseline": baseline, "bless": bless, "reason": reason, "report": report, "gone": list(gone)}
+        bless, report = (option(f"--convergence-{name}") for name in ("bless", "report"))
+        request = {"baseline": baseline, "bless": bless, "report": report, "gone": list(gone)}
         lines, is_well = _native.finish(self.studies, request)
         if gone and not (bless and is_well):
             self._lines.extend(in_words(gone))
@@ -215,4 +214,4 @@ def in_words(gone):
     names = ", ".join(test.partition("::")[2] or test for test in tests)
     count = "1 guarded test is" if len(tests) == 1 else f"{len(tests)} guarded tests are"
     yield f"{count} gone: {names}"
-    yield "  restore what was deleted, or accept it with --convergence-bless --convergence-reason TEXT"
+    yield "  restore what was deleted, or accept it with --convergence-bless"

@@ -98,7 +98,7 @@ fn a_blessing_takes_what_moved_and_no_number_of_a_failing_study() {
         status == Some(1) && out.contains("exponent 1, now 1.01"),
         "{out}"
     );
-    let (status, out, _) = run(&root, &["verify", "--bless", "--reason", "a new mesh"]);
+    let (status, out, _) = run(&root, &["verify", "--bless"]);
     assert!(
         status == Some(0) && out.contains("baseline: blessed"),
         "{out}"
@@ -107,7 +107,7 @@ fn a_blessing_takes_what_moved_and_no_number_of_a_failing_study() {
     assert_eq!(moved, 8f64.powf(-1.01));
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     exponent(0.5);
-    let (status, out, _) = run(&root, &["verify", "--bless", "--reason", "x"]);
+    let (status, out, _) = run(&root, &["verify", "--bless"]);
     assert!(
         status == Some(1) && out.contains("not blessed: the verdict on `one` is fail"),
         "{out}"

@@ -37,9 +37,6 @@ pub struct Arguments {
     /// Accept the new numbers and claims as baseline; refused if a study does not pass
     #[arg(long)]
     bless: bool,
-    /// Why; required for a changed claim, and kept in the baseline with the change
-    #[arg(long, value_name = "TEXT", requires = "bless", value_parser = reason)]
-    reason: Option<String>,
     /// Every study even if some fail, and every number that moved, not only the worst of each study
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
@@ -154,20 +151,8 @@ fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> VerifyRequest 
             ..flags.effort(arguments.limits.time_limit)
         },
         bless: arguments.bless,
-        reason: arguments.reason.clone(),
         reports: flags.out.clone().unwrap_or_else(|| root.join("reports")),
         root,
-    }
-}
-
-/// A reason: one line of text, kept in a file that people read.
-fn reason(text: &str) -> Result<String, String> {
-    let text = text.trim();
-    let is_line = !text.is_empty() && !text.contains(char::is_control);
-    if is_line {
-        Ok(text.to_owned())
-    } else {
-        Err("expected one line of text that says why".to_owned())
     }
 }
 

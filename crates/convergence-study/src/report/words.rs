@@ -114,8 +114,7 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
     parts.join(", ")
 }
 
-/// The command that blesses these changes: for the full tier if a study changed that was not run,
-/// with a reason if a claim did.
+/// The command that blesses these changes: for the full tier if a study changed that was not run.
 ///
 /// * `command`: the command that was run.
 pub fn blessing(
@@ -132,15 +131,7 @@ pub fn blessing(
         is_gone || finished.iter().any(|study| study.header.id == change.study)
     });
     let full = format!("{} verify --tier full", project.command);
-    let reason = if changes
-        .iter()
-        .any(|change| change.movement.needs_a_reason())
-    {
-        " --reason TEXT"
-    } else {
-        ""
-    };
-    format!("{} --bless{reason}", if all_run { command } else { &full })
+    format!("{} --bless", if all_run { command } else { &full })
 }
 
 /// Whether `--bless` would be accepted: it is refused if a study does not pass.

@@ -49,7 +49,7 @@ const SCHEMA: u32 = 2;
 
 /// What to do about another version.
 const EXPECTED: &str = "2, which also guards what study files claim; remove the file and run `verify --bless`, then `verify --tier full --bless`; to \
-                        keep the numbers of schema 1, write `\"schema\": 2, \"claims\": {}` in place of its version first and give a `--reason`";
+                        keep the numbers of schema 1, write `\"schema\": 2, \"claims\": {}` in place of its version first";
 
 /// The committed numbers and claims.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -252,7 +252,7 @@ impl Baseline {
             name,
             movement,
         } = change;
-        let reason = reason.map(str::to_owned);
+        let reason = reason.filter(|text| !text.is_empty()).map(str::to_owned);
         let claims = &mut self.claims;
         let numbers = &mut self.studies;
         match (movement, find(finished, study)) {

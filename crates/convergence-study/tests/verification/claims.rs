@@ -169,12 +169,9 @@ fn claims_of_studies_that_are_not_run_are_compared_too() {
     // The tier that runs a study blesses it.
     assert_eq!(
         blessing(&PROJECT, "cargo xtask verify", &ran, &changes),
-        "cargo xtask verify --tier full --bless --reason TEXT"
+        "cargo xtask verify --tier full --bless"
     );
-    assert_eq!(
-        blessing(&PROJECT, "c", &ran, &changes[2..]),
-        "c --bless --reason TEXT"
-    );
+    assert_eq!(blessing(&PROJECT, "c", &ran, &changes[2..]), "c --bless");
 }
 
 #[test]
@@ -281,10 +278,7 @@ fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
             "a: study file has no claims in the baseline, which guards 1 of its numbers: 3 values";
         assert_eq!(words(&baseline.compare(&ran(), None)), [message]);
         let changes = baseline.compare(&ran(), None);
-        assert_eq!(
-            blessing(&PROJECT, "c", &ran(), &changes),
-            "c --bless --reason TEXT"
-        );
+        assert_eq!(blessing(&PROJECT, "c", &ran(), &changes), "c --bless");
         let refused = baseline.bless(&ran(), None, None).unwrap_err().to_string();
         assert!(refused.ends_with(&format!(
             " needs a reason; repeat it with --bless --reason TEXT\n  {message}"
@@ -354,12 +348,11 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     );
 }
 
-fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verification {
+fn run(root: &Path, header: &Header, bless: bool) -> Verification {
     let scope = Scope::Tier(Tier::Quick, vec![header.clone()]);
     let request = VerifyRequest {
         scope,
         bless,
-        reason: reason.map(str::to_owned),
         ..request(root, &[])
     };
     verify(&PROJECT, &[study(header)], &request, &|_| {}).unwrap()
@@ -369,56 +362,46 @@ fn run(root: &Path, header: &Header, bless: bool, reason: Option<&str>) -> Verif
 fn a_changed_claim_fails_the_run_and_is_in_every_report() {
     let root = tempfile::tempdir().unwrap();
     let first = header("a", &CLAIMS);
-    assert_eq!(
-        run(root.path(), &first, true, None).record.verdict,
-        Verdict::Pass
-    );
+    assert_eq!(run(root.path(), &first, true).record.verdict, Verdict::Pass);
     let baseline = root.path().join("studies/baseline.json");
     let before = fs::read(&baseline).unwrap();
 
     let loose = with("expect[0].tolerance", Some("0.49"));
-    for bless in [false, true] {
-        let found = run(root.path(), &loose, bless, None);
-        assert_eq!(
-            (
-                found.record.studies[0].outcome.verdict,
-                found.record.verdict
-            ),
-            (Verdict::Pass, Verdict::Fail)
-        );
-        assert_ne!(found.blessing, Blessing::Taken);
-        assert_eq!(fs::read(&baseline).unwrap(), before);
-        let report = |name: &str| {
-            fs::read_to_string(root.path().join("reports/local/quick").join(name)).unwrap()
-        };
-        assert!(report("README.md").contains(
-            "\n## Claims changed\n\n- [a](#a): expect\\[0\\].tolerance 0.002, now 0.49\n"
-        ));
-        assert!(report("README.md").contains("`cargo xtask verify --bless --reason TEXT`"));
-        assert!(
-            report("index.html")
-                .contains("<li><a href=\"#a\">a</a>: expect[0].tolerance 0.002, now 0.49</li>"),
-            "{}",
-            report("index.html")
-        );
-        assert!(
-            report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49")
-        );
-        let xml = junit(PROJECT.name, &found.record);
-        assert_eq!(report("junit.xml"), xml);
-        assert!(
-            xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"),
-            "{xml}"
-        );
-    }
+    let found = run(root.path(), &loose, false);
     assert_eq!(
-        run(root.path(), &loose, true, Some("three levels only"))
-            .record
-            .verdict,
-        Verdict::Pass
+        (
+            found.record.studies[0].outcome.verdict,
+            found.record.verdict
+        ),
+        (Verdict::Pass, Verdict::Fail)
     );
+    assert_ne!(found.blessing, Blessing::Taken);
+    assert_eq!(fs::read(&baseline).unwrap(), before);
+    let report = |name: &str| {
+        fs::read_to_string(root.path().join("reports/local/quick").join(name)).unwrap()
+    };
+    assert!(
+        report("README.md").contains(
+            "\n## Claims changed\n\n- [a](#a): expect\\[0\\].tolerance 0.002, now 0.49\n"
+        )
+    );
+    assert!(report("README.md").contains("`cargo xtask verify --bless`"));
+    assert!(
+        report("index.html")
+            .contains("<li><a href=\"#a\">a</a>: expect[0].tolerance 0.002, now 0.49</li>"),
+        "{}",
+        report("index.html")
+    );
+    assert!(report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49"));
+    let xml = junit(PROJECT.name, &found.record);
+    assert_eq!(report("junit.xml"), xml);
+    assert!(
+        xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"),
+        "{xml}"
+    );
+    assert_eq!(run(root.path(), &loose, true).record.verdict, Verdict::Pass);
     assert_eq!(
-        run(root.path(), &loose, false, None).record.verdict,
+        run(root.path(), &loose, false).record.verdict,
         Verdict::Pass
     );
 }

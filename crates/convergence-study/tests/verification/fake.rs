@@ -197,7 +197,6 @@ pub(crate) fn request(root: &Path, known: &[&str]) -> VerifyRequest {
         scope,
         effort: jobs(2).into(),
         bless: false,
-        reason: None,
         root: root.to_owned(),
         reports: root.join("reports"),
     }

@@ -155,7 +155,6 @@ fn a_figure_that_is_gone_from_the_quick_report_stays_in_the_full_one() {
     let (root, reports, picture) = both(1.0);
     let other = VerifyRequest {
         bless: true,
-        reason: Some("another study".to_owned()),
         ..request(root.path(), &["c"])
     };
     verify(&PROJECT, &[scaled("c", 1.0)], &other, &|_| {}).unwrap();
@@ -177,7 +176,6 @@ fn without_its_copy_of_a_figure_no_report_changes() {
     let studies = [scaled("a", 3.0)];
     let bless = VerifyRequest {
         bless: true,
-        reason: Some("one study less".to_owned()),
         ..request(root.path(), &["a"])
     };
     let failed = verify(&PROJECT, &studies, &bless, &|_| {});

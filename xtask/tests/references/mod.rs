@@ -12,10 +12,7 @@ use std::path::{Path, PathBuf};
 use convergence_study::{
     Keys,
     internal::{
-        cli::{
-            schema::{MANUFACTURE, of_studies, of_tables_file, other_files},
-            workspace,
-        },
+        cli::schema::{MANUFACTURE, of_studies, of_tables_file, other_files},
         program,
         study::StudyFile,
     },

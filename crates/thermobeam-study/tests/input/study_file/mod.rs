@@ -2,7 +2,7 @@ mod refused;
 
 use super::says;
 use convergence_study::{
-    Axis, FromFile as _, Header, Kind as _, Tier,
+    Axis, FromFile as _, Header, Tier,
     internal::{input, study::Described},
 };
 use thermobeam::parameters::{Beam, Obstacles};

@@ -31,7 +31,7 @@ impl TimeUp {
         match self.work {
             Some(work) => {
                 format!(
-                    "work limit of {work} passes over a node, three times what it took when blessed (`verify --bless` limits nothing)"
+                    "work limit of {work} passes over a node, three times what it took when blessed (a blessing limits nothing)"
                 )
             }
             None => format!("time limit of {} s", self.limit.as_secs_f64()),

@@ -113,7 +113,7 @@ fn the_cause_is_printed_first_and_what_passes_is_counted() {
     );
     assert!(
         end[2].starts_with("too-low: The whole interval lies below the band")
-            && end[3].ends_with("/inconclusive.html")
+            && end[3].ends_with("/inconclusive.md")
             && end[4].is_empty(),
         "{out}"
     );

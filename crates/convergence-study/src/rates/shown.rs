@@ -134,7 +134,10 @@ impl Judgement<'_> {
 }
 
 /// The page of the book on the reasons of verdicts.
-pub(crate) const REASONS: &str = "https://thermobeam.github.io/thermobeam/inconclusive.html";
+pub(crate) const REASONS: &str = concat!(
+    env!("CARGO_PKG_REPOSITORY"),
+    "/blob/main/crates/convergence-study/book/src/inconclusive.md"
+);
 
 /// The errors with their rates, a verdict for each column, advice, and the overall verdict.
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {

@@ -73,6 +73,9 @@ fn named(expression: &str, cause: &str, terms: &[&str], factors: &[f64]) {
 
 #[test]
 fn what_concerns_a_whole_source_or_term_is_named() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     named("S(x,y,t) + D(x,y,t) + R(x,y,t)", "equal", &[], &[]);
     named(
         "-(S(x,y,t) + D(x,y,t) + R(x,y,t))",
@@ -126,6 +129,9 @@ fn what_concerns_a_whole_source_or_term_is_named() {
 
 #[test]
 fn what_stands_inside_a_term_and_changed_arguments_are_named() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     named(
         "S(x,y,t) - (1 + 0.5*x)*L(x,y,t) + R(x,y,t)",
         "product-rule",
@@ -161,6 +167,9 @@ fn what_stands_inside_a_term_and_changed_arguments_are_named() {
 
 #[test]
 fn vectors_are_explained_by_component() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     let causes = |expression: &str| -> Vec<&'static str> {
         let text = format!("v, g, s = V(x, y); {expression}");
         of(&text, None, "v_y v_x")
@@ -187,6 +196,9 @@ fn vectors_are_explained_by_component() {
 
 #[test]
 fn data_of_a_face_have_their_normal() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     let flux = |sign: &str| {
         let program = format!(
             "q = {sign}(1 + 0.5*x)*G(x, y, t)*p[3]; print(repr(q), repr(q - 3*u(x, y, t)))"
@@ -203,6 +215,9 @@ fn data_of_a_face_have_their_normal() {
 
 #[test]
 fn values_with_few_digits_are_right_within_them() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     let printed = |format: &str| {
         of(
             &format!("print('{format}' % (S(x,y,t) + D(x,y,t) + R(x,y,t)))"),
@@ -230,6 +245,9 @@ const ENERGY: &str = "[manufacture]\nname = \"energy\"\ncoordinates = [\"x\"]\n[
 
 #[test]
 fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     let said = |statement: &str| against(ENERGY, None, "x,", "e", statement);
     let right = said("f = 2e8*sin(x) + 0.2*sin(x)**2");
     assert_eq!(right.cause, "equal");
@@ -264,6 +282,9 @@ fn refusal(program: &str, limit: Duration) -> String {
 #[cfg(unix)]
 #[test]
 fn a_program_that_hangs_is_stopped_at_its_limit() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("not-stopped");
     for closing in ["", "exec 0<&- 1>&-; "] {
@@ -281,6 +302,9 @@ fn a_program_that_hangs_is_stopped_at_its_limit() {
 #[cfg(unix)]
 #[test]
 fn answers_that_cannot_be_used_are_refused_with_the_line() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
+        return;
+    }
     let refused = |program: &str| refusal(program, LIMIT);
     assert!(
         refused("sh -c 'cat > /dev/null; echo u; echo 1'")

@@ -284,6 +284,9 @@ fn setting(name: &str, default: u64) -> u64 {
 /// A comparison allows 1000 spreads of the two evaluations, `emitted` a share of the size.
 #[test]
 fn no_right_source_is_called_wrong_and_no_slip_is_missed() {
+    if !foreign_tools::are_here(&[foreign_tools::C]) {
+        return;
+    }
     let folder = tempfile::tempdir().unwrap();
     let mut counts: BTreeMap<Kind, Count> = BTreeMap::new();
     let seed = setting("MANUFACTURE_SEED", 1);

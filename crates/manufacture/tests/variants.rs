@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use manufacture::{Language, Sampling};
 use tempfile::TempDir;
 
-use crate::emitted::compiles_without_a_warning;
+use crate::emitted::{compiles_without_a_warning, tools};
 use crate::files::read;
 use crate::functions;
 
@@ -159,27 +159,10 @@ impl Module {
     }
 }
 
-/// Whether a language can be tried on this machine, by a command that succeeds then.
-fn is_here(language: Language) -> bool {
-    let probe: &[&str] = match language {
-        Language::C => &["cc", "--version"],
-        Language::Fortran => &["gfortran", "--version"],
-        Language::Rust => &["rustc", "--version"],
-        Language::Python => &["python3", "-c", "import numpy"],
-        Language::Ufl => &["python3", "--version"],
-        Language::Octave => &["octave", "--version"],
-    };
-    let output = Command::new(probe[0]).args(&probe[1..]).output();
-    let is_here = output.is_ok_and(|output| output.status.success());
-    if !is_here {
-        eprintln!("skipped: no {}", probe[0]);
-    }
-    is_here
-}
-
+/// The languages that can be tried on this machine.
 fn languages() -> impl Iterator<Item = Language> {
     let all = Language::ALL.into_iter().map(|(_, language)| language);
-    all.filter(|language| is_here(*language))
+    all.filter(|language| foreign_tools::are_here(tools(*language)))
 }
 
 /// Sources, data, exact values, gradients, definitions, terms and joint sources of each variant, as
@@ -222,6 +205,9 @@ fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) ->
 /// third.
 #[test]
 fn a_slip_in_a_variant_is_found() {
+    if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::NUMPY]) {
+        return;
+    }
     let c = ["double still_exact_u(", "case 3: {", "return "];
     let python = ["def exact_u(", "_NUMBER in [3]:", "out[0] = "];
     for texts in [
@@ -239,6 +225,9 @@ fn a_slip_in_a_variant_is_found() {
 /// A module that fails with one variant is compared with all others.
 #[test]
 fn a_module_that_fails_with_a_variant_fails_with_no_other() {
+    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
+        return;
+    }
     let places = ["def exact_u(", "_NUMBER in [3]:", "out[0] = "];
     let texts = found_after(Language::Python, "still.py", places, "out[0] = missing*");
     assert_eq!(texts.len(), 1, "{texts:?}");
@@ -320,7 +309,7 @@ fn the_environment_chooses_a_variant_and_an_unknown_one_is_refused() {
 /// computed, with the variable or without it.
 #[test]
 fn a_fortran_program_that_does_not_choose_ends_and_says_what_it_has_to_call() {
-    if !is_here(Language::Fortran) {
+    if !foreign_tools::are_here(tools(Language::Fortran)) {
         return;
     }
     let module = Module::new(RICH, Language::Fortran);
@@ -394,6 +383,9 @@ fn parameters_program(language: Language) -> &'static str {
 /// replaces that of the variant, and those that depend on it follow.
 #[test]
 fn a_program_reads_the_parameters_of_the_variant() {
+    if !foreign_tools::are_here(&[foreign_tools::C]) {
+        return;
+    }
     for language in languages() {
         let module = Module::new(RICH, language);
         let command = module.built(language, parameters_program(language));
@@ -411,6 +403,9 @@ fn a_program_reads_the_parameters_of_the_variant() {
 /// Initial data, normals, averages and errors follow the variant as well.
 #[test]
 fn functions_that_no_answering_program_calls_follow_the_variant() {
+    if !foreign_tools::are_here(&[foreign_tools::C]) {
+        return;
+    }
     let mut of_first: Option<Vec<Vec<f64>>> = None;
     for language in languages().filter(|language| *language != Language::Ufl) {
         let program = match language {

@@ -66,6 +66,9 @@ fn regressions(root: &Path, list: &str, arguments: &[&str]) -> Ended {
 
 #[test]
 fn a_mistake_is_noticed_only_where_its_study_names_it() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH]) {
+        return;
+    }
     let folder = TempDir::new().expect("a folder");
     let root = workspace(&folder);
     let noticed = entry("two for one", ["1", "2"], ["s", "velocity"])
@@ -132,6 +135,9 @@ fn a_mistake_is_noticed_only_where_its_study_names_it() {
 
 #[test]
 fn a_list_that_cannot_be_planted_is_refused_by_name() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH]) {
+        return;
+    }
     let folder = TempDir::new().expect("a folder");
     let root = workspace(&folder);
     let s = ["s", "velocity"];

@@ -2,7 +2,6 @@
 //! written.
 
 use std::fs;
-use std::process::Command;
 #[cfg(unix)]
 use std::{
     thread,
@@ -26,13 +25,6 @@ fn blocks(language: &str) -> Vec<&'static str> {
         .collect()
 }
 
-fn has_numpy() -> bool {
-    let output = Command::new("python3")
-        .args(["-c", "import numpy"])
-        .output();
-    output.is_ok_and(|output| output.status.success())
-}
-
 #[test]
 fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     let root = TempDir::new().unwrap();
@@ -48,8 +40,7 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     let (status, out, err) = run(&root, &["manufacture", "heat.toml"]);
     assert_eq!((status, err.as_str()), (Some(0), ""));
     assert_eq!(out, blocks("text")[1]);
-    if !has_numpy() {
-        eprintln!("skipped: no Python with NumPy");
+    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
         return;
     }
     let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--language", "python"]);
@@ -183,6 +174,9 @@ fn exit_status_and_output_are_those_of_every_command() {
 #[cfg(unix)]
 #[test]
 fn a_program_that_hangs_ends_with_all_that_it_has_started() {
+    if !foreign_tools::are_here(&[foreign_tools::SHELL]) {
+        return;
+    }
     let root = TempDir::new().unwrap();
     run(&root, &["new", "manufacture", "heat"]);
     let program = "sh -c '(sleep 3; touch not-stopped) & sleep 30'";

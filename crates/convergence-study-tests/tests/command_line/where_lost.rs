@@ -73,6 +73,9 @@ fn located(program: &str, hidden_in: &[&str]) -> (Option<i32>, String, String) {
 
 #[test]
 fn the_face_whose_flat_variant_has_its_order_back_is_named() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let hidden_in = ["flat_x_max", "flat_x", "flat_everywhere", "constant_x"];
     let (status, out, err) = located(PROGRAM, &hidden_in);
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
@@ -98,6 +101,9 @@ fn the_face_whose_flat_variant_has_its_order_back_is_named() {
 
 #[test]
 fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let root = project(PROGRAM, &["flat_x_max", "flat_x", "flat_everywhere"]);
     let words = ["study", "study.toml", "--where", "--out", "report"];
     let (status, _, err) = run(&root, &words);
@@ -127,6 +133,9 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
 
 #[test]
 fn a_variant_that_is_left_out_has_its_reason_in_json() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let root = project(PROGRAM, &["-"]);
     let fixed = ROD.replace(
         "[boundary.x_min]\nu = \"u\"",
@@ -150,6 +159,9 @@ fn a_variant_that_is_left_out_has_its_reason_in_json() {
 
 #[test]
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     for (hidden_in, words) in [
         (
             ["constant_x", "-"],
@@ -181,6 +193,9 @@ fn other_parts_are_named_by_their_variants_and_none_without_one() {
 
 #[test]
 fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let ignoring = PROGRAM.replace("scale=1.${#MANUFACTURE_VARIANT}", "scale=1");
     assert_ne!(ignoring, PROGRAM);
     let root = project(&ignoring, &[]);
@@ -210,6 +225,9 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
 
 #[test]
 fn a_variant_that_does_not_run_is_refused_with_its_last_words() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let failing = format!(
         "if [ \"$MANUFACTURE_VARIANT\" = flat_x ]; then echo 'unknown variant' >&2; exit 3; fi\n{PROGRAM}"
     );
@@ -249,6 +267,9 @@ fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
 
 #[test]
 fn a_study_that_passes_has_no_place() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let right = PROGRAM.replace("part=0.3", "part=0");
     let (status, out, err) = located(&right, &[]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
@@ -260,6 +281,9 @@ fn a_study_that_passes_has_no_place() {
 #[test]
 fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
+    if !foreign_tools::are_here(&[foreign_tools::C]) {
+        return;
+    }
     let root = TempDir::new().unwrap();
     let file = PAGE.split("```toml\n").nth(1).unwrap();
     fs::write(
@@ -277,10 +301,7 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
         .args(words)
         .current_dir(root.path())
         .output();
-    let Ok(output) = compiler else {
-        eprintln!("skipped: no cc");
-        return;
-    };
+    let output = compiler.unwrap();
     assert!(output.status.success(), "{output:?}");
     let study = |mistake: &str| {
         format!(

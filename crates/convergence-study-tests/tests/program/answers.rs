@@ -20,6 +20,9 @@ const MAX: &str = "[[expect]]\nerror = \"max error\"\norder = 2.0\n";
 
 #[test]
 fn lines_with_the_names_of_the_study_are_an_answer() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let lines = "BEGIN { for (k = 1; k < 9; k++) printf \"step %d: max error = %e\\n\", k, 1 / k;\n\
                  printf \" n = %d  max error =   %.8E\\n middle: %.12f\\n\", n, 1 / n^2, 2 + 1 / n^2;\n\
                  print \"done in 3 s\" }\n";
@@ -46,6 +49,9 @@ fn lines_with_the_names_of_the_study_are_an_answer() {
 
 #[test]
 fn an_object_wins_and_what_is_no_number_is_refused() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     for (line, words) in [
         (
             "printf \"{\\\"errors\\\": {\\\"max error\\\": %e}}\\nmax error = 7\\n\", 1 / n^2",
@@ -89,6 +95,9 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
 
 #[test]
 fn a_program_has_the_variables_of_its_study() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let program = "BEGIN { print \"max error = \" ENVIRON[\"SCALE\"] / n^ENVIRON[\"ORDER\"] }\n";
     let env = "env = { SCALE = \"3\", ORDER = \"2\" }";
     let (status, out, err) = study(program, env, MAX).study(&[]);
@@ -121,6 +130,9 @@ fn a_program_has_the_variables_of_its_study() {
 
 #[test]
 fn without_a_tolerance_it_is_that_of_rates() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let program = "BEGIN { print \"max error = \" 1 / n^1.8 }\n";
     let (status, out, err) = study(program, "", MAX).study(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
@@ -139,6 +151,9 @@ fn without_a_tolerance_it_is_that_of_rates() {
 
 #[test]
 fn a_reason_that_all_cases_share_is_there_once() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
     let place = study("BEGIN { exit 3 }\n", "", MAX);
     let (status, out, _) = place.study(&[]);
     assert_eq!(status, Some(1));

@@ -30,6 +30,13 @@ fn complaint(place: &Place) -> String {
 
 #[test]
 fn every_misbehaviour_is_one_line_and_leaves_nothing() {
+    if !foreign_tools::are_here(&[
+        foreign_tools::ENV,
+        foreign_tools::KILL,
+        foreign_tools::SHELL,
+    ]) {
+        return;
+    }
     for (mode, told) in [
         ("abort", "ended with signal 6 (SIGABRT)"),
         (
@@ -82,6 +89,13 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
 
 #[test]
 fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
+    if !foreign_tools::are_here(&[
+        foreign_tools::ENV,
+        foreign_tools::KILL,
+        foreign_tools::SHELL,
+    ]) {
+        return;
+    }
     // Long enough for the programs that do not hang, on a busy machine.
     for mode in HANGING {
         let line = complaint(&Place::new(mode, "time_limit = 3"));
@@ -101,6 +115,9 @@ fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
 
 #[test]
 fn a_program_that_kills_its_guard_fails_and_leaves_nothing() {
+    if !foreign_tools::are_here(&[foreign_tools::KILL, foreign_tools::SHELL]) {
+        return;
+    }
     let place = Place::new("kill-guard", "");
     let (status, out, err) = place.study(&["--jobs", "2"]);
     assert_eq!(status, Some(1), "{out}{err}");
@@ -153,12 +170,26 @@ fn nothing_is_left_after(name: &str) {
 
 #[test]
 fn a_killed_harness_leaves_nothing() {
+    if !foreign_tools::are_here(&[
+        foreign_tools::ENV,
+        foreign_tools::KILL,
+        foreign_tools::SHELL,
+    ]) {
+        return;
+    }
     nothing_is_left_after("-KILL");
     nothing_is_left_after("-TERM");
 }
 
 #[test]
 fn an_interrupted_harness_leaves_nothing() {
+    if !foreign_tools::are_here(&[
+        foreign_tools::ENV,
+        foreign_tools::KILL,
+        foreign_tools::SHELL,
+    ]) {
+        return;
+    }
     let place = Place::new("hang", "");
     let harness = started(&mut interruptible(
         &place.command(&["study", "s.toml", "--jobs", "2"]),

@@ -58,6 +58,9 @@ fn is_refused(installed: &Installed, reason: &str) {
 
 #[test]
 fn the_program_of_a_version_is_installed_with_its_sum() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
+        return;
+    }
     for version in ["", VERSION, concat!("v", env!("CARGO_PKG_VERSION"))] {
         let releases = releases();
         let installed = install(releases.path(), version, "X64");
@@ -70,6 +73,9 @@ fn the_program_of_a_version_is_installed_with_its_sum() {
 
 #[test]
 fn a_program_with_another_sum_is_not_installed() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
+        return;
+    }
     let releases = releases();
     let name = format!("v{VERSION}/convergence-study-{VERSION}-x86_64-unknown-linux-musl.tar.gz");
     let archive = releases.path().join(name);
@@ -81,6 +87,9 @@ fn a_program_with_another_sum_is_not_installed() {
 
 #[test]
 fn what_is_not_released_is_named() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
+        return;
+    }
     let releases = releases();
     let missing = install(releases.path(), "99.0.0", "X64");
     is_refused(&missing, "expected a released `version`");

@@ -54,6 +54,9 @@ fn run(asked: &str) -> Ran {
 
 #[test]
 fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
+        return;
+    }
     for (asked, status) in [
         ("rates errors.csv --order 2", 0),
         ("rates errors.csv --order 1", 1),
@@ -85,6 +88,9 @@ fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
 
 #[test]
 fn where_nothing_was_written_nothing_is_handed_on() {
+    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
+        return;
+    }
     for asked in ["rates missing.csv --order 2", "verify", "nonsense"] {
         let ran = run(asked);
         assert_eq!(

@@ -5,8 +5,6 @@ use std::process::Command;
 
 use super::page::{page_of, two};
 
-const CHROMIUM: &str = "/usr/bin/chromium";
-
 /// The expectations on the page, and a report in its title.
 const SCRIPT: &str = r##"
 const found = [];
@@ -66,10 +64,10 @@ addEventListener("securitypolicyviolation", event => found.push(event.violatedDi
 
 #[test]
 fn links_sorting_filters_and_readings_work_in_a_browser() {
-    if !Path::new(CHROMIUM).exists() {
-        println!("skipped: there is no {CHROMIUM}");
+    if !foreign_tools::are_here(&[foreign_tools::CHROMIUM, foreign_tools::TIMEOUT]) {
         return;
     }
+    let browser = foreign_tools::browser().expect("a browser");
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("index.html");
     let page =
@@ -77,16 +75,21 @@ fn links_sorting_filters_and_readings_work_in_a_browser() {
     std::fs::write(&file, page).expect("a file");
     // The browser may give up before the page has finished or a frame is drawn: so there are
     // several attempts.
-    let said =
-        (0..10).find_map(|attempt| said(&file, &folder.path().join(format!("profile-{attempt}"))));
+    let said = (0..10).find_map(|attempt| {
+        said(
+            &browser,
+            &file,
+            &folder.path().join(format!("profile-{attempt}")),
+        )
+    });
     assert_eq!(said.as_deref(), Some("RIGHT"));
 }
 
 /// The title set by the page: `RIGHT`, or `WRONG` with the problem; `None` for any other title.
-fn said(file: &Path, profile: &Path) -> Option<String> {
+fn said(browser: &str, file: &Path, profile: &Path) -> Option<String> {
     // A browser that hangs is ended.
     let output = Command::new("timeout")
-        .args(["60", CHROMIUM])
+        .args(["60", browser])
         .args([
             "--headless",
             "--no-sandbox",

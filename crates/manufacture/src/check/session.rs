@@ -148,6 +148,9 @@ for line in sys.stdin:
 
     #[test]
     fn one_program_answers_until_it_fails_and_then_another_one() {
+        if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
+            return;
+        }
         let mut session = session(Duration::from_secs(600));
         let process = |answer: Result<String, String>| answer.unwrap().split_off("one of ".len());
         let first = process(answer(&mut session, "one"));
@@ -159,6 +162,9 @@ for line in sys.stdin:
 
     #[test]
     fn a_program_that_hangs_is_stopped() {
+        if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
+            return;
+        }
         let mut session = session(Duration::from_secs(1));
         let failed = answer(&mut session, "hangs").unwrap_err();
         assert!(failed.ends_with("time limit of 1 s"), "{failed}");

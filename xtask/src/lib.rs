@@ -4,7 +4,6 @@
 
 mod bench;
 pub mod references;
-mod regressions;
 mod tables;
 
 use std::process::ExitCode;
@@ -54,7 +53,6 @@ enum Command {
 #[derive(Debug, Subcommand)]
 enum Dev {
     References(references::Arguments),
-    Regressions(regressions::Arguments),
     Tables(tables::Arguments),
 }
 
@@ -66,7 +64,6 @@ pub fn run() -> ExitCode {
         Command::Thermobeam(command) => command.run(&PROJECT, line),
         Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
         Command::Dev(Dev::References(arguments)) => references::run(&arguments),
-        Command::Dev(Dev::Regressions(arguments)) => regressions::run(&arguments),
         Command::Dev(Dev::Tables(arguments)) => tables::run(&arguments),
     })
 }

@@ -1,16 +1,12 @@
 //! The tests that read the sources as text: links, citations, layers between crates, and calls that
 //! are refused.
 
-mod arguments;
-mod circles;
 mod citations;
 mod independence;
 mod layers;
 mod links;
-mod paths;
 mod tests_run;
 mod theory;
-mod type_names;
 
 use std::path::{Path, PathBuf};
 

@@ -56,13 +56,13 @@ pub(crate) fn judge_table(
         ..chosen.into()
     };
     let call = Call::new(table.py(), function, "table", order, OF_JUDGE)?;
-    let Some(columns) = values::columns(table, &choice.claimed)? else {
+    let Some(columns) = values::columns(table)? else {
         return Ok(None);
     };
     let table = RateTable::from_columns(&columns, "h", &choice)
         .map_err(|error| refuse(error.words(&call)))?;
     if let Some(doubt) = table.doubts.first() {
-        return Err(refuse(format!("table: {doubt}; give one table at a time")));
+        return Err(refuse(format!("table: {doubt}")));
     }
     let judged = |column: &Column, claim: Option<Claim>| Judgement {
         name: column.name.clone(),

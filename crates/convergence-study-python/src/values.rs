@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use convergence_judge::judge::{claims::order_from_text, fit::Level, verdict::Judge};
-use convergence_study::{Claim, Floor, FrameColumn};
+use convergence_study::{Claim, Floor, FrameCell, FrameColumn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
@@ -52,6 +52,15 @@ pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyR
 /// The numbers of a list, an array, a series: anything with `tolist` or `to_list`, or that can be
 /// iterated.
 pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let items = items(name, value)?;
+    let items = items.iter().enumerate();
+    items
+        .map(|(k, item)| number(|| format!("{name}[{k}]"), item))
+        .collect()
+}
+
+/// The items of a list, an array, a series.
+fn items<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let expected = || {
         refuse(format!(
             "{name}: expected a sequence of numbers, found {}",
@@ -65,11 +74,7 @@ pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>
         .into_iter()
         .find(|method| value.hasattr(*method).unwrap_or(false));
     let list = list.map_or_else(|| Ok(value.clone()), |method| value.call_method0(method))?;
-    let items = list.try_iter().map_err(|_| expected())?;
-    items
-        .enumerate()
-        .map(|(k, item)| number(|| format!("{name}[{k}]"), &item?))
-        .collect()
+    list.try_iter().map_err(|_| expected())?.collect()
 }
 
 /// The levels, coarse to fine, given in any order.
@@ -192,18 +197,14 @@ impl Claims {
     }
 }
 
-/// The columns of numbers of a data frame or a dict of lists, by name; `None` for other types.
-pub(crate) fn columns(
-    table: &Bound<'_, PyAny>,
-    needed: &[String],
-) -> PyResult<Option<Vec<FrameColumn>>> {
+/// The columns of a data frame or a dict of lists, by name; `None` for other types.
+pub(crate) fn columns(table: &Bound<'_, PyAny>) -> PyResult<Option<Vec<FrameColumn>>> {
     let names = match table.cast::<PyDict>() {
         Ok(table) => table.keys().into_any(),
         Err(_) if table.hasattr("columns")? => table.getattr("columns")?,
         Err(_) => return Ok(None),
     };
     let mut columns = vec![];
-    let mut refused = None;
     let mut known = BTreeSet::new();
     for name in names.try_iter()? {
         let name = name?;
@@ -213,21 +214,19 @@ pub(crate) fn columns(
                 "expected each name of a column once, found `{text}` twice"
             )));
         }
-        match numbers(&text, &table.get_item(&name)?) {
-            Ok(numbers) => columns.push(FrameColumn {
-                name: text,
-                numbers,
-            }),
-            // A column of words is a remark, unless there is a claim about it.
-            Err(error) if needed.contains(&text) => return Err(error),
-            Err(error) => {
-                refused.get_or_insert(error);
-            }
-        }
+        let cells = items(&text, &table.get_item(&name)?)?;
+        columns.push(FrameColumn {
+            name: text,
+            cells: cells.iter().map(cell).collect::<PyResult<_>>()?,
+        });
     }
-    match refused {
-        // There is nothing else to judge.
-        Some(error) if columns.len() < 2 => Err(error),
-        _ => Ok(Some(columns)),
+    Ok(Some(columns))
+}
+
+/// A number, or the words of anything else: what is no number may be a level that has failed.
+fn cell(item: &Bound<'_, PyAny>) -> PyResult<FrameCell> {
+    match number(String::new, item) {
+        Ok(number) => Ok(FrameCell::Number(number)),
+        Err(_) => Ok(FrameCell::Word(item.str()?.to_string())),
     }
 }

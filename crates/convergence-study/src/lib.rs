@@ -144,7 +144,9 @@ pub mod variants {
 pub use crate::{
     input::{
         Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
-        error_table::{Choice, Column, Doubt, FrameColumn, NotError, Offer, Parameter, RateTable},
+        error_table::{
+            Choice, Column, Doubt, FrameCell, FrameColumn, NotError, Offer, Parameter, RateTable,
+        },
     },
     study::{FromFile, KindRow, read_claim, read_study},
 };

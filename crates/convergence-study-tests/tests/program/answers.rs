@@ -59,11 +59,11 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
         ),
         (
             "print \"max error = NaN\"",
-            "`max error` of its errors is NaN, infinite or null",
+            "awk: `max error` is `NaN`; expected a finite number",
         ),
         (
             "print \"max error = ****\"",
-            "no line of its standard output is a JSON object; the last line is `max error = ****`",
+            "awk: `max error` is `****`; expected a finite number",
         ),
         (
             "print \"maximal error = 1e-3\"",
@@ -85,6 +85,26 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
         let (_, out, _) = study(&format!("BEGIN {{ {line} }}\n"), "", MAX).study(&[]);
         assert!(out.contains(&words.replace("\\\"", "\"")), "{line}: {out}");
     }
+    for line in [
+        // A level that has failed does not have the error of an earlier time step.
+        "print \"max error = \" 1 / n^2; print \"max error = \" (n < 64 ? 1 / n^2 : \"FAILED\")",
+        "print \"max error = \" 1 / n^2; if (n == 64) print \"max error =\"",
+        "print \"{\\\"errors\\\": {\\\"max error\\\": \" 1 / n^2 \"}}\"; if (n == 64) print \"max error = nan\"",
+        "print \"{\\\"errors\\\": {\\\"max error\\\": \" 1 / n^2 \"}}\"; if (n == 64) print \"{\\\"status\\\": \\\"failed\\\"}\"",
+        "print \"{\\\"errors\\\": {\\\"max error\\\": \" 1 / n^2 \"}\" (n < 64 ? \"}\" : \", \\\"failed\\\": true}\")",
+    ] {
+        let (status, out, _) = study(&format!("BEGIN {{ {line} }}\n"), "", MAX).study(&[]);
+        assert!(
+            status == Some(1) && out.contains("4 of 5 cases completed; n = 64: awk: "),
+            "{line}: {out}"
+        );
+    }
+    let steps = "BEGIN { for (k = 1; k < 4; k++) print \"{\\\"errors\\\": {\\\"max error\\\": \" k / n^2 \"}}\" }\n";
+    let (status, out, _) = study(steps, "", MAX).study(&[]);
+    assert!(
+        status == Some(0) && out.contains("each level printed 3 answers, of which the last counts"),
+        "{out}"
+    );
     let two = format!("{MAX}[[expect]]\nerror = \"L2\"\norder = 2.0\n");
     let (status, out, _) = study("BEGIN { print \"L2 = \" 1 / n^2 }\n", "", &two).study(&[]);
     assert!(

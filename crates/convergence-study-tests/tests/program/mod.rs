@@ -319,7 +319,7 @@ pub(crate) fn project_of(place: Place) -> Place {
 }
 
 #[test]
-fn an_error_that_only_some_answers_have_is_guarded_there() {
+fn a_value_that_only_some_answers_have_is_guarded_there() {
     let place = project("optional");
     let studies = place.folder.path().join("studies");
     let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
@@ -329,11 +329,9 @@ fn an_error_that_only_some_answers_have_is_guarded_there() {
     assert_eq!(verify(&[]).0, Some(0));
     let baseline = fs::read_to_string(studies.join("baseline.json")).unwrap();
     for (name, is_guarded) in [
-        ("error max, n = 16", true),
         ("value lift, n = 16", true),
-        ("error max, n = 8", false),
-        ("error H1, n = 16", false),
-        ("error H1, n = 8", true),
+        ("value lift, n = 8", false),
+        ("error H1, n = 16", true),
     ] {
         assert_eq!(
             baseline.contains(&format!("\"{name}\"")),
@@ -345,9 +343,19 @@ fn an_error_that_only_some_answers_have_is_guarded_there() {
     fs::remove_file(studies.join("all")).unwrap();
     let (status, out, _) = verify(&[]);
     assert!(
-        status == Some(1) && out.contains("error max, n = 16"),
+        status == Some(1) && out.contains("value lift, n = 16"),
         "{out}"
     );
+}
+
+#[test]
+fn an_error_that_only_some_answers_have_fails() {
+    let (status, out, _) = Place::new("lacking", "").study(&[]);
+    assert_eq!(status, Some(1), "{out}");
+    for missing in ["max", "H1"] {
+        let words = format!("its answer has no error `{missing}`, which that of another level has");
+        assert!(out.contains(&words), "{missing}: {out}");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The answer of a program: the last line of its standard output that is a JSON object; without
+//! The answer of a program: the last line of its standard output that begins with a brace; without
 //! such a line, numbers behind the names that the study expects: `max = 1.5e-3`.
 
 use std::fmt;
@@ -7,6 +7,7 @@ use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Map, Value};
 
+use super::lines::NamedText;
 use crate::input::shorten;
 use crate::study::{CaseFailure, Claim};
 use crate::text::json;
@@ -31,6 +32,9 @@ pub(crate) struct Answer {
     /// The time that the program took.
     #[serde(default)]
     pub seconds: f64,
+    /// How many objects with errors or values the program has printed; the last one counts.
+    #[serde(default)]
+    pub printed: usize,
     /// Why the case has failed nevertheless: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,
@@ -64,9 +68,8 @@ impl Expectation {
 /// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as
 /// `null`, which is not a number.
 ///
-/// The reason is in words, with advice. The flag says whether the line looks like an answer; then
-/// no object before it is the last one. `{iteration 3}` does not.
-pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, bool)>> {
+/// The reason is in words, with advice.
+pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, String>> {
     let line = line.trim();
     let inside = line.strip_prefix('{')?.trim_start();
     let parsed = |line: &str| serde_json::from_str(line).map(|Once(value)| value);
@@ -74,47 +77,48 @@ pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, (String, b
         .or_else(|_| parsed(&with_null_for_nan(line)))
         .and_then(serde_json::from_value);
     let near_miss = |error: serde_json::Error| {
-        let is_dict = inside.starts_with('\'')
-            && ["'errors'", "'values'"]
-                .iter()
-                .any(|key| inside.contains(key));
-        let reason = if inside.starts_with('\'') {
+        if inside.starts_with('\'') {
             "single quotes are not those of JSON: print it with json.dumps(...) on one line"
                 .to_owned()
         } else if error.is_eof() {
             "it does not end on its line: print it with json.dumps(...) on one line".to_owned()
         } else {
             error.to_string()
-        };
-        (
-            reason,
-            inside.is_empty() || inside.starts_with('"') || is_dict,
-        )
+        }
     };
     Some(read.map_err(near_miss))
+}
+
+/// Whether an object is an answer, be it a bad one.
+pub(super) fn is_answer(object: &Map<String, Value>) -> bool {
+    ["errors", "values"]
+        .iter()
+        .any(|key| object.contains_key(*key))
 }
 
 /// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
 /// expects, with the step and the work; `None` if no name is expected.
 pub(super) fn object_of_lines(
-    numbers: &[NamedNumber],
+    texts: &[NamedText],
     expected: &[Expectation],
 ) -> Option<Map<String, Value>> {
     let mut object = Map::new();
-    for NamedNumber { name, value } in numbers {
+    for NamedText { name, number, .. } in texts {
         for expected in expected.iter().filter(|expected| expected.name == *name) {
             let among = format!("{}s", expected.what());
             let names = object.entry(among).or_insert_with(|| Map::new().into());
-            names[name] = (*value).into();
+            names[name] = (*number).into();
         }
     }
-    let is_answer = !object.is_empty();
-    for NamedNumber { name, value } in numbers {
-        if STEPS_AND_WORK.contains(&name.as_str()) {
-            object.insert(name.clone(), (*value).into());
+    let has_answer = !object.is_empty();
+    for NamedText { name, number, .. } in texts {
+        if let Some(number) = number
+            && STEPS_AND_WORK.contains(&name.as_str())
+        {
+            object.insert(name.clone(), (*number).into());
         }
     }
-    is_answer.then_some(object)
+    has_answer.then_some(object)
 }
 
 /// Most errors, and most values, of an answer: every level is searched for each name.
@@ -225,12 +229,13 @@ fn with_null_for_nan(line: &str) -> String {
 }
 
 impl Answer {
-    /// Reads an answer; unknown names are ignored. An error or a value that is not a finite number
-    /// is NaN.
+    /// Reads an answer; refuses unknown keys, which may say that the case has failed. An error or a
+    /// value that is not a finite number is NaN.
     ///
     /// * Returns it with the first complaint about such a number, or the reason why it is not an
     ///   answer.
     pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<String>), String> {
+        known_keys(object)?;
         let step = |name: &str| {
             let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
             object.get(name).map(read).transpose()
@@ -288,6 +293,34 @@ impl Answer {
             expected.name
         ))
     }
+}
+
+/// Refuses an object that has no errors and no values, or anything that is no part of an answer.
+fn known_keys(object: &Map<String, Value>) -> Result<(), String> {
+    const KEYS: &str = "errors, values, h, dt, work";
+    let is_known = |key: &&String| KEYS.split(", ").any(|known| known == key.as_str());
+    let Some((key, value)) = object.iter().find(|(key, _)| !is_known(key)) else {
+        return match is_answer(object) {
+            true => Ok(()),
+            false => Err(format!(
+                "its answer has neither errors nor values; expected some of {KEYS}"
+            )),
+        };
+    };
+    let advice = match value {
+        Value::Number(number) => {
+            let key = Value::from(key.as_str());
+            format!(
+                "; if it is an error, put it below `errors`: {{\"errors\": {{{key}: {number}}}}}"
+            )
+        }
+        _ => String::new(),
+    };
+    let key = visible(&shorten(key));
+    let value = visible(&written(value));
+    Err(format!(
+        "its answer has the unknown key `{key}`, {value}; expected some of {KEYS}{advice}"
+    ))
 }
 
 fn table(
@@ -371,7 +404,7 @@ mod tests {
     #[test]
     fn an_answer_has_errors_values_steps_and_work() {
         let answer =
-            read(r#" {"errors": {"L2": 1e-3, "H1": 2}, "values": {"flux": -3.5}, "h": 0.1, "work": 40, "x": [1]} "#)
+            read(r#" {"errors": {"L2": 1e-3, "H1": 2}, "values": {"flux": -3.5}, "h": 0.1, "work": 40} "#)
                 .unwrap();
         assert_eq!(
             answer.errors,
@@ -382,7 +415,45 @@ mod tests {
             (answer.h, answer.dt, answer.work),
             (Some(0.1), None, Some(40.0))
         );
-        assert_eq!(read("{}").unwrap(), Answer::default());
+    }
+
+    #[test]
+    fn what_is_no_part_of_an_answer_is_refused() {
+        for (line, words) in [
+            (
+                r#"{"errors": {"L2": 1}, "failed": true}"#,
+                "the unknown key `failed`, true; expected some of errors",
+            ),
+            (
+                r#"{"errors": {"L2": 1}, "success": false}"#,
+                "the unknown key `success`, false",
+            ),
+            (
+                r#"{"errors": {"L2": 1}, "x": [1]}"#,
+                "the unknown key `x`, [1]",
+            ),
+            (
+                r#"{"status": "failed"}"#,
+                "the unknown key `status`, \"failed\"",
+            ),
+            (
+                r#"{"L2": 0.01}"#,
+                r#"put it below `errors`: {"errors": {"L2": 0.01}}"#,
+            ),
+            (r#"{"h": 0.01}"#, "neither errors nor values"),
+            ("{}", "neither errors nor values"),
+            (
+                r#"{"errors": [{"L2": 1}]}"#,
+                "`errors` is [{\"L2\":1}]; expected an object",
+            ),
+            (
+                r#"{"errors": {"L2": [1]}}"#,
+                "`L2` of its errors is [1]; expected a finite number",
+            ),
+        ] {
+            let found = read(line).unwrap_err();
+            assert!(found.contains(words), "{line}: {found}");
+        }
     }
 
     #[test]
@@ -414,11 +485,11 @@ mod tests {
                 "`errors` is [1]; expected an object".to_owned(),
             ),
             (
-                r#"{"h": 0}"#,
+                r#"{"errors": {}, "h": 0}"#,
                 "h is 0; expected a finite number > 0".to_owned(),
             ),
             (
-                r#"{"h": NaN}"#,
+                r#"{"errors": {}, "h": NaN}"#,
                 "h is NaN, infinite or null; expected a finite number > 0".to_owned(),
             ),
         ] {
@@ -462,11 +533,7 @@ mod tests {
     fn other_lines_are_no_objects() {
         assert_eq!(object("iteration 3: {ok"), None);
         assert_eq!(object("[1]"), None);
-        assert!(
-            object("{not json}")
-                .unwrap()
-                .is_err_and(|(_, is_answer)| !is_answer)
-        );
+        assert!(object("{not json}").unwrap().is_err());
         assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
     }
 }

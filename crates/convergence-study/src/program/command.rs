@@ -8,11 +8,11 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-use super::answer::{Answer, Expectation, STEPS_AND_WORK, object_of_lines};
+use super::answer::{Answer, Expectation};
 use super::guard::{Ending, NotStarted, Running};
 use super::output::{NoAnswer, read_last_words, read_output};
 use super::refine::CaseParameter;
-use crate::input::Misread;
+use crate::input::{Misread, shorten};
 use crate::study::CaseFailure;
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::plain_text;
@@ -56,29 +56,34 @@ impl Invocation {
     /// The program cannot be started, ended with a status other than 0, took too long, or gave no
     /// answer: in one line that names it.
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
-        let names = expected.iter().map(|expected| expected.name.clone());
-        let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
-        let Ended { printed, words } = self.end_of(move |stream| read_output(stream, &names))?;
+        let wanted = expected.to_vec();
+        let Ended { printed, words } = self.end_of(move |stream| read_output(stream, &wanted))?;
         let held = |_| NoAnswer {
             reason: HELD_OPEN.to_owned(),
             ..NoAnswer::default()
         };
-        let object = printed.recv_timeout(DRAIN).map_err(held).flatten();
-        let object = object.or_else(|nothing| {
-            object_of_lines(&nothing.numbers, expected).ok_or_else(|| CaseFailure {
-                advice: example(&nothing.last_line, expected),
-                ..self.failed(&format!("answered nothing: {}{words}", nothing.reason))
-            })
+        let printed = printed.recv_timeout(DRAIN).map_err(held).flatten();
+        let printed = printed.map_err(|nothing| CaseFailure {
+            advice: example(&nothing.last_line, expected),
+            ..self.failed(&format!("answered nothing: {}{words}", nothing.reason))
         })?;
         let program = visible(&self.words[0]);
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
-        let (mut answer, complaint) = Answer::read(&object).map_err(unusable)?;
+        let (mut answer, complaint) = Answer::read(&printed.object).map_err(unusable)?;
+        answer.printed = printed.answers.max(1);
         let missing = || {
-            expected
-                .iter()
-                .find_map(|expected| answer.require(expected).err())
+            let mut expected = expected.iter();
+            expected.find_map(|expected| answer.require(expected).err())
         };
-        answer.failure = complaint.or_else(missing).map(unusable);
+        let no_number = printed.no_number.as_ref().map(|one| {
+            let text = shorten(&one.text);
+            format!(
+                "`{}` is `{}`; expected a finite number",
+                visible(&one.name),
+                visible(&text)
+            )
+        });
+        answer.failure = no_number.or(complaint).or_else(missing).map(unusable);
         Ok(answer)
     }
 

@@ -1,6 +1,8 @@
 //! From answers to an outcome: errors, and values without a known error, with their rate, their
 //! limit and the distance to it.
 
+use std::collections::BTreeSet;
+
 use super::answer::{Answer, Expectation};
 use super::{CaseRun, Program, refine, values};
 use crate::judge::claims;
@@ -10,7 +12,9 @@ use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
 use crate::study::until_decided::{self, Looks, Next};
-use crate::study::{Axis, Case, Check, Figure, LevelErrors, NamedRate, Outcome, Ran, Subject};
+use crate::study::{
+    Axis, Case, CaseFailure, Check, Figure, LevelErrors, NamedRate, Outcome, Ran, Subject,
+};
 use crate::text::number::{error_text, plain_text};
 use crate::text::prose::Prose;
 
@@ -30,6 +34,10 @@ pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
     } else {
         along_path(study, ran, &levels)
     };
+    let several = several_answers(ran);
+    if !several.is_empty() {
+        outcome.add_to_summary(&several);
+    }
     // Answered numbers are finite. An answer may lack some numbers, and a failed case fails its
     // check; the baseline notices a guarded number that is missing.
     outcome
@@ -166,15 +174,50 @@ fn number(ran: &CaseRun, expected: &Expectation) -> f64 {
 
 /// A case that answered less than required counts as failed.
 fn completion_check(ran: &[CaseRun]) -> Check {
+    let names: BTreeSet<&str> = ran.iter().filter_map(CaseRun::ok).flat_map(names).collect();
     let whole = |Ran { case, found }: &CaseRun| {
         let answered = found.as_ref().map_err(Clone::clone);
-        let found = answered.and_then(|answer| answer.failure.clone().map_or(Ok(()), Err));
+        let found = answered.and_then(|answer| {
+            let own: BTreeSet<&str> = self::names(answer).collect();
+            let missing = || names.difference(&own).next().map(|name| lacks(name));
+            answer.failure.clone().or_else(missing).map_or(Ok(()), Err)
+        });
         Ran {
             case: Case::new(case.label.clone(), case.cost, ()),
             found,
         }
     };
     kind::completion_check(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+}
+
+/// The names of the errors of an answer.
+fn names(answer: &Answer) -> impl Iterator<Item = &str> {
+    answer.errors.iter().map(|error| error.name.as_str())
+}
+
+/// Why a level has failed whose answer has not the errors of others.
+fn lacks(name: &str) -> CaseFailure {
+    CaseFailure::new(format!(
+        "its answer has no error `{name}`, which that of another level has"
+    ))
+}
+
+/// What is said of programs that print several answers, one a time step.
+fn several_answers(ran: &[CaseRun]) -> String {
+    let printed = || {
+        ran.iter()
+            .filter_map(CaseRun::ok)
+            .map(|answer| answer.printed)
+    };
+    match (printed().min(), printed().max()) {
+        (Some(least), Some(most)) if most > 1 && least == most => {
+            format!("each level printed {most} answers, of which the last counts")
+        }
+        (Some(least), Some(most)) if most > 1 => {
+            format!("the levels printed {least} to {most} answers, of which the last counts")
+        }
+        _ => String::new(),
+    }
 }
 
 /// Which levels answer a step that the rates need, if others do not: nominal steps cannot replace

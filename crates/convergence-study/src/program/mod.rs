@@ -9,7 +9,7 @@
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
-//! | `answer.rs` | its answer |
+//! | `answer.rs`, `lines.rs` | its answer: an object, or lines |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `values.rs` | the same for values without an exact solution |
 //! | `begin.rs` | what `new program` writes |
@@ -20,6 +20,7 @@ mod command;
 mod file;
 pub(crate) mod guard;
 mod judge;
+mod lines;
 mod output;
 mod refine;
 mod values;

@@ -5,9 +5,8 @@ use std::io::{ErrorKind, Read};
 
 use serde_json::{Map, Value};
 
-use super::answer::{self, STEPS_AND_WORK};
-use crate::input::error_table::pairs::named_numbers;
-use crate::text::named::NamedNumber;
+use super::answer::{self, Expectation, STEPS_AND_WORK, object_of_lines};
+use super::lines::{self, NamedText};
 use crate::text::visible::visible;
 
 /// Longest line that is read whole, in bytes; only the start of a longer line is kept.
@@ -27,76 +26,120 @@ pub(super) struct NoAnswer {
     pub(super) reason: String,
     /// The last line that it printed; empty without one.
     pub(super) last_line: String,
-    /// The last number behind each of the names, unless a line looks like an object.
-    pub(super) numbers: Vec<NamedNumber>,
 }
 
-/// Reads standard output to its end: the last line that is a JSON object, or why there is none, and
-/// the numbers behind these names.
-pub(super) fn read_output(
-    stream: impl Read,
-    names: &[String],
-) -> Result<Map<String, Value>, NoAnswer> {
-    let mut object = None;
-    let mut near_miss = None;
-    let mut is_broken = false;
-    let mut numbers: Vec<NamedNumber> = vec![];
-    let mut others: Vec<String> = vec![];
-    let mut last = String::new();
-    for_each_line(stream, |line, is_whole| {
+/// What a program has printed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Printed {
+    /// The object of its last line that begins with a brace; without one, that of its lines.
+    pub(super) object: Map<String, Value>,
+    /// How many objects with errors or values it has printed.
+    pub(super) answers: usize,
+    /// The first name behind which the last line has no number, with what it has.
+    pub(super) no_number: Option<NamedText>,
+}
+
+/// What is known of an output so far.
+#[derive(Default)]
+struct Output {
+    /// What the last line that begins with a brace is, or why it is no answer.
+    object: Option<Result<Map<String, Value>, String>>,
+    answers: usize,
+    /// What stands behind the names of the study, after that line.
+    texts: Vec<NamedText>,
+    /// Some names of other numbers.
+    others: Vec<String>,
+    last: String,
+}
+
+impl Output {
+    fn read(&mut self, line: &str, is_whole: bool, names: &[String]) {
         match answer::object(line) {
-            // It may be the answer, and then no earlier object is.
-            Some(_) if !is_whole => {
-                is_broken = true;
-                (object, near_miss) = (None, Some("longer than 1 MiB".to_owned()));
+            Some(read) => {
+                let too_long = || Err("longer than 1 MiB".to_owned());
+                let read = if is_whole { read } else { too_long() };
+                self.answers += usize::from(read.as_ref().is_ok_and(answer::is_answer));
+                self.object = Some(read);
+                self.texts.clear();
             }
-            Some(Ok(found)) => (object, near_miss) = (Some(found), None),
-            Some(Err((reason, is_answer))) => {
-                is_broken |= is_answer;
-                near_miss = Some(reason);
-                // An earlier object is no longer the last.
-                object = object.take().filter(|_| !is_answer);
+            None if is_whole => {
+                lines::note(line, names, &mut self.texts);
+                self.note_other(line);
             }
-            None if !is_whole => {}
-            None => {
-                for (name, number) in named_numbers(line) {
-                    if names.iter().any(|known| known == name) {
-                        numbers.retain(|known| known.name != name);
-                        numbers.push(NamedNumber::new(name, number));
-                    } else if others.len() < MOST_OTHERS
-                        && !others.iter().any(|other| other == name)
-                    {
-                        others.push(visible(name));
-                    }
-                }
-            }
+            None => {}
         }
         if !line.trim().is_empty() {
-            line.clone_into(&mut last);
+            line.clone_into(&mut self.last);
         }
-    });
-    let last_line = shown(&last);
-    let quoted = format!("the last line is `{last_line}`");
-    object.ok_or_else(|| NoAnswer {
-        reason: match near_miss {
-            _ if last.is_empty() => "its standard output is empty".to_owned(),
-            None if !others.is_empty() => {
-                let found = others.iter().map(|name| format!("`{name}`"));
-                format!(
-                    "found {}; the study has {}",
-                    found.collect::<Vec<_>>().join(", "),
-                    wanted(names)
-                )
-            }
-            None => format!("no line of its standard output is a JSON object; {quoted}"),
-            Some(error) => {
+    }
+
+    /// Notes the name of a line such as `name = 1.5`.
+    fn note_other(&mut self, line: &str) {
+        let Some((name, text)) = line.split_once(['=', ':']) else {
+            return;
+        };
+        let name = visible(name.trim());
+        let has_number = text
+            .trim_start()
+            .starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        if has_number
+            && !name.is_empty()
+            && self.others.len() < MOST_OTHERS
+            && !self.others.contains(&name)
+        {
+            self.others.push(name);
+        }
+    }
+
+    fn answer(self, names: &[String], expected: &[Expectation]) -> Result<Printed, NoAnswer> {
+        let last_line = shown(&self.last);
+        let quoted = format!("the last line is `{last_line}`");
+        let found = match &self.object {
+            Some(read) => read.clone().map_err(|error| {
                 let what = "its last line that begins with a brace is no JSON object";
                 format!("{what} ({error}); {quoted}")
-            }
-        },
-        last_line,
-        numbers: if is_broken { vec![] } else { numbers },
-    })
+            }),
+            None => object_of_lines(&self.texts, expected).ok_or_else(|| match &self.others[..] {
+                _ if self.last.is_empty() => "its standard output is empty".to_owned(),
+                [] => format!("no line of its standard output is a JSON object; {quoted}"),
+                others => {
+                    let found: Vec<String> =
+                        others.iter().map(|name| format!("`{name}`")).collect();
+                    format!(
+                        "found {}; the study has {}",
+                        found.join(", "),
+                        wanted(names)
+                    )
+                }
+            }),
+        };
+        // Behind an object, other names may be those of anything.
+        let is_alone = self.object.is_none();
+        let counts = |name: &String| is_alone || expected.iter().any(|one| one.name == *name);
+        let mut texts = self.texts.into_iter();
+        let no_number = texts.find(|one| one.number.is_none() && counts(&one.name));
+        match found {
+            Ok(object) => Ok(Printed {
+                object,
+                answers: self.answers,
+                no_number,
+            }),
+            Err(reason) => Err(NoAnswer { reason, last_line }),
+        }
+    }
+}
+
+/// Reads standard output to its end: the object of the last line that begins with a brace; without
+/// such a line, the last numbers behind the names that the study expects.
+pub(super) fn read_output(
+    stream: impl Read,
+    expected: &[Expectation],
+) -> Result<Printed, NoAnswer> {
+    let names = expected.iter().map(|expected| expected.name.clone());
+    let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
+    let mut output = Output::default();
+    for_each_line(stream, |line, is_whole| output.read(line, is_whole, &names));
+    output.answer(&names, expected)
 }
 
 /// The names that a study expects, without those of steps and work, which may be absent.
@@ -167,18 +210,20 @@ fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
 mod tests {
     use super::*;
 
+    /// The object of an output, or why there is none.
+    fn object(text: &str) -> Result<Map<String, Value>, String> {
+        let printed = read_output(text.as_bytes(), &[]);
+        printed
+            .map(|printed| printed.object)
+            .map_err(|nothing| nothing.reason)
+    }
+
     #[test]
-    fn the_last_object_counts_and_talk_does_not() {
-        let printed = read_output(
-            "start\n{\"a\": 1}\n{\"b\": 2}\r\n{iteration 3}\ndone\n\n".as_bytes(),
-            &[],
-        );
-        assert_eq!(printed.unwrap().keys().collect::<Vec<_>>(), ["b"]);
-        let open = read_output("{x}\n{\"c\": 3}".as_bytes(), &[]);
-        assert_eq!(open.unwrap().len(), 1);
-        let none = read_output("start\n{iteration 3}\ndone\n\n".as_bytes(), &[])
-            .unwrap_err()
-            .reason;
+    fn the_last_line_with_a_brace_counts() {
+        let found = object("start\n{\"a\": 1}\n{\"b\": 2}\r\niteration {3}\ndone\n\n").unwrap();
+        assert_eq!(found.keys().collect::<Vec<_>>(), ["b"]);
+        assert_eq!(object("{x}\n{\"c\": 3}").unwrap().len(), 1);
+        let none = object("start\n{iteration 3}\ndone\n\n").unwrap_err();
         assert!(
             none.contains("key must be a string") && none.ends_with("; the last line is `done`"),
             "{none}"
@@ -188,14 +233,17 @@ mod tests {
             none.reason,
             "no line of its standard output is a JSON object; the last line is `\u{fffd}`"
         );
-        assert_eq!(
-            read_output(&b"\n"[..], &[]).unwrap_err().reason,
-            "its standard output is empty"
-        );
+        assert_eq!(object("\n").unwrap_err(), "its standard output is empty");
     }
 
     #[test]
-    fn an_answer_that_is_no_whole_object_is_not_replaced_by_an_earlier_one() {
+    fn the_answers_are_counted() {
+        let text = "{\"errors\": {\"L2\": 1}}\n{\"log\": 1}\n{\"values\": {\"L2\": 1}}\n";
+        assert_eq!(read_output(text.as_bytes(), &[]).unwrap().answers, 2);
+    }
+
+    #[test]
+    fn a_line_in_braces_that_is_no_object_is_not_replaced_by_an_earlier_one() {
         let hint = "print it with json.dumps(...) on one line";
         for (last, words) in [
             ("{\"errors\": {\"L2\": 1e5 }", hint),
@@ -206,40 +254,25 @@ mod tests {
                 "single quotes are not those of JSON: print it with json.dumps(...)",
             ),
             ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
+            ("{iteration 3}", "key must be a string"),
+            ("{iteration 3", "key must be a string"),
         ] {
-            let reason = read_output(format!("{{\"early\": 1}}\n{last}\n").as_bytes(), &[])
-                .unwrap_err()
-                .reason;
+            let reason = object(&format!("{{\"early\": 1}}\n{last}\n")).unwrap_err();
             assert!(reason.contains(words), "{last}: {reason}");
-            let answered = read_output(format!("{last}\n{{\"late\": 1}}\n").as_bytes(), &[]);
+            let answered = object(&format!("{last}\n{{\"late\": 1}}\n"));
             assert!(
                 answered.is_ok_and(|object| object.contains_key("late")),
                 "{last}"
             );
         }
-        for talk in [
-            "{iteration 3}",
-            "{iteration 3",
-            "{'iteration': 3}",
-            "done {",
-        ] {
-            let object = read_output(format!("{{\"early\": 1}}\n{talk}\n").as_bytes(), &[]);
-            assert!(
-                object.is_ok_and(|object| object.contains_key("early")),
-                "{talk}"
-            );
-        }
+        assert!(object("{\"early\": 1}\ndone {\n").is_ok());
     }
 
     #[test]
     fn a_line_without_end_is_not_kept() {
         let endless = std::io::repeat(b'{').take(10 * LONGEST_LINE as u64);
-        assert_eq!(
-            read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()), &[])
-                .unwrap()
-                .len(),
-            1
-        );
+        let printed = read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()), &[]);
+        assert_eq!(printed.unwrap().object.len(), 1);
     }
 
     #[test]
@@ -250,20 +283,18 @@ mod tests {
                 "x".repeat(LONGEST_LINE)
             )
         };
-        let reason = read_output(long(" {\"mesh\": \"").as_bytes(), &[])
-            .unwrap_err()
-            .reason;
+        let reason = object(&long(" {\"mesh\": \"")).unwrap_err();
         assert!(
             reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"),
             "{reason}"
         );
-        let talk = read_output(long("mesh: ").as_bytes(), &[]);
+        let talk = object(&long("mesh: "));
         assert!(talk.is_ok_and(|object| object.contains_key("early")));
         let fits = format!(
             "{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n",
             "x".repeat(LONGEST_LINE - 10)
         );
-        assert!(read_output(fits.as_bytes(), &[]).is_ok_and(|object| object.contains_key("m")));
+        assert!(object(&fits).is_ok_and(|object| object.contains_key("m")));
     }
 
     #[test]

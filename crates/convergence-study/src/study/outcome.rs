@@ -194,7 +194,7 @@ impl Outcome {
     }
 
     /// Says more in the summary.
-    pub(super) fn add_to_summary(&mut self, words: &str) {
+    pub(crate) fn add_to_summary(&mut self, words: &str) {
         let words = Prose::from(words);
         self.summary = self.summary.then(&words);
         if let Some(more) = &mut self.after_rates {

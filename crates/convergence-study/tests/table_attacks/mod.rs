@@ -1,5 +1,6 @@
 //! Attacks on the reader of tables: texts that look like tables that pass, and must not.
 
+mod accounted;
 mod claims;
 mod cuts;
 mod documents;

@@ -109,11 +109,9 @@ fn wrong_answer(mode: &str, n: u32) -> Option<String> {
         "own-step" => answer(n).replace("{\"errors\"", "{\"h\": 0.06, \"errors\""),
         "missing" => r#"{"errors": {"H1": 1.0}}"#.to_owned(),
         "optional" if is_complete() => {
-            format!(
-                r#"{{"errors": {{"L2": {:e}, "max": 1.0}}, "values": {{"lift": 2.0}}}}"#,
-                1.0 / 256.0
-            )
+            answer(n).replace("\"values\": {", "\"values\": {\"lift\": 2.0, ")
         }
+        "lacking" => format!(r#"{{"errors": {{"L2": {:e}, "max": 1.0}}}}"#, 1.0 / 256.0),
         _ => return None,
     })
 }

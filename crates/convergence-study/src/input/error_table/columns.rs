@@ -1,6 +1,6 @@
 //! The columns of a table, and what their numbers say.
 
-use std::f64::consts::LN_2;
+use std::f64::consts::{LN_2, LN_10};
 
 use super::grid::ColumnName;
 use super::names::{self, Word};
@@ -10,6 +10,8 @@ use super::number::{Number, counts_rows, halves, is_dash};
 pub(super) const DIMENSIONS: [f64; 3] = [1.0, 2.0, 3.0];
 /// Largest relative difference of two equal ratios, given their digits.
 const SAME: f64 = 1e-5;
+/// Largest relative error of a step that is printed with few digits.
+const ROUNDED: f64 = 5e-3;
 
 /// Errors fall at least by this factor from level to level if their column has a name like one of
 /// rates.
@@ -158,6 +160,53 @@ impl<'t> Cells<'t> {
                 .all(|two| 0.0 < two[1] && two[1] <= STEEP * two[0])
     }
 
+    /// Whether each number is smaller than the previous one.
+    pub(super) fn falls(&self) -> bool {
+        self.values.windows(2).all(|two| two[1] < two[0])
+    }
+
+    /// Whether its numbers are whole, and are written without a point and without an exponent.
+    pub(super) fn is_without_point(&self) -> bool {
+        let mut cells = self.texts.iter().zip(&self.values);
+        cells.all(|(cell, value)| value.fract() == 0.0 && !cell.contains(['.', 'e', 'E', 'd', 'D']))
+    }
+
+    /// Whether its name is that of a count, a level, a dimension or a cost.
+    pub(super) fn may_be_parameter(&self) -> bool {
+        let is_listed = matches!(
+            self.word,
+            Word::Step | Word::Count(_) | Word::Cost | Word::Rate | Word::State | Word::Group
+        );
+        is_listed || names::is_group(&self.name)
+    }
+
+    /// Whether its numbers may be those of a cost: positive, and at least twice as large on the
+    /// finest level as on the coarsest.
+    pub(super) fn is_cost(&self) -> bool {
+        let ends = self.values.first().zip(self.values.last());
+        self.values
+            .iter()
+            .all(|value| *value > 0.0 && value.is_finite())
+            && ends.is_some_and(|(first, last)| *last >= 2.0 * first)
+    }
+
+    /// Whether its name, and numbers that agree, say that it is no error in a table of its own, whose
+    /// rows may stand in either order.
+    pub(super) fn is_no_error(&self) -> bool {
+        let is_whole = self.is_without_point();
+        let rises = self.is_cost();
+        match self.word {
+            Word::Error | Word::Unknown | Word::Residual | Word::Value => false,
+            Word::Logarithm => true,
+            Word::Step => self.values.iter().all(|value| *value > 0.0),
+            Word::Rate => !self.is_steep() && self.missing() > 0,
+            Word::Group => is_whole && self.is_constant(),
+            Word::State => is_whole,
+            Word::Count(_) => is_whole,
+            Word::Cost => is_whole || rises,
+        }
+    }
+
     fn widest_half(&self) -> f64 {
         self.halves.iter().copied().fold(0.0, f64::max)
     }
@@ -181,11 +230,68 @@ impl<'t> Cells<'t> {
 
     /// Whether two columns are the steps of one mesh in several directions, or of space and time.
     pub(super) fn is_in_proportion(&self, other: &Self) -> bool {
-        let a = &self.values;
-        let b = &other.values;
-        a.iter()
-            .zip(b)
-            .all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < SAME)
+        are_in_proportion(&self.values, &other.values)
+    }
+
+    /// Whether its distance from another column is an error, absolute or relative, to the digits. A
+    /// level without a result says nothing.
+    pub(super) fn is_off_by(&self, other: &Self, error: &Self) -> bool {
+        let is_known = |row: &usize| !(error.values[*row].is_nan() || self.values[*row].is_nan());
+        let rows: Vec<usize> = (0..self.values.len()).filter(is_known).collect();
+        let distance = |row: usize| (self.values[row] - other.values[row]).abs();
+        let half = |row: usize| self.halves[row] + other.halves[row];
+        let is_near = |row: usize, scale: f64| {
+            let own = half(row) + scale * error.halves[row];
+            (distance(row) - scale * error.values[row]).abs() <= 1.2 * own + SAME * distance(row)
+        };
+        let scales: [&dyn Fn(usize) -> f64; 3] =
+            [&|_| 1.0, &|row| other.values[row].abs(), &|row| {
+                self.values[row].abs()
+            }];
+        let agree =
+            |scale: &dyn Fn(usize) -> f64| rows.iter().all(|row| is_near(*row, scale(*row)));
+        let is_proof = rows.len() > 2 && distance(rows[0]) > 5.0 * half(rows[0]);
+        is_proof && scales.into_iter().any(agree)
+    }
+
+    /// Whether its distance from a constant is an error, to the digits.
+    pub(super) fn is_off_a_constant_by(&self, error: &Self) -> bool {
+        let rows = || self.values.iter().zip(&error.values);
+        let halves = self.halves.iter().zip(&error.halves);
+        let half = halves.map(|(a, b)| a + b).fold(0.0, f64::max);
+        let is_constant = |sign: f64| {
+            let limits: Vec<f64> = rows().map(|(value, error)| value - sign * error).collect();
+            let least = limits.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = limits.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            most - least <= 2.4 * half + SAME * least.abs()
+        };
+        let moved = rows()
+            .map(|(value, _)| (value - self.values[0]).abs())
+            .fold(0.0, f64::max);
+        let is_proof = self.values.len() > 2 && moved > 20.0 * (half + SAME * self.values[0].abs());
+        is_proof && [1.0, -1.0].into_iter().any(is_constant)
+    }
+
+    /// Whether these are logarithms of another column, to any base.
+    pub(super) fn is_logarithm_of(&self, other: &Self) -> bool {
+        let logarithms: Vec<f64> = other.values.iter().map(|value| value.ln()).collect();
+        let Some((last, first)) = logarithms.last().zip(logarithms.first()) else {
+            return false;
+        };
+        let own = &self.values;
+        let factor = (own[own.len() - 1] - own[0]) / (last - first);
+        let half = |row: usize| {
+            let relative = other.halves[row] / other.values[row].abs();
+            1.2 * (self.halves[row] + factor.abs() * relative) + SAME * own[row].abs()
+        };
+        let is_near = |row: usize| {
+            let expected = own[0] + factor * (logarithms[row] - first);
+            (own[row] - expected).abs() <= half(row) + half(0) + half(own.len() - 1)
+        };
+        let is_base = [1.0, LN_2, LN_10]
+            .iter()
+            .any(|base| (factor * base - 1.0).abs() < 0.02);
+        own.len() > 2 && is_base && (0..own.len()).all(is_near)
     }
 
     /// Whether it has whole numbers that grow from level to level.
@@ -267,6 +373,12 @@ impl<'t> Cells<'t> {
     }
 }
 
+/// Whether the numbers of two columns have the same ratio in each row.
+pub(super) fn are_in_proportion(a: &[f64], b: &[f64]) -> bool {
+    let mut rows = a.iter().zip(b);
+    rows.all(|(x, y)| (x * b[0] / (y * a[0]) - 1.0).abs() < ROUNDED)
+}
+
 /// -1, 0 or 1; NaN has none.
 pub(super) fn sign(number: f64) -> f64 {
     if number == 0.0 { 0.0 } else { number.signum() }
@@ -321,9 +433,10 @@ impl Derived {
             },
             Self::Rates => {
                 let ratio = (steps[k] / steps[k + 1]).ln();
+                let value = reduction.ln() / ratio;
                 DerivedValue {
-                    value: reduction.ln() / ratio,
-                    doubt: doubt / ratio,
+                    value,
+                    doubt: (doubt + ROUNDED * value.abs()) / ratio,
                 }
             }
         }

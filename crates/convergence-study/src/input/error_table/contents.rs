@@ -1,12 +1,14 @@
-//! What columns hold that nobody has chosen: an error, unless the name or arithmetic that can be
-//! checked says otherwise. Nothing is left out because its numbers look wrong.
+//! What columns hold that nobody has chosen: an error, unless arithmetic that can be checked says
+//! otherwise, or a name whose numbers cannot be those of an error that falls. Nothing is left out
+//! because its numbers look wrong.
 
-use super::NotError;
 use super::columns::{Cells, DIMENSIONS, Derived, Holdings};
+use super::families::Family;
 use super::names::{self, Word};
 use super::reader::{TableReader, reasons};
 use super::stated::Derivation;
 use super::step::Step;
+use super::{Doubt, NotError};
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
 use crate::judge::verdict::{Level, Tendency};
@@ -14,12 +16,14 @@ use crate::text::number::plain_text;
 
 /// Rates are searched for over the steps and this many columns of counts.
 const COUNTS: usize = 3;
+/// Largest relative difference between the ratios of the steps and of a count that has the rates.
+const SAME_LADDER: f64 = 0.3;
 
 /// What a column holds that nobody has chosen; if it is not an error, why.
 enum Content {
     Error,
-    /// An error only if the table has no other.
-    Residual,
+    /// Named like rates, but the rates of no column.
+    Rates(String),
     /// A value or an error that no longer falls: numbers that tend to a limit.
     Limit(String),
     /// A count or an error that grows: whole numbers that grow.
@@ -86,12 +90,17 @@ impl TableReader<'_> {
         values: &[usize],
     ) -> Result<Vec<usize>, InputError> {
         let mut errors = vec![];
-        let mut residuals = vec![];
         let mut undecided = Undecided::default();
         for k in (0..self.columns.len()).filter(|k| *k != step.column && !values.contains(k)) {
-            match self.content(k, step.column, steps)? {
+            match self.content(k, step, steps)? {
                 Content::Error => errors.push(k),
-                Content::Residual => residuals.push(k),
+                Content::Rates(because) => {
+                    self.doubts.push(Doubt::Rates {
+                        rates: self.columns[k].name.clone(),
+                        step: step.label.clone(),
+                    });
+                    self.leave_out(k, &because, false);
+                }
                 Content::Limit(because) => {
                     undecided.limits.push(k);
                     self.leave_out(k, &because, false);
@@ -103,12 +112,6 @@ impl TableReader<'_> {
                 Content::Checked(because) => self.leave_out(k, &because, true),
                 Content::Named(because) => self.leave_out(k, &because, false),
             }
-        }
-        if errors.is_empty() && values.is_empty() {
-            errors = std::mem::take(&mut residuals);
-        }
-        for k in residuals {
-            self.leave_out(k, "a residual", false);
         }
         if errors.is_empty() && values.is_empty() {
             return Err(self.refuse_without_errors(&undecided.limits)?);
@@ -136,9 +139,12 @@ impl TableReader<'_> {
         if let Some(k) = unknown {
             self.must(0, k)?;
         }
+        // What stands behind a sentence may be anything.
+        let is_named = |k: &&usize| !names::is_sentence(&self.columns[**k].name);
+        let limits: Vec<usize> = limits.iter().filter(is_named).copied().collect();
         let as_values = self
             .choice
-            .offer("", |choice| choice.values = self.names(limits));
+            .offer("", |choice| choice.values = self.names(&limits));
         let offer = (!limits.is_empty()).then_some(as_values);
         let expected = Text::from("a column of errors, or ") + Argument::Columns.with_placeholder();
         Ok(self
@@ -188,7 +194,7 @@ impl TableReader<'_> {
     }
 
     /// What a column holds, by what its cells are, by the rates that it may print, and by its name.
-    fn content(&self, k: usize, step: usize, steps: &[f64]) -> Result<Content, InputError> {
+    fn content(&self, k: usize, step: &Step, steps: &[f64]) -> Result<Content, InputError> {
         let column = &self.columns[k];
         if column.is_claimed {
             return Ok(Content::Error);
@@ -202,45 +208,102 @@ impl TableReader<'_> {
             Holdings::Words => return Ok(Content::named("words")),
             Holdings::Numbers | Holdings::NumbersAndWords => {}
         }
-        if column.is_index {
+        if column.is_index && (self.is_reversed || !column.falls()) {
             return Ok(Content::checked("the number of the row"));
         }
-        if let Some(derived) = self.derived(k, step, steps) {
+        if let Some(derived) = self.derived(k, step.column, steps) {
             return Ok(derived);
         }
-        let is_whole = column.texts.iter().all(|cell| cell.parse::<i64>().is_ok());
-        let is_group = names::is_group(&column.name) && column.word != Word::Rate;
-        if is_group && is_whole && column.is_constant() {
-            return Ok(Content::checked("the same in each row"));
+        if column.is_constant() && column.is_without_point() && column.may_be_parameter() {
+            return Ok(
+                if names::is_group(&column.name) && column.word != Word::Rate {
+                    Content::checked("the same in each row")
+                } else {
+                    Content::named("the same in each row")
+                },
+            );
         }
-        match (column.word, column.word.noun()) {
-            (Word::Residual, _) => Ok(Content::Residual),
+        self.content_by_name(k, step, steps)
+    }
+
+    /// What a column holds by its name, where its numbers agree.
+    fn content_by_name(&self, k: usize, step: &Step, steps: &[f64]) -> Result<Content, InputError> {
+        let column = &self.columns[k];
+        let Some(noun) = column.word.noun() else {
+            return Ok(match column.word {
+                Word::Error => Content::Error,
+                _ => Self::unknown(column, steps),
+            });
+        };
+        let is_set_aside = match column.word {
+            Word::Logarithm if self.is_logarithm(column, k) => return Ok(Content::checked(noun)),
+            Word::Logarithm => return Err(self.refuse_logarithm(column)),
+            Word::Rate if column.is_steep() => return Ok(Content::Error),
+            Word::Rate => {
+                let last = column.values.iter().rev().find(|v| v.is_finite());
+                return Ok(last.map_or_else(
+                    || Content::named(noun),
+                    |last| {
+                        let last = plain_text(*last);
+                        Content::Rates(format!("{noun}, but of no column: {last}"))
+                    },
+                ));
+            }
             // A pressure may be named like a degree.
-            (Word::Group, _) if !column.is_constant() => Ok(Content::Error),
-            (Word::Step | Word::Count(_) | Word::Cost, Some(_)) if column.is_constant() => {
-                Ok(Content::named("the same in each row"))
+            Word::Group if !column.is_constant() => return Ok(Content::Error),
+            Word::Step | Word::Count(_) if self.is_other_step(column, step) => true,
+            Word::Step if column.is_in_proportion(&self.columns[step.column]) => {
+                return Ok(Content::checked(noun));
             }
-            // The marks of a code are whole numbers.
-            (Word::State, _) if !is_whole && !column.is_flag() => Ok(Self::unknown(column, steps)),
-            (Word::Rate, _) if column.is_steep() => Ok(Content::Error),
-            (Word::Count(_), Some(noun)) if column.is_count_over(steps) => {
-                Ok(Content::checked(noun))
+            Word::Step if column.is_constant() => {
+                return Ok(Content::named("the same in each row"));
             }
-            (Word::Step, Some(noun)) if column.is_in_proportion(&self.columns[step]) => {
-                Ok(Content::checked(noun))
+            Word::Count(_) if column.is_count_over(steps) => return Ok(Content::checked(noun)),
+            Word::Value => return Ok(self.value(k, steps)),
+            Word::Cost if column.is_cost() => true,
+            Word::Count(_) | Word::Cost | Word::State => {
+                column.is_without_point() && !column.falls()
             }
-            (Word::Rate, Some(noun)) => {
-                Ok(match column.values.iter().rev().find(|v| v.is_finite()) {
-                    Some(last) => {
-                        Content::named(format!("{noun}, but of no column: {}", plain_text(*last)))
-                    }
-                    None => Content::named(noun),
-                })
+            _ => false,
+        };
+        Ok(match is_set_aside {
+            true => Content::named(noun),
+            // No column is undecided where orders are claimed by name.
+            false if !self.choice.claimed.is_empty() => Content::Error,
+            false => Self::unknown(column, steps),
+        })
+    }
+
+    /// Whether a column is a step of the family that was not chosen: in time beside one in space.
+    fn is_other_step(&self, column: &Cells<'_>, step: &Step) -> bool {
+        let own = Family::of(column);
+        let chosen = Family::of(&self.columns[step.column]);
+        step.is_chosen && own.is_some() && chosen.is_some() && own != chosen
+    }
+
+    /// What a column holds that is named like a value, or like what a value tends to.
+    fn value(&self, k: usize, steps: &[f64]) -> Content {
+        let column = &self.columns[k];
+        let named = |word: Word| self.columns.iter().filter(move |one| one.word == word);
+        for error in named(Word::Error) {
+            let other = named(Word::Value).find(|other| column.is_off_by(other, error));
+            if other.is_some() || column.is_off_a_constant_by(error) {
+                return Content::checked(format!("a value, whose error is `{}`", error.name));
             }
-            (_, Some(noun)) => Ok(Content::named(noun)),
-            (Word::Error, None) => Ok(Content::Error),
-            _ => Ok(Self::unknown(column, steps)),
         }
+        match self.choice.claimed.is_empty() {
+            true => Self::unknown(column, steps),
+            false => Content::Error,
+        }
+    }
+
+    /// Whether a column has the logarithms of another, to its digits.
+    fn is_logarithm(&self, column: &Cells<'_>, k: usize) -> bool {
+        let others = self.columns.iter().enumerate();
+        let mut others = others
+            .filter(|(other, _)| *other != k)
+            .map(|(_, cells)| cells);
+        others.any(|other| column.is_logarithm_of(other))
     }
 
     /// What a column holds whose name does not say it.
@@ -275,6 +338,9 @@ impl TableReader<'_> {
     /// the counts.
     fn derived(&self, k: usize, step: usize, steps: &[f64]) -> Option<Content> {
         let column = &self.columns[k];
+        if column.word != Word::Rate && names::is_error(&column.name) {
+            return None;
+        }
         let over_counts = self.columns.iter().enumerate().filter(|(count, cells)| {
             *count != k
                 && *count != step
@@ -283,13 +349,12 @@ impl TableReader<'_> {
         });
         let over_counts = over_counts.take(COUNTS).flat_map(|(_, cells)| {
             DIMENSIONS.map(|dim| {
-                cells
-                    .values
-                    .iter()
-                    .map(|count| count.powf(-1.0 / dim))
-                    .collect()
+                let counts = cells.values.iter();
+                counts.map(|count| count.powf(-1.0 / dim)).collect()
             })
         });
+        // Rates over another ladder than the steps say nothing about them.
+        let over_counts = over_counts.filter(|other: &Vec<f64>| are_one_ladder(other, steps));
         let mut all_steps = [steps.to_vec()].into_iter().chain(over_counts);
         let Derivation { error, derived } =
             all_steps.find_map(|steps: Vec<f64>| self.derivation(k, step, &steps))?;
@@ -309,4 +374,10 @@ impl TableReader<'_> {
             _ => Content::checked(format!("the rates of `{}`", error.name)),
         })
     }
+}
+
+/// Whether steps fall by nearly the same factors as others.
+fn are_one_ladder(own: &[f64], others: &[f64]) -> bool {
+    let mut pairs = own.windows(2).zip(others.windows(2));
+    pairs.all(|(a, b)| ((a[0] / a[1]).ln() / (b[0] / b[1]).ln() - 1.0).abs() < SAME_LADDER)
 }

@@ -52,6 +52,13 @@ pub enum Doubt {
         /// The ratio of the other steps.
         ratio: f64,
     },
+    /// A column is named like rates, and has those of no column over the step.
+    Rates {
+        /// The name of the column.
+        rates: String,
+        /// The name of the step.
+        step: String,
+    },
     /// The rates that the table prints are those of another dimension than the chosen one.
     Dimension {
         /// The dimension that the user has chosen.
@@ -105,6 +112,12 @@ impl Display for Doubt {
                 plain_text(*behind),
                 plain_text(*ratio),
                 visible(column)
+            ),
+            Self::Rates { rates, step } => write!(
+                f,
+                "the rates {} are those of no column over {}: choose the columns of errors if they do not count",
+                visible(rates),
+                visible(step)
             ),
             Self::Dimension {
                 chosen,

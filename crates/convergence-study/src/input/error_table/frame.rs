@@ -1,4 +1,4 @@
-//! Columns of numbers, read like the text of a table.
+//! Columns of numbers and words, read like the text of a table.
 
 use super::original::{Original, Rows};
 use super::{Choice, RateTable, cleaned, roles};
@@ -10,8 +10,17 @@ use crate::text::number::counted;
 pub struct FrameColumn {
     /// Its name.
     pub name: String,
-    /// Its numbers, row by row.
-    pub numbers: Vec<f64>,
+    /// Its cells, row by row.
+    pub cells: Vec<FrameCell>,
+}
+
+/// A cell of a data frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FrameCell {
+    /// A number; NaN is a level without a result.
+    Number(f64),
+    /// A word, such as `diverged`, or nothing.
+    Word(String),
 }
 
 impl RateTable {
@@ -26,12 +35,12 @@ impl RateTable {
         argument: &str,
         choice: &Choice,
     ) -> Result<Self, InputError> {
-        let rows = columns.iter().map(|column| column.numbers.len()).max();
+        let rows = columns.iter().map(|column| column.cells.len()).max();
         let rows = rows.unwrap_or(0);
-        let short = columns.iter().find(|column| column.numbers.len() != rows);
-        if let Some(FrameColumn { name, numbers }) = short {
-            let expected = format!("{}, as other columns have", counted(rows, "number"));
-            let found = numbers.len().to_string();
+        let short = columns.iter().find(|column| column.cells.len() != rows);
+        if let Some(FrameColumn { name, cells }) = short {
+            let expected = format!("{}, as other columns have", counted(rows, "cell"));
+            let found = cells.len().to_string();
             return Err(Original::of_text("", name).refuse(expected, &found));
         }
         let original = Original {
@@ -48,16 +57,38 @@ fn text(columns: &[FrameColumn], rows: usize) -> String {
     let names = columns.iter().map(FrameColumn::name_in_quotes);
     let mut text = line(names.collect());
     for row in 0..rows {
-        let cells = columns.iter().map(|column| all_digits(column.numbers[row]));
+        let cells = columns.iter().map(|column| column.cells[row].written());
         text += &line(cells.collect());
     }
     text
 }
 
 impl FrameColumn {
-    fn name_in_quotes(&self) -> String {
-        format!("\"{}\"", self.name.replace('"', "'"))
+    /// A column of numbers.
+    pub fn of_numbers(name: impl Into<String>, numbers: impl IntoIterator<Item = f64>) -> Self {
+        Self {
+            name: name.into(),
+            cells: numbers.into_iter().map(FrameCell::Number).collect(),
+        }
     }
+
+    fn name_in_quotes(&self) -> String {
+        in_quotes(&self.name)
+    }
+}
+
+impl FrameCell {
+    fn written(&self) -> String {
+        match self {
+            Self::Number(number) => all_digits(*number),
+            Self::Word(word) if word.is_empty() => String::new(),
+            Self::Word(word) => in_quotes(&word.replace(['\n', '\r'], " ")),
+        }
+    }
+}
+
+fn in_quotes(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "'"))
 }
 
 fn line(cells: Vec<String>) -> String {

@@ -1,8 +1,9 @@
 //! A table as written: rows of cells below names.
 
 use super::NotError;
+use super::columns::Cells;
 use super::names::{self, Word};
-use super::number::{is_dash, number};
+use super::number::{Number, is_dash, number};
 
 /// A table as written. Names and cells are slices of the text, which give their places.
 #[derive(Debug, Clone, Default)]
@@ -100,20 +101,24 @@ impl<'t> RawTable<'t> {
     }
 
     /// Whether some column with numbers has a name that is not that of a step, a count, a rate or a
-    /// cost.
+    /// cost, or numbers that are not.
     pub(super) fn may_have_errors(&self, chosen: Option<&[String]>) -> bool {
-        let stands_for_number = |cell: &&str| {
-            number(cell, self.decimal_comma).is_some()
-                || names::is_failure(cell)
-                || is_dash(cell) && !cell.is_empty()
-        };
-        let has_numbers = |k: usize| {
-            let mut cells = self.rows.iter().filter_map(|row| row.get(k).copied());
-            cells.any(|cell| stands_for_number(&cell))
+        let may_be_error = |(k, column): (usize, ColumnName)| {
+            let cells: Vec<&str> = self
+                .rows
+                .iter()
+                .filter_map(|row| row.get(k).copied())
+                .collect();
+            let read = |cell: &&str| number(cell, self.decimal_comma);
+            let numbers: Vec<Option<Number>> = cells.iter().map(read).collect();
+            let is_failure =
+                |cell: &&str| names::is_failure(cell) || is_dash(cell) && !cell.is_empty();
+            let has_numbers = numbers.iter().any(Option::is_some) || cells.iter().any(is_failure);
+            let cells = Cells::new("", column, cells, numbers);
+            has_numbers && !cells.is_no_error()
         };
         let mut names = self.column_names(chosen).into_iter().enumerate();
-        self.uneven.is_some()
-            || names.any(|(k, column)| column.word.noun().is_none() && has_numbers(k))
+        self.uneven.is_some() || names.any(may_be_error)
     }
 
     /// Leaves out a name with more numbers or fewer than there are levels. If its name does not say

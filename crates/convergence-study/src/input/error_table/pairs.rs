@@ -8,7 +8,6 @@ use super::NotError;
 use super::grid::RawTable;
 use super::line::has_table_in_prose;
 use super::names::{self, Word};
-use super::number::number;
 use super::original::{blank_at, offset};
 use gap::{Gap, Value, ends_with_mark, name_before};
 
@@ -52,24 +51,6 @@ impl<'t> Pair<'t> {
 /// Characters around names and values.
 pub(super) fn is_mark(c: char) -> bool {
     c.is_whitespace() || ",;:=()[]{}\"'".contains(c)
-}
-
-/// The numbers of a line that `=` or `:` separates from their names, such as `max error = 1.5e-3`.
-#[cfg(feature = "reports")]
-pub(crate) fn named_numbers(line: &str) -> Vec<(&str, f64)> {
-    if !line.contains(['=', ':']) {
-        return vec![];
-    }
-    let mut numbers = vec![];
-    for pair in Scan::of(line).pairs {
-        if let [text] = pair.values[..]
-            && pair.is_marked
-            && let Some(number) = number(text, false)
-        {
-            numbers.push((pair.name, number.value));
-        }
-    }
-    numbers
 }
 
 /// What a text holds.

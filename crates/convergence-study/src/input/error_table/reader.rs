@@ -7,7 +7,7 @@ use super::grid::{ColumnName, RawTable, Turned};
 use super::names::{self, Word};
 use super::number::{Number, common_unit, number, without_thousands};
 use super::original::Original;
-use super::{Choice, NotError, Offer};
+use super::{Choice, Doubt, NotError, Offer};
 use crate::input::advice::{Argument, Text};
 use crate::input::{InputError, shorten};
 use crate::text::names::{did_you_mean, nearest};
@@ -41,6 +41,10 @@ pub(super) struct TableReader<'t> {
     is_separated: bool,
     /// Whether the rows were in no order and have been sorted.
     pub(super) is_shuffled: bool,
+    /// Whether the rows stood from the finest level to the coarsest.
+    pub(super) is_reversed: bool,
+    /// Why none of its columns should pass, as its columns say.
+    pub(super) doubts: Vec<Doubt>,
 }
 
 /// Names in a message, but not too many.
@@ -222,6 +226,8 @@ impl<'t> TableReader<'t> {
             is_solved: vec![true; rows],
             is_separated: table.is_separated,
             is_shuffled: false,
+            is_reversed: false,
+            doubts: vec![],
         };
         let has_levels = reader.columns.iter().any(|column| column.is_index);
         if reader.ratio.is_some() && step.is_none() && !has_levels {

@@ -282,7 +282,8 @@ fn attempt(mut reader: TableReader<'_>) -> Result<RateTable, InputError> {
     let jumps = columns_of_errors
         .iter()
         .filter_map(|column| doubt::unit(column).or_else(|| doubt::jump(column)));
-    let doubts = jumps.chain(reader.contradiction(step.column)).collect();
+    let doubts = reader.doubts.iter().cloned().chain(jumps);
+    let doubts = doubts.chain(reader.contradiction(step.column)).collect();
     Ok(RateTable {
         reading: reading(&reader, &step, [&errors, &values], &not_errors),
         columns: columns_of_errors,
@@ -364,8 +365,8 @@ impl TableReader<'_> {
                 &found,
             ));
         }
-        let is_in_order = order.is_sorted() || order.is_sorted_by(|a, b| a > b);
-        self.is_shuffled = !is_in_order;
+        self.is_reversed = order.is_sorted_by(|a, b| a > b);
+        self.is_shuffled = !order.is_sorted() && !self.is_reversed;
         let sorted = self.columns.iter().map(|cells| cells.select(&order));
         self.columns = sorted.collect();
         Ok(order.iter().map(|row| steps[*row]).collect())
@@ -389,8 +390,7 @@ impl TableReader<'_> {
                 return Err(self.refuse(expected, &format!("twice `{name}`")));
             }
             if *word == Word::Logarithm {
-                let expected = "the values, not their logarithms";
-                return Err(self.refuse(expected, &format!("`{name}`")));
+                return Err(self.refuse_logarithm(&self.columns[*k]));
             }
         }
         Ok(ChosenColumns { errors, values })
@@ -400,6 +400,11 @@ impl TableReader<'_> {
     fn find_all(&self, names: &[String], argument: Argument) -> Result<Vec<usize>, InputError> {
         let columns = names.iter().map(|name| self.find(name, argument));
         columns.collect()
+    }
+
+    pub(super) fn refuse_logarithm(&self, column: &Cells<'_>) -> InputError {
+        let expected = "the values, not their logarithms";
+        self.refuse(expected, &format!("`{}`", column.name))
     }
 
     /// The refusal of a name that two of the columns have; it offers names with numbers.

@@ -3,6 +3,7 @@
 
 use super::Doubt;
 use super::columns::{DIMENSIONS, Derived};
+use super::names::Word;
 use super::reader::{NEIGHBOURS, TableReader};
 
 /// Ratios of steps from level to level.
@@ -72,7 +73,7 @@ impl TableReader<'_> {
     }
 
     /// The columns that are rates over these steps, which fall from row to row.
-    fn columns_of_rates(&self, of: usize, steps: &[f64]) -> Vec<RatesOf> {
+    pub(super) fn columns_of_rates(&self, of: usize, steps: &[f64]) -> Vec<RatesOf> {
         let falls = steps.windows(2).all(|two| two[1] < two[0]);
         let columns = (0..self.columns.len().min(NEIGHBOURS)).filter(|k| falls && *k != of);
         columns
@@ -90,7 +91,13 @@ impl TableReader<'_> {
     pub(super) fn derivation(&self, column: usize, of: usize, steps: &[f64]) -> Option<Derivation> {
         let before = (column.saturating_sub(NEIGHBOURS)..column).rev();
         let behind = column + 1..(column + NEIGHBOURS).min(self.columns.len());
-        let mut errors = before.chain(behind).filter(|error| *error != of);
+        // Neither a step nor a count is an error that rates are those of.
+        let is_error = |error: &usize| {
+            let cells = &self.columns[*error];
+            let gives_step = matches!(cells.word, Word::Step | Word::Count(_));
+            *error != of && (cells.is_claimed || !gives_step)
+        };
+        let mut errors = before.chain(behind).filter(is_error);
         errors.find_map(|error| {
             let derived = self.columns[column].derived_from(&self.columns[error], steps)?;
             Some(Derivation { error, derived })
@@ -105,7 +112,7 @@ pub(super) struct Derivation {
 }
 
 /// A column with the rates of another.
-struct RatesOf {
-    column: usize,
-    error: usize,
+pub(super) struct RatesOf {
+    pub(super) column: usize,
+    pub(super) error: usize,
 }

@@ -18,6 +18,8 @@ pub(super) struct Step {
     pub(super) label: String,
     /// How it was found, if its name does not say so.
     pub(super) how: String,
+    /// Whether the user or printed rates have chosen it among others.
+    pub(super) is_chosen: bool,
 }
 
 /// What the column of the step holds.
@@ -47,18 +49,25 @@ impl Measure {
 }
 
 /// A column that is the step, or gives it.
-struct StepColumn {
-    column: usize,
+pub(super) struct StepColumn {
+    pub(super) column: usize,
     /// How it was identified, if its name does not say so.
-    how: String,
+    pub(super) how: String,
+    /// Whether the user or printed rates have chosen it among others.
+    pub(super) is_chosen: bool,
 }
 
 impl StepColumn {
     /// A column that needs no explanation.
     fn certain(column: usize) -> Self {
+        Self::found(column, String::new())
+    }
+
+    fn found(column: usize, how: String) -> Self {
         Self {
             column,
-            how: String::new(),
+            how,
+            is_chosen: false,
         }
     }
 }
@@ -95,8 +104,15 @@ impl TableReader<'_> {
     /// The step: the column chosen for it, the levels, or the column that its name or its numbers
     /// identify.
     pub(super) fn step(&self) -> Result<Step, InputError> {
-        let StepColumn { column, how } = match &self.choice.step {
-            Some(wanted) => StepColumn::certain(self.find(wanted, Argument::Step)?),
+        let StepColumn {
+            column,
+            how,
+            is_chosen,
+        } = match &self.choice.step {
+            Some(wanted) => StepColumn {
+                is_chosen: true,
+                ..StepColumn::certain(self.find(wanted, Argument::Step)?)
+            },
             None if self.ratio.is_some() => StepColumn::certain(self.levels()?),
             None => self.natural_step()?,
         };
@@ -116,6 +132,7 @@ impl TableReader<'_> {
             measure,
             label,
             how,
+            is_chosen,
         })
     }
 
@@ -171,7 +188,7 @@ impl TableReader<'_> {
     }
 
     /// The columns that may be the step, of those that `accepts` selects by number and name.
-    fn candidates(&self, accepts: impl Fn(usize, Word) -> bool) -> Vec<usize> {
+    pub(super) fn candidates(&self, accepts: impl Fn(usize, Word) -> bool) -> Vec<usize> {
         let columns = self.columns.iter().enumerate();
         columns
             .filter(|(_, column)| !column.is_claimed && !column.is_constant())
@@ -192,6 +209,9 @@ impl TableReader<'_> {
         if self.turned == Some(Turned::Stepped) {
             return Ok(StepColumn::certain(0));
         }
+        if let Some(step) = self.step_of_families()? {
+            return Ok(step);
+        }
         let steps = self.candidates(|_, word| word == Word::Step);
         if let [first, others @ ..] = &steps[..] {
             if let Some(other) = others
@@ -201,17 +221,15 @@ impl TableReader<'_> {
                 let expected =
                     Text::from("one column of steps, or ") + Argument::Step.with_placeholder();
                 let refusal = self.refuse(expected, &listed(self.names(&steps).into_iter()));
-                return Err(refusal.offering([*first, *other].map(|k| self.with_step(k))));
+                let offers = [*first, *other].map(|k| self.with_step_of_errors(k));
+                return Err(refusal.offering(offers));
             }
             let how = if others.is_empty() {
                 String::new()
             } else {
                 format!(", in proportion to {}", self.quoted(others))
             };
-            return Ok(StepColumn {
-                column: *first,
-                how,
-            });
+            return Ok(StepColumn::found(*first, how));
         }
         let counts = self.candidates(|_, word| matches!(word, Word::Count(_)));
         let Some(count) = counts.into_iter().min_by_key(|k| self.rank(*k)) else {
@@ -257,10 +275,8 @@ impl TableReader<'_> {
             && (others.is_empty()
                 || Some(*column) == first && others.iter().all(|other| other.ratio >= *ratio))
         {
-            return Ok(StepColumn {
-                column: *column,
-                how: format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4)),
-            });
+            let how = format!(", by its ratio {}", plain_text((1e4 * ratio).round() / 1e4));
+            return Ok(StepColumn::found(*column, how));
         }
         if let Some(level) = self.level_with_rates() {
             return Ok(StepColumn::certain(level));
@@ -297,7 +313,7 @@ impl TableReader<'_> {
     }
 
     /// The command with a column as the step.
-    fn with_step(&self, column: usize) -> Offer {
+    pub(super) fn with_step(&self, column: usize) -> Offer {
         let name = self.columns[column]
             .name
             .trim_start_matches("column ")
@@ -305,6 +321,21 @@ impl TableReader<'_> {
         let dim = self.choice.dim.or(self.is_count(column).then_some(1.0));
         self.choice
             .offer("", |choice| (choice.step, choice.dim) = (Some(name), dim))
+    }
+
+    /// The command with a column as the step, and those named like errors: another step of the same
+    /// mesh may be an error.
+    fn with_step_of_errors(&self, column: usize) -> Offer {
+        let mut offer = self.with_step(column);
+        let columns = 0..self.columns.len();
+        let errors: Vec<usize> = columns
+            .filter(|k| self.columns[*k].word == Word::Error)
+            .collect();
+        let is_free = self.choice.claimed.is_empty() && self.choice.columns.is_none();
+        if is_free && !errors.is_empty() {
+            offer.choice.columns = Some(self.names(&errors));
+        }
+        offer
     }
 
     /// The choice of this dimension.
@@ -315,8 +346,7 @@ impl TableReader<'_> {
     /// What the column of the step holds.
     fn measure(&self, step: usize) -> Result<Measured, InputError> {
         let Cells { name, word, .. } = &self.columns[step];
-        let is_edge =
-            reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt";
+        let is_edge = names::is_edge(name);
         let is_count = self.is_count(step);
         let quoted = format!("`{name}`");
         if *word == Word::Logarithm {

@@ -1,0 +1,204 @@
+//! Numbers behind names in the lines that a program prints: `max error = 1.5e-3`.
+
+/// What the last line with a name has behind it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedText {
+    pub(super) name: String,
+    /// The number; `None` if it is none.
+    pub(super) number: Option<f64>,
+    /// As it was printed.
+    pub(super) text: String,
+}
+
+/// Levels of a log before a name.
+const LEVELS: [&str; 4] = ["INFO", "DEBUG", "WARNING", "ERROR"];
+
+/// Notes what a line has behind each of some names; the last line with a name counts.
+pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) {
+    if !line.contains(['=', ':']) {
+        return;
+    }
+    for name in names {
+        if let Some(behind) = behind(line, name) {
+            found.retain(|known| known.name != *name);
+            found.push(NamedText {
+                name: name.clone(),
+                number: leading_number(behind),
+                text: behind.to_owned(),
+            });
+        }
+    }
+}
+
+/// The text behind `=` or `:` after the last place of a name in a line.
+fn behind<'l>(line: &'l str, name: &str) -> Option<&'l str> {
+    let places = line.match_indices(name);
+    let texts = places.filter_map(|(start, _)| {
+        let rest = line[start + name.len()..].trim_start_matches(['"', '\'']);
+        let marked = rest.trim_start().strip_prefix(['=', ':'])?;
+        begins_name(&line[..start]).then(|| marked.trim_start_matches(['=', ':']).trim())
+    });
+    texts.last()
+}
+
+/// Whether a name may begin behind this text: `max error` is another name than `error`.
+fn begins_name(before: &str) -> bool {
+    const OPENINGS: &str = ",;|:=([{\"'";
+    const BULLETS: &str = ">]}*#-•";
+    let Some(last) = before.chars().next_back() else {
+        return true;
+    };
+    if !last.is_whitespace() {
+        return OPENINGS.contains(last);
+    }
+    let text = before.trim_end();
+    let word = text.rsplit(char::is_whitespace).next().unwrap_or_default();
+    let is_gap = before.len() > text.len() + 1 || last == '\t';
+    let is_end = text.ends_with(|c| OPENINGS.contains(c) || BULLETS.contains(c));
+    text.is_empty() || is_gap || is_end || LEVELS.contains(&word) || number(word).is_some()
+}
+
+/// The number that a text begins with, if what is behind it does not change it.
+fn leading_number(text: &str) -> Option<f64> {
+    let is_end = |(k, c): &(usize, char)| {
+        let is_digit = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit());
+        c.is_whitespace() || ";|}".contains(*c) || *c == ',' && !is_digit(&text[k + 1..])
+    };
+    let end = text.char_indices().find(is_end);
+    let (token, rest) = text.split_at(end.map_or(text.len(), |(end, _)| end));
+    let rest = rest.trim_start();
+    let is_factor = rest.starts_with(['×', '*', '·', '^', '\\']) || rest.starts_with("x 10");
+    let pairs = [('[', ']'), ('(', ')'), ('"', '"'), ('\'', '\'')];
+    let mut inner = pairs
+        .iter()
+        .filter_map(|(open, close)| token.strip_prefix(*open)?.strip_suffix(*close));
+    number(inner.next().unwrap_or(token)).filter(|_| !is_factor)
+}
+
+/// A finite number of C or Fortran.
+fn number(token: &str) -> Option<f64> {
+    let digits = token.replace(['d', 'D'], "e");
+    let number = digits.parse().ok().or_else(|| {
+        // Three digits of an exponent leave Fortran no room for its letter: `1.5-101`.
+        let (mantissa, exponent) = digits.split_at_checked(digits.len().checked_sub(4)?)?;
+        let is_exponent = exponent.starts_with(['+', '-']) && mantissa.contains('.');
+        let number = || format!("{mantissa}e{exponent}").parse().ok();
+        is_exponent.then(number).flatten()
+    });
+    number.filter(|number: &f64| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a line has behind `L2`: a number, no number, or no such name.
+    fn read(line: &str) -> Option<Option<f64>> {
+        let mut found = vec![];
+        note(line, &["L2".to_owned()], &mut found);
+        found.pop().map(|one| one.number)
+    }
+
+    #[test]
+    fn a_number_stands_behind_its_name() {
+        for line in [
+            "L2 = 1.5e-3",
+            "L2: 1.5e-3",
+            "  L2=1.5E-03",
+            "L2 =   1.5D-003",
+            "step 3: L2 = 1.5e-3, H1 = 4e-2",
+            "n = 8 L2 = 1.5e-3 (0.2 s)",
+            "n = 8  L2 = +.0015;",
+            "INFO L2 = 1.5e-3",
+            "errors: {'L2': 1.5e-3, 'H1': 4}",
+            "errors: {'H1': 4, \"L2\": 1.5e-3}",
+            "- L2: [0.0015]",
+            "L2 = 7 | L2 = 1.5e-3",
+            "L2 = 1.5e-3, 12 iterations",
+        ] {
+            assert_eq!(read(line), Some(Some(1.5e-3)), "{line}");
+        }
+        assert_eq!(read("L2 = 1.5-101"), Some(Some(1.5e-101)));
+        assert_eq!(read("L2 = -2"), Some(Some(-2.0)));
+    }
+
+    #[test]
+    fn another_name_is_another_number() {
+        for line in [
+            "L2 projection done",
+            "L2 1.5e-3",
+            "max L2 = 1.5e-3",
+            "H1_L2 = 1.5e-3",
+            "u/L2 = 1.5e-3",
+            "L22 = 1.5e-3",
+            "L2 error = 1.5e-3",
+            "tolerance = 1e-12",
+            "Solver: CG",
+            "restarts = 3",
+        ] {
+            assert_eq!(read(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_the_number_of_an_earlier_line() {
+        for text in [
+            "",
+            "nan",
+            "NaN",
+            "-nan",
+            "-nan(ind)",
+            "NaNQ",
+            "inf",
+            "-inf",
+            "Infinity",
+            "*****",
+            "-1.#IND",
+            "1.#QNAN",
+            "1.#INF",
+            "diverged",
+            "FAILED",
+            "N/A",
+            "n/a",
+            "None",
+            "null",
+            "-",
+            "--",
+            "?",
+            "1.2e",
+            "1.2e+",
+            "1,5e-3",
+            "1.2.3",
+            "1.5e-3%",
+            "1.5e -3",
+            "1.5 x 10^-3",
+            "1.5 × 10⁻³",
+            "1.5*10^-3",
+            "[1.5e-3, 2e-3]",
+            "(1.5e-3, 2)",
+            "1/8",
+            "1.5e999",
+            "error",
+            "did not converge",
+            "0x1p-3",
+            "1_000",
+            "e-3",
+            ".",
+            "np.nan",
+            "∞",
+            "undefined",
+            "1.5e-3abc",
+            "#####",
+            "<1e-3",
+            "~1e-3",
+            "TIMEOUT",
+        ] {
+            let mut found = vec![];
+            for line in ["L2 = 1.5e-3", &format!("L2 = {text}")] {
+                note(line, &["L2".to_owned()], &mut found);
+            }
+            assert_eq!(found.len(), 1, "{text}");
+            assert_eq!(found[0].number, None, "{text}");
+        }
+    }
+}

@@ -248,10 +248,19 @@ fn a_failed_run_is_quoted_below_a_list_without_names() {
 
 #[test]
 fn a_table_without_errors_beside_another_is_said_by_the_verdict() {
-    let text = "h L2\n0.2 4e-2\n0.1 1e-2\n0.05 2.5e-3\n\nh value\n0.2 1.5\n0.1 1.2\n0.05 1.1\n";
-    let sheet = answer(text, &["2"]).expect("a table");
+    let good = "h L2\n0.2 4e-2\n0.1 1e-2\n0.05 2.5e-3\n\n";
+    let costs = format!("{good}h iterations\n0.2 12\n0.1 14\n0.05 14\n");
+    let sheet = answer(&costs, &["2"]).expect("a table");
     assert!(
-        sheet.sentence.contains("(a table without errors)"),
+        sheet.verdict.is_pass() && sheet.sentence.contains("(a table without errors)"),
+        "{}",
+        sheet.sentence
+    );
+    // What is named like a value may be an error that stalls.
+    let values = format!("{good}h value\n0.2 1.5\n0.1 1.2\n0.05 1.1\n");
+    let sheet = answer(&values, &["2"]).expect("a table");
+    assert!(
+        !sheet.verdict.is_pass() && sheet.sentence.contains("a table is not read"),
         "{}",
         sheet.sentence
     );

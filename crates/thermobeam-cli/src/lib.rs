@@ -4,7 +4,6 @@
 //! study registered in [`project()`]. This file adds the beam's own commands and dispatches.
 
 mod equilibria;
-mod merge;
 mod project;
 mod run;
 mod sweep;
@@ -89,8 +88,8 @@ pub const PAGES: [HelpPage; 3] = [
         examples: &[
             ("All cases, a line each", "PROGRAM sweep sweep.toml"),
             (
-                "Into a folder; the same line continues it after an interruption",
-                "PROGRAM sweep sweep.toml --out swept --resume",
+                "Into a folder; the same line goes on after an interruption",
+                "PROGRAM sweep sweep.toml --out swept",
             ),
             (
                 "The first of two shares",

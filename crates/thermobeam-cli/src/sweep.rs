@@ -1,19 +1,19 @@
 //! `sweep FILE`: many scenes from one.
 
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Args;
 use indicatif::ProgressBar;
-use thermobeam_study::sweep::{self, CaseLine, InOrder, Journal, Sweep, SweepShare};
+use thermobeam_study::sweep::{self, Finished, Header, InOrder, ShareFile, Sweep, SweepShare};
 
 use convergence_study::{
     Verdict,
     internal::{
         cli::{
-            exit::{self, CommandOutcome},
+            exit::{self, CommandOutcome, Unusable},
             flags::Flags,
             running::{self, seconds},
         },
@@ -21,15 +21,14 @@ use convergence_study::{
     },
 };
 
-use super::merge;
-
-/// Run many scenes: a grid or a Latin hypercube over the numbers of one scene
+/// Run many scenes: a grid or a list of the numbers of one scene
 ///
-/// One JSON line for each case: its parameters and what `run --format json` prints, without the
-/// wall time. A case that fails has a line with the reason; the exit status is then 1. With --out
-/// the folder gets a journal, and results.jsonl at the end; without --out, the lines go to standard
-/// output. --merge joins the shares of a sweep into the file that one run would have written; a
-/// missing or repeated case is an error, and nothing is written.
+/// One JSON line for each case, in their order: its parameters and what `run --format json` prints,
+/// without the wall time. The first line names the sweep by a hash. A case that fails has a line
+/// with the reason; the exit status is then 1. With --out the lines go to results.jsonl in the
+/// folder, and the same command again runs what has no line; without, to standard output. --merge
+/// joins the shares of a sweep into the file that one run would have written; a missing or repeated
+/// case is an error, and nothing is written.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The sweep file
@@ -39,10 +38,7 @@ pub struct Arguments {
     /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
-    /// Continue the sweep in the folder; start it if the folder is empty
-    #[arg(long, requires = "out")]
-    resume: bool,
-    /// Run share k of n; the values of a case determine its share; --merge joins the shares
+    /// Run share k of n; --merge joins the shares
     #[arg(long, value_name = "k/n", default_value_t = SweepShare::ALL, hide_default_value = true)]
     partition: SweepShare,
     /// Join these shares of a sweep, and run nothing
@@ -50,7 +46,7 @@ pub struct Arguments {
         long,
         value_name = "DIR",
         num_args = 1..,
-        conflicts_with_all = ["file", "time_limit", "resume", "partition"]
+        conflicts_with_all = ["file", "time_limit", "partition"]
     )]
     merge: Vec<PathBuf>,
     #[command(flatten)]
@@ -60,152 +56,117 @@ pub struct Arguments {
 /// Runs the command.
 pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let Some(file) = &arguments.file else {
-        return merge::run(&arguments.merge, &arguments.flags);
+        return merge(&arguments.merge, &arguments.flags);
     };
     let sweep = Sweep::read(file)?;
-    let share = arguments.partition;
-    let mine: Vec<usize> = (0..sweep.cases())
-        .filter(|&index| share == SweepShare::ALL || share.holds(sweep.case(index).hash()))
-        .collect();
-    Ok(match &arguments.flags.out {
-        Some(folder) => to_folder(arguments, &sweep, mine, folder)?,
-        None => to_stdout(arguments, &sweep, mine)?,
-    })
-}
-
-/// Lines to standard output, in the order of the cases; fail if one failed.
-fn to_stdout(arguments: &Arguments, sweep: &Sweep, mine: Vec<usize>) -> io::Result<Verdict> {
-    let bar = running::counting(&sweep.name, mine.len(), "cases", arguments.flags.quiet);
-    let state = Mutex::new((InOrder::new(io::stdout(), mine.clone()), Verdict::Pass));
-    let outcome = sweep::run(
-        sweep,
-        &mine,
-        jobs(arguments),
-        arguments.time_limit,
-        |line: CaseLine| {
-            let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-            state.1 = if line.passed { state.1 } else { Verdict::Fail };
-            bar.inc(1);
-            state.0.add(line)
-        },
-    );
-    bar.finish_and_clear();
-    match outcome {
-        // A reader that stops early, such as `head`, is not an error.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
-        _ => Ok(state.into_inner().unwrap_or_else(PoisonError::into_inner).1),
+    match &arguments.flags.out {
+        Some(folder) => to_folder(arguments, &sweep, folder),
+        None => Ok(to_stdout(arguments, &sweep)?),
     }
 }
 
-/// Lines to the folder's journal, then the results in order; fail if one failed.
-fn to_folder(
-    arguments: &Arguments,
-    sweep: &Sweep,
-    mine: Vec<usize>,
-    folder: &Path,
-) -> Result<Verdict, sweep::SweepError> {
-    let journal = Journal::open(folder, sweep, arguments.partition, arguments.resume)?;
-    let cases = mine.len();
-    let pending: Vec<usize> = mine
-        .into_iter()
-        .filter(|&index| !journal.has(index))
-        .collect();
-    let begun = pending.len();
-    let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
-    let counted = bar.clone();
-    let before = cases - begun;
-    let place = folder.display().to_string();
-    exit::say(move || {
-        let done = before + counted.position() as usize;
-        format!("{done} of {cases} cases are saved in {place}; continue with --resume")
-    });
-    let start = Instant::now();
-    let journal = journaled(sweep, pending, arguments, journal, &bar)?;
-    let took = start.elapsed();
+/// All lines to standard output; fail if a case failed.
+fn to_stdout(arguments: &Arguments, sweep: &Sweep) -> io::Result<Verdict> {
+    let share = arguments.partition;
+    let cases: Vec<usize> = share.cases(sweep.cases).collect();
+    let bar = running::counting(&sweep.name, cases.len(), "cases", arguments.flags.quiet);
+    let mut failed = 0;
+    let header = Header::new(sweep, share).line();
+    let written = writeln!(io::stdout(), "{header}")
+        .and_then(|()| write_lines(arguments, sweep, &cases, io::stdout(), &bar, &mut failed));
     bar.finish_and_clear();
-    let failed = journal.failed();
-    let results = journal.finish()?;
-    let flags = &arguments.flags;
-    let verdict = if failed == 0 {
+    match written {
+        // A reader that stops early, such as `head`, is not an error.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
+        _ => Ok(verdict(failed)),
+    }
+}
+
+/// The lines that are missing to the file of the folder; fail if a case failed.
+fn to_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> CommandOutcome {
+    let ShareFile {
+        path: results,
+        file,
+        pending,
+        done,
+        mut failed,
+    } = ShareFile::open(folder, sweep, arguments.partition)?;
+    let (begun, cases) = (pending.len(), done + pending.len());
+    let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
+    let (counted, place) = (bar.clone(), folder.display().to_string());
+    exit::say(move || {
+        let done = done + counted.position() as usize;
+        format!("{done} of {cases} cases are saved in {place}; the same command runs the others")
+    });
+    write_lines(arguments, sweep, &pending, file, &bar, &mut failed)
+        .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", results.display())))?;
+    bar.finish_and_clear();
+    let finished = Finished {
+        cases,
+        failed,
+        results,
+    };
+    let ran = format!("\n{begun} run now, {done} were there");
+    report(&arguments.flags, Some(&sweep.name), &finished, &ran)
+}
+
+/// `sweep --merge DIR...`: joins shares into the file that one run would have written.
+fn merge(folders: &[PathBuf], flags: &Flags) -> CommandOutcome {
+    let Some(out) = &flags.out else {
+        return Err(Unusable::because(
+            "--out DIR: expected the folder for the joined results; found none",
+        ));
+    };
+    report(flags, None, &sweep::merge(folders, out)?, "")
+}
+
+fn verdict(failed: usize) -> Verdict {
+    if failed == 0 {
         Verdict::Pass
     } else {
         Verdict::Fail
-    };
-    let sentence = format!("{}: {cases} cases, {failed} failed", sweep.name);
-    let words = flags.words(verdict, &sentence, || {
-        summary(arguments, sweep, [cases, begun, failed], took, &results)
-    });
-    Ok(flags.print(
-        verdict,
-        &SweepObject {
-            sweep: &sweep.name,
-            cases,
-            failed,
-            results,
-        },
-        &words,
-    )?)
+    }
 }
 
 /// The keys of `sweep --out DIR --format json` in addition to the verdict.
 #[derive(serde::Serialize)]
 struct SweepObject<'a> {
-    sweep: &'a str,
-    cases: usize,
-    failed: usize,
-    results: PathBuf,
+    /// The sweep's name; of joined shares none is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sweep: Option<&'a str>,
+    #[serde(flatten)]
+    finished: &'a Finished,
 }
 
-fn jobs(arguments: &Arguments) -> usize {
-    arguments.flags.jobs.unwrap_or_else(run::available).get()
+/// Says what a finished file of results holds.
+///
+/// * `ran`: what else to say of a sweep that was run.
+fn report(flags: &Flags, sweep: Option<&str>, finished: &Finished, ran: &str) -> CommandOutcome {
+    let verdict = verdict(finished.failed);
+    let name = sweep.map(|name| format!("{name}: ")).unwrap_or_default();
+    let sentence = format!("{name}{} cases, {} failed", finished.cases, finished.failed);
+    let words = flags.words(verdict, &sentence, || {
+        format!("{sentence}{ran}\nwrote {}\n", finished.results.display())
+    });
+    Ok(flags.print(verdict, &SweepObject { sweep, finished }, &words)?)
 }
 
-fn journaled(
-    sweep: &Sweep,
-    pending: Vec<usize>,
+/// Runs cases and writes their lines in order. Counts in `failed` those that fail, and on the bar
+/// those that are written.
+fn write_lines(
     arguments: &Arguments,
-    journal: Journal,
+    sweep: &Sweep,
+    cases: &[usize],
+    output: impl Write + Send,
     bar: &ProgressBar,
-) -> Result<Journal, io::Error> {
-    let journal = Mutex::new(journal);
-    sweep::run(
-        sweep,
-        &pending,
-        jobs(arguments),
-        arguments.time_limit,
-        |line| {
-            bar.inc(1);
-            journal
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .append(&line)
-        },
-    )?;
-    Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
-}
-
-fn summary(
-    arguments: &Arguments,
-    sweep: &Sweep,
-    [cases, begun, failed]: [usize; 3],
-    took: Duration,
-    results: &Path,
-) -> String {
-    let share = if arguments.partition == SweepShare::ALL {
-        String::new()
-    } else {
-        format!(
-            ", share {}: {cases} of {}",
-            arguments.partition,
-            sweep.cases()
-        )
-    };
-    let each = 1e3 * took.as_secs_f64() / begun.max(1) as f64;
-    format!(
-        "{}: {cases} cases{share}; {failed} failed\n{begun} run now in {:.2} s, {each:.3} ms each; {} were there\nwrote {}\n",
-        sweep.name,
-        took.as_secs_f64(),
-        cases - begun,
-        results.display()
-    )
+    failed: &mut usize,
+) -> io::Result<()> {
+    let jobs = arguments.flags.jobs.unwrap_or_else(run::available).get();
+    let state = Mutex::new((InOrder::new(output, cases.to_vec()), failed));
+    sweep::run(sweep, cases, jobs, arguments.time_limit, |line| {
+        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
+        *state.1 += usize::from(!line.passed);
+        bar.inc(state.0.add(line)? as u64);
+        Ok(())
+    })
 }

@@ -1,5 +1,5 @@
-//! Many scenes from one: a grid or a Latin hypercube over the numbers of a base scene, for one-step
-//! schemes and any order.
+//! Many scenes from one: a grid or a list of the numbers of a base scene, for one-step schemes and
+//! any order.
 //!
 //! ```toml
 //! [sweep]
@@ -18,35 +18,32 @@
 //! or, instead of `[grid]`,
 //!
 //! ```toml
-//! [latin]                                   # as many cases as samples, each key stratified into as many slices
-//! samples = 1000
-//! seed = 1
-//! beam.beta = { from = -0.5, to = 5.0 }
-//! mesh.elements = { from = 20, to = 200, scale = "log" }
+//! [list]                                    # case i has number i of each key; as many of each
+//! beam.beta = [-0.5, 0.1, 4.2]
+//! mesh.elements = [20, 50, 200]
 //! ```
 //!
 //! Cases are numbered from 0. A case's results depend on the files alone: any number of threads,
-//! shares and interruptions gives the same bytes. Computed numbers are rounded to 9 digits, so that
-//! a different mathematical library cannot move a case to another share.
+//! shares and interruptions gives the same bytes.
 
-mod case;
-mod design;
-mod journal;
+mod axis;
+mod file;
 mod lines;
-mod reader;
 mod run;
+mod share;
 
 use std::path::Path;
 
-use crate::scene::{Scene, limits};
-use convergence_study::{InputError, internal::input};
+use crate::scene::{Scene, limits, stem};
+use convergence_study::{
+    InputError,
+    internal::{input, store::content_hash},
+};
 
-pub use case::{SceneKey, SweepCase, SweepShare};
-pub use journal::{Journal, Manifest, Merged, RESULTS, merge};
-pub use lines::SweepError;
-pub use run::{CaseLine, InOrder, run};
-
-use design::Design;
+pub use axis::Axis;
+pub use lines::{CaseLine, Header, InOrder, ShareFile, SweepError};
+pub use run::run;
+pub use share::{Finished, RESULTS, SweepShare, merge};
 
 /// Largest number of cases of a sweep.
 pub const MOST_CASES: usize = limits::SWEEP_CASES;
@@ -56,10 +53,14 @@ pub const MOST_CASES: usize = limits::SWEEP_CASES;
 pub struct Sweep {
     /// The file's name without folder and extension.
     pub name: String,
+    /// Number of cases.
+    pub cases: usize,
+    /// The keys that vary, in the order of the file.
+    pub axes: Vec<Axis>,
+    /// A hash of the sweep file, the base scene and the version of the program: another version may
+    /// compute other bits.
+    pub hash: u64,
     base: Base,
-    keys: Vec<SceneKey>,
-    design: Design,
-    fingerprint: u64,
 }
 
 /// The base scene, as text: every case reads it with its own values instead of the scene's.
@@ -72,11 +73,15 @@ struct Base {
 }
 
 impl Base {
-    /// The scene with these values.
-    fn scene(&self, values: impl Iterator<Item = (SceneKey, f64)>) -> Result<Scene, InputError> {
+    /// The scene of a case with the numbers of these keys.
+    fn scene<'a>(
+        &self,
+        case: usize,
+        axes: impl Iterator<Item = &'a Axis>,
+    ) -> Result<Scene, InputError> {
         let mut overlay = self.set.clone();
-        for (key, value) in values {
-            let (path, written) = (key.path(), key.written(value));
+        for axis in axes {
+            let (path, written) = (axis.path, axis.written(case));
             // In brackets, so that a negative number keeps its sign under a power.
             overlay = overlay.replace(&format!("{{{path}}}"), &format!("({written})"));
             overlay.push_str(&format!("{path} = {written}\n"));
@@ -89,29 +94,31 @@ impl Sweep {
     /// Reads a sweep file and the scene that it names.
     ///
     /// # Errors
-    /// [`InputError`] with file, line and field. A number that no scene can have is refused here;
-    /// the compatibility of a case's numbers with each other is checked when it is run.
+    /// [`InputError`] with file, line and field. A number that no scene can have is refused here,
+    /// and so is any case of a list; whether the numbers of a grid go together is checked when a
+    /// case is run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
         let text = input::read_text(path)?;
         input::parse_beside(&text, path, |root, folder| {
-            reader::read(root, &text, path, folder)
+            let file = file::SweepFile::read(root, folder)?;
+            let base = Base {
+                file: file.scene.display().to_string(),
+                text: input::read_text(&file.scene)?,
+                set: file.common_values()?,
+            };
+            Scene::parse(&base.text, &base.file)?;
+            let version = env!("CARGO_PKG_VERSION");
+            let hashed = format!("{version}\0{text}\0{}", base.text);
+            file.check_scenes(&base)?;
+            Ok(Self {
+                name: stem(&path.display().to_string()),
+                cases: file.cases,
+                hash: content_hash(hashed.as_bytes()),
+                axes: file.keys.into_iter().map(|key| key.axis).collect(),
+                base,
+            })
         })
-    }
-
-    /// Number of cases.
-    pub fn cases(&self) -> usize {
-        self.design.cases()
-    }
-
-    /// The varied keys, in the order of a case's values.
-    pub fn keys(&self) -> &[SceneKey] {
-        &self.keys
-    }
-
-    /// Case number `index`, from 0.
-    pub fn case(&self, index: usize) -> SweepCase<'_> {
-        SweepCase::new(index, &self.keys, self.design.values(index, &self.keys))
     }
 
     /// The scene of a case.
@@ -119,12 +126,7 @@ impl Sweep {
     /// # Errors
     /// [`InputError`] if the case's numbers are incompatible, such as a dt that does not divide
     /// t_end.
-    pub fn scene(&self, case: &SweepCase<'_>) -> Result<Scene, InputError> {
-        self.base.scene(case.parameters())
-    }
-
-    /// A hash of the sweep file and the base scene.
-    pub fn fingerprint(&self) -> u64 {
-        self.fingerprint
+    pub fn scene(&self, case: usize) -> Result<Scene, InputError> {
+        self.base.scene(case, self.axes.iter())
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::time::Duration;
 
-use thermobeam_study::sweep::{self, CaseLine, Journal, Manifest, Sweep, SweepShare};
+use thermobeam_study::sweep::{self, CaseLine, Header, RESULTS, ShareFile, Sweep, SweepShare};
 
 const BASE: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.05\ng2 = 0.05\n\
     [initial]\nu_t = \"x\"\n[mesh]\nelements = 7\n[time]\ndt = 0.1\nt_end = 50.0\n";
@@ -22,7 +22,7 @@ fn sweep(folder: &std::path::Path) -> Sweep {
 
 fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, CaseLine> {
     let lines = Mutex::new(BTreeMap::new());
-    let cases: Vec<usize> = (0..sweep.cases()).collect();
+    let cases: Vec<usize> = (0..sweep.cases).collect();
     sweep::run(sweep, &cases, jobs, limit, |line| {
         assert!(
             lines.lock().unwrap().insert(line.case, line).is_none(),
@@ -50,7 +50,7 @@ fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
     };
     assert_eq!(
         (
-            sweep.cases(),
+            sweep.cases,
             with("\"done\""),
             with("\"kind\":\"indefinite\""),
             with("time.dt: found")
@@ -71,7 +71,7 @@ fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
 fn an_error_of_who_takes_the_lines_ends_the_sweep() {
     let folder = tempfile::tempdir().unwrap();
     let sweep = sweep(folder.path());
-    let cases: Vec<usize> = (0..sweep.cases()).collect();
+    let cases: Vec<usize> = (0..sweep.cases).collect();
     let count = Mutex::new(0);
     let ended = sweep::run(&sweep, &cases, 1, None, |_| {
         *count.lock().unwrap() += 1;
@@ -97,93 +97,210 @@ fn small(folder: &std::path::Path) -> (Sweep, Vec<String>) {
     (sweep, lines)
 }
 
+/// The file of a share with these lines below its first one.
+fn share_file(folder: &std::path::Path, header: &str, lines: &str) {
+    let _ = std::fs::remove_dir_all(folder);
+    std::fs::create_dir(folder).unwrap();
+    std::fs::write(folder.join(RESULTS), format!("{header}\n{lines}")).unwrap();
+}
+
 #[test]
-fn a_line_that_was_changed_is_refused_on_resume_and_on_merging() {
+fn a_share_goes_on_with_the_cases_that_have_no_line() {
     let folder = tempfile::tempdir().unwrap();
     let (sweep, lines) = small(folder.path());
-    let share = folder.path().join("share");
-    let open = |journal: &str| {
-        let _ = std::fs::remove_dir_all(&share);
-        std::fs::create_dir(&share).unwrap();
-        let manifest = serde_json::to_string(&Manifest::new(&sweep, SweepShare::ALL)).unwrap();
-        std::fs::write(share.join("sweep.json"), manifest).unwrap();
-        std::fs::write(share.join("journal.jsonl"), journal).unwrap();
-        Journal::open(&share, &sweep, SweepShare::ALL, true)
-            .map(|journal| (0..3).filter(|&case| journal.has(case)).count())
-    };
-    assert_eq!(open(&lines[..2].concat()).unwrap(), 2);
-    let altered = |from: &str, to: &str| {
-        let line = lines[1].replacen(from, to, 1);
-        assert_ne!(line, lines[1], "{from}");
-        lines[0].clone() + &line
-    };
-    for (from, to) in [
-        ("\"case\":1", "\"case\":2"),
-        ("\"beam.beta\":1.0", "\"beam.beta\":1.5"),
-        ("\"steps\":1", "\"steps\":2"),
-        ("\"status\":\"done\"", "\"status\":\"failed\""),
-        ("\"hash\":\"", "\"hash\":\"0"),
-    ] {
-        let refused = open(&altered(from, to)).unwrap_err().to_string();
-        let expected = format!(
-            "{}:2: expected the hash ",
-            share.join("journal.jsonl").display()
+    let header = Header::new(&sweep, SweepShare::ALL).line();
+    let place = folder.path().join("share");
+    let text = format!("{header}\n{}", lines.concat());
+    for end in 0..=text.len() {
+        share_file(&place, "", "");
+        std::fs::write(place.join(RESULTS), &text[..end]).unwrap();
+        let share = ShareFile::open(&place, &sweep, SweepShare::ALL).unwrap();
+        let done = text[..end].matches('\n').count().saturating_sub(1);
+        assert_eq!((share.done, share.failed), (done, 0), "{end}");
+        assert!(share.pending.into_iter().eq(done..3), "{end}");
+        let kept = std::fs::read_to_string(place.join(RESULTS)).unwrap();
+        assert_eq!(
+            kept,
+            format!("{header}\n{}", lines[..done].concat()),
+            "{end}"
         );
-        assert!(refused.starts_with(&expected), "{from}: {refused}");
-        let out = folder.path().join("merged.jsonl");
-        let merged = sweep::merge(std::slice::from_ref(&share), &out)
-            .unwrap_err()
-            .to_string();
-        assert!(merged.starts_with(&expected) && !out.exists(), "{merged}");
     }
 }
 
 #[test]
-fn a_whole_line_of_another_sweep_or_share_is_refused() {
+fn what_is_no_part_of_the_share_is_refused_with_its_line_and_left_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
     let (sweep, lines) = small(folder.path());
-    let other = tempfile::tempdir().unwrap();
-    std::fs::write(other.path().join("base.toml"), BASE).unwrap();
-    let text = std::fs::read_to_string(folder.path().join("sweep.toml"))
-        .unwrap()
-        .replace("[0.0, 1.0, 2.0]", "[0.0, 1.5]");
-    std::fs::write(other.path().join("sweep.toml"), text).unwrap();
-    let foreign = all(
-        &Sweep::read(other.path().join("sweep.toml")).unwrap(),
-        1,
-        HOUR,
-    )[&1]
-        .json
-        .clone()
-        + "\n";
-    let half: SweepShare = "1/2".parse().unwrap();
-    let not_held = (0..3)
-        .find(|&case| !half.holds(sweep.case(case).hash()))
-        .unwrap();
-    for (share, line, words) in [
+    let header = |share: &str| Header::new(&sweep, share.parse().unwrap()).line();
+    let all = header("1/1");
+    let (hash, cases) = (&all[9..25], "\"cases\":3");
+    let other_hash = all.replace(hash, "0123456789abcdef");
+    let again = "; remove it with those below it, and run the share again";
+    let place = folder.path().join("share");
+    for (first, below, line, expected, found) in [
+        (&other_hash, String::new(), 1, &*all, &*other_hash),
+        (&header("1/2"), String::new(), 1, &all, &header("1/2")),
         (
-            SweepShare::ALL,
-            &foreign,
-            ":1: expected a line that begins with {\"case\":1,\"status\":\"done\",\"parameters\":{",
+            &all.replace(cases, "\"cases\":4"),
+            String::new(),
+            1,
+            &all,
+            "\"cases\":4",
         ),
         (
-            half,
-            &lines[not_held],
-            ":1: expected a case of the share 1/2, found ",
+            &lines[0].trim_end().to_owned(),
+            String::new(),
+            1,
+            "the first line",
+            "another line",
+        ),
+        (
+            &all,
+            lines[0].clone() + &lines[2],
+            3,
+            "the line of case 1",
+            "that of case 2",
+        ),
+        (
+            &all,
+            lines[0].repeat(2),
+            3,
+            "the line of case 1",
+            "that of case 0",
+        ),
+        (
+            &all,
+            lines[0].replace("\"case\":0", "\"case\":7"),
+            2,
+            "the line of case 0",
+            "that of case 7",
+        ),
+        (
+            &all,
+            lines[0].replace("\"case\":0", "\"case\":x"),
+            2,
+            "the line of case 0",
+            "another: ",
+        ),
+        (
+            &all,
+            lines.concat() + &lines[2],
+            5,
+            "the end of the file",
+            "another line",
         ),
     ] {
-        let place = folder
-            .path()
-            .join(format!("share-{}", share.to_string().replace('/', "-of-")));
-        std::fs::create_dir(&place).unwrap();
-        let manifest = serde_json::to_string(&Manifest::new(&sweep, share)).unwrap();
-        std::fs::write(place.join("sweep.json"), manifest).unwrap();
-        std::fs::write(place.join("journal.jsonl"), line).unwrap();
-        let refused = Journal::open(&place, &sweep, share, true)
+        share_file(&place, first, &below);
+        let before = std::fs::read(place.join(RESULTS)).unwrap();
+        let refused = ShareFile::open(&place, &sweep, SweepShare::ALL)
             .unwrap_err()
             .to_string();
+        let start = format!(
+            "{}:{line}: expected {expected}",
+            place.join(RESULTS).display()
+        );
+        assert!(
+            refused.starts_with(&start) && refused.contains(found),
+            "{refused}"
+        );
+        assert_eq!(
+            refused.ends_with(again),
+            expected.starts_with("the line of"),
+            "{refused}"
+        );
+        assert_eq!(
+            std::fs::read(place.join(RESULTS)).unwrap(),
+            before,
+            "{refused}"
+        );
+    }
+    // Another text without a newline is no torn first line.
+    share_file(&place, "", "");
+    std::fs::write(place.join(RESULTS), "notes").unwrap();
+    let refused = ShareFile::open(&place, &sweep, SweepShare::ALL)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        refused.contains("results.jsonl:1: expected the first line of a sweep"),
+        "{refused}"
+    );
+    assert_eq!(
+        std::fs::read_to_string(place.join(RESULTS)).unwrap(),
+        "notes"
+    );
+}
+
+#[test]
+fn the_hash_is_that_of_sweep_scene_and_version() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sweep, _) = small(folder.path());
+    let text = std::fs::read_to_string(folder.path().join("sweep.toml")).unwrap();
+    let hashed = format!("{}\0{text}\0{BASE}", env!("CARGO_PKG_VERSION"));
+    let hash = convergence_study::internal::store::content_hash(hashed.as_bytes());
+    assert_eq!(sweep.hash, hash);
+    std::fs::write(folder.path().join("base.toml"), format!("{BASE}\n")).unwrap();
+    let other = Sweep::read(folder.path().join("sweep.toml")).unwrap();
+    assert_ne!(other.hash, hash);
+}
+
+#[test]
+fn a_list_takes_the_numbers_of_its_keys_side_by_side() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("base.toml"), BASE).unwrap();
+    let read = |list: &str| {
+        let text = format!("[sweep]\nscene = \"base.toml\"\n[list]\n{list}");
+        std::fs::write(folder.path().join("sweep.toml"), text).unwrap();
+        Sweep::read(folder.path().join("sweep.toml"))
+    };
+    let sweep = read(
+        "time.t_end = [0.6, 0.9, 0.6]\ntime.dt = [0.2, 0.3, 0.1]\n\
+        beam.beta = { from = 0, to = 1, count = 3 }\n",
+    )
+    .unwrap();
+    let value = |axis: usize, case| sweep.axes[axis].value(case);
+    let cases: Vec<_> = (0..sweep.cases)
+        .map(|case| [0, 1, 2].map(|axis| value(axis, case)))
+        .collect();
+    // In the order of the file.
+    assert_eq!(sweep.axes[0].path, "time.t_end");
+    assert_eq!(cases, [[0.6, 0.2, 0.0], [0.9, 0.3, 0.5], [0.6, 0.1, 1.0]]);
+    assert!(all(&sweep, 1, None).values().all(|line| line.passed));
+    for (list, words) in [
+        (
+            "time.dt = [0.1, 0.2]\ntime.t_end = [1.0, 0.5]\n",
+            "sweep.toml:4:17: list.time.dt[1]: time.dt: found 0.2",
+        ),
+        (
+            "time.dt = [0.1, 0.2]\nbeam.beta = [0.0]\n",
+            "list.beam.beta[0]: found 1 numbers of beam.beta; expected 2, as many as of time.dt",
+        ),
+    ] {
+        let refused = read(list).unwrap_err().to_string();
         assert!(refused.contains(words), "{refused}");
     }
+}
+
+#[test]
+fn every_combination_of_a_grid_comes_once_and_the_last_key_runs_fastest() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("base.toml"), BASE).unwrap();
+    let text = "[sweep]\nscene = \"base.toml\"\n[grid]\nmesh.elements = [4, 5]\nbeam.beta = [0.0, 1.0, 2.0]\n";
+    std::fs::write(folder.path().join("sweep.toml"), text).unwrap();
+    let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
+    let cases: Vec<_> = (0..sweep.cases)
+        .map(|case| [0, 1].map(|axis: usize| sweep.axes[axis].value(case)))
+        .collect();
+    assert_eq!(
+        cases,
+        [
+            [4.0, 0.0],
+            [4.0, 1.0],
+            [4.0, 2.0],
+            [5.0, 0.0],
+            [5.0, 1.0],
+            [5.0, 2.0]
+        ]
+    );
 }
 
 /// Scenes of any order: a case with a first step above its largest has no scene, one without
@@ -211,10 +328,7 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
             .filter(|line| line.json.contains(piece))
             .count()
     };
-    assert_eq!(
-        (sweep.cases(), with("time.restart_dt: found 0.015")),
-        (32, 8)
-    );
+    assert_eq!((sweep.cases, with("time.restart_dt: found 0.015")), (32, 8));
     assert_eq!(with("\"scheme\":\"dg\""), 24);
     assert!(
         with("\"done\"") >= 12 && with("\"failure\"") > 0,
@@ -228,33 +342,18 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
         assert_eq!(all(&sweep, jobs, None), alone, "{jobs} threads");
     }
     assert_eq!(all(&sweep, 2, HOUR), alone);
-    // Each case belongs to one share; a journal with half the lines is continued, and refused if a
-    // line is altered.
-    let shares: Vec<SweepShare> = ["1/2", "2/2"].map(|share| share.parse().unwrap()).into();
-    let held = |case: usize| {
-        shares
-            .iter()
-            .filter(|share| share.holds(sweep.case(case).hash()))
-            .count()
-    };
-    assert!((0..sweep.cases()).all(|case| held(case) == 1));
-    let share = folder.path().join("out");
-    let resumed = |lines: String| {
-        let _ = std::fs::remove_dir_all(&share);
-        std::fs::create_dir(&share).unwrap();
-        let manifest = serde_json::to_string(&Manifest::new(&sweep, SweepShare::ALL)).unwrap();
-        std::fs::write(share.join("sweep.json"), manifest).unwrap();
-        std::fs::write(share.join("journal.jsonl"), lines).unwrap();
-        Journal::open(&share, &sweep, SweepShare::ALL, true)
-            .map(|journal| (0..32).filter(|&case| journal.has(case)).count())
-    };
+    // A file with half the lines is gone on with.
+    let place = folder.path().join("out");
     let half: String = alone
         .values()
         .take(16)
         .map(|line| line.json.clone() + "\n")
         .collect();
-    assert_eq!(resumed(half.clone()).unwrap(), 16);
-    assert!(resumed(half.replacen("\"u_tip\":", "\"u_tip\":1", 1)).is_err());
+    share_file(&place, &Header::new(&sweep, SweepShare::ALL).line(), &half);
+    let share = ShareFile::open(&place, &sweep, SweepShare::ALL).unwrap();
+    assert!(share.pending.into_iter().eq(16..32));
+    let failed = |line: &&CaseLine| !line.passed;
+    assert_eq!(share.failed, alone.values().take(16).filter(failed).count());
 }
 
 #[test]
@@ -287,24 +386,4 @@ fn keys_of_the_other_scheme_are_refused_with_their_place() {
         let error = refused(ANY_ORDER[0], grid);
         assert!(error.contains("sweep.toml:4"), "{error}");
     }
-}
-
-#[test]
-fn a_drawn_largest_step_of_any_order_need_not_divide_the_time() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("base.toml"), ANY_ORDER[0]).unwrap();
-    let latin = "[sweep]\nscene = \"base.toml\"\n[latin]\nsamples = 5\nseed = 1\ntime.dt = { from = 0.01, to = 0.02 }\n\
-        mesh.degree = { from = 4, to = 9 }\n";
-    std::fs::write(folder.path().join("sweep.toml"), latin).unwrap();
-    let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
-    let drawn = |case: usize| {
-        sweep
-            .case(case)
-            .parameters()
-            .find(|(key, _)| key.name == "dt")
-            .expect("dt")
-            .1
-    };
-    assert!((0..5).any(|case| (0.3 / drawn(case)).fract() > 0.01));
-    assert!(all(&sweep, 2, None).values().all(|line| line.passed));
 }

@@ -220,6 +220,11 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// The byte of the text at which it begins.
+    pub fn start(&self) -> usize {
+        self.span.start
+    }
+
     /// The value as in the file, with its type if that is not obvious.
     pub fn as_written(&self) -> String {
         match self.value {

@@ -61,9 +61,12 @@ const REFUSED: [(&str, &str); 85] = [
     ("sweep studies", FOLDER),
     (
         "sweep scene.toml",
-        "unknown key `obstacles`; expected sweep, set, grid, latin",
+        "unknown key `obstacles`; expected sweep, set, grid, list",
     ),
-    ("sweep sweep.toml --resume", "--out <DIR>"),
+    (
+        "sweep sweep.toml --resume",
+        "unexpected argument '--resume'",
+    ),
     ("sweep", "<FILE>"),
     (
         "sweep sweep.toml --merge swept --out joined",
@@ -75,8 +78,8 @@ const REFUSED: [(&str, &str); 85] = [
     ),
     ("sweep sweep.toml --time-limit -3", POSITIVE),
     (
-        "sweep sweep.toml --out swept",
-        "swept: expected a folder without results",
+        "sweep sweep.toml --partition 1/2 --out swept",
+        "swept/results.jsonl:1: expected {",
     ),
     (
         "sweep --merge swept",
@@ -84,15 +87,15 @@ const REFUSED: [(&str, &str); 85] = [
     ),
     (
         "sweep --merge missing --out joined",
-        "missing: not the folder of a sweep",
+        "missing/results.jsonl: ",
     ),
     (
         "sweep --merge swept swept --out joined",
-        "expected each case once",
+        "expected each share once",
     ),
     (
         "sweep --merge swept --out swept",
-        "swept: expected another folder for the joined results, found that of a share",
+        "swept/results.jsonl: expected no file there before the shares are joined",
     ),
     ("sweep --merge swept --out rates.csv", TAKEN),
     (

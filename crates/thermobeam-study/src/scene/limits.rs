@@ -45,12 +45,9 @@ pub(crate) const SWEEP_CASES: usize = 100_000_000;
 /// Values of one key of a sweep's grid.
 pub(crate) const SWEEP_VALUES: usize = 1_000_000;
 
-/// Randomly drawn samples of a sweep: all are drawn when the file is read, 16 bytes per key each.
-pub(crate) const SWEEP_SAMPLES: usize = 10_000_000;
-
-/// Bytes that a running sweep keeps for each case: its number, whether it is done, and the position
-/// of its line.
-const BYTES_PER_SWEEP_CASE: usize = 40;
+/// Bytes that a running sweep keeps for each case: its number, once for running it and once for
+/// writing its line.
+const BYTES_PER_SWEEP_CASE: usize = 16;
 
 /// A number of bytes, in words.
 pub(crate) fn memory(bytes: f64) -> String {

@@ -1,259 +1,303 @@
-//! Lines of results in files: finding, checking, sorting and copying.
+//! Lines of results: a line of JSON for each case, below a line that names the sweep.
 //!
-//! A line ends with the hash of the text before it, which reveals later changes.
-//!
-//! The lines stay on disk; memory holds their positions, 40 bytes per case.
+//! Every file, and the standard output, has the lines of a share of the cases in the order of their
+//! numbers. So a file that was left off holds the first lines of the finished one.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
+use std::iter::Peekable;
 use std::path::{Path, PathBuf};
+use std::vec::IntoIter;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::SweepCase;
-use convergence_study::internal::store::{atomic, content_hash};
+use super::{RESULTS, Sweep, SweepShare};
+use convergence_study::internal::store::atomic;
+
+/// The first line, in words.
+const HEADER: &str = "the first line of a sweep, with its hash, cases and share";
 
 /// The reason why a folder or a file of results cannot be used.
 #[derive(Debug, Error)]
 pub enum SweepError {
-    /// An error of the operating system, prefixed with the path.
+    /// An error of the operating system, preceded by the path.
     #[error(transparent)]
     Io(#[from] io::Error),
-    /// The folder holds results, and `--resume` was not given.
-    #[error("{}: expected a folder without results, found those of a sweep; continue it with --resume, or choose another folder", .0.display())]
-    Taken(PathBuf),
-    /// The folder holds other results.
-    #[error("{}: expected {what} {expected}, found {found}", .folder.display())]
-    Other {
-        /// The folder.
-        folder: PathBuf,
-        /// What differs.
-        what: &'static str,
-        /// The value in the folder.
-        found: String,
-        /// The expected value.
+    /// Something else than what must be there.
+    #[error("{place}: expected {expected}, found {found}")]
+    Refused {
+        /// A folder, or a file and a line.
+        place: String,
+        /// What must be there.
         expected: String,
-    },
-    /// Another process writes to the folder.
-    #[error("{}: another process writes to this folder; wait for it, or choose another folder", .0.display())]
-    Busy(PathBuf),
-    /// A file with unexpected content.
-    #[error("{}{}: {reason}", .file.display(), .line.map(|line| format!(":{line}")).unwrap_or_default())]
-    Damaged {
-        /// The file.
-        file: PathBuf,
-        /// The line number from 1, if it is about a line.
-        line: Option<usize>,
-        /// The expected and the found content.
-        reason: String,
-    },
-    /// A case has two lines.
-    #[error("{}: expected each case once, found case {case} here and in {}", .second.display(), .first.display())]
-    Duplicate {
-        /// Its number.
-        case: usize,
-        /// Where it was found first.
-        first: PathBuf,
-        /// Where it was found again.
-        second: PathBuf,
-    },
-    /// Cases are missing.
-    #[error(
-        "expected {cases} cases, of which {count} are missing: {named}; found the shares {shares}"
-    )]
-    Missing {
-        /// Number of missing cases.
-        count: usize,
-        /// Expected number of cases.
-        cases: usize,
-        /// The first missing cases.
-        named: String,
-        /// The shares found.
-        shares: String,
+        /// What is there, and what to do.
+        found: String,
     },
 }
 
-impl SweepError {
-    /// About a whole file, or a folder.
-    pub(super) fn damaged(file: &Path, reason: String) -> Self {
-        Self::Damaged {
-            file: file.to_owned(),
-            line: None,
-            reason,
+/// The first line of a file of results.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Header {
+    /// That of [`Sweep::hash`], in hexadecimal.
+    pub hash: String,
+    /// Cases of the whole sweep.
+    pub cases: usize,
+    /// The share of them that the file is for.
+    pub share: SweepShare,
+}
+
+impl Header {
+    /// The header of a share of a sweep.
+    pub fn new(sweep: &Sweep, share: SweepShare) -> Self {
+        Self {
+            hash: format!("{:016x}", sweep.hash),
+            cases: sweep.cases,
+            share,
         }
+    }
+
+    /// As a line of JSON, without its newline.
+    pub fn line(&self) -> String {
+        // A struct of numbers and texts always serialises.
+        serde_json::to_string(self).unwrap_or_else(|error| unreachable!("{error}"))
     }
 }
 
-/// The position of a line.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LinePosition {
-    pub(super) case: usize,
-    pub(super) passed: bool,
-    file: usize,
-    offset: u64,
-    bytes: u64,
+/// The result of one case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CaseLine {
+    /// The case's number.
+    pub case: usize,
+    /// Whether it completed.
+    pub passed: bool,
+    /// A line of JSON without its newline.
+    pub json: String,
 }
 
-/// The part of a line that is parsed.
+/// What is read of a line.
 #[derive(Deserialize)]
 struct LineHead<'a> {
     case: usize,
     status: &'a str,
 }
 
-impl<'a> LineHead<'a> {
-    /// * `cases`: the number of cases of the sweep.
-    ///
-    /// # Errors
-    /// What is wrong with the line.
-    fn read(line: &'a [u8], cases: usize) -> Result<Self, String> {
-        let head: Self = serde_json::from_slice(line)
-            .map_err(|error| format!("not a line of results: {error}"))?;
-        if head.case < cases {
-            return Ok(head);
+/// Reads a file of results, and refuses every line but that of the next case.
+pub(super) struct LineReader {
+    path: PathBuf,
+    input: BufReader<File>,
+    /// The line that was read last; one without its newline is torn.
+    pub(super) line: Vec<u8>,
+    /// Its number, from 1.
+    number: usize,
+    /// Bytes of all whole lines.
+    end: u64,
+    /// Lines of cases that failed.
+    pub(super) failed: usize,
+}
+
+impl LineReader {
+    /// The reader of an open file.
+    fn new(path: PathBuf, file: File) -> Self {
+        Self {
+            path,
+            input: BufReader::new(file),
+            line: vec![],
+            number: 0,
+            end: 0,
+            failed: 0,
         }
-        let case = head.case;
-        Err(format!(
-            "expected a case below {cases}, the number of cases, found {case}"
+    }
+
+    /// Opens the file of a folder and reads its first line.
+    pub(super) fn open(folder: &Path) -> Result<(Self, Header), SweepError> {
+        let path = folder.join(RESULTS);
+        let file = File::open(&path).map_err(atomic::naming(&path))?;
+        let mut lines = Self::new(path, file);
+        match lines.header()? {
+            Some(header) => Ok((lines, header)),
+            None => Err(lines.refuse(HEADER, "the end of the file")),
+        }
+    }
+
+    /// The error about the last line.
+    pub(super) fn refuse(&self, expected: &str, found: impl Into<String>) -> SweepError {
+        SweepError::Refused {
+            place: format!("{}:{}", self.path.display(), self.number),
+            expected: expected.to_owned(),
+            found: found.into(),
+        }
+    }
+
+    /// Reads a line; `false` at the end, and at a torn line.
+    fn advance(&mut self) -> Result<bool, SweepError> {
+        self.line.clear();
+        self.number += 1;
+        let bytes = self.input.read_until(b'\n', &mut self.line);
+        let bytes = bytes.map_err(atomic::naming(&self.path))?;
+        let is_whole = self.line.ends_with(b"\n");
+        self.end += if is_whole { bytes as u64 } else { 0 };
+        Ok(is_whole)
+    }
+
+    fn header(&mut self) -> Result<Option<Header>, SweepError> {
+        if !self.advance()? {
+            return Ok(None);
+        }
+        let header = serde_json::from_slice(&self.line);
+        header
+            .map(Some)
+            .map_err(|error| self.refuse(HEADER, format!("another line: {error}")))
+    }
+
+    /// Refuses the first line of another sweep, another version or another share.
+    pub(super) fn check(&self, found: &Header, expected: &Header) -> Result<(), SweepError> {
+        if found == expected {
+            return Ok(());
+        }
+        let expected = format!("{} of this sweep file, scene and version", expected.line());
+        Err(self.refuse(&expected, found.line()))
+    }
+
+    /// Reads the line of a case; `false` where the whole lines end.
+    pub(super) fn read(&mut self, case: usize) -> Result<bool, SweepError> {
+        if !self.advance()? {
+            return Ok(false);
+        }
+        let found = match serde_json::from_slice::<LineHead<'_>>(&self.line) {
+            Ok(head) if head.case == case => {
+                self.failed += usize::from(head.status != "done");
+                return Ok(true);
+            }
+            Ok(head) => format!("that of case {}", head.case),
+            Err(error) => format!("another: {error}"),
+        };
+        let next = "remove it with those below it, and run the share again";
+        Err(self.refuse(
+            &format!("the line of case {case}"),
+            format!("{found}; {next}"),
         ))
     }
-}
 
-/// A JSON object with the hash of its text as the last key.
-pub(super) fn sealed(object: &str) -> String {
-    let content = object.strip_suffix('}').unwrap_or(object);
-    format!(
-        "{content},\"hash\":\"{:016x}\"}}",
-        content_hash(content.as_bytes())
-    )
-}
-
-/// Refuses a line whose hash does not match its content.
-fn is_as_written(line: &[u8]) -> Result<(), String> {
-    const BESIDES: usize = ",\"hash\":\"0123456789abcdef\"}\n".len();
-    let content = &line[..line.len().saturating_sub(BESIDES)];
-    let expected = format!("{:016x}", content_hash(content));
-    if line[content.len()..] == *format!(",\"hash\":\"{expected}\"}}\n").as_bytes() {
-        return Ok(());
-    }
-    Err(format!(
-        "expected the hash {expected} of the line's content at its end, found another: the line was changed since it was \
-         written; remove it, and --resume computes its case again"
-    ))
-}
-
-impl LinePosition {
-    /// Refuses a line of another case: its varied numbers must be those of the sweep.
-    pub(super) fn is_of(&self, line: &[u8], case: &SweepCase<'_>) -> Result<(), String> {
-        let parameters = serde_json::to_string(case).map_err(|error| error.to_string())?;
-        let status = if self.passed { "done" } else { "failed" };
-        let expected = format!(
-            "{{\"case\":{},\"status\":\"{status}\",\"parameters\":{parameters}",
-            case.index
-        );
-        match line.strip_prefix(expected.as_bytes()) {
-            Some([b',', ..]) => Ok(()),
-            _ => Err(format!(
-                "expected a line that begins with {expected}, which is case {} of this sweep",
-                case.index
-            )),
+    /// Refuses a line below that of the last case.
+    pub(super) fn finish(&mut self) -> Result<(), SweepError> {
+        if self.advance()? {
+            return Err(self.refuse("the end of the file", "another line; remove it"));
         }
+        Ok(())
     }
 }
 
-/// The places of all complete lines of these files, in the order of their cases, and the offset at
-/// which the lines of the last file end; an incomplete line may follow.
-///
-/// * `check`: an additional check of a line, which returns what is wrong with it.
-///
-/// # Errors
-/// [`SweepError`]: a file that cannot be read, a line that has been changed, or a second line of a
-/// case.
-pub(super) fn places(
-    files: &[PathBuf],
-    cases: usize,
-    check: impl Fn(&LinePosition, &[u8]) -> Result<(), String>,
-) -> Result<(Vec<LinePosition>, u64), SweepError> {
-    let (mut places, mut end) = (vec![], 0);
-    for (index, file) in files.iter().enumerate() {
-        end = read(file, index, cases, &check, &mut places)?;
-    }
-    places.sort_by_key(|place| place.case);
-    if let Some(pair) = places.windows(2).find(|pair| pair[0].case == pair[1].case) {
-        let [first, second] = [pair[0], pair[1]].map(|place| files[place.file].clone());
-        return Err(SweepError::Duplicate {
-            case: pair[0].case,
-            first,
-            second,
-        });
-    }
-    Ok((places, end))
+/// The file of a share, locked against other processes.
+#[derive(Debug)]
+pub struct ShareFile {
+    /// Its path.
+    pub path: PathBuf,
+    /// The file, at its end.
+    pub file: File,
+    /// Cases without a line.
+    pub pending: Vec<usize>,
+    /// Cases with a line.
+    pub done: usize,
+    /// How many of them failed.
+    pub failed: usize,
 }
 
-/// Adds the places of a file; returns the offset at which its complete lines end.
-fn read(
-    path: &Path,
-    file: usize,
-    cases: usize,
-    check: impl Fn(&LinePosition, &[u8]) -> Result<(), String>,
-    places: &mut Vec<LinePosition>,
-) -> Result<u64, SweepError> {
-    let mut reader = BufReader::new(File::open(path).map_err(atomic::naming(path))?);
-    let (mut offset, mut line) = (0, vec![]);
-    for number in 1.. {
-        line.clear();
-        let bytes = reader
-            .read_until(b'\n', &mut line)
-            .map_err(atomic::naming(path))? as u64;
-        if line.last() != Some(&b'\n') {
-            break;
+impl ShareFile {
+    /// Opens the file in a folder, begins it if there is none, and drops a torn last line.
+    ///
+    /// # Errors
+    /// [`SweepError`]: another process is at work on it, or it has another first line or other cases
+    /// than the first ones of the share. It is then as it was.
+    pub fn open(folder: &Path, sweep: &Sweep, share: SweepShare) -> Result<Self, SweepError> {
+        atomic::prepare_folder(folder)?;
+        let path = folder.join(RESULTS);
+        let _writing = atomic::begin_write();
+        let mut options = OpenOptions::new();
+        options.create(true).truncate(false).read(true).write(true);
+        let mut file = options.open(&path).map_err(atomic::naming(&path))?;
+        // A file system without locks cannot keep a second process out.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(SweepError::Refused {
+                place: path.display().to_string(),
+                expected: "no other process at work on this file".to_owned(),
+                found: "one; wait for it, or choose another folder".to_owned(),
+            });
         }
-        let place = LineHead::read(&line, cases)
-            .map(|head| LinePosition {
-                case: head.case,
-                passed: head.status == "done",
-                file,
-                offset,
-                bytes,
-            })
-            .and_then(|place| {
-                is_as_written(&line)?;
-                check(&place, &line)?;
-                Ok(place)
-            })
-            .map_err(|reason| SweepError::Damaged {
-                file: path.to_owned(),
-                line: Some(number),
-                reason,
-            })?;
-        places.push(place);
-        offset += bytes;
-    }
-    Ok(offset)
-}
-
-/// Writes the lines at `places` in that order.
-pub(super) fn copy(places: &[LinePosition], files: &[PathBuf], out: &Path) -> io::Result<()> {
-    let mut readers = vec![];
-    for path in files {
-        let file = File::open(path).map_err(atomic::naming(path))?;
-        readers.push(BufReader::new(file));
-    }
-    atomic::write_with(out, |output: &mut BufWriter<File>| {
-        for place in places {
-            let reader = &mut readers[place.file];
-            // Relative, so that adjacent lines come from the buffer.
-            let here = reader.stream_position()?;
-            reader.seek_relative(place.offset.wrapping_sub(here) as i64)?;
-            let copied = io::copy(&mut reader.take(place.bytes), output)?;
-            if copied < place.bytes {
-                return Err(io::Error::new(
-                    io::ErrorKind::UnexpectedEof,
-                    "a file of results became shorter",
-                ));
+        let mut lines = LineReader::new(path.clone(), file.try_clone()?);
+        let header = Header::new(sweep, share);
+        let mut cases = share.cases(sweep.cases).peekable();
+        let mut done = 0;
+        match lines.header()? {
+            Some(found) => {
+                lines.check(&found, &header)?;
+                while let Some(&case) = cases.peek()
+                    && lines.read(case)?
+                {
+                    cases.next();
+                    done += 1;
+                }
+                if cases.peek().is_none() {
+                    lines.finish()?;
+                }
             }
+            None if header.line().as_bytes().starts_with(&lines.line) => {}
+            None => return Err(lines.refuse(HEADER, "another text; choose another folder")),
         }
-        output.flush()
-    })
+        file.set_len(lines.end).map_err(atomic::naming(&path))?;
+        file.seek(SeekFrom::End(0)).map_err(atomic::naming(&path))?;
+        if lines.end == 0 {
+            writeln!(file, "{}", header.line()).map_err(atomic::naming(&path))?;
+        }
+        Ok(Self {
+            pending: cases.collect(),
+            path,
+            file,
+            done,
+            failed: lines.failed,
+        })
+    }
+}
+
+/// Writes lines in the order of their cases; lines that arrive early are kept until their turn.
+pub struct InOrder<W> {
+    output: W,
+    /// Cases whose lines have not been written, in order.
+    expected: Peekable<IntoIter<usize>>,
+    early: BTreeMap<usize, String>,
+}
+
+impl<W: Write> InOrder<W> {
+    /// * `expected`: the increasing case numbers of all lines to come.
+    pub fn new(output: W, expected: Vec<usize>) -> Self {
+        Self {
+            output,
+            expected: expected.into_iter().peekable(),
+            early: BTreeMap::new(),
+        }
+    }
+
+    /// Accepts a line and writes all lines whose turn has come, of which it returns the number.
+    /// After the return, killing the process no longer loses these.
+    ///
+    /// # Errors
+    /// The error of the output.
+    pub fn add(&mut self, line: CaseLine) -> io::Result<usize> {
+        self.early.insert(line.case, line.json);
+        let (mut due, mut count) = (String::new(), 0);
+        while let Some(json) = self
+            .expected
+            .peek()
+            .and_then(|next| self.early.remove(next))
+        {
+            due = due + &json + "\n";
+            count += 1;
+            self.expected.next();
+        }
+        let _writing = atomic::begin_write();
+        self.output.write_all(due.as_bytes())?;
+        self.output.flush()?;
+        Ok(count)
+    }
 }

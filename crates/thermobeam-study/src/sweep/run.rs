@@ -1,16 +1,13 @@
 //! Running cases on all threads; lines in the order of completion.
 
-use std::collections::BTreeMap;
-use std::io::{self, Write};
-use std::iter::Peekable;
+use std::io;
 use std::time::Duration;
-use std::vec::IntoIter;
 
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::{Sweep, SweepCase, lines};
+use super::{CaseLine, Sweep};
 use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
@@ -23,15 +20,17 @@ const LANES: usize = 4;
 /// Cases that a thread takes at a time, and groups into those that can run together.
 const BATCH: usize = 16;
 
-/// The result of one case: a line of JSON without its newline.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CaseLine {
-    /// The case's number.
-    pub case: usize,
-    /// Whether it completed.
-    pub passed: bool,
-    /// The line.
-    pub json: String,
+/// The varied keys with their values in a case, in the order of the file.
+struct Parameters<'s> {
+    sweep: &'s Sweep,
+    case: usize,
+}
+
+impl Serialize for Parameters<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let axes = self.sweep.axes.iter();
+        serializer.collect_map(axes.map(|axis| (axis.path, axis.json(self.case))))
+    }
 }
 
 /// The JSON object of a line; names are a contract, keys may be added.
@@ -39,7 +38,7 @@ pub struct CaseLine {
 struct Content<'a> {
     case: usize,
     status: &'static str,
-    parameters: &'a SweepCase<'a>,
+    parameters: Parameters<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,68 +46,58 @@ struct Content<'a> {
 }
 
 impl CaseLine {
-    fn failed(case: &SweepCase<'_>, reason: String) -> Self {
-        Self::of(&Content {
-            case: case.index,
-            status: "failed",
-            parameters: case,
-            reason: Some(reason),
-            result: None,
-        })
+    fn failed(sweep: &Sweep, case: usize, reason: String) -> Self {
+        Self::of(sweep, case, Some(reason), None)
     }
 
     /// From a run, or from the completed part of one.
-    fn of_run(sweep: &Sweep, index: usize, scene: &Scene, run: &Run) -> Self {
-        let (case, reason) = (sweep.case(index), run.complaint());
-        let status = if reason.is_none() { "done" } else { "failed" };
-        let result = Some(Object::reproducible(scene, run));
-        Self::of(&Content {
-            case: index,
-            status,
-            parameters: &case,
-            reason,
-            result,
-        })
+    fn of_run(sweep: &Sweep, case: usize, scene: &Scene, run: &Run) -> Self {
+        let result = Object::reproducible(scene, run);
+        Self::of(sweep, case, run.complaint(), Some(result))
     }
 
-    fn of(content: &Content<'_>) -> Self {
+    fn of(sweep: &Sweep, case: usize, reason: Option<String>, result: Option<Object<'_>>) -> Self {
+        let passed = reason.is_none();
+        let content = Content {
+            case,
+            status: if passed { "done" } else { "failed" },
+            parameters: Parameters { sweep, case },
+            reason,
+            result,
+        };
         // Structs of numbers and texts always serialise.
-        let json = serde_json::to_string(content).unwrap_or_else(|error| unreachable!("{error}"));
-        Self {
-            case: content.case,
-            passed: content.reason.is_none(),
-            json: lines::sealed(&json),
-        }
+        let json = serde_json::to_string(&content).unwrap_or_else(|error| unreachable!("{error}"));
+        Self { case, passed, json }
     }
 }
 
 /// The scene of a case, or the line of its failure.
-fn scene(sweep: &Sweep, index: usize) -> Result<Scene, CaseLine> {
-    let case = sweep.case(index);
+fn scene(sweep: &Sweep, case: usize) -> Result<Scene, CaseLine> {
     // A panic is a failure of its case, so that the others are not lost.
-    let read = catch(|| sweep.scene(&case)).map_err(|reason| CaseLine::failed(&case, reason))?;
+    let read = catch(|| sweep.scene(case));
+    let read = read.map_err(|reason| CaseLine::failed(sweep, case, reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
         let field = error
             .field
             .map(|field| format!("{field}: "))
             .unwrap_or_default();
-        CaseLine::failed(&case, format!("{field}{}", error.complaint))
+        CaseLine::failed(sweep, case, format!("{field}{}", error.complaint))
     })
 }
 
 /// A case on its own.
-fn simulate(sweep: &Sweep, index: usize, scene: &Scene) -> CaseLine {
+fn simulate(sweep: &Sweep, case: usize, scene: &Scene) -> CaseLine {
     let simulated = || match Simulator::new(scene) {
         Ok(simulator) => CaseLine::of_run(
             sweep,
-            index,
+            case,
             scene,
             &simulator.run(Recording::Summary, &mut |_, _| ()),
         ),
-        Err(error) => CaseLine::failed(&sweep.case(index), error.to_string()),
+        Err(error) => CaseLine::failed(sweep, case, error.to_string()),
     };
-    catch(simulated).unwrap_or_else(|reason| CaseLine::failed(&sweep.case(index), reason))
+    catch(simulated).unwrap_or_else(|reason| CaseLine::failed(sweep, case, reason))
 }
 
 /// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
@@ -231,42 +220,6 @@ pub fn run(
     })
 }
 
-/// Writes lines in the order of their cases; lines that arrive early are kept until their turn.
-pub struct InOrder<W> {
-    output: W,
-    /// Cases whose lines have not been written, in order.
-    expected: Peekable<IntoIter<usize>>,
-    early: BTreeMap<usize, String>,
-}
-
-impl<W: Write> InOrder<W> {
-    /// * `expected`: the increasing case numbers of all lines to come.
-    pub fn new(output: W, expected: Vec<usize>) -> Self {
-        Self {
-            output,
-            expected: expected.into_iter().peekable(),
-            early: BTreeMap::new(),
-        }
-    }
-
-    /// Accepts a line and writes all lines whose turn has come.
-    ///
-    /// # Errors
-    /// The error of the output.
-    pub fn add(&mut self, line: CaseLine) -> io::Result<()> {
-        self.early.insert(line.case, line.json);
-        while let Some(json) = self
-            .expected
-            .peek()
-            .and_then(|next| self.early.remove(next))
-        {
-            writeln!(self.output, "{json}")?;
-            self.expected.next();
-        }
-        self.output.flush()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -280,7 +233,7 @@ mod tests {
             time.t_end = [0.6, 0.8]\ntime.dt = [0.2, 0.3]\n";
         std::fs::write(folder.path().join("sweep.toml"), grid).unwrap();
         let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
-        let indices: Vec<usize> = (0..sweep.cases()).collect();
+        let indices: Vec<usize> = (0..sweep.cases).collect();
         let (groups, failed) = groups(&sweep, &indices);
         // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others have
         // different numbers of steps.

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
-use thermobeam_study::sweep::{self, CaseLine, Journal, Manifest, Sweep, SweepShare};
+use thermobeam_study::sweep::{self, CaseLine, Header, RESULTS, ShareFile, Sweep, SweepShare};
 
 use crate::read_study;
 
@@ -20,23 +20,20 @@ pub(crate) enum Reading {
     Sweep,
     Rates,
     Baseline,
-    /// The identity of a sweep's folder.
-    Manifest,
-    /// The completed lines of a sweep.
-    Journal,
+    /// The lines of a sweep.
+    Results,
     /// No reader at all, to check that a panic is noticed.
     Panic,
 }
 
 impl Reading {
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::Scene,
         Self::Study,
         Self::Sweep,
         Self::Rates,
         Self::Baseline,
-        Self::Manifest,
-        Self::Journal,
+        Self::Results,
     ];
 
     pub(crate) fn name(self) -> &'static str {
@@ -46,8 +43,7 @@ impl Reading {
             Self::Sweep => "sweep",
             Self::Rates => "rates",
             Self::Baseline => "baseline",
-            Self::Manifest => "manifest",
-            Self::Journal => "journal",
+            Self::Results => "results",
             Self::Panic => "panic",
         }
     }
@@ -75,8 +71,8 @@ const SWEEPS: [&str; 2] = [
     "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[set]\ntime.t_end = 1.0\ninitial.theta = \"{beam.theta_a}*(1-x)\"\n\
      [grid]\nbeam.beta = [-0.5, 0.0, 5.0]\nbeam.theta_a = { from = 0.0, to = 20.0, count = 5 }\n\
      obstacles.epsilon = { from = 1e-4, to = 1e-2, count = 3, scale = \"log\" }\n",
-    "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[latin]\nsamples = 100\nseed = 1\n\
-     beam.beta = { from = -0.5, to = 5.0 }\nmesh.elements = { from = 20, to = 200, scale = \"log\" }\n",
+    "[sweep]\nscene = \"scenes/paper-1-beta-0.toml\"\n[list]\n\
+     beam.beta = { from = -0.5, to = 5.0, count = 3 }\nmesh.elements = [20, 50, 200]\n",
 ];
 
 const TABLES: [&str; 2] = [
@@ -122,8 +118,7 @@ pub(crate) fn seeds() -> Vec<(Reading, String)> {
             Reading::Baseline,
             vec![baseline, small.clone(), small.clone(), small],
         ))
-        .chain(of(Reading::Manifest, vec![Bench::new().manifest(); 4]))
-        .chain(of(Reading::Journal, several(&[&Bench::new().journal()])))
+        .chain(of(Reading::Results, several(&[&Bench::new().results()])))
         .collect()
 }
 
@@ -175,13 +170,10 @@ impl Bench {
         Sweep::read(self.folder.path().join("small.toml")).expect("a sweep")
     }
 
-    fn manifest(&self) -> String {
-        serde_json::to_string(&Manifest::new(&self.small(), SweepShare::ALL)).expect("JSON")
-    }
-
-    /// The lines of two cases.
-    fn journal(&self) -> String {
-        let lines = std::sync::Mutex::new(String::new());
+    /// The first line and those of two cases.
+    fn results(&self) -> String {
+        let header = Header::new(&self.small(), SweepShare::ALL).line();
+        let lines = std::sync::Mutex::new(header + "\n");
         let kept = |line: CaseLine| {
             *lines.lock().expect("a text") += &(line.json + "\n");
             Ok(())
@@ -231,7 +223,7 @@ impl Bench {
             }
             Reading::Sweep => {
                 let sweep = Sweep::read(&path).map_err(|error| said(&error))?;
-                let _ = sweep.case(sweep.cases() - 1).hash();
+                let _ = sweep.scene(sweep.cases - 1);
             }
             Reading::Rates => {
                 let table = RateTable::read_with(&path, &Choice::default())
@@ -241,25 +233,22 @@ impl Bench {
                 });
             }
             Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),
-            Reading::Manifest => self.resumed(bytes, b"")?,
-            Reading::Journal => self.resumed(self.manifest().as_bytes(), bytes)?,
+            Reading::Results => self.resumed(bytes)?,
             Reading::Panic => panic!("as it was asked to"),
         }
         Ok(())
     }
 
-    /// Continues a sweep whose folder holds these files.
-    fn resumed(&self, manifest: &[u8], journal: &[u8]) -> Result<(), String> {
-        let _ = fs::remove_dir_all(self.share());
-        fs::create_dir(self.share()).expect("a folder");
-        fs::write(self.share().join("sweep.json"), manifest).expect("a manifest");
-        fs::write(self.share().join("journal.jsonl"), journal).expect("a journal");
-        let journal = Journal::open(&self.share(), &self.small(), SweepShare::ALL, true)
-            .map_err(|error| error.to_string())?;
-        journal
-            .finish()
-            .map(drop)
-            .map_err(|error| error.to_string())
+    /// Joins a sweep whose folder holds this file, and goes on with it.
+    fn resumed(&self, results: &[u8]) -> Result<(), String> {
+        let (share, joined) = (self.share(), self.folder.path().join("joined"));
+        let _ = [&share, &joined].map(fs::remove_dir_all);
+        fs::create_dir(&share).expect("a folder");
+        fs::write(share.join(RESULTS), results).expect("a file");
+        let merged = sweep::merge(std::slice::from_ref(&share), &joined);
+        let opened = ShareFile::open(&share, &self.small(), SweepShare::ALL);
+        merged.map_err(|error| error.to_string())?;
+        opened.map(drop).map_err(|error| error.to_string())
     }
 
     /// Does a refusal begin with the name of a file that was read, and describe a problem in it?

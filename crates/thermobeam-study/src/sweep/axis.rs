@@ -51,7 +51,7 @@ pub struct Axis {
 
 impl Axis {
     /// The place of a case's value among the values.
-    fn place(&self, case: usize) -> usize {
+    pub(super) fn place(&self, case: usize) -> usize {
         case / self.stride % self.values.len()
     }
 
@@ -119,9 +119,9 @@ impl<'a> SweptKey<'a> {
         (0..=last).step_by(step).map(move |place| place * stride)
     }
 
-    /// The field of a case's value.
-    pub(super) fn field(&self, case: usize) -> &Field<'a> {
-        &self.fields[self.axis.place(case).min(self.fields.len() - 1)]
+    /// The field of a value.
+    pub(super) fn field(&self, place: usize) -> &Field<'a> {
+        &self.fields[place.min(self.fields.len() - 1)]
     }
 }
 

@@ -65,7 +65,7 @@ impl<'a> SweepFile<'a> {
             let mut values = key.axis.values.iter();
             if let Some(place) = values.position(|value| !seen.insert(value.to_bits())) {
                 let found = format!("{:?} a second time", key.axis.values[place]);
-                let field = key.field(place * key.axis.stride);
+                let field = key.field(place);
                 return Err(field.refuse(found, "each number once"));
             }
         }
@@ -115,28 +115,20 @@ impl<'a> SweepFile<'a> {
         for key in steps {
             let bad = key.probed().find(|&case| key.axis.value(case) <= 0.0);
             if let Some(case) = bad {
-                return Err(key.field(case).refuse_as_written("numbers > 0"));
+                let field = key.field(key.axis.place(case));
+                return Err(field.refuse_as_written("numbers > 0"));
             }
         }
-        let check = |case, probed| {
-            let scene = base.scene(case, keys.iter().map(|key| &key.axis));
-            scene.map_err(|error| self.blame(&error, probed, case))
+        let check = |case, probed| match base.scene(case, keys.iter().map(|key| &key.axis)) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(self.blame(&error, probed, case)),
         };
-        let alone = if self.design == Design::List {
-            self.cases
-        } else {
-            1
-        };
-        for case in 0..alone {
-            check(case, None)?;
-        }
         if self.design == Design::List {
-            return Ok(());
+            return (0..self.cases).try_for_each(|case| check(case, None));
         }
+        check(0, None)?;
         for key in &keys {
-            for case in key.probed() {
-                check(case, Some(*key))?;
-            }
+            key.probed().try_for_each(|case| check(case, Some(*key)))?;
         }
         Ok(())
     }
@@ -149,7 +141,7 @@ impl<'a> SweepFile<'a> {
         let swept = self.keys.iter().find(|key| key.axis.path == name);
         let common = common_value(&self.root, name).filter(|_| probed.is_none());
         let key = probed.or(swept).unwrap_or(&self.keys[0]);
-        let field = common.as_ref().unwrap_or_else(|| key.field(case));
+        let field = common.unwrap_or_else(|| key.field(key.axis.place(case)).clone());
         field.invalid(format!("{name}: {}", error.complaint))
     }
 }

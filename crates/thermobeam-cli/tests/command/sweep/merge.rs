@@ -99,7 +99,7 @@ fn shares_are_disjoint_and_complete_and_merge_to_the_bytes_of_one_run() {
                 assert!(seen.insert(line["case"].as_u64()), "{line} twice");
             }
         }
-        assert_eq!(seen.len(), whole.lines().count());
+        assert_eq!(seen.len(), lines(&whole).len());
         let out = folder.path("merged");
         let merged = ended(
             thermobeam()

@@ -14,7 +14,7 @@ fn sweep(folder: &Folder, design: &str) -> PathBuf {
     )
 }
 
-/// 48 cases; two of them are impossible.
+/// 96 cases, of which some are impossible.
 const GRID: &str = "[grid]\nbeam.beta = { from = -0.6, to = 5.0, count = 8 }\nobstacles.epsilon = [1e-3, 1e-2]\n\
     time.dt = [0.01, 0.02, 0.03]\ntime.t_end = [0.06, 0.08]\n";
 

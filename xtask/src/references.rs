@@ -1,5 +1,8 @@
 //! `dev references`: the schemas and reference pages of study files and scenes, made from the keys
-//! that the readers allow; and the book's page on verdicts, made from their reasons.
+//! that the readers allow, which the site has and git ignores; and the book's page on verdicts,
+//! made from their reasons, which is committed.
+
+use std::path::PathBuf;
 
 use convergence_judge::text::lists::grouped;
 use convergence_study::{
@@ -17,12 +20,16 @@ use thermobeam_cli::project;
 
 /// Write the schemas and the reference pages of files anew
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {}
+pub(crate) struct Arguments {
+    /// The folder of the repository, or another one
+    #[arg(value_name = "DIR", default_value = ".")]
+    folder: PathBuf,
+}
 
-/// Writes the files, from the project's folder.
-pub(crate) fn run(_: &Arguments) -> CommandOutcome {
-    for Reference { path, text } in files() {
-        atomic::write(path.as_ref(), text)?;
+/// Writes the files.
+pub(crate) fn run(Arguments { folder }: &Arguments) -> CommandOutcome {
+    for Reference { path, text } in made().into_iter().chain([verdicts()]) {
+        atomic::write(&folder.join(path), text)?;
     }
     Ok(Verdict::Pass)
 }
@@ -43,9 +50,9 @@ pub struct Reference {
     pub text: String,
 }
 
-/// All of them.
-pub fn files() -> Vec<Reference> {
-    let mut files = vec![verdicts()];
+/// Those that git ignores.
+pub fn made() -> Vec<Reference> {
+    let mut files = vec![];
     for (folder, project) in [
         (HARNESS, program::PROJECT),
         ("crates/thermobeam-study", project("thermobeam")),
@@ -69,7 +76,7 @@ pub fn files() -> Vec<Reference> {
 
 /// The page on verdicts: its own words, and then every reason with what to do. Reasons with the
 /// same mathematics stand together.
-fn verdicts() -> Reference {
+pub fn verdicts() -> Reference {
     let page = include_str!("../../crates/convergence-study/book/src/inconclusive.md");
     let (own, _) = page.split_once(CHAPTER).unwrap_or((page, ""));
     let mut text = format!("{own}{CHAPTER}");

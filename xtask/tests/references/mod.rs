@@ -8,6 +8,7 @@ mod schema;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use convergence_study::{
     Keys,
@@ -22,7 +23,7 @@ use serde_json::Value;
 use thermobeam_study::scene::{self, Scene};
 
 use xtask::PROJECT;
-use xtask::references::{Reference, files};
+use xtask::references::{Reference, made, verdicts};
 
 use mutants::{Mutant, insertions, mutants};
 use schema::complaint;
@@ -258,35 +259,68 @@ fn schema_and_reader_of_manufacture_allow_the_same_keys() {
 }
 
 #[test]
-fn the_committed_schemas_and_pages_are_current() {
-    for Reference { path, text } in files() {
-        let committed = fs::read_to_string(repository().join(&path)).unwrap_or_default();
-        assert!(
-            committed == text,
-            "{path}: run `cargo xtask dev references`"
-        );
-    }
+fn the_committed_page_on_verdicts_is_current() {
+    let Reference { path, text } = verdicts();
+    let committed = fs::read_to_string(repository().join(&path)).unwrap_or_default();
+    assert!(
+        committed == text,
+        "{path}: run `cargo xtask dev references`"
+    );
 }
 
-/// What `new` writes for studies and scenes names its schema, which is committed where the URL
+#[test]
+fn the_command_makes_every_schema_and_page_and_git_ignores_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    let command = command.args(["dev", "references"]).arg(folder.path());
+    assert!(command.status().unwrap().success());
+    let made = made();
+    for Reference { path, text } in &made {
+        let written = fs::read_to_string(folder.path().join(path)).expect(path);
+        assert_eq!(&written, text, "{path}");
+        let mut git = Command::new("git");
+        git.args(["check-ignore", "-q", path])
+            .current_dir(repository());
+        assert!(git.status().unwrap().success(), "{path}: not ignored");
+    }
+    let text = |path: &str| {
+        let mut made = made.iter();
+        let found = made.find(|made| made.path == path).expect(path);
+        found.text.as_str()
+    };
+    for folder in ["convergence-study", "thermobeam-study"] {
+        let page = text(&format!("crates/{folder}/STUDIES.md"));
+        let schema = text(&format!("crates/{folder}/schema.json"));
+        let schema: Value = serde_json::from_str(schema).expect("JSON");
+        let kinds = &schema["properties"]["study"]["properties"]["kind"]["enum"];
+        let kinds = kinds.as_array().expect("kinds");
+        assert!(!kinds.is_empty());
+        for kind in kinds {
+            let kind = kind.as_str().expect("a name");
+            assert!(page.contains(&format!("`{kind}`")), "{folder}: {kind}");
+        }
+    }
+    let scene: Value =
+        serde_json::from_str(text("crates/thermobeam-study/scene.schema.json")).expect("JSON");
+    assert_eq!(scene["title"], "scene files");
+    assert_eq!(made.len(), 6);
+}
+
+/// What `new` writes for studies and scenes names its schema, which `.ci/site` puts where the URL
 /// points.
 #[test]
-fn new_files_name_a_committed_schema() {
-    const URL: &str = "https://raw.githubusercontent.com/thermobeam/thermobeam/main/";
-    let repository = URL.replace("raw.githubusercontent.com", "github.com");
-    let repository = repository.trim_end_matches("/main/");
-    assert!(
-        include_str!("../../../Cargo.toml").contains(&format!("repository = \"{repository}\""))
-    );
-    let committed: Vec<String> = files().into_iter().map(|file| file.path).collect();
+fn new_files_name_a_schema_of_the_site() {
+    const SITE: &str = "https://thermobeam.github.io/thermobeam/";
+    let made: Vec<String> = made().into_iter().map(|file| file.path).collect();
     let templates = PROJECT.templates.iter().chain(program::PROJECT.templates);
     let mut named = BTreeSet::new();
     for template in templates {
         let (_, text) = template.files[0];
         let line = text.lines().next().unwrap();
-        let path = line.strip_prefix(&format!("#:schema {URL}"));
+        let path = line.strip_prefix(&format!("#:schema {SITE}"));
         let path = path.unwrap_or_else(|| panic!("{}: {line}", template.name));
-        assert!(committed.iter().any(|known| known == path), "{path}");
+        let in_repository = format!("crates/{path}");
+        assert!(made.contains(&in_repository), "{path}");
         named.insert(path);
     }
     assert_eq!(named.len(), 4, "{named:?}");

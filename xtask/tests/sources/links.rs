@@ -82,6 +82,9 @@ fn broken(page: &Path) -> Vec<String> {
         .collect()
 }
 
+/// Pages of the site that git ignores: `.ci/site` makes them before it builds the book.
+const MADE: [&str; 2] = ["../../STUDIES.md", "../../../thermobeam-study/STUDIES.md"];
+
 #[test]
 fn every_link_leads_somewhere() {
     let root = super::root();
@@ -92,6 +95,7 @@ fn every_link_leads_somewhere() {
         .flat_map(|page| {
             broken(page)
                 .into_iter()
+                .filter(|link| !(page.ends_with("SUMMARY.md") && MADE.contains(&link.as_str())))
                 .map(move |link| format!("{}: {link}", page.display()))
         })
         .collect();

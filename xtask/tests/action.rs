@@ -16,14 +16,18 @@ const CARGO: &str = r#"#!/usr/bin/env bash
 printf '%s\n' "$@" >arguments
 if [ "$STATUS" -le 1 ]; then
     mkdir -p "$PLACE/figures" reports/local
-    echo new >"$PLACE/README.md"
+    for file in README.md errors.csv index.html junit.xml summary.md; do
+        echo new >"$PLACE/$file"
+    done
     if [ "$PLACE" = reports/full ]; then
         mkdir -p reports/figures
         echo above >reports/figures/c.svg
         echo '![c](../figures/c.svg)' >"$PLACE/README.md"
     fi
     echo new >"$PLACE/figures/a b.svg"
-    printf 'README.md\nfigures/a b.svg\n' >"$PLACE/manifest.txt"
+    mkdir -p "$PLACE/figures/page"
+    echo new >"$PLACE/figures/page/d.svg"
+    printf '{ "figures": [\n  { "file": "a b.svg" },\n  { "file": "d.svg" },\n  { "file": "c.svg" }\n] }\n' >"$PLACE/results.json"
     echo new >reports/local/provenance.json
 fi
 exit "$STATUS"
@@ -45,7 +49,8 @@ fn run(tier: &str, ids: &str, status: i32, place: &str) -> Ran {
     fs::set_permissions(at("bin/cargo"), fs::Permissions::from_mode(0o755)).unwrap();
     // A checkout contains the report of an earlier run.
     fs::create_dir_all(at("reports")).unwrap();
-    for stale in ["README.md", "stale.svg"] {
+    fs::create_dir_all(at("reports/figures")).unwrap();
+    for stale in ["README.md", "stale.svg", "figures/stale.svg"] {
         fs::write(at("reports").join(stale), "old\n").unwrap();
     }
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/actions/verify/run.sh");
@@ -112,7 +117,12 @@ fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
             } else {
                 assert_eq!((readme.as_str(), picture), ("new\n", None));
             }
-            for new in ["figures/a b.svg", "provenance.json"] {
+            for new in [
+                "figures/a b.svg",
+                "figures/page/d.svg",
+                "junit.xml",
+                "provenance.json",
+            ] {
                 assert_eq!(
                     fs::read_to_string(report.join(new)).unwrap(),
                     "new\n",
@@ -120,6 +130,7 @@ fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
                 );
             }
             assert!(!report.join("stale.svg").exists());
+            assert!(!report.join("figures/stale.svg").exists());
         }
     }
 }

@@ -100,7 +100,7 @@ impl Results {
             .unwrap_or("h")
     }
 
-    /// The header; the baseline keeps its settings as claims.
+    /// The header; the baseline keeps a hash of its settings.
     fn header(&self) -> Header {
         let orders: Vec<String> = self
             .claims
@@ -183,12 +183,14 @@ impl Results {
                 "s",
             );
         }
+        // The levels that were requested are a setting; of those that were added time decides.
+        finished.header.cases.clear();
         finished
     }
 }
 
 /// The setting that names the test of a study.
-pub(crate) const TEST: &str = "test";
+const TEST: &str = "test";
 
 /// A text as the id of a study: small letters, digits, `.` and `-`.
 fn id_of(name: &str) -> String {

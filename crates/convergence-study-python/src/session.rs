@@ -13,7 +13,6 @@ use convergence_study::{
 };
 use pyo3::prelude::*;
 
-use crate::results::TEST;
 use crate::studied::Study;
 use crate::values::refuse;
 
@@ -23,18 +22,10 @@ const PROJECT: Project = Project::new("pytest", "pytest");
 #[pyfunction]
 pub(crate) fn guarded(baseline: PathBuf) -> PyResult<Vec<(String, String)>> {
     let numbers = Baseline::read(&baseline).map_err(refuse)?;
-    let ids: BTreeSet<String> = numbers
-        .compare(&[], Some(&[]))
-        .into_iter()
-        .map(|change| change.study)
-        .collect();
-    let with_test = |id: String| {
-        let test = numbers
-            .claim(&id, TEST)
-            .and_then(|claim| claim.value.clone());
-        (id, test.unwrap_or_default())
-    };
-    Ok(ids.into_iter().map(with_test).collect())
+    let tests = numbers.tests();
+    Ok(tests
+        .map(|(id, test)| (id.to_owned(), test.unwrap_or_default().to_owned()))
+        .collect())
 }
 
 /// What pytest is asked to do with the studies of a run.
@@ -43,8 +34,10 @@ pub(crate) fn guarded(baseline: PathBuf) -> PyResult<Vec<(String, String)>> {
 pub(crate) struct Request {
     /// The file of the baseline; numbers are guarded if it exists or is to be created.
     baseline: PathBuf,
-    /// Whether to accept the numbers and claims.
+    /// Whether to accept the numbers.
     bless: bool,
+    /// Whether to accept also what is loosened, changed in its settings, or gone.
+    loosened: bool,
     /// The folder of the report.
     report: Option<PathBuf>,
     /// Guarded studies whose tests no longer exist.
@@ -75,18 +68,31 @@ impl Request {
 
     /// Accepts the studies into the baseline.
     ///
-    /// * Returns why not, if it is refused.
-    fn bless(&self, numbers: &mut Baseline, studies: &[Finished]) -> PyResult<Option<String>> {
+    /// * Returns the lines to print, and whether it is accepted.
+    fn bless(
+        &self,
+        numbers: &mut Baseline,
+        studies: &[Finished],
+    ) -> PyResult<(Vec<String>, bool)> {
         let mut known = headers(studies);
         known.extend(self.not_judged(numbers, &known));
-        if let Err(refusal) = numbers.bless(studies, Some(&known), Some("")) {
-            return Ok(Some(refusal.to_string()));
-        }
+        let loosened = match numbers.bless(studies, Some(&known), self.loosened) {
+            Ok(loosened) => loosened,
+            Err(refusal) => {
+                let words = refusal.words("--convergence-bless --convergence-loosened");
+                return Ok((vec![format!("baseline: {words}")], false));
+            }
+        };
         if let Some(folder) = self.baseline.parent() {
             atomic::prepare_folder(folder)?;
         }
         numbers.write(&self.baseline).map_err(refuse)?;
-        Ok(None)
+        let mut lines: Vec<String> = loosened
+            .iter()
+            .map(|change| format!("loosened: {change}"))
+            .collect();
+        lines.push(format!("baseline: blessed, see {}", self.baseline.display()));
+        Ok((lines, true))
     }
 }
 
@@ -97,7 +103,7 @@ fn headers(studies: &[Finished]) -> Vec<Header> {
 fn is_deleted(change: &GuardedChange) -> bool {
     matches!(
         change.movement,
-        Movement::VanishedFile { .. } | Movement::Vanished { .. }
+        Movement::VanishedStudy { .. } | Movement::Vanished { .. }
     )
 }
 
@@ -119,10 +125,7 @@ pub(crate) fn finish(
     if request.bless || request.baseline.is_file() {
         let mut numbers = Baseline::read(&request.baseline).map_err(refuse)?;
         if request.bless {
-            let refusal = request.bless(&mut numbers, &firm)?;
-            is_well = refusal.is_none();
-            let blessed = || format!("blessed, see {}", request.baseline.display());
-            lines.push(format!("baseline: {}", refusal.unwrap_or_else(blessed)));
+            (lines, is_well) = request.bless(&mut numbers, &firm)?;
         }
         let found = request.changes(&numbers, &firm);
         let moved = found.iter().filter(|change| !is_gone(change, &request));

@@ -70,8 +70,12 @@ def test_numbers_are_guarded_once_they_are_blessed(project):
     moved = project.runpytest_subprocess()
     assert moved.ret == 1
     moved.assert_outcomes(passed=2, errors=1)
-    moved.stdout.fnmatch_lines(["*expect.L2.tolerance*0.25*0.4*", "*error L2, n = 8*"])
-    assert project.runpytest_subprocess("--convergence-bless").ret == 0
+    moved.stdout.fnmatch_lines(["*rate L2 has a looser claim: was 2 ± 0.25, is 2 ± 0.4*", "*error L2, n = 8*"])
+    refused = project.runpytest_subprocess("--convergence-bless")
+    assert refused.ret == 1
+    refused.stdout.fnmatch_lines(["*not blessed: less would be guarded; if that is meant: --convergence-bless --convergence-loosened*"])
+    loosened = bless(project, "--convergence-loosened")
+    loosened.stdout.fnmatch_lines(["loosened: *rate L2 has a looser claim: was 2 ± 0.25, is 2 ± 0.4*"])
     assert project.runpytest_subprocess().ret == 0
     baseline.write_text("{")
     broken = project.runpytest_subprocess()
@@ -101,7 +105,8 @@ def test_a_guarded_test_that_is_deleted_is_named_by_a_whole_run(project):
         selected = project.runpytest_subprocess(*selection)
         assert selected.ret == 0
         selected.stdout.no_fnmatch_line("*guarded test*")
-    bless(project).stdout.no_fnmatch_line("*guarded test*")
+    assert project.runpytest_subprocess("--convergence-bless").ret == 1
+    bless(project, "--convergence-loosened").stdout.no_fnmatch_line("*guarded test*")
     again = project.runpytest_subprocess()
     assert again.ret == 0
     again.stdout.no_fnmatch_line("*guarded test*")

@@ -88,14 +88,14 @@ pub mod report {
 }
 pub mod run {
     pub use crate::run::{
-        Effort, Item, NotPassed, Spent, available, catch, not_passed, run, run_within,
+        Effort, Item, NotPassed, Spent, available, catch, listed, not_passed, run, run_within,
     };
 }
 #[cfg(feature = "reports")]
 pub mod store {
     pub use crate::store::{
-        Baseline, BlessedClaim, GuardedChange, Movement, Record, ReportFolder, ReportSet, Works,
-        content_hash, json, junit, lock,
+        Baseline, GuardedChange, Movement, Record, ReportFolder, ReportSet, Works, content_hash,
+        json, junit, lock,
     };
     pub mod atomic {
         pub use crate::store::atomic::{

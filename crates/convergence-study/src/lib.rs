@@ -126,8 +126,8 @@ pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
         Axis, Case, CaseFailure, Check, Coverage, ErrorsOverLevels, Figure, Header, IntoErrors,
-        Kind, LevelErrors, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement, Sort,
-        Study, Subject, Table, Tier, Untested, boxed_study,
+        Kind, LevelErrors, Must, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement,
+        Sort, Study, Subject, Table, Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
         levels,

@@ -25,7 +25,7 @@ use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 
 #[cfg(feature = "command-line")]
-pub(crate) use destination::folder_of_figures;
+pub(crate) use destination::{folder_of_figures, is_report};
 pub use rebuilt::{publish, write_report};
 pub(crate) use rebuilt::{rebuild, record};
 
@@ -45,10 +45,10 @@ pub(crate) use reports::Reports;
 /// files in `reports/` that git ignores and other programs read, such as `junit.xml` ([`NEWEST`]),
 /// are always those of the newest run: while it is under way, and after it has been killed, there
 /// are none.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Scope {
-    /// All studies of a tier; the headers of all existing studies, whatever their tier: the claims
-    /// of all are compared.
+    /// All studies of a tier; the headers of all existing studies, whatever their tier, with their
+    /// cases: the settings of all are compared.
     Tier(Tier, Vec<Header>),
     /// Some studies, as named on the command line.
     Selection(Vec<String>),
@@ -103,6 +103,8 @@ pub struct VerifyRequest {
     pub effort: Effort,
     /// Whether to accept the new numbers as baseline.
     pub bless: bool,
+    /// Whether a blessing accepts also what is loosened, changed in its settings, or gone.
+    pub loosened: bool,
     /// The project's folder, which contains `studies/baseline.json`.
     pub root: PathBuf,
     /// The folder of its reports, usually `reports/` in it.
@@ -115,12 +117,13 @@ impl VerifyRequest {
     /// * `root`: the project's folder; the reports go to `reports/` in it.
     pub fn of_tier(tier: Tier, studies: &[Box<dyn Study>], root: impl Into<PathBuf>) -> Self {
         let root = root.into();
-        let headers = studies.iter().map(|study| study.header().clone()).collect();
+        let headers = studies.iter().map(|study| run::listed(study.as_ref()));
         let jobs = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         Self {
-            scope: Scope::Tier(tier, headers),
+            scope: Scope::Tier(tier, headers.collect()),
             effort: jobs.into(),
             bless: false,
+            loosened: false,
             reports: root.join("reports"),
             root,
         }
@@ -150,12 +153,12 @@ impl VerifyRequest {
 }
 
 /// Whether the numbers and claims of a run have become the baseline.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Blessing {
     /// That was not requested.
     NotAsked,
-    /// They have.
-    Taken,
+    /// They have, and with them these changes by which less is guarded.
+    Taken(Vec<GuardedChange>),
     /// They have not, for this reason.
     Refused(BlessingRefusal),
 }
@@ -266,7 +269,7 @@ fn run_and_write(
         &record.studies,
     );
     let committed = record.clone().committed();
-    // A blessing of one tier can leave changes of the other: the run then still fails.
+    // A blessing of one tier can leave changes of another: the run then still fails.
     let passes = record.verdict == Verdict::Pass;
     let destination = Destination::new(&request.scope, reports, passes);
     let see_also = destination.see_also(&committed);
@@ -279,7 +282,7 @@ fn run_and_write(
     let unwritable = |error| reports.unwritable(&error);
     let files = findings.files().map_err(unwritable)?;
     let provenance = json(&provenance).map_err(unwritable)?;
-    if blessing == Blessing::Taken {
+    if matches!(blessing, Blessing::Taken(_)) {
         baseline.write(&baseline_file)?;
         works.take(&record.studies);
         if !works.is_empty() {
@@ -314,18 +317,18 @@ fn diagnosed(
     record
 }
 
-/// Accepts all changes into the baseline, if that is asked for.
+/// Accepts the run into the baseline, if that is requested.
 fn bless(baseline: &mut Baseline, finished: &[Finished], request: &VerifyRequest) -> Blessing {
     if !request.bless {
         return Blessing::NotAsked;
     }
-    let known = request.scope.known();
-    // The history of the file has the reasons.
-    let taken = baseline.bless(finished, known, Some(""));
-    taken.map_or_else(Blessing::Refused, |()| Blessing::Taken)
+    match baseline.bless(finished, request.scope.known(), request.loosened) {
+        Ok(loosened) => Blessing::Taken(loosened),
+        Err(refusal) => Blessing::Refused(refusal),
+    }
 }
 
-/// Completes or removes what runs that were killed have left.
+/// Removes what runs that were killed have left.
 fn remove_leftovers(request: &VerifyRequest, reports: &Reports) -> io::Result<()> {
     // If the lock of the baseline is not held, another process may be writing it.
     if request.bless || request.reports_of_project().shares_its_lock(reports) {

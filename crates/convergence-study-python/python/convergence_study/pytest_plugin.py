@@ -27,7 +27,9 @@ CALL = ", call "
 def pytest_addoption(parser):
     group = parser.getgroup("convergence", "convergence studies")
     group.addoption("--convergence-report", metavar="DIR", help="write the report on all verdicts: page, Markdown, JUnit")
-    group.addoption("--convergence-bless", action="store_true", help="take numbers and claims for tests/convergence.json")
+    group.addoption("--convergence-bless", action="store_true", help="take the numbers for tests/convergence.json")
+    loosened = "with --convergence-bless: take also looser claims, changed settings, and what is gone"
+    group.addoption("--convergence-loosened", action="store_true", help=loosened)
 
 
 def pytest_configure(config):
@@ -156,10 +158,10 @@ class Run:
             return True
         if self._config.pluginmanager.hasplugin("dsession"):
             self._sort()
-        bless, report = (option(f"--convergence-{name}") for name in ("bless", "report"))
-        request = {"baseline": baseline, "bless": bless, "report": report, "gone": list(gone)}
+        names = ("bless", "loosened", "report")
+        request = {"baseline": baseline, "gone": list(gone)} | {name: option(f"--convergence-{name}") for name in names}
         lines, is_well = _native.finish(self.studies, request)
-        if gone and not (bless and is_well):
+        if gone and not (request["bless"] and is_well):
             self._lines.extend(in_words(gone))
         self._lines.extend(lines)
         return is_well
@@ -214,4 +216,4 @@ def in_words(gone):
     names = ", ".join(test.partition("::")[2] or test for test in tests)
     count = "1 guarded test is" if len(tests) == 1 else f"{len(tests)} guarded tests are"
     yield f"{count} gone: {names}"
-    yield "  restore what was deleted, or accept it with --convergence-bless"
+    yield "  restore what was deleted, or accept it with --convergence-bless --convergence-loosened"

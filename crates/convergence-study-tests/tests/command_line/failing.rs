@@ -6,7 +6,7 @@ use std::fs;
 use super::{command, run, study, texts, workspace};
 
 #[test]
-fn a_changed_claim_fails_until_it_is_blessed() {
+fn a_changed_setting_fails_until_it_is_blessed_on_demand() {
     let root = workspace(false);
     let file = root.path().join("studies/one.toml");
     assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
@@ -14,22 +14,38 @@ fn a_changed_claim_fails_until_it_is_blessed() {
     fs::write(&file, study("one", "c", 1.0).replace("1.0", "10e-1")).unwrap();
     assert_eq!(run(&root, &["verify"]).0, Some(0));
     fs::write(&file, study("one", "another claim", 1.0)).unwrap();
-    let change = r#"one: claim study.claim: was "c", is "another claim""#;
+    let change = "one: settings have changed: hash ";
     let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true"));
     assert_eq!(status, Some(1));
     assert!(
-        out.contains(
-            "claims changed\n  one: study.claim \"c\", now \"another claim\"\nif that is meant: powers verify --bless\n"
-        ),
+        out.contains(&format!("claims changed\n  {change}"))
+            && out.contains("\nif that is meant: powers verify --bless --loosened\n"),
         "{out}"
     );
     assert!(
-        out.contains(&format!("::error title=baseline::{change}\n")),
+        out.contains(&format!("::error title=baseline::{change}")),
         "{out}"
     );
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
-    assert!(baseline.contains("another claim"), "{baseline}");
+    let baseline = || fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let before = baseline();
+    let (status, out, _) = run(&root, &["verify", "--bless"]);
+    assert!(
+        status == Some(1) && out.contains(&format!("--bless --loosened\n  {change}")),
+        "{out}"
+    );
+    assert_eq!(baseline(), before);
+    let (status, out, _) = run(&root, &["verify", "--bless", "--loosened"]);
+    assert!(
+        status == Some(0) && out.contains(&format!("loosened: {change}")),
+        "{out}"
+    );
+    // The hash alone is new: the numbers and their claims are the same.
+    let after = baseline();
+    let changed = before
+        .lines()
+        .zip(after.lines())
+        .filter(|(old, new)| old != new);
+    assert_eq!(changed.count(), 1, "{after}");
     assert_eq!(run(&root, &["verify"]).0, Some(0));
 }
 
@@ -47,15 +63,15 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     fs::write(&file, full(1.001)).unwrap();
     let (status, out, _) = run(&root, &["verify"]);
     assert!(
-        status == Some(1) && out.contains("claims changed\n  two: exponent 1, now 1.001\n"),
+        status == Some(1) && out.contains("claims changed\n  two: settings have changed: hash "),
         "{out}"
     );
     assert!(
-        out.contains("if that is meant: powers verify --tier full --bless\n"),
+        out.contains("if that is meant: powers verify --tier full --bless --loosened\n"),
         "{out}"
     );
     // Blessing the quick tier does not change the claim of a study that was not run.
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(1));
+    assert_eq!(run(&root, &["verify", "--bless", "--loosened"]).0, Some(1));
     // Moved to another tier.
     fs::write(
         root.path().join("studies/one.toml"),
@@ -65,7 +81,7 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
     let (status, out, _) = run(&root, &["verify"]);
     assert!(
-        status == Some(1) && out.contains("  one: study.tier \"quick\", now \"full\"\n"),
+        status == Some(1) && out.contains("  one: settings have changed: hash "),
         "{out}"
     );
 }
@@ -157,26 +173,31 @@ fn a_deleted_study_is_one_change_and_is_named() {
     fs::remove_file(root.path().join("studies/three.toml")).unwrap();
     let (status, out, _) = run(&root, &["verify", "--quiet"]);
     let said = "fail: the study passes; 1 study deleted\n\n\
-                claims changed\n  three: deleted\nif that is meant: powers verify --bless\n";
+                claims changed\n  three: study was deleted: it had 6 guarded numbers\n\
+                if that is meant: powers verify --bless --loosened\n";
     assert_eq!((status, out.as_str()), (Some(1), said));
     for file in ["README.md", "summary.md"] {
         let folder = root.path().join("reports/local/quick");
         let page = fs::read_to_string(folder.join(file)).unwrap();
         assert!(page.contains("; 1 study deleted\n"), "{page}");
         assert!(
-            page.contains("\n## Claims changed\n\n- three: deleted\n\n")
-                && !page.contains("Moved from"),
+            page.contains(
+                "\n## Claims changed\n\n- three: study was deleted: it had 6 guarded numbers\n\n"
+            ) && !page.contains("Moved from"),
             "{page}"
         );
     }
     let page = fs::read_to_string(root.path().join("reports/index.html")).unwrap();
     assert!(
-        page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: deleted</li>\n</ul>"),
+        page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: study was deleted: it had 6 guarded numbers</li>\n</ul>"),
         "{page}"
     );
-    let (status, out, _) = run(&root, &["verify", "--bless"]);
+    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(1));
+    let (status, out, _) = run(&root, &["verify", "--bless", "--loosened"]);
     assert!(
-        status == Some(0) && out.contains("baseline: blessed"),
+        status == Some(0)
+            && out.contains("loosened: three: study was deleted: it had 6 guarded numbers\n")
+            && out.contains("baseline: blessed"),
         "{out}"
     );
     let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
@@ -217,10 +238,8 @@ fn the_full_report_is_made_anew_with_the_figures_of_the_quick_one() {
     run(&root, &["verify", "--bless"]);
     assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
     let full = root.path().join("reports/full");
-    let read = || {
-        ["README.md", "index.html", "manifest.txt"]
-            .map(|name| fs::read_to_string(full.join(name)).unwrap())
-    };
+    let read =
+        || ["README.md", "index.html"].map(|name| fs::read_to_string(full.join(name)).unwrap());
     let before = read();
     assert!(
         before[0].contains("](../figures/one-errors.svg)"),

@@ -367,7 +367,7 @@ fn a_study_of_a_program_is_guarded() {
     assert_eq!(run(&["verify"]).0, Some(0));
     let baseline = fs::read_to_string(root.join("studies/baseline.json")).unwrap();
     assert!(
-        baseline.contains("error H1, n = 64") && baseline.contains("program.command"),
+        baseline.contains("error H1, n = 64") && baseline.contains("\"settings\": \""),
         "{baseline}"
     );
     let figures = Path::new("reports/figures");

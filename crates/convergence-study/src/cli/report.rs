@@ -11,9 +11,9 @@ use super::flags::Flags;
 use super::screen;
 use crate::project::Project;
 use crate::report::{sentence, shared};
-use crate::store::{FIGURES, MANIFEST, Provenance, Record};
+use crate::store::{FIGURES, Provenance, Record};
 use crate::text::visible;
-use crate::verify::{Reports, folder_of_figures, rebuild};
+use crate::verify::{Reports, folder_of_figures, is_report, rebuild};
 
 /// Write the report on a record anew, without running anything
 ///
@@ -40,7 +40,7 @@ pub(super) fn run(
 ) -> CommandOutcome {
     let mut record = Record::read(path)?;
     let beside = path.parent().unwrap_or(Path::new(""));
-    let is_report = beside.join(MANIFEST).is_file();
+    let is_report = is_report(beside);
     let own = is_report.then(|| beside.to_owned());
     let folder = flags.out.clone().or(own).ok_or_else(|| {
         let path = visible::path(path);

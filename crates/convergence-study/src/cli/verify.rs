@@ -34,9 +34,12 @@ pub struct Arguments {
     tier: Tier,
     #[command(flatten)]
     limits: Limits,
-    /// Accept the new numbers and claims as baseline; refused if a study does not pass
+    /// Accept the new numbers as baseline; refused if a study does not pass
     #[arg(long)]
     bless: bool,
+    /// Accept also claims and tolerances that are looser, settings that changed, and what is gone
+    #[arg(long, requires = "bless")]
+    loosened: bool,
     /// Every study even if some fail, and every number that moved, not only the worst of each study
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
@@ -151,6 +154,7 @@ fn request(arguments: &Arguments, scope: Scope, root: PathBuf) -> VerifyRequest 
             ..flags.effort(arguments.limits.time_limit)
         },
         bless: arguments.bless,
+        loosened: arguments.loosened,
         reports: flags.out.clone().unwrap_or_else(|| root.join("reports")),
         root,
     }
@@ -174,7 +178,7 @@ fn text(
     } = arguments;
     let verdict = screen::verdict(found.record.verdict);
     // Numbers that have just become the baseline are not "unchanged".
-    let is_blessed = matches!(found.blessing, Blessing::Taken);
+    let is_blessed = matches!(found.blessing, Blessing::Taken(_));
     let changes = found.record.changes.as_deref().filter(|_| !is_blessed);
     let sentence = sentence(&found.record.studies, changes);
     let table = if *quiet {
@@ -264,7 +268,7 @@ fn changes_to_print(record: &Record, verbose: bool) -> Vec<GuardedChange> {
         studies.any(|study| study.header.id == id && study.outcome.verdict != Verdict::Pass)
     };
     let is_printed = |change: &&GuardedChange| {
-        verbose || change.movement.needs_a_reason() || !failed(&change.study)
+        verbose || change.movement.is_of_claims() || !failed(&change.study)
     };
     let moves = match without_baseline(&record.studies, record.moves()) {
         Some(_) => &[],
@@ -279,7 +283,10 @@ fn blessed(project: &Project, found: &Verification) -> String {
         command, studies, ..
     } = &found.record;
     match &found.blessing {
-        Blessing::Taken => "baseline: blessed, see studies/baseline.json\n".to_owned(),
+        Blessing::Taken(loosened) => {
+            let lines = loosened.iter().map(|change| line("loosened: ", change));
+            lines.collect::<String>() + "baseline: blessed, see studies/baseline.json\n"
+        }
         Blessing::Refused(refusal) => {
             format!("baseline: {}\n", visible::lines(&refusal.to_string()))
         }
@@ -387,12 +394,10 @@ const LISTED: usize = 6;
 fn moved_lines(changes: &[GuardedChange], all: bool) -> String {
     let (claims, numbers): (Vec<&GuardedChange>, Vec<&GuardedChange>) = changes
         .iter()
-        .partition(|change| change.movement.needs_a_reason());
+        .partition(|change| change.movement.is_of_claims());
     let shown = numbers.iter().filter(|_| all || numbers.len() <= LISTED);
-    let numbers: String = shown
-        .map(|change| format!("baseline: {}\n", visible(&change.to_string())))
-        .collect();
-    let claims: String = claims.into_iter().map(claim).collect();
+    let numbers: String = shown.map(|change| line("baseline: ", change)).collect();
+    let claims: String = claims.iter().map(|change| line("  ", change)).collect();
     if claims.is_empty() {
         numbers
     } else {
@@ -400,8 +405,9 @@ fn moved_lines(changes: &[GuardedChange], all: bool) -> String {
     }
 }
 
-fn claim(change: &GuardedChange) -> String {
-    format!("  {}\n", visible(&change.words()))
+/// A change on a line of its own.
+fn line(before: &str, change: &GuardedChange) -> String {
+    format!("{before}{}\n", visible(&change.to_string()))
 }
 
 #[cfg(test)]
@@ -436,11 +442,11 @@ mod tests {
             [false, true].map(|all| moved_lines(&changes, all).lines().count()),
             [0, 10]
         );
-        let mut claim = moved("few", "study file", 1.0);
-        claim.movement = Movement::VanishedFile { values: 3 };
+        let mut claim = moved("few", "study", 1.0);
+        claim.movement = Movement::VanishedStudy { numbers: 3 };
         assert_eq!(
             moved_lines(&[changes, vec![claim]].concat(), false),
-            "claims changed\n  few: deleted\n"
+            "claims changed\n  few: study was deleted: it had 3 guarded numbers\n"
         );
     }
 }

@@ -13,7 +13,8 @@ use crate::study::kind;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
 use crate::study::until_decided::{self, Looks, Next};
 use crate::study::{
-    Axis, Case, CaseFailure, Check, Figure, LevelErrors, NamedRate, Outcome, Ran, Subject,
+    Axis, Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
+    Sort, Subject,
 };
 use crate::text::number::{error_text, plain_text};
 use crate::text::prose::Prose;
@@ -121,7 +122,8 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let mut checks = exact(study, ran);
     checks.push(completion_check(ran));
     let values = values::judge(study, ran, &levels.refinements);
-    let quantities = [levels.quantities(&rates), values.quantities].concat();
+    let mut quantities = [levels.quantities(&rates), values.quantities].concat();
+    claim_exactness(study, &mut quantities);
     let mut figures = vec![];
     // The figure is over h.
     if !levels.columns.is_empty() && !by_degree(study) {
@@ -163,6 +165,17 @@ fn exact(study: &Program, ran: &[CaseRun]) -> Vec<Check> {
         Some(Check::that(is_exact, claim, evidence).about(Subject::of(&expected.name)))
     };
     study.expect.iter().filter_map(check).collect()
+}
+
+/// Claims of each error that should vanish that it is at most its bound.
+fn claim_exactness(study: &Program, quantities: &mut [Quantity]) {
+    for quantity in quantities {
+        let mut expected = study.expect.iter();
+        let own = expected.find(|expected| expected.name == quantity.subject.quantity);
+        if let (Sort::Error, Some(bound)) = (quantity.sort, own.and_then(|own| own.exact)) {
+            quantity.claim = Some(Must::AtMost(bound));
+        }
+    }
 }
 
 /// The number that a case answered; NaN if it did not.

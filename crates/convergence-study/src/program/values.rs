@@ -48,7 +48,8 @@ pub(super) fn judge(study: &Program, ran: &[CaseRun], refinements: &[Refinement]
     Outcome {
         tables: limits.into_iter().chain(values).collect(),
         figures: figure.into_iter().collect(),
-        quantities: over_levels::rate_quantities(&rates)
+        quantities: over_levels::rate_quantities(&rates, &[])
+            .into_iter()
             .chain(guarded)
             .collect(),
         ..Outcome::new(summary.join("; "), rates, vec![])

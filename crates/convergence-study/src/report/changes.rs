@@ -20,7 +20,7 @@ pub(super) fn changes(findings: &Findings<'_>, link: &dyn Fn(&str) -> String) ->
     let (claims, numbers): (Vec<&GuardedChange>, Vec<&GuardedChange>) = record
         .moves()
         .iter()
-        .partition(|change| change.movement.needs_a_reason());
+        .partition(|change| change.movement.is_of_claims());
     // Numbers of studies that fail move for the same cause.
     let failing: Vec<&str> = record
         .studies
@@ -46,9 +46,17 @@ fn list_of_claims(changes: &[&GuardedChange], link: &dyn Fn(&str) -> String) -> 
     }
     let mut list = "## Claims changed\n\n".to_owned();
     for change in changes {
-        let words = change.words();
-        let rest = words.strip_prefix(change.study.as_str()).unwrap_or(&words);
-        list += &format!("- {}{}\n", link(&change.study), text(rest));
+        let GuardedChange {
+            study,
+            name,
+            movement,
+        } = change;
+        list += &format!(
+            "- {}: {} {}\n",
+            link(study),
+            text(name),
+            text(&movement.to_string())
+        );
     }
     list + "\n"
 }
@@ -69,7 +77,7 @@ fn table_of_worst_numbers(changes: &[&GuardedChange], link: &dyn Fn(&str) -> Str
         rows.push(vec![
             link(&change.study),
             count.to_string(),
-            cell(&change.subject()),
+            cell(&change.name),
             cell(&change.movement.to_string()),
             multiple_of_tolerance(&change.movement),
         ]);
@@ -142,7 +150,7 @@ fn table_of_all_numbers(changes: &[&GuardedChange]) -> String {
     for change in changes {
         rows.push(vec![
             cell(&change.study),
-            cell(&change.subject()),
+            cell(&change.name),
             cell(&change.movement.to_string()),
         ]);
     }

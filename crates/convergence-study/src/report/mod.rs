@@ -22,7 +22,7 @@ use crate::exchange::csv_field;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
-use crate::store::{Provenance, Record, ReportSet, json, junit};
+use crate::store::{Provenance, README, Record, ReportSet, json, junit};
 use crate::study::Tier;
 use crate::study::outcome::Figure;
 use crate::text::lists::distinct;
@@ -89,7 +89,7 @@ impl Findings<'_> {
         } = self;
         let mut set = ReportSet::default();
         let readme = self.readme();
-        set.add(shared::README, readme.as_str())?;
+        set.add(README, readme.as_str())?;
         set.add("index.html", self.page())?;
         set.add("summary.md", self.digest())?;
         set.add("results.json", json(record)?)?;

@@ -6,7 +6,7 @@
 //!
 //! | what is written | step | if it is killed there |
 //! | --- | --- | --- |
-//! | the full tier | [`share`] on its set, before the set is published | the old set, or the next run completes the new one |
+//! | the full tier | [`share`] on its set, before the set is published | files of two runs, and the old links, until the next run |
 //! | the quick tier, before | [`keep`]: the full report gets its own copy of each figure that the new set changes or lacks | each link has its figure |
 //! | the quick tier, after | [`merge`]: copies that the new set equals are removed | likewise; a copy may be left, which the next report on the full tier removes |
 //!
@@ -18,14 +18,7 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
-use crate::store::{FIGURES, ReportFolder, ReportSet};
-
-/// The report in Markdown.
-pub(super) const README: &str = "README.md";
-
-/// The figures that only the page shows, next to the others in [`FIGURES`]; they need not be
-/// committed.
-const ONLY_ON_PAGE: &str = "page";
+use crate::store::{FIGURES, ONLY_ON_PAGE, README, ReportFolder, ReportSet};
 
 /// The folder of the link to a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,7 +126,6 @@ pub(crate) fn publish(
 /// # Errors
 /// A file of the report above that cannot be read.
 fn share(set: &mut ReportSet, above: &ReportFolder) -> io::Result<()> {
-    above.tidy()?;
     let Some(readme) = set.text(README) else {
         return Ok(());
     };
@@ -164,7 +156,9 @@ impl Common {
         above: &ReportFolder,
         own: impl Fn(&str) -> io::Result<Option<Vec<u8>>>,
     ) -> io::Result<Self> {
-        let stored = above.stored()?;
+        // Other files in its folder are those of somebody else, who may change them.
+        let shown = above.text(README)?.unwrap_or_default();
+        let shown = FigureFolder::Own.figures(&shown);
         let mut common = Self {
             paths: BTreeSet::new(),
             readme: readme.to_owned(),
@@ -172,7 +166,7 @@ impl Common {
         for name in FigureFolder::Own.figures(readme) {
             let path = format!("{FIGURES}/{name}");
             let bytes = own(&path)?;
-            if bytes.is_some() && stored.contains(&path) && bytes == above.read(&path)? {
+            if bytes.is_some() && shown.contains(&name) && bytes == above.read(&path)? {
                 common.readme = FigureFolder::Above.of(&name, &common.readme);
                 common.paths.insert(path);
             }
@@ -187,7 +181,6 @@ impl Common {
 /// # Errors
 /// A file that cannot be read or written.
 fn keep(below: &ReportFolder, above: &ReportFolder, new: &ReportSet) -> io::Result<()> {
-    below.tidy()?;
     let Some(readme) = below.text(README)? else {
         return Ok(());
     };
@@ -205,7 +198,7 @@ fn keep(below: &ReportFolder, above: &ReportFolder, new: &ReportSet) -> io::Resu
         return Ok(());
     }
     copies.add(README, linked)?;
-    below.amend(&copies, &BTreeSet::new())
+    below.renew(&copies)
 }
 
 /// Removes the figures of a report that the report above has with the same bytes, and links to
@@ -223,13 +216,13 @@ fn merge(below: &ReportFolder, above: &ReportFolder) -> io::Result<()> {
     }
     let mut changed = ReportSet::default();
     changed.add(README, common.readme)?;
-    below.amend(&changed, &common.paths)
+    below.renew(&changed)?;
+    common.paths.iter().try_for_each(|path| below.remove(path))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store;
 
     #[test]
     fn a_link_moves_and_its_like_stay() {
@@ -243,38 +236,6 @@ mod tests {
         let names = |place: FigureFolder| place.figures(text).into_iter().collect::<Vec<_>>();
         assert_eq!(names(FigureFolder::Own), ["a.svg", "aa.svg"]);
         assert_eq!(names(FigureFolder::Above), ["c.svg"]);
-    }
-
-    /// Another process was killed after its set of the quick tier counted, and before the first
-    /// file was in its place.
-    #[test]
-    fn figures_are_compared_with_the_set_that_counts() {
-        let root = tempfile::tempdir().unwrap();
-        let above = ReportFolder {
-            folder: root.path().join("reports"),
-            workshop: root.path().join("workshop"),
-        };
-        let set = |svg: &str| {
-            let mut set = ReportSet::default();
-            set.add(README, "![a](figures/a.svg)").unwrap();
-            set.add("figures/a.svg", svg).unwrap();
-            set
-        };
-        above.publish(&set("old")).unwrap();
-        let pending = above.workshop.join("pending");
-        std::fs::create_dir_all(pending.join(FIGURES)).unwrap();
-        std::fs::write(pending.join("figures/a.svg"), "new").unwrap();
-        std::fs::write(
-            pending.join(store::MANIFEST),
-            format!("{README}\nfigures/a.svg\n"),
-        )
-        .unwrap();
-        let [mut old, mut new] = ["old", "new"].map(set);
-        share(&mut old, &above).unwrap();
-        share(&mut new, &above).unwrap();
-        assert_eq!(old, set("old"));
-        assert_eq!(new.text(README).unwrap(), "![a](../figures/a.svg)");
-        assert!(new.get("figures/a.svg").is_none());
     }
 
     #[test]

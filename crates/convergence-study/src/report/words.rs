@@ -78,19 +78,27 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
     let mut new_studies = 0;
     let mut deleted = 0;
     let mut claims = 0;
+    let mut settings = 0;
     let mut values = 0;
     for GuardedChange { movement, .. } in changes {
         match movement {
-            _ if movement.is_of_one_claim() => claims += 1,
+            Movement::Claim { .. } | Movement::Guard { .. } => claims += 1,
+            Movement::Settings { .. } => settings += 1,
             Movement::New { .. } => new_numbers += 1,
-            Movement::NewFile { guarded: 0, .. } => new_studies += 1,
-            Movement::VanishedFile { .. } => deleted += 1,
-            _ => values += 1,
+            Movement::NewStudy => new_studies += 1,
+            Movement::VanishedStudy { .. } => deleted += 1,
+            Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::Vanished { .. } => {
+                values += 1;
+            }
         }
     }
     let mut parts = vec![];
     if deleted > 0 {
         parts.push(counted_as(deleted, "study deleted", "studies deleted"));
+    }
+    if settings > 0 {
+        let studies = counted_as(settings, "study", "studies");
+        parts.push(format!("{studies} with changed settings"));
     }
     if claims > 0 {
         parts.push(counted_as(claims, "claim changed", "claims changed"));
@@ -114,7 +122,8 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
     parts.join(", ")
 }
 
-/// The command that blesses these changes: for the full tier if a study changed that was not run.
+/// The command that blesses these changes: for the full tier if a study changed that was not run,
+/// on demand if one of them loosens what is guarded.
 ///
 /// * `command`: the command that was run.
 pub fn blessing(
@@ -126,12 +135,20 @@ pub fn blessing(
     let all_run = changes.iter().all(|change| {
         let is_gone = matches!(
             change.movement,
-            Movement::VanishedFile { .. } | Movement::Vanished { .. }
+            Movement::VanishedStudy { .. } | Movement::Vanished { .. }
         );
         is_gone || finished.iter().any(|study| study.header.id == change.study)
     });
     let full = format!("{} verify --tier full", project.command);
-    format!("{} --bless", if all_run { command } else { &full })
+    let loosened = if changes.iter().any(|change| change.movement.is_loosened()) {
+        " --loosened"
+    } else {
+        ""
+    };
+    format!(
+        "{} --bless{loosened}",
+        if all_run { command } else { &full }
+    )
 }
 
 /// Whether `--bless` would be accepted: it is refused if a study does not pass.

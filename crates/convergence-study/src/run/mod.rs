@@ -157,6 +157,19 @@ pub fn run_within(
     run_planned(planned.collect(), effort, allowed, progress)
 }
 
+/// The header of a study with the cases that it lists; with none if it panics.
+pub fn listed(study: &(dyn Study + '_)) -> Header {
+    let cases = catch(|| study.plan().cases()).unwrap_or_default();
+    with_cases(study.header(), &cases)
+}
+
+fn with_cases(header: &Header, cases: &[Case<()>]) -> Header {
+    Header {
+        cases: cases.iter().map(|case| case.label.clone()).collect(),
+        ..header.clone()
+    }
+}
+
 /// The outcome of one study, run on all threads of the machine, as [`run`] does; its figures are
 /// called `study-<what>.svg`.
 ///
@@ -345,7 +358,8 @@ fn run_case(
 }
 
 /// The outcome of one study from the results of its cases.
-fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finished {
+fn conclude(planned: &Planned<'_>, done: &[Done]) -> Finished {
+    let Planned { header, plan, .. } = planned;
     let mut spent = queue::spent(done);
     let mut work = vec![];
     let started = Instant::now();
@@ -389,7 +403,7 @@ fn conclude(Planned { header, plan, .. }: &Planned<'_>, done: &[Done]) -> Finish
     let outcome = outcome::settle(&header.id, outcome);
     let not_finite = outcome.not_finite();
     Finished {
-        header: (*header).clone(),
+        header: with_cases(header, &planned.cases),
         outcome,
         failed_cases,
         not_finite,

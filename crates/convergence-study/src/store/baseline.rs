@@ -1,30 +1,37 @@
 //! The baseline: numbers of an earlier run that a new one must reproduce, each within its
-//! tolerance, and the claims of the study files when they were blessed: every value of every file.
+//! tolerance, the claims about them, and a hash of the settings of each study.
 //!
 //! The file is `studies/baseline.json`: it states expectations, so it lives with the claims and not
 //! with the files that a run writes. Only a blessing changes it. Numbers have all their digits.
 //!
 //! ```json
 //! {
-//!   "schema": 2,
-//!   "claims": { "heat-equation-space": { "expect[0].tolerance": { "value": "0.02", "reason": "levels are few" } } },
-//!   "studies": { "heat-equation-space": { "error l2, n = 64": { "value": 4.4e-8, "tolerance": 0.001 } } }
+//!   "schema": 3,
+//!   "studies": {
+//!     "heat-equation-space": {
+//!       "settings": "a26f2ae7c1f5cb07",
+//!       "numbers": {
+//!         "error l2, n = 64": [4.4e-8, 0.000001],
+//!         "rate l2": [2.0003, 0.0001, "2 ± 0.02"]
+//!       }
+//!     }
+//!   }
 //! }
 //! ```
 //!
-//! A changed claim is blessed only with a reason, which is kept with it; a withdrawn claim stays as
-//! `null` with the reason. A blessing accepts the claims of the studies that were run: a claim
-//! changes only with a run that passes.
+//! A line has a number, the relative change tolerated, and what the study claims of the number.
+//! `settings` is the hash of every value of the study's file, and of the labels of its cases;
+//! `guard` the tolerance that the file asks for; `test` the test that the study belongs to.
 //!
-//! A number that is accepted alone, or blessed with a reason, keeps its reason, too.
+//! What is loosened, changed in its settings or taken away is blessed only on demand: a blessing
+//! of moved numbers does not accept it by the way. Why it was done, and what there was before, git
+//! keeps.
 //!
 //! The baseline can only make a run worse: studies are first judged on their own, and a run that
 //! did not pass is not blessed.
-//!
-//! The file `studies/work.json` next to it has the work of each case when it was blessed. It guards
-//! nothing: it stops runs that go wrong, at the same step on every machine.
 
 mod change;
+mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -35,70 +42,104 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::{read_if_there, write_json};
-use crate::study::{Header, Quantity};
-use crate::text::{json, visible};
+use crate::store::{atomic, content_hash, read_if_there};
+use crate::study::{Header, Must, Quantity};
+use crate::text::json;
 
-use change::Claims;
+use change::meets;
 pub(crate) use change::signed_percent;
 pub(crate) use change::without_baseline;
-pub use change::{BlessedClaim, GuardedChange, Movement};
+pub use change::{GuardedChange, Movement};
 
 /// Version of the file format.
-const SCHEMA: u32 = 2;
+const SCHEMA: u32 = 3;
 
 /// What to do about another version.
-const EXPECTED: &str = "2, which also guards what study files claim; remove the file and run `verify --bless`, then `verify --tier full --bless`; to \
-                        keep the numbers of schema 1, write `\"schema\": 2, \"claims\": {}` in place of its version first";
+const EXPECTED: &str = "3, which keeps a hash of each study's settings instead of their values; restore the file, or remove it and run \
+                        `verify --bless`, then `verify --tier full --bless`";
+
+/// The setting by which pytest finds the test of a study.
+const TEST: &str = "test";
 
 /// The committed numbers and claims.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baseline {
     schema: u32,
-    /// Sorted by id and path.
-    claims: BTreeMap<String, Claims>,
-    /// Sorted by id and name, so that a blessing changes only the lines that moved.
-    studies: BTreeMap<String, BTreeMap<String, Guarded>>,
+    /// Sorted by id, so that a blessing changes only the lines that moved.
+    studies: BTreeMap<String, Blessed>,
+}
+
+/// A study as it was blessed.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Blessed {
+    /// The hash of its settings; `None`, which agrees with none, if somebody has removed it.
+    #[serde(default)]
+    settings: Option<String>,
+    /// The relative change tolerated of each of its numbers, if its file states one.
+    #[serde(default)]
+    guard: Option<f64>,
+    /// The test that it belongs to, if any.
+    #[serde(default)]
+    test: Option<String>,
+    /// Sorted by name.
+    numbers: BTreeMap<String, Guarded>,
 }
 
 /// A guarded number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(from = "Line")]
 pub struct Guarded {
     /// Its value; `null`, which agrees with nothing, is read as NaN.
-    #[serde(deserialize_with = "json::nan")]
     pub value: f64,
     /// The relative change tolerated.
-    #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
-    /// Why it was changed; `None` if no reason was given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
+    /// What it must be, if the study claims that.
+    pub claim: Option<Must>,
+}
+
+/// A guarded number as a line of the file.
+#[derive(Serialize, Deserialize)]
+struct Line(
+    #[serde(deserialize_with = "json::nan")] f64,
+    #[serde(deserialize_with = "json::nan")] f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")] Option<Must>,
+);
+
+impl From<Line> for Guarded {
+    fn from(Line(value, tolerance, claim): Line) -> Self {
+        Self {
+            value,
+            tolerance,
+            claim,
+        }
+    }
 }
 
 /// Why a run was not accepted as baseline. Shown in the words of the command line.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", self.words("--bless --reason TEXT"))]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}", self.words("--bless --loosened"))]
 pub enum BlessingRefusal {
-    /// A study does not pass, or was not run; a number cannot be met by any run, because it is not
-    /// finite or its tolerance is invalid: in words.
+    /// A study does not pass; a number cannot be met by any run, because it is not finite or its
+    /// tolerance is invalid: in words.
     Unacceptable(String),
-    /// These claims have changed, and no reason is given.
-    Unreasoned(Vec<String>),
+    /// These changes loosen what is guarded, which was not asked for.
+    Loosened(Vec<GuardedChange>),
 }
 
 impl BlessingRefusal {
     /// The message.
     ///
-    /// * `blessing`: the options that bless with a reason.
+    /// * `blessing`: the options that also bless what is loosened.
     pub fn words(&self, blessing: &str) -> String {
         match self {
-            Self::Unacceptable(why) => why.clone(),
-            Self::Unreasoned(claims) => format!(
-                "not blessed: a changed claim needs a reason; repeat it with {blessing}\n  {}",
-                claims.join("\n  ")
-            ),
+            Self::Unacceptable(why) => format!("not blessed: {why}"),
+            Self::Loosened(changes) => {
+                let lines = changes.iter().map(|change| format!("\n  {change}"));
+                let lines: String = lines.collect();
+                format!("not blessed: less would be guarded; if that is meant: {blessing}{lines}")
+            }
         }
     }
 }
@@ -107,7 +148,6 @@ impl Default for Baseline {
     fn default() -> Self {
         Self {
             schema: SCHEMA,
-            claims: BTreeMap::new(),
             studies: BTreeMap::new(),
         }
     }
@@ -128,72 +168,96 @@ impl Baseline {
 
     /// Writes the file, as a whole or not at all.
     pub fn write(&self, path: &Path) -> io::Result<()> {
-        write_json(path, self)
+        atomic::write(path, text::of(self)?)
     }
 
-    /// Every guarded number of these studies and every claim that differs: moved, changed, new or
-    /// vanished.
+    /// Every difference between the baseline and these studies.
     ///
-    /// * `known`: the headers of all existing studies, run or not: claims are compared for all of
-    ///   them, numbers for those that were run. A study of the baseline that is not among them was
-    ///   deleted, which is one change, including its numbers; `None` if only a selection matters.
+    /// * `known`: the headers of all existing studies, run or not, with their cases: settings are
+    ///   compared for all of them, numbers for those that were run. A study of the baseline that is
+    ///   not among them was deleted, which is one change, including its numbers; `None` if only a
+    ///   selection matters.
     pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<GuardedChange> {
-        let none = BTreeMap::new();
         let mut changes = Vec::new();
         for Finished {
             header, outcome, ..
         } in finished
         {
-            changes.extend(self.changed_claims(header));
-            let expected = self.studies.get(&header.id).unwrap_or(&none);
-            changes.extend(change::of_numbers(
-                &header.id,
-                expected,
-                &outcome.quantities,
-            ));
+            changes.extend(self.changed_settings(header));
+            changes.extend(self.changed_numbers(header, &outcome.quantities));
         }
         let others = known
             .unwrap_or_default()
             .iter()
             .filter(|header| find(finished, &header.id).is_none());
-        changes.extend(others.flat_map(|header| self.changed_claims(header)));
+        changes.extend(others.flat_map(|header| self.changed_settings(header)));
         for id in self.vanished(known) {
-            match self
-                .claims
-                .get(&id)
-                .and_then(|claims| change::vanished(&id, claims))
-            {
-                // This change already covers its numbers.
-                Some(deleted) => changes.push(deleted),
-                None => changes.extend(change::of_numbers(
-                    &id,
-                    self.studies.get(&id).unwrap_or(&none),
-                    &[],
-                )),
-            }
+            let numbers = self.guards(&id);
+            let movement = Movement::VanishedStudy { numbers };
+            changes.push(GuardedChange::new(&id, change::STUDY, movement));
         }
         changes
     }
 
-    fn changed_claims(&self, header: &Header) -> Vec<GuardedChange> {
-        change::of_claims(header, self.claims.get(&header.id), self.guards(&header.id))
+    /// Settings and guard of a study that differ, or a study that is new.
+    fn changed_settings(&self, header: &Header) -> Vec<GuardedChange> {
+        let change = |name, movement| GuardedChange::new(&header.id, name, movement);
+        let Some(Blessed {
+            settings, guard, ..
+        }) = self.studies.get(&header.id)
+        else {
+            return vec![change(change::STUDY, Movement::NewStudy)];
+        };
+        let mut changes = vec![];
+        let to = settings_of(header);
+        if settings.as_ref() != Some(&to) {
+            let from = settings.clone();
+            changes.push(change(change::SETTINGS, Movement::Settings { from, to }));
+        }
+        if *guard != header.guard {
+            let [from, to] = [*guard, header.guard];
+            changes.push(change(change::GUARD, Movement::Guard { from, to }));
+        }
+        changes
+    }
+
+    /// The changed numbers of one study and claims about them: in the run's order, then those that
+    /// have vanished.
+    fn changed_numbers(&self, header: &Header, found: &[Quantity]) -> Vec<GuardedChange> {
+        let id = &header.id;
+        let none = Blessed::default();
+        let Blessed { guard, numbers, .. } = self.studies.get(id).unwrap_or(&none);
+        let mut changes = Vec::new();
+        for quantity in found {
+            let movements = change::of_number(numbers.get(&quantity.name), *guard, quantity);
+            for movement in movements {
+                changes.push(GuardedChange::new(id, &quantity.name, movement));
+            }
+        }
+        let names: BTreeSet<&String> = found.iter().map(|quantity| &quantity.name).collect();
+        for (name, Guarded { value, .. }) in numbers {
+            if !names.contains(name) {
+                let movement = Movement::Vanished { value: *value };
+                changes.push(GuardedChange::new(id, name, movement));
+            }
+        }
+        changes
     }
 
     /// The ids of studies in the baseline that no longer exist.
     fn vanished(&self, known: Option<&[Header]>) -> Vec<String> {
         let Some(known) = known else { return vec![] };
         let known: BTreeSet<&String> = known.iter().map(|header| &header.id).collect();
-        let blessed: BTreeSet<&String> = self.claims.keys().chain(self.studies.keys()).collect();
-        blessed.difference(&known).map(|id| (*id).clone()).collect()
+        let blessed = self.studies.keys();
+        blessed.filter(|id| !known.contains(id)).cloned().collect()
     }
 
     /// Accepts the numbers of these studies that have moved or are new; all others keep their
-    /// digits. Likewise accepts their claims; unchanged claims keep their reasons.
+    /// digits. Likewise accepts their claims, settings and guards.
     ///
-    /// * `known`: as for [`Baseline::compare`]; the numbers of studies that have vanished are
-    ///   dropped, their claims withdrawn.
-    /// * `reason`: why claims have changed or vanished; not required if none has, nor for a new
-    ///   study.
+    /// * `known`: as for [`Baseline::compare`]; studies that have vanished are dropped.
+    /// * `loosened`: whether to accept also what is loosened, changed in its settings, or gone.
+    /// * Returns the changes accepted for that reason.
     ///
     /// # Errors
     /// [`BlessingRefusal`]; the baseline then stays unchanged.
@@ -201,131 +265,99 @@ impl Baseline {
         &mut self,
         finished: &[Finished],
         known: Option<&[Header]>,
-        reason: Option<&str>,
-    ) -> Result<(), BlessingRefusal> {
+        loosened: bool,
+    ) -> Result<Vec<GuardedChange>, BlessingRefusal> {
         finished.iter().try_for_each(acceptable)?;
-        let mut changes = self.compare(finished, known);
-        // Claims of known studies that were not run are left alone.
-        let is_left =
-            |id: &str| known.is_some_and(|known| known.iter().any(|header| header.id == *id));
-        changes.retain(|change| find(finished, &change.study).is_some() || !is_left(&change.study));
-        let unreasoned = changes
-            .iter()
-            .filter(|change| reason.is_none() && change.movement.needs_a_reason());
-        let claims: Vec<String> = unreasoned
-            .map(|change| visible::visible(&change.to_string()))
-            .collect();
-        if !claims.is_empty() {
-            return Err(BlessingRefusal::Unreasoned(claims));
+        let vanished = self.vanished(known);
+        let mut looser = self.compare(finished, known);
+        // Settings of known studies that were not run are left alone.
+        looser.retain(|change| {
+            let is_accepted =
+                find(finished, &change.study).is_some() || vanished.contains(&change.study);
+            is_accepted && change.movement.is_loosened()
+        });
+        if !looser.is_empty() && !loosened {
+            return Err(BlessingRefusal::Loosened(looser));
         }
-        changes.iter().try_for_each(|change| {
-            let is_new = matches!(change.movement, Movement::New { .. });
-            self.take(finished, change, reason.filter(|_| !is_new))
-        })
-    }
-
-    /// Accepts one of the changes found by [`Baseline::compare`]; all others stay as they are.
-    ///
-    /// * `reason`: kept with the number or the claim.
-    ///
-    /// # Errors
-    /// [`BlessingRefusal`]; the baseline then stays unchanged. As for [`Baseline::bless`], the
-    /// study must pass.
-    pub fn accept(
-        &mut self,
-        finished: &[Finished],
-        change: &GuardedChange,
-        reason: &str,
-    ) -> Result<(), BlessingRefusal> {
-        find(finished, &change.study).map_or(Ok(()), acceptable)?;
-        self.take(finished, change, Some(reason))
+        for id in vanished {
+            self.studies.remove(&id);
+        }
+        for study in finished {
+            self.take(study);
+        }
+        Ok(looser)
     }
 
     fn take(
         &mut self,
-        finished: &[Finished],
-        change: &GuardedChange,
-        reason: Option<&str>,
-    ) -> Result<(), BlessingRefusal> {
-        let GuardedChange {
-            study,
-            name,
-            movement,
-        } = change;
-        let reason = reason.filter(|text| !text.is_empty()).map(str::to_owned);
-        let claims = &mut self.claims;
-        let numbers = &mut self.studies;
-        match (movement, find(finished, study)) {
-            (Movement::Vanished { .. }, _) => {
-                numbers
-                    .get_mut(study)
-                    .into_iter()
-                    .for_each(|guarded| drop(guarded.remove(name)));
-            }
-            (Movement::VanishedFile { .. }, _) => {
-                numbers.remove(study);
-                // The reason stays.
-                let value = None;
-                let withdrawn = BlessedClaim { value, reason };
-                claims.insert(study.clone(), [(change::ID.to_owned(), withdrawn)].into());
-            }
-            // It changes only with a run that passes.
-            (_, None) => {
-                return Err(BlessingRefusal::Unacceptable(format!(
-                    "not accepted: `{study}` was not run; name it, or its tier"
-                )));
-            }
-            (Movement::NewFile { guarded, .. }, Some(ran)) => {
-                let reason = reason.filter(|_| *guarded > 0);
-                let study_claims = claims.entry(study.clone()).or_default();
-                for (path, value) in &ran.header.settings {
-                    let value = Some(value.clone());
-                    let reason = reason.clone();
-                    study_claims.insert(path.clone(), BlessedClaim { value, reason });
-                }
-            }
-            (Movement::Claim { to, .. }, Some(_)) => {
-                let value = to.clone();
-                let study_claims = claims.entry(study.clone()).or_default();
-                study_claims.insert(name.clone(), BlessedClaim { value, reason });
-            }
-            (
-                Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::New { .. },
-                Some(ran),
-            ) => {
-                let mut quantities = ran.outcome.quantities.iter();
-                let quantity = quantities.find(|quantity| quantity.name == *name);
-                let new = quantity.map(|quantity| Guarded {
-                    value: quantity.value,
-                    tolerance: quantity.tolerance,
-                    reason,
-                });
-                let of_study = numbers.entry(study.clone()).or_default();
-                of_study.extend(new.map(|new| (name.clone(), new)));
-            }
+        Finished {
+            header, outcome, ..
+        }: &Finished,
+    ) {
+        let Header {
+            id,
+            guard,
+            settings,
+            ..
+        } = header;
+        let before = self.studies.remove(id).unwrap_or_default();
+        let mut numbers = BTreeMap::new();
+        for quantity in &outcome.quantities {
+            let kept = before.numbers.get(&quantity.name);
+            let kept = kept.filter(|kept| meets(kept, before.guard, quantity.value));
+            let number = Guarded {
+                value: kept.map_or(quantity.value, |kept| kept.value),
+                tolerance: quantity.tolerance,
+                claim: quantity.claim,
+            };
+            numbers.insert(quantity.name.clone(), number);
         }
-        numbers.retain(|_, guarded| !guarded.is_empty());
-        Ok(())
+        let test = settings.iter().find(|(path, _)| path == TEST);
+        let blessed = Blessed {
+            settings: Some(settings_of(header)),
+            guard: *guard,
+            test: test.map(|(_, test)| test.clone()),
+            numbers,
+        };
+        self.studies.insert(id.clone(), blessed);
     }
 
-    /// A blessed claim of a study, by its dotted path.
-    pub fn claim(&self, id: &str, path: &str) -> Option<&BlessedClaim> {
-        self.claims.get(id)?.get(path)
+    /// The ids of the studies that it guards, and the test that each belongs to, if any.
+    pub fn tests(&self) -> impl Iterator<Item = (&str, Option<&str>)> {
+        let studies = self.studies.iter();
+        studies.map(|(id, blessed)| (id.as_str(), blessed.test.as_deref()))
     }
 
     /// A guarded number of a study.
     pub fn number(&self, id: &str, name: &str) -> Option<&Guarded> {
-        self.studies.get(id)?.get(name)
+        self.studies.get(id)?.numbers.get(name)
     }
 
     /// Number of guarded numbers of a study.
     pub fn guards(&self, id: &str) -> usize {
-        self.studies.get(id).map_or(0, BTreeMap::len)
+        self.studies
+            .get(id)
+            .map_or(0, |blessed| blessed.numbers.len())
     }
 }
 
 fn find<'f>(finished: &'f [Finished], id: &str) -> Option<&'f Finished> {
     finished.iter().find(|finished| finished.header.id == *id)
+}
+
+/// The hash of every value of a study's file, and of the labels of its cases.
+fn settings_of(
+    Header {
+        settings, cases, ..
+    }: &Header,
+) -> String {
+    let mut lines: Vec<String> = settings
+        .iter()
+        .map(|(path, value)| format!("{path} = {value}\n"))
+        .collect();
+    lines.sort_unstable();
+    lines.extend(cases.iter().map(|label| format!("case {label}\n")));
+    format!("{:016x}", content_hash(lines.concat().as_bytes()))
 }
 
 fn acceptable(
@@ -336,70 +368,21 @@ fn acceptable(
     let study = &header.id;
     let verdict = outcome.verdict;
     if verdict != Verdict::Pass {
-        let refused = format!(
-            "the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass"
-        );
         return Err(BlessingRefusal::Unacceptable(format!(
-            "not blessed: {refused}"
+            "the verdict on `{study}` is {verdict}, and a baseline is made of runs that pass"
         )));
     }
-    let cannot_be_met =
-        |quantity: &&Quantity| !change::meets(quantity.value, quantity.value, quantity.tolerance);
+    let cannot_be_met = |quantity: &&Quantity| {
+        let own = Guarded {
+            value: quantity.value,
+            tolerance: quantity.tolerance,
+            claim: None,
+        };
+        !meets(&own, header.guard, quantity.value)
+    };
     outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance, .. }| {
-        let refused =
-            format!("`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet");
-        Err(BlessingRefusal::Unacceptable(format!("not blessed: {refused}")))
+        Err(BlessingRefusal::Unacceptable(format!(
+            "`{name}` of `{study}` is {value} with a tolerance of {tolerance}, which no run can meet"
+        )))
     })
-}
-
-/// How many times the blessed work of a case is allowed.
-const TIMES: u64 = 3;
-
-/// Share of its tier's work that a case may do in addition: a small case may grow more.
-const SPARE: u64 = 50;
-
-/// Tier, study and label of a case.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Works(BTreeMap<String, BTreeMap<String, BTreeMap<String, u64>>>);
-
-impl Works {
-    /// Reads the file; without a file nothing is limited.
-    pub fn read(path: &Path) -> io::Result<Self> {
-        let expected = "restore it, or remove it and run `verify --bless`";
-        Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
-    }
-
-    /// The most work that a case may do: three times that of its blessing, or of the largest case
-    /// of its study if the case is new, plus two per cent of its tier's; `None` for a study that
-    /// was never blessed.
-    pub fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
-        let tier = self.0.get(header.tier.name())?;
-        let cases = tier.get(&header.id)?;
-        let own = cases.get(label).or_else(|| cases.values().max())?;
-        let all: u64 = tier.values().flat_map(BTreeMap::values).sum();
-        Some(TIMES * own + all / SPARE)
-    }
-
-    /// Accepts the work of studies that were run; cases that count none are left out.
-    pub fn take(&mut self, finished: &[Finished]) {
-        for Finished { header, work, .. } in finished {
-            self.0
-                .values_mut()
-                .for_each(|tier| drop(tier.remove(&header.id)));
-            let cases: BTreeMap<String, u64> =
-                work.iter().filter(|(_, work)| *work > 0).cloned().collect();
-            if !cases.is_empty() {
-                self.0
-                    .entry(header.tier.name().to_owned())
-                    .or_default()
-                    .insert(header.id.clone(), cases);
-            }
-        }
-    }
-
-    /// Whether nothing is known.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
 }

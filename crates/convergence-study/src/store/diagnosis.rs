@@ -103,8 +103,8 @@ pub fn diagnose(
     }
     let claims = changes
         .iter()
-        .filter(|change| change.movement.needs_a_reason());
-    let claims: Vec<String> = claims.map(GuardedChange::words).collect();
+        .filter(|change| change.movement.is_of_claims());
+    let claims: Vec<String> = claims.map(GuardedChange::to_string).collect();
     let contrast = contrast(&votes(studies, finished, changes));
     let first = fields::first(finished, changes);
     let clearest = clearest(&failing);
@@ -157,7 +157,7 @@ fn places(project: &Project, contrast: &Contrast, first: Option<&WrongField>) ->
 
 /// Whether a number has moved or vanished: a new one has no cause.
 fn is_number(change: &GuardedChange) -> bool {
-    !change.movement.needs_a_reason() && change.movement.weight() > 0.0
+    !change.movement.is_of_claims() && change.movement.weight() > 0.0
 }
 
 /// The numbers of a study that moved or vanished.

@@ -133,7 +133,7 @@ fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Suite {
         suite.cases = vec![Case::new(NAME, name, Verdict::Pass, "")];
     }
     for change in changes {
-        let name = format!("{}: {}", change.study, change.subject());
+        let name = format!("{}: {}", change.study, change.name);
         let why = change.movement.to_string();
         suite
             .cases

@@ -1,5 +1,5 @@
-//! What a run compares with and leaves behind: baseline, records, JUnit, provenance, and files
-//! written as one set.
+//! What a run compares with and leaves behind: baseline, records, JUnit, provenance, and the files
+//! of a report.
 //!
 //! Files that the harness itself has written are read only if they are regular files: a pipe or a
 //! device in their place would block it for ever.
@@ -7,20 +7,22 @@
 pub(crate) mod atomic;
 mod baseline;
 pub(crate) mod diagnosis;
-mod file_set;
 mod junit;
 mod provenance;
 mod record;
+mod report_folder;
+mod works;
 
-pub use baseline::{Baseline, BlessedClaim, GuardedChange, Movement, Works};
+pub use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
-pub(crate) use file_set::MANIFEST;
-pub use file_set::{ReportFolder, ReportSet, lock};
 pub use junit::junit;
 pub(crate) use junit::{JudgedSuite, junit_of};
 pub(crate) use provenance::Provenance;
 pub use record::Record;
 pub(crate) use record::{FIGURES, SCHEMA};
+pub(crate) use report_folder::{ONLY_ON_PAGE, README};
+pub use report_folder::{ReportFolder, ReportSet, lock};
+pub use works::Works;
 
 use std::fs::{self, File, OpenOptions};
 use std::io;

@@ -286,7 +286,7 @@ pub(crate) const STUDY_TABLE: Key = Key::new(
     "what the study is about",
 );
 
-const HEADER: [Key; 5] = [
+const HEADER: [Key; 6] = [
     Key::new(
         "id",
         Form::Text,
@@ -305,6 +305,12 @@ const HEADER: [Key; 5] = [
     )
     .or("\"orders/manufactured\", if the project has that kind"),
     Key::new("group", Form::Text, "under which reports list it").or("the kind"),
+    Key::new(
+        "guard",
+        Form::Positive,
+        "the relative change, from 1e-6 to 0.1, that the baseline tolerates of its numbers, if their own tolerance is less: for programs that scatter",
+    )
+    .or("1e-6 for errors, 1e-4 for rates"),
 ];
 
 impl Header {
@@ -332,9 +338,18 @@ impl Header {
                 kind.clone()
             },
             kind,
+            guard: study.get("guard").map(|field| guard(&field)).transpose()?,
             settings: root.settings(),
+            cases: vec![],
         })
     }
+}
+
+/// A looser guard hides what it should show; a tighter one than that of errors changes nothing.
+fn guard(field: &Field<'_>) -> Result<f64, InputError> {
+    field.number_where("a number from 1e-6 to 0.1", |guard| {
+        (1e-6..=0.1).contains(&guard)
+    })
 }
 
 fn name(

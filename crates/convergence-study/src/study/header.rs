@@ -46,7 +46,7 @@ impl Tier {
 /// let header = Header::new("heat-space", "the error in L2 is of second order in h");
 /// assert_eq!((header.id.as_str(), header.tier), ("heat-space", Tier::Quick));
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Header {
     /// The study's name: small letters, digits, `.` and `-`.
     pub id: String,
@@ -60,11 +60,20 @@ pub struct Header {
     /// The group under which reports list the study, by the property claimed; by default the kind.
     #[serde(default)]
     pub group: String,
+    /// The relative change that the baseline tolerates of each of its numbers, and by which also
+    /// numbers near zero may change, as if they were 1e-10: for programs that scatter, from 1e-6 to
+    /// 0.1. `None`: each number has the tolerance that its kind gives it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub guard: Option<f64>,
     /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of
-    /// `input::Section::settings`: the baseline keeps them, so that no claim changes unnoticed.
-    /// Empty for a study without a file.
+    /// `input::Section::settings`: the baseline keeps a hash of them, so that none changes
+    /// unnoticed. Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
+    /// The labels of its cases as it lists them before any has run, part of the same hash; filled
+    /// in by the runner.
+    #[serde(skip)]
+    pub cases: Vec<String>,
 }
 
 impl Header {
@@ -80,7 +89,9 @@ impl Header {
             tier: Tier::Quick,
             kind: ORDERS.to_owned(),
             group: ORDERS.to_owned(),
+            guard: None,
             settings: Vec::new(),
+            cases: Vec::new(),
         }
     }
 }

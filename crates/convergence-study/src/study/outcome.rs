@@ -10,6 +10,7 @@ mod settle;
 mod table;
 
 use super::coverage::{self, Coverage};
+use super::must::Must;
 use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
@@ -107,6 +108,10 @@ pub struct Quantity {
     /// Relative change tolerated.
     #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
+    /// What it must be, which the baseline guards, too; `None` if the study does not claim that of
+    /// this number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub claim: Option<Must>,
 }
 
 impl Quantity {
@@ -121,6 +126,16 @@ impl Quantity {
             sort: Sort::Value,
             value,
             tolerance,
+            claim: None,
+        }
+    }
+
+    /// The same number, of which this is claimed: the study judges it.
+    #[must_use]
+    pub fn claimed(self, claim: impl Into<Option<Must>>) -> Self {
+        Self {
+            claim: claim.into(),
+            ..self
         }
     }
 

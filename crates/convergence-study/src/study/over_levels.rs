@@ -343,7 +343,7 @@ impl Levels {
 
     /// The numbers that the baseline guards: every observed rate, then every error of every level.
     pub fn quantities(&self, rates: &[NamedRate]) -> Vec<Quantity> {
-        let mut quantities: Vec<Quantity> = rate_quantities(rates).collect();
+        let mut quantities = rate_quantities(rates, &self.columns);
         for (i, Refinement { label, .. }) in self.refinements.iter().enumerate() {
             for column in &self.columns {
                 let error = number_at(&column.errors, i);

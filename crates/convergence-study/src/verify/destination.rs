@@ -5,8 +5,8 @@ use std::io;
 use std::path::Path;
 
 use super::{Reports, Scope};
-use crate::report::{FULL, newest, shared};
-use crate::store::{MANIFEST, Record, ReportFolder, ReportSet};
+use crate::report::{FULL, NEWEST, newest, shared};
+use crate::store::{Record, ReportFolder, ReportSet};
 use crate::study::Tier;
 
 /// Where the files of a report go.
@@ -63,12 +63,7 @@ impl Destination {
         match self {
             Self::One { target, failing } => {
                 shared::publish(target, files, &reports.tiers())?;
-                match failing {
-                    Some(failing) if failing.folder.join(MANIFEST).is_file() => {
-                        failing.publish(&ReportSet::default())
-                    }
-                    _ => Ok(()),
-                }
+                failing.as_ref().map_or(Ok(()), ReportFolder::clear)
             }
             Self::Apart { failing, committed } => {
                 let newest = newest(&files);
@@ -77,6 +72,13 @@ impl Destination {
             }
         }
     }
+}
+
+/// Whether a folder holds the files of a report that programs read, and a page may be missing.
+#[cfg(feature = "command-line")]
+pub(crate) fn is_report(folder: &Path) -> bool {
+    let mut files = NEWEST.iter().filter(|name| !name.ends_with(".html"));
+    files.all(|name| folder.join(name).is_file())
 }
 
 /// The folder with the figures of the record in a folder: that of the failing run which wrote it,
@@ -91,6 +93,6 @@ pub(crate) fn folder_of_figures(record: &Record, folder: &Path) -> std::path::Pa
         .filter(|scope| reports.report(scope).folder == folder)
         .filter(|scope| scope.name() == record.scope && record.verdict != Verdict::Pass)
         .filter_map(|scope| reports.failing(&scope))
-        .find(|failing| failing.folder.join(MANIFEST).is_file())
+        .find(|failing| is_report(&failing.folder))
         .map_or_else(|| folder.to_owned(), |failing| failing.folder)
 }

@@ -91,7 +91,7 @@ impl Reports {
         self.local().is_dir()
     }
 
-    /// Completes or removes what killed runs have left. The caller must hold the lock.
+    /// Removes what killed runs have left. The caller must hold the lock.
     pub(super) fn tidy(&self) -> io::Result<()> {
         atomic::remove_leftovers(&self.provenance())?;
         // Left by a run that was killed while it tested the folder.
@@ -121,7 +121,7 @@ impl Reports {
         self.local().join("lock")
     }
 
-    /// A folder whose next set of files is prepared in a workshop of that name.
+    /// A folder whose next files are prepared in a workshop of that name.
     fn prepared_in(&self, folder: PathBuf, workshop: &str) -> ReportFolder {
         ReportFolder {
             folder,

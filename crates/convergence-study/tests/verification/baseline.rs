@@ -6,7 +6,7 @@ use super::fake::{Does, Fake, fake, finished, ids, study};
 
 fn blessed(studies: Vec<Fake>) -> Baseline {
     let mut baseline = Baseline::default();
-    baseline.bless(&run(studies), None, None).unwrap();
+    baseline.bless(&run(studies), None, false).unwrap();
     baseline
 }
 
@@ -94,14 +94,15 @@ fn new_and_vanished_numbers_are_named() {
     let in_these = [
         "a: coarsest error is new: 0.00234375",
         "a: finest error has vanished: was 0.00234375",
+        "new: study is new",
         "new: finest error is new: 0.00234375",
     ];
     assert_eq!(changes(&baseline, renamed(), None), in_these);
     let in_all = changes(&baseline, renamed(), Some(&["a", "new"]));
-    assert_eq!(in_all[..3], in_these);
+    assert_eq!(in_all[..4], in_these);
     assert_eq!(
-        in_all[3..],
-        ["gone: finest error has vanished: was 0.00234375"]
+        in_all[4..],
+        ["gone: study was deleted: it had 1 guarded number"]
     );
     // An existing study that was not run has not vanished.
     assert_eq!(
@@ -131,7 +132,10 @@ fn a_changed_tolerance_is_reported_and_not_applied() {
     );
     assert_eq!(
         moved,
-        ["a: finest error moved from 0.00234375 to 0.00257813, by +10 %, tolerated 0.1 %"]
+        [
+            "a: finest error moved from 0.00234375 to 0.00257813, by +10 %, tolerated 0.1 %",
+            "a: finest error has another tolerance: was 1e-3, is 1e1"
+        ]
     );
 }
 
@@ -139,22 +143,25 @@ fn a_changed_tolerance_is_reported_and_not_applied() {
 fn nan_in_the_baseline_meets_nothing_not_even_nan() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("baseline.json");
-    let text = r#"{ "schema": 2, "claims": {}, "studies": { "a": { "finest error": { "value": null, "tolerance": 0.001 } } } }"#;
-    fs::write(&file, text).unwrap();
-    let baseline = Baseline::read(&file).unwrap();
-    for scale in [1.0, f64::NAN] {
-        assert_eq!(
-            changes(
-                &baseline,
-                vec![Fake {
-                    scale,
-                    ..fake("a", Does::Converge)
-                }],
-                None
-            )
-            .len(),
-            1
-        );
+    blessed(vec![fake("a", Does::Converge)])
+        .write(&file)
+        .unwrap();
+    let text = fs::read_to_string(&file).unwrap();
+    for (broken, moved) in [
+        ("[null, 0.001]", "a: finest error moved from NaN to "),
+        ("[0.00234375, null]", "a: finest error moved from 0.0023"),
+    ] {
+        let text = text.replace("[0.00234375, 0.001]", broken);
+        fs::write(&file, text).unwrap();
+        let baseline = Baseline::read(&file).unwrap();
+        for scale in [1.0, f64::NAN] {
+            let scaled = Fake {
+                scale,
+                ..fake("a", Does::Converge)
+            };
+            let found = changes(&baseline, vec![scaled], None);
+            assert!(found[0].starts_with(moved), "{found:?}");
+        }
     }
 }
 
@@ -171,7 +178,7 @@ fn a_run_that_does_not_pass_is_not_blessed() {
             .bless(
                 &finished(vec![study("b", Does::Converge), study("a", does)]),
                 None,
-                None,
+                true,
             )
             .unwrap_err();
         assert!(
@@ -196,7 +203,7 @@ fn a_number_that_no_run_can_meet_is_not_blessed() {
         let mut run = run(vec![fake("a", Does::Converge)]);
         let odd = Quantity::new("odd", value, tolerance);
         run[0].outcome.quantities.push(odd);
-        let refused = Baseline::default().bless(&run, None, None).unwrap_err();
+        let refused = Baseline::default().bless(&run, None, true).unwrap_err();
         assert!(
             refused
                 .to_string()
@@ -216,7 +223,7 @@ fn blessing_some_studies_keeps_the_others_and_drops_vanished_ones() {
                 ..fake("a", Does::Converge)
             }]),
             None,
-            None,
+            false,
         )
         .unwrap();
     assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 1));
@@ -234,13 +241,18 @@ fn blessing_some_studies_keeps_the_others_and_drops_vanished_ones() {
         )
         .is_empty()
     );
-    baseline
-        .bless(
-            &run(vec![fake("a", Does::Converge)]),
-            Some(&ids(&["a"])),
-            None,
-        )
-        .unwrap();
+    let before = baseline.clone();
+    let mut drop_b = |loosened| {
+        let ran = run(vec![fake("a", Does::Converge)]);
+        baseline.bless(&ran, Some(&ids(&["a"])), loosened)
+    };
+    let refused = drop_b(false).unwrap_err().to_string();
+    assert!(
+        refused.ends_with("\n  b: study was deleted: it had 1 guarded number"),
+        "{refused}"
+    );
+    assert_eq!(drop_b(true).unwrap().len(), 1);
+    assert_ne!(baseline, before);
     assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 0));
 }
 
@@ -264,7 +276,7 @@ fn a_number_that_did_not_move_keeps_its_digits_when_others_are_blessed() {
         .bless(
             &run(vec![scaled("a", 1.0005), scaled("b", 2.0)]),
             None,
-            None,
+            false,
         )
         .unwrap();
     let after = text(&baseline);
@@ -298,14 +310,19 @@ fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
         "",
         "{}",
         "[1",
-        r#"{ "schema": 2, "claims": {}, "studies": {}, "more": 1 }"#,
+        r#"{ "schema": 3 }"#,
+        r#"{ "schema": 3, "studies": { "a": {} } }"#,
+        r#"{ "schema": 3, "studies": { "a": { "numbers": { "x": [1.0] } } } }"#,
+        r#"{ "schema": 3, "studies": { "a": { "numbers": { "x": [1.0, 0.1, "<= NaN"] } } } }"#,
+        r#"{ "schema": 3, "studies": { "a": { "numbers": { "x": [1.0, 0.1, "<= 1", 2] } } } }"#,
+        r#"{ "schema": 3, "studies": {}, "more": 1 }"#,
     ] {
         fs::write(&file, text).unwrap();
         let refused = Baseline::read(&file).unwrap_err();
         assert!(refused.kind() == io::ErrorKind::InvalidData, "{text}");
         assert!(refused.to_string().contains("baseline.json: "), "{refused}");
     }
-    for version in [1, 3] {
+    for version in [1, 2, 4] {
         fs::write(
             &file,
             format!(r#"{{ "schema": {version}, "studies": {{}} }}"#),
@@ -313,7 +330,7 @@ fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
         .unwrap();
         let refused = Baseline::read(&file).unwrap_err().to_string();
         assert!(
-            refused.contains(&format!("schema: found {version}; expected 2")),
+            refused.contains(&format!("schema: found {version}; expected 3")),
             "{refused}"
         );
         assert!(

@@ -1,21 +1,23 @@
-//! Claims: the baseline keeps the content of a study file, value by value.
+//! Claims and settings: the baseline keeps the claim of each number, and a hash of the settings of
+//! each study.
 
 use std::fs;
 use std::path::Path;
 
 use convergence_study::{
-    Blessing, Header, Project, Scope, SourcePlace, Study, Tier, Verdict, Verification,
-    VerifyRequest,
+    Blessing, Finished, Header, Must, Project, Scope, SourcePlace, Study, Tier, Verdict,
+    Verification, VerifyRequest,
     internal::{
         report::{blessing, sentence},
-        store::{Baseline, BlessedClaim, GuardedChange, diagnosis::diagnose, junit},
+        run::listed,
+        store::{Baseline, GuardedChange, diagnosis::diagnose, junit},
     },
     verify,
 };
 
 use super::fake::{Does, Fake, PROJECT, fake, finished, request};
 
-const CLAIMS: [(&str, &str); 3] = [
+const SETTINGS: [(&str, &str); 3] = [
     ("study.tier", "\"quick\""),
     ("expect[0].order", "1"),
     ("expect[0].tolerance", "0.002"),
@@ -41,19 +43,30 @@ fn study(header: &Header) -> Box<dyn Study> {
     .erased()
 }
 
-/// The claims with another value at a path; `None`: without that path.
+/// The settings with another value at a path; `None`: without that path.
 fn with(path: &str, value: Option<&'static str>) -> Header {
-    let mut settings = CLAIMS.to_vec();
+    let mut settings = SETTINGS.to_vec();
     settings.retain(|(of, _)| *of != path);
     settings.extend(value.map(|value| (path.to_owned().leak() as &str, value)));
     header("a", &settings)
 }
 
-fn blessed(headers: &[Header]) -> Baseline {
+fn ran(headers: &[Header]) -> Vec<Finished> {
+    finished(headers.iter().map(study).collect())
+}
+
+/// The run of a study that claims this of its number.
+fn claiming(claim: Option<Must>) -> Vec<Finished> {
+    let fake = Fake {
+        claim,
+        ..fake("a", Does::Converge)
+    };
+    finished(vec![fake.erased()])
+}
+
+fn blessed(finished: &[Finished]) -> Baseline {
     let mut baseline = Baseline::default();
-    baseline
-        .bless(&finished(headers.iter().map(study).collect()), None, None)
-        .unwrap();
+    baseline.bless(finished, None, false).unwrap();
     baseline
 }
 
@@ -61,249 +74,289 @@ fn words(changes: &[GuardedChange]) -> Vec<String> {
     changes.iter().map(ToString::to_string).collect()
 }
 
+/// The one change, which is of settings.
+#[track_caller]
+fn one_of_settings(changes: &[GuardedChange], id: &str) -> String {
+    let [change] = &words(changes)[..] else {
+        panic!("{changes:?}");
+    };
+    let expected = format!("{id}: settings have changed: hash ");
+    assert!(change.starts_with(&expected), "{change}");
+    change.clone()
+}
+
 #[test]
-fn every_value_that_changed_is_named() {
-    let baseline = blessed(&[header("a", &CLAIMS)]);
-    for (path, value, expected) in [
-        ("expect[0].tolerance", Some("0.002"), None),
+fn a_study_with_another_value_in_its_file_or_another_case_is_named() {
+    let baseline = blessed(&ran(&[header("a", &SETTINGS)]));
+    let mut turned = SETTINGS;
+    turned.reverse();
+    for same in [header("a", &SETTINGS), header("a", &turned)] {
+        assert_eq!(words(&baseline.compare(&ran(&[same]), None)), [""; 0]);
+    }
+    for (path, value) in [
+        ("expect[0].tolerance", Some("0.02")),
+        ("study.tier", Some("\"full\"")),
+        ("expect[0].order", None),
+        ("planted", Some("0.5")),
+    ] {
+        let changes = baseline.compare(&ran(&[with(path, value)]), None);
+        one_of_settings(&changes, "a");
+        assert!(changes[0].movement.is_loosened(), "{path}");
+    }
+    let mut fewer = listed(study(&header("a", &SETTINGS)).as_ref());
+    assert_eq!(baseline.compare(&[], Some(&[fewer.clone()])), []);
+    fewer.cases.pop();
+    one_of_settings(&baseline.compare(&[], Some(&[fewer])), "a");
+}
+
+#[test]
+fn a_looser_claim_is_named_and_blessed_on_demand_and_a_tighter_one_without() {
+    let near = |answer, within| Some(Must::Near { answer, within });
+    let baseline = blessed(&claiming(Some(Must::AtMost(0.01))));
+    for (to, message, is_loosened) in [
         (
-            "expect[0].tolerance",
-            Some("0.49"),
-            Some("a: claim expect[0].tolerance: was 0.002, is 0.49"),
+            Some(Must::AtMost(0.1)),
+            "a: finest error has a looser claim: was <= 0.01, is <= 0.1",
+            true,
         ),
         (
-            "study.tier",
-            Some("\"full\""),
-            Some("a: claim study.tier: was \"quick\", is \"full\""),
+            near(0.0, 0.02),
+            "a: finest error has a looser claim: was <= 0.01, is 0 ± 0.02",
+            true,
         ),
         (
-            "expect[0].order",
             None,
-            Some("a: claim expect[0].order: was 1, is absent"),
+            "a: finest error has a looser claim: was <= 0.01, is none",
+            true,
         ),
         (
-            "planted",
-            Some("0.5"),
-            Some("a: claim planted: was absent, is 0.5"),
+            Some(Must::AtMost(0.005)),
+            "a: finest error has a tighter claim: was <= 0.01, is <= 0.005",
+            false,
         ),
     ] {
-        let changes = baseline.compare(&finished(vec![study(&with(path, value))]), None);
-        assert_eq!(
-            words(&changes),
-            expected.map(str::to_owned).into_iter().collect::<Vec<_>>()
-        );
+        let ran = claiming(to);
+        let changes = baseline.compare(&ran, None);
+        assert_eq!(words(&changes), [message]);
+        let mut plain = baseline.clone();
+        if is_loosened {
+            let refused = plain.bless(&ran, None, false).unwrap_err().to_string();
+            assert!(
+                refused.ends_with(&format!("--bless --loosened\n  {message}")),
+                "{refused}"
+            );
+            assert_eq!(plain, baseline);
+            assert_eq!(plain.bless(&ran, None, true), Ok(changes));
+        } else {
+            assert_eq!(plain.bless(&ran, None, false), Ok(vec![]));
+        }
+        assert_eq!(plain.compare(&ran, None), []);
+        assert_eq!(plain.number("a", "finest error").unwrap().claim, to);
     }
 }
 
 #[test]
-fn a_changed_claim_names_the_norm_that_it_is_about() {
-    let norm = ("expect[0].norm", "\"L2\"");
-    let former = header("a", &[CLAIMS[0], CLAIMS[1], CLAIMS[2], norm]);
-    let baseline = blessed(&[former]);
-    for (settings, message) in [
-        (
-            vec![CLAIMS[0], CLAIMS[1], ("expect[0].tolerance", "0.49"), norm],
-            "a, L2: tolerance 0.002, now 0.49",
-        ),
-        (
-            vec![CLAIMS[0], CLAIMS[1], norm],
-            "a, L2: tolerance 0.002 removed",
-        ),
-        (
-            vec![
-                CLAIMS[0],
-                CLAIMS[1],
-                CLAIMS[2],
-                norm,
-                ("expect[0].floor", "1"),
-            ],
-            "a, L2: floor 1 added",
-        ),
-        (
-            vec![("study.tier", "\"full\""), CLAIMS[1], CLAIMS[2], norm],
-            "a: study.tier \"quick\", now \"full\"",
-        ),
-        (
-            vec![
-                CLAIMS[0],
-                CLAIMS[1],
-                CLAIMS[2],
-                ("expect[0].norm", "\"H1\""),
-            ],
-            "a, H1: norm \"L2\", now \"H1\"",
-        ),
-    ] {
-        let changes = baseline.compare(&finished(vec![study(&header("a", &settings))]), None);
-        assert_eq!(
-            changes.iter().map(GuardedChange::words).collect::<Vec<_>>(),
-            [message]
-        );
+fn a_guard_counts_once_it_is_blessed_and_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    let guarded = |guard, scale| {
+        let header = Header {
+            guard,
+            ..fake("a", Does::Converge).header
+        };
+        let fake = Fake {
+            header,
+            scale,
+            tolerance: 1e-6,
+            ..fake("", Does::Converge)
+        };
+        finished(vec![fake.erased()])
+    };
+    let scattered = guarded(Some(1e-4), 1.00005);
+    let mut baseline = blessed(&guarded(None, 1.0));
+    assert_eq!(
+        words(&baseline.compare(&scattered, None)),
+        [
+            "a: guard was none, is 1e-4",
+            "a: finest error moved from 0.00234375 to 0.00234387, by +0.005 %, tolerated 0.0001 %"
+        ]
+    );
+    assert!(baseline.bless(&scattered, None, false).is_err());
+    baseline
+        .bless(&guarded(Some(1e-4), 1.0), None, true)
+        .unwrap();
+    baseline.write(&file).unwrap();
+    let mut baseline = Baseline::read(&file).unwrap();
+    assert_eq!(baseline.compare(&scattered, None), []);
+    // A blessing of numbers keeps it, and their digits.
+    baseline.bless(&scattered, None, false).unwrap();
+    assert_eq!(baseline.compare(&scattered, None), []);
+    assert_eq!(
+        baseline.number("a", "finest error").unwrap().value,
+        0.002_343_75
+    );
+    for wider in [Some(1e-3), Some(0.1)] {
+        let ran = guarded(wider, 1.0);
+        assert!(baseline.bless(&ran, None, false).is_err(), "{wider:?}");
     }
+    // A narrower one needs no leave.
+    for narrower in [Some(1e-5), None] {
+        let ran = guarded(narrower, 1.0);
+        assert_eq!(baseline.bless(&ran, None, false), Ok(vec![]));
+    }
+    let moved = baseline.compare(&guarded(None, 1.00005), None);
+    assert_eq!(moved.len(), 1, "{moved:?}");
 }
 
 #[test]
-fn claims_of_studies_that_are_not_run_are_compared_too() {
-    let [a, b, gone] = ["a", "b", "gone"].map(|id| header(id, &CLAIMS));
-    let baseline = blessed(&[a.clone(), b, gone]);
+fn settings_of_studies_that_are_not_run_are_compared_too() {
+    let [a, b, gone] = ["a", "b", "gone"].map(|id| header(id, &SETTINGS));
+    let baseline = blessed(&ran(&[a.clone(), b, gone]));
     let loose = header(
         "b",
-        &[("expect[0].tolerance", "0.49"), CLAIMS[0], CLAIMS[1]],
+        &[("expect[0].tolerance", "0.49"), SETTINGS[0], SETTINGS[1]],
     );
-    let known = [a.clone(), loose, header("new", &CLAIMS)];
-    let ran = finished(vec![study(&a)]);
-    let expected = [
-        "b: claim expect[0].tolerance: was 0.002, is 0.49",
-        "new: study file is new: 3 values",
-        "gone: study file was deleted: it had 3 values",
-    ];
+    let known = [a.clone(), loose, header("new", &SETTINGS)];
+    let known = known.map(|header| listed(study(&header).as_ref()));
+    let ran = ran(&[a]);
     let changes = baseline.compare(&ran, Some(&known));
-    assert_eq!(words(&changes), expected);
+    one_of_settings(&changes[..1], "b");
+    assert_eq!(
+        words(&changes[1..]),
+        [
+            "new: study is new",
+            "gone: study was deleted: it had 1 guarded number"
+        ]
+    );
     assert!(
         baseline.compare(&ran, None).is_empty(),
         "a selection looks at itself alone"
     );
-    assert!(
-        sentence(&ran, Some(&changes))
-            .ends_with("; 1 study deleted, 1 claim changed, 1 study not yet in the baseline")
-    );
+    assert!(sentence(&ran, Some(&changes)).ends_with(
+        "; 1 study deleted, 1 study with changed settings, 1 study not yet in the baseline"
+    ));
     // The tier that runs a study blesses it.
     assert_eq!(
         blessing(&PROJECT, "cargo xtask verify", &ran, &changes),
-        "cargo xtask verify --tier full --bless"
+        "cargo xtask verify --tier full --bless --loosened"
     );
-    assert_eq!(blessing(&PROJECT, "c", &ran, &changes[2..]), "c --bless");
-}
-
-#[test]
-fn a_changed_claim_is_blessed_with_a_reason_which_is_kept() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("baseline.json");
-    let mut baseline = blessed(&[header("a", &CLAIMS)]);
-    let before = baseline.clone();
-    let loose = with("expect[0].tolerance", Some("0.49"));
-    let ran = || finished(vec![study(&loose)]);
-    let refused = baseline.bless(&ran(), None, None).unwrap_err();
-    let said = refused.to_string();
-    assert!(
-        said.ends_with("--bless --reason TEXT\n  a: claim expect[0].tolerance: was 0.002, is 0.49"),
-        "{said}"
-    );
-    assert_eq!(baseline, before);
-
-    baseline
-        .bless(&ran(), None, Some("three levels only"))
-        .unwrap();
-    // Another blessing does not change value and reason.
-    baseline.bless(&ran(), None, Some("another")).unwrap();
-    baseline.bless(&ran(), None, None).unwrap();
-    baseline.write(&file).unwrap();
-    let baseline = Baseline::read(&file).unwrap();
-    let kept = BlessedClaim {
-        value: Some("0.49".to_owned()),
-        reason: Some("three levels only".to_owned()),
-    };
-    assert_eq!(baseline.claim("a", "expect[0].tolerance"), Some(&kept));
     assert_eq!(
-        baseline.claim("a", "expect[0].order"),
-        Some(&BlessedClaim {
-            value: Some("1".to_owned()),
-            reason: None
-        })
+        blessing(&PROJECT, "c", &ran, &changes[2..]),
+        "c --bless --loosened"
     );
-    assert!(baseline.compare(&ran(), None).is_empty());
+    assert_eq!(blessing(&PROJECT, "c", &ran, &[]), "c --bless");
 }
 
 #[test]
-fn a_claim_or_a_study_is_withdrawn_with_a_reason_which_stays() {
-    let [a, b] = ["a", "b"].map(|id| header(id, &CLAIMS));
-    let mut baseline = blessed(&[a.clone(), b]);
-    let ran = || finished(vec![study(&a)]);
-    let refused = baseline
-        .bless(&ran(), Some(std::slice::from_ref(&a)), None)
-        .unwrap_err();
+fn a_study_is_withdrawn_on_demand() {
+    let [a, b] = ["a", "b"].map(|id| header(id, &SETTINGS));
+    let mut baseline = blessed(&ran(&[a.clone(), b.clone()]));
+    let known = [listed(study(&a).as_ref())];
+    let ran_a = ran(&[a]);
+    let refused = baseline.bless(&ran_a, Some(&known), false).unwrap_err();
     assert!(
         refused
             .to_string()
-            .ends_with("\n  b: study file was deleted: it had 3 values"),
+            .ends_with("\n  b: study was deleted: it had 1 guarded number"),
         "{refused}"
     );
-    baseline
-        .bless(
-            &ran(),
-            Some(std::slice::from_ref(&a)),
-            Some("b is a special case of a"),
-        )
-        .unwrap();
-    assert!(
-        baseline
-            .compare(&ran(), Some(std::slice::from_ref(&a)))
-            .is_empty()
-    );
-    let withdrawn = |reason: &str| BlessedClaim {
-        value: None,
-        reason: Some(reason.to_owned()),
-    };
-    assert_eq!(
-        baseline.claim("b", "study.id"),
-        Some(&withdrawn("b is a special case of a"))
-    );
+    baseline.bless(&ran_a, Some(&known), true).unwrap();
+    assert_eq!(baseline.compare(&ran_a, Some(&known)), []);
     assert_eq!(baseline.guards("b"), 0);
-
-    let less = with("expect[0].order", None);
-    baseline
-        .bless(&finished(vec![study(&less)]), None, Some("no theory"))
-        .unwrap();
-    assert_eq!(
-        baseline.claim("a", "expect[0].order"),
-        Some(&withdrawn("no theory"))
-    );
-    let back = baseline.compare(&ran(), None);
-    assert_eq!(words(&back), ["a: claim expect[0].order: was absent, is 1"]);
+    // It comes back as a new one.
+    let back = baseline.compare(&ran(&[b]), None);
+    assert_eq!(words(&back)[0], "b: study is new");
 }
 
+/// What somebody may do to the file, by hand or in a merge.
 #[test]
-fn claims_that_were_taken_out_of_the_baseline_need_a_reason() {
+fn an_attack_on_the_file_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("baseline.json");
-    let a = header("a", &CLAIMS);
-    blessed(std::slice::from_ref(&a)).write(&file).unwrap();
-    let mut object: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
-    for claims in [serde_json::json!({}), serde_json::json!({ "a": {} })] {
-        object["claims"] = claims;
-        fs::write(&file, object.to_string()).unwrap();
-        let mut baseline = Baseline::read(&file).unwrap();
-        let ran = || finished(vec![study(&a)]);
-        let message =
-            "a: study file has no claims in the baseline, which guards 1 of its numbers: 3 values";
-        assert_eq!(words(&baseline.compare(&ran(), None)), [message]);
-        let changes = baseline.compare(&ran(), None);
-        assert_eq!(blessing(&PROJECT, "c", &ran(), &changes), "c --bless");
-        let refused = baseline.bless(&ran(), None, None).unwrap_err().to_string();
-        assert!(refused.ends_with(&format!(
-            " needs a reason; repeat it with --bless --reason TEXT\n  {message}"
-        )));
-        let mut accepted = baseline.clone();
-        baseline
-            .bless(&ran(), None, Some("merged by hand"))
-            .unwrap();
-        accepted
-            .accept(&ran(), &changes[0], "merged by hand")
-            .unwrap();
-        for baseline in [baseline, accepted] {
-            let kept = BlessedClaim {
-                value: Some("1".to_owned()),
-                reason: Some("merged by hand".to_owned()),
-            };
-            assert_eq!(baseline.claim("a", "expect[0].order"), Some(&kept));
-            assert!(baseline.compare(&ran(), None).is_empty());
-        }
+    let ran = claiming(Some(Must::AtMost(0.01)));
+    let known = [ran[0].header.clone()];
+    blessed(&ran).write(&file).unwrap();
+    let text = fs::read_to_string(&file).unwrap();
+    let line = "\n        \"finest error\": [0.00234375, 0.001, \"<= 0.01\"]\n      ";
+    let settings = text.lines().find(|line| line.contains("settings")).unwrap();
+    for (from, to, expected) in [
+        (
+            "0.00234375",
+            "0.0024",
+            "a: finest error moved from 0.0024 to 0.00234375",
+        ),
+        (
+            "0.00234375",
+            "null",
+            "a: finest error moved from NaN to 0.00234375",
+        ),
+        (
+            "0.001",
+            "0.1",
+            "a: finest error has another tolerance: was 1e-1, is 1e-3",
+        ),
+        (
+            "0.001",
+            "1e300",
+            "a: finest error has another tolerance: was 1e300, is 1e-3",
+        ),
+        (
+            "<= 0.01",
+            "<= 0.1",
+            "a: finest error has a tighter claim: was <= 0.1, is <= 0.01",
+        ),
+        (
+            "<= 0.01",
+            "<= 1e-4",
+            "a: finest error has a looser claim: was <= 1e-4, is <= 0.01",
+        ),
+        (
+            ", \"<= 0.01\"",
+            "",
+            "a: finest error has a tighter claim: was none, is <= 0.01",
+        ),
+        (line, "", "a: finest error is new: 0.00234375"),
+        ("finest", "coarsest", "a: finest error is new: 0.00234375"),
+        ("\"a\"", "\"b\"", "a: study is new"),
+        (
+            settings,
+            "",
+            "a: settings have no hash in the baseline, which guards the study",
+        ),
+        (
+            "\"settings\": \"",
+            "\"settings\": \"0",
+            "a: settings have changed: hash 0",
+        ),
+        (
+            settings,
+            "\"guard\": 0.1,",
+            "a: settings have no hash in the baseline",
+        ),
+        (
+            "\"numbers\"",
+            "\"guard\": 0.1, \"numbers\"",
+            "a: guard was 1e-1, is none",
+        ),
+    ] {
+        let edited = text.replace(from, to);
+        assert_ne!(edited, text, "{from}");
+        fs::write(&file, edited).unwrap();
+        let changes = words(&Baseline::read(&file).unwrap().compare(&ran, Some(&known)));
+        assert!(changes[0].starts_with(expected), "{from}: {changes:?}");
     }
+    // Emptied, it guards nothing, and everything is new.
+    fs::write(&file, "{ \"schema\": 3, \"studies\": {} }").unwrap();
+    let changes = Baseline::read(&file).unwrap().compare(&ran, Some(&known));
+    assert_eq!(
+        words(&changes),
+        ["a: study is new", "a: finest error is new: 0.00234375"]
+    );
 }
 
 #[test]
 fn a_diagnosis_names_claims_that_changed_and_no_solver() {
-    let baseline = blessed(&[header("a", &CLAIMS), header("b", &CLAIMS)]);
+    let baseline = blessed(&ran(&[header("a", &SETTINGS), header("b", &SETTINGS)]));
     let loose = with("expect[0].tolerance", Some("0.49"));
     let failing = Fake {
         header: loose.clone(),
@@ -321,23 +374,17 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
         let ran = finished(vec![study]);
         diagnose(&project, &[], &ran, &baseline.compare(&ran, None))
     };
+    let changed = one_of_settings(&baseline.compare(&ran(&[loose.clone()]), None), "a");
     let found = diagnosed(failing).expect("a study fails");
-    assert_eq!(found.claims, ["a: expect[0].tolerance 0.002, now 0.49"]);
+    assert_eq!(found.claims, [changed.as_str()]);
     let lines = found.lines();
-    assert!(
-        lines[0]
-            == (
-                "claims",
-                "changed: a: expect[0].tolerance 0.002, now 0.49".to_owned()
-            ),
-        "{lines:?}"
-    );
+    assert_eq!(lines[0], ("claims", format!("changed: {changed}")));
     assert!(!format!("{lines:?}").contains("force"), "{lines:?}");
     // Where nothing fails and no number moved, the list of changed claims says it all.
     assert_eq!(diagnosed(study(&loose)), None);
     // Without a changed claim a place is named.
     let same = Fake {
-        header: header("b", &CLAIMS),
+        header: header("b", &SETTINGS),
         ..fake("", Does::Stay)
     }
     .erased();
@@ -348,60 +395,70 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
     );
 }
 
-fn run(root: &Path, header: &Header, bless: bool) -> Verification {
-    let scope = Scope::Tier(Tier::Quick, vec![header.clone()]);
+fn run(root: &Path, header: &Header, bless: bool, loosened: bool) -> Verification {
+    let scope = Scope::Tier(Tier::Quick, vec![listed(study(header).as_ref())]);
     let request = VerifyRequest {
         scope,
         bless,
+        loosened,
         ..request(root, &[])
     };
     verify(&PROJECT, &[study(header)], &request, &|_| {}).unwrap()
 }
 
 #[test]
-fn a_changed_claim_fails_the_run_and_is_in_every_report() {
+fn changed_settings_fail_the_run_and_are_in_every_report() {
     let root = tempfile::tempdir().unwrap();
-    let first = header("a", &CLAIMS);
-    assert_eq!(run(root.path(), &first, true).record.verdict, Verdict::Pass);
+    let first = header("a", &SETTINGS);
+    assert_eq!(
+        run(root.path(), &first, true, false).record.verdict,
+        Verdict::Pass
+    );
     let baseline = root.path().join("studies/baseline.json");
     let before = fs::read(&baseline).unwrap();
 
     let loose = with("expect[0].tolerance", Some("0.49"));
-    let found = run(root.path(), &loose, false);
-    assert_eq!(
-        (
-            found.record.studies[0].outcome.verdict,
-            found.record.verdict
-        ),
-        (Verdict::Pass, Verdict::Fail)
-    );
-    assert_ne!(found.blessing, Blessing::Taken);
-    assert_eq!(fs::read(&baseline).unwrap(), before);
-    let report = |name: &str| {
-        fs::read_to_string(root.path().join("reports/local/quick").join(name)).unwrap()
-    };
-    assert!(
-        report("README.md").contains(
-            "\n## Claims changed\n\n- [a](#a): expect\\[0\\].tolerance 0.002, now 0.49\n"
-        )
-    );
-    assert!(report("README.md").contains("`cargo xtask verify --bless`"));
-    assert!(
-        report("index.html")
-            .contains("<li><a href=\"#a\">a</a>: expect[0].tolerance 0.002, now 0.49</li>"),
-        "{}",
-        report("index.html")
-    );
-    assert!(report("results.json").contains("a: claim expect[0].tolerance: was 0.002, is 0.49"));
-    let xml = junit(PROJECT.name, &found.record);
-    assert_eq!(report("junit.xml"), xml);
-    assert!(
-        xml.contains("a: claim expect[0].tolerance") && xml.contains("was 0.002, is 0.49"),
-        "{xml}"
-    );
-    assert_eq!(run(root.path(), &loose, true).record.verdict, Verdict::Pass);
-    assert_eq!(
-        run(root.path(), &loose, false).record.verdict,
-        Verdict::Pass
-    );
+    let changes = Baseline::read(&baseline)
+        .unwrap()
+        .compare(&ran(&[loose.clone()]), None);
+    let change = one_of_settings(&changes, "a");
+    let why = change.strip_prefix("a: ").unwrap();
+    for bless in [false, true] {
+        let found = run(root.path(), &loose, bless, false);
+        assert_eq!(
+            (
+                found.record.studies[0].outcome.verdict,
+                found.record.verdict
+            ),
+            (Verdict::Pass, Verdict::Fail)
+        );
+        assert!(!matches!(found.blessing, Blessing::Taken(_)));
+        assert_eq!(fs::read(&baseline).unwrap(), before);
+        let report = |name: &str| {
+            fs::read_to_string(root.path().join("reports/local/quick").join(name)).unwrap()
+        };
+        let readme = report("README.md");
+        assert!(
+            readme.contains(&format!("\n## Claims changed\n\n- [a](#a): {why}\n")),
+            "{readme}"
+        );
+        assert!(readme.contains("`cargo xtask verify --bless --loosened`"));
+        let page = report("index.html");
+        assert!(
+            page.contains(&format!("<li><a href=\"#a\">a</a>: {why}</li>")),
+            "{page}"
+        );
+        assert!(report("results.json").contains(&change));
+        let xml = junit(PROJECT.name, &found.record);
+        assert_eq!(report("junit.xml"), xml);
+        assert!(
+            xml.contains("a: settings") && xml.contains("have changed: hash "),
+            "{xml}"
+        );
+    }
+    let taken = run(root.path(), &loose, true, true);
+    assert_eq!(taken.record.verdict, Verdict::Pass);
+    assert_eq!(taken.blessing, Blessing::Taken(changes));
+    let again = run(root.path(), &loose, false, false);
+    assert_eq!(again.record.verdict, Verdict::Pass);
 }

@@ -30,7 +30,7 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
         .iter()
         .map(|suite| suite.attribute("failures").unwrap())
         .collect();
-    assert_eq!(failures, ["0", "1", "1", "1", "1", "4"]);
+    assert_eq!(failures, ["0", "1", "1", "1", "1", "9"]);
     let types: Vec<&str> = document
         .descendants()
         .filter(|node| node.has_tag_name("failure"))
@@ -42,15 +42,10 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
     assert_eq!(
         types,
         [
-            "fail",
-            "inconclusive",
-            "inconclusive",
-            "fail",
-            "fail",
-            "fail",
-            "fail",
-            "fail"
+            &["fail", "inconclusive", "inconclusive", "fail"][..],
+            &["fail"; 9]
         ]
+        .concat()
     );
     assert!(!text.contains("time"), "times vary: {text}");
 }

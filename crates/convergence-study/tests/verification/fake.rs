@@ -5,8 +5,8 @@ use std::path::Path;
 
 use convergence_judge::{judge::verdict, time_limit::Patience};
 use convergence_study::{
-    Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, NamedNumber, NamedRate,
-    Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest,
+    Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, Must, NamedNumber,
+    NamedRate, Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest,
     boxed_study, internal::run,
 };
 
@@ -45,6 +45,7 @@ pub(crate) struct Fake {
     pub(crate) does: Does,
     pub(crate) scale: f64,
     pub(crate) tolerance: f64,
+    pub(crate) claim: Option<Must>,
     pub(crate) quantity: &'static str,
 }
 
@@ -58,6 +59,7 @@ pub(crate) fn fake(id: &str, does: Does) -> Fake {
         does,
         scale: 1.0,
         tolerance: 1e-3,
+        claim: None,
         quantity: "finest error",
     }
 }
@@ -134,7 +136,7 @@ impl Kind for Fake {
             without: vec![],
         };
         let finest = *errors.last().unwrap();
-        let quantity = Quantity::new(self.quantity, finest, self.tolerance);
+        let quantity = Quantity::new(self.quantity, finest, self.tolerance).claimed(self.claim);
         let table = Table {
             title: "Two | three".into(),
             head: vec!["a|b".into()],
@@ -183,10 +185,10 @@ pub(crate) fn finished(studies: Vec<Box<dyn Study>>) -> Vec<Finished> {
     run::run(&studies, jobs(2), &|_| {}).unwrap()
 }
 
-/// Headers of studies with these ids.
+/// Headers of studies with these ids, with their cases.
 pub(crate) fn ids(ids: &[&str]) -> Vec<Header> {
     ids.iter()
-        .map(|id| fake(id, Does::Converge).header)
+        .map(|id| run::listed(study(id, Does::Converge).as_ref()))
         .collect()
 }
 
@@ -197,6 +199,7 @@ pub(crate) fn request(root: &Path, known: &[&str]) -> VerifyRequest {
         scope,
         effort: jobs(2).into(),
         bless: false,
+        loosened: false,
         root: root.to_owned(),
         reports: root.join("reports"),
     }

@@ -1,6 +1,3 @@
-use std::fs;
-use std::path::Path;
-
 use convergence_study::internal::cli::schema::{of_studies, of_tables_file, other_files, text};
 use convergence_study_tests::output;
 use thermobeam_cli::project;

@@ -32,14 +32,8 @@ fn failing(root: &Path) -> PathBuf {
     root.join("reports/local/quick")
 }
 
-/// Was a run killed while moving the new set to its place, which the next run completes?
-fn is_pending(root: &Path) -> bool {
-    root.join("reports/local/workshop/quick-failing/pending/manifest.txt")
-        .is_file()
-}
-
 #[test]
-fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
+fn killed_at_any_moment_each_file_is_that_of_a_run_and_the_markdown_the_last() {
     let kills =
         std::env::var("THERMOBEAM_KILLS").map_or(KILLS, |kills| kills.parse().expect("a number"));
     let folder = Folder::new();
@@ -58,8 +52,8 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
     );
     let root = workspace(&folder, "killed", &both[0]);
     let reports = failing(&root);
-    let mut before: Option<Set> = None;
-    let (mut old, mut new, mut completed, mut mixed) = (0, 0, 0, 0);
+    let mut before = Set::new();
+    let (mut old, mut new, mut mixed) = (0, 0, 0);
     for kill in 0..kills {
         let turn = (kill % 2) as usize;
         with_studies(&root, &both[turn]);
@@ -69,34 +63,26 @@ fn killed_at_any_moment_the_old_set_is_there_or_the_new_one() {
         std::thread::sleep(times[turn] * (1 + kill * 37 % 101) / 80);
         child.kill().expect("it can be killed");
         finished(child);
-        let is_old = |found: &Set| {
-            before
-                .as_ref()
-                .map_or(found.is_empty(), |before| found == before)
-        };
-        if is_pending(&root) {
-            completed += 1;
-            let found = set(&reports);
-            mixed += u32::from(!is_old(&found) && found != sets[turn]);
-            // Any run completes it, even a run of different scope.
-            ended(&mut verify(&root, &[both[turn][0].0]));
-            assert!(!is_pending(&root));
-            assert_eq!(set(&reports), sets[turn], "kill {kill}");
-        }
         let found = set(&reports);
-        let is_new = found == sets[turn];
-        assert!(
-            is_old(&found) || is_new,
-            "kill {kill}: {:?}",
-            found.keys().collect::<Vec<_>>()
-        );
-        (old, new) = (old + u32::from(!is_new), new + u32::from(is_new));
-        before = Some(found).filter(|found| !found.is_empty()).or(before);
+        for (name, bytes) in &found {
+            let is_whole = [&before, &sets[turn]]
+                .iter()
+                .any(|set| set.get(name) == Some(bytes));
+            assert!(is_whole, "kill {kill}: {name}");
+        }
+        let is_in_place = |(name, bytes): (&String, &Vec<u8>)| found.get(name) == Some(bytes);
+        let is_new = sets[turn].iter().all(is_in_place);
+        let readme = "README.md";
+        if found.get(readme) == sets[turn].get(readme) && before.get(readme) != found.get(readme) {
+            assert!(is_new, "kill {kill}: the Markdown came before another file");
+        }
+        let is_old = found == before;
+        old += u32::from(is_old && !is_new);
+        new += u32::from(is_new);
+        mixed += u32::from(!is_old && !is_new);
+        before = found;
     }
-    println!(
-        "{kills} kills: {old} left the old set, {new} the new one, {completed} of them completed by the next run, \
-         {mixed} of those from a mixture"
-    );
+    println!("{kills} kills: {old} left the old files, {new} the new ones, {mixed} some of both");
     with_studies(&root, &both[0]);
     assert_eq!(ended(&mut verify(&root, &[])).status, Some(1));
     assert_eq!(set(&reports), sets[0]);

@@ -6,6 +6,7 @@ use super::Arguments;
 use crate::cli::exit::{CommandOutcome, Unusable};
 use crate::cli::{screen, workspace};
 use crate::judge::verdict::Verdict;
+use crate::run::listed;
 use crate::study::{StudyFile, Tier};
 use crate::text::number::{counted, counted_as};
 use crate::verify::Scope;
@@ -45,7 +46,7 @@ pub(super) fn scope(tier: Tier, ids: &[String], all: &[StudyFile]) -> Scope {
     if ids.is_empty() {
         Scope::Tier(
             tier,
-            all.iter().map(|file| file.study.header().clone()).collect(),
+            all.iter().map(|file| listed(file.study.as_ref())).collect(),
         )
     } else {
         Scope::Selection(ids.to_vec())

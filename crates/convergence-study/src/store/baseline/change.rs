@@ -1,24 +1,29 @@
-//! Differences between a baseline and a run: in numbers, and in the claims of study files, value by
-//! value.
+//! Differences between a baseline and a run: in numbers, in the claims about them, and in the
+//! settings of studies.
 
-use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
 use super::Guarded;
 use crate::run::Finished;
-use crate::study::Header;
-use crate::study::outcome::Quantity;
+use crate::study::{Must, Quantity};
 use crate::text::json;
-use crate::text::number::{pair_text, plain_text};
+use crate::text::number::{counted, pair_text, plain_text};
 
-/// A guarded number or a claim that changed.
+/// What changed of a study as a whole.
+pub(super) const STUDY: &str = "study";
+/// What changed if its settings did.
+pub(super) const SETTINGS: &str = "settings";
+/// What changed if its guard did.
+pub(super) const GUARD: &str = "guard";
+
+/// Something guarded that changed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GuardedChange {
     /// The study.
     pub study: String,
-    /// The quantity, or the dotted path of the claim.
+    /// The quantity, or `study`, `settings`, `guard`.
     pub name: String,
     /// What happened to it.
     pub movement: Movement,
@@ -32,48 +37,9 @@ impl GuardedChange {
             movement,
         }
     }
-
-    /// What changed, in words: the quantity, or `claim PATH`.
-    pub fn subject(&self) -> String {
-        if self.movement.is_of_one_claim() {
-            format!("claim {}", self.name)
-        } else {
-            self.name.clone()
-        }
-    }
-
-    /// The name of the change: study, colon, number or `claim PATH`.
-    pub fn id(&self) -> String {
-        format!("{}:{}", self.study, self.subject())
-    }
-
-    /// The change of a claim for people: `ID: deleted`, or `ID, L2: tolerance 0.02, now 0.003`; any
-    /// other change as displayed.
-    pub fn words(&self) -> String {
-        let Self {
-            study,
-            name,
-            movement,
-        } = self;
-        match movement {
-            Movement::VanishedFile { .. } => format!("{study}: deleted"),
-            Movement::Claim { from, to, entry } => {
-                let key = name.rsplit_once('.').map_or(name.as_str(), |(_, key)| key);
-                let what = entry.as_ref().map_or(format!("{study}: {name}"), |entry| {
-                    format!("{study}, {entry}: {key}")
-                });
-                match (from, to) {
-                    (Some(from), Some(to)) => format!("{what} {from}, now {to}"),
-                    (Some(from), None) => format!("{what} {from} removed"),
-                    (None, to) => format!("{what} {} added", to.as_deref().unwrap_or_default()),
-                }
-            }
-            _ => self.to_string(),
-        }
-    }
 }
 
-/// What happened to a guarded number or to a claim.
+/// What happened to something guarded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Movement {
@@ -110,44 +76,63 @@ pub enum Movement {
         #[serde(deserialize_with = "json::nan")]
         value: f64,
     },
-    /// A value of the study's file differs, is new or has vanished.
+    /// What is claimed of the number differs.
     Claim {
-        /// The blessed value; `None` if there was none.
+        /// The blessed claim; `None` if there was none.
+        from: Option<Must>,
+        /// The claim of the run; `None` if there is none.
+        to: Option<Must>,
+    },
+    /// The tolerance of all numbers of a study differs.
+    Guard {
+        /// The blessed one; `None` if each number had its own.
+        from: Option<f64>,
+        /// That of the study's file; `None` if it has none.
+        to: Option<f64>,
+    },
+    /// A value of the study's file, or a label of its cases, is not what it was.
+    Settings {
+        /// The blessed hash; `None` if the baseline has none, although it guards the study.
         from: Option<String>,
-        /// The value in the file; `None` if there is none.
-        to: Option<String>,
-        /// The subject of the list entry that holds the value, such as the norm of `expect[0]`;
-        /// `None` if no value gives it.
-        entry: Option<String>,
+        /// The hash now.
+        to: String,
     },
-    /// The baseline has no claim of the study.
-    NewFile {
-        /// How many values its file has.
-        values: usize,
-        /// How many numbers of the study the baseline guards nevertheless; more than 0 if its
-        /// claims were removed.
-        guarded: usize,
-    },
-    /// The study's file no longer exists.
-    VanishedFile {
-        /// How many values it had.
-        values: usize,
+    /// The baseline does not have the study.
+    NewStudy,
+    /// The study no longer exists.
+    VanishedStudy {
+        /// How many numbers of it were guarded.
+        numbers: usize,
     },
 }
 
 impl Movement {
-    /// Whether it concerns one value of a study file.
-    pub fn is_of_one_claim(&self) -> bool {
-        matches!(self, Self::Claim { .. })
-    }
-
-    /// Whether a blessing needs a reason: a claim was changed, withdrawn with its study, or is
-    /// missing although numbers are guarded.
-    pub fn needs_a_reason(&self) -> bool {
+    /// Whether it concerns what is claimed, and not what was computed.
+    pub fn is_of_claims(&self) -> bool {
         matches!(
             self,
-            Self::Claim { .. } | Self::VanishedFile { .. } | Self::NewFile { guarded: 1.., .. }
+            Self::Claim { .. }
+                | Self::Guard { .. }
+                | Self::Settings { .. }
+                | Self::VanishedStudy { .. }
         )
+    }
+
+    /// Whether less is guarded or claimed than before, so that a blessing must be asked for it: a
+    /// claim or a tolerance is looser, a number or a study is gone, or the settings are others, of
+    /// which no hash can tell.
+    pub fn is_loosened(&self) -> bool {
+        match self {
+            Self::Claim { from, to } => match (from, to) {
+                (Some(from), Some(to)) => to.is_looser_than(*from),
+                (from, _) => from.is_some(),
+            },
+            // A tolerance that is NaN is no tighter one.
+            Self::Tolerance { from, to } => to > from || to.is_nan(),
+            Self::Guard { from, to } => to.unwrap_or(0.0) > from.unwrap_or(0.0),
+            Self::Vanished { .. } | Self::Settings { .. } | Self::VanishedStudy { .. } => true,
+            Self::Moved { .. } | Self::New { .. } | Self::NewStudy => false,
+        }
     }
 
     /// By how many times its tolerance a number has moved, for listing the largest changes first:
@@ -162,7 +147,7 @@ impl Movement {
                 let times = (to - from).abs() / (tolerance * from.abs());
                 if times.is_nan() { f64::INFINITY } else { times }
             }
-            Self::New { .. } | Self::NewFile { guarded: 0, .. } => 0.0,
+            Self::New { .. } | Self::NewStudy => 0.0,
             _ => f64::INFINITY,
         }
     }
@@ -171,97 +156,93 @@ impl Movement {
 /// How many numbers there are to accept if the baseline has nothing of the studies that were run;
 /// `None` if it has some of it, or if something else has changed.
 pub(crate) fn without_baseline(finished: &[Finished], changes: &[GuardedChange]) -> Option<usize> {
-    let of_new_files = changes
-        .iter()
-        .filter(|change| matches!(change.movement, Movement::NewFile { guarded: 0, .. }));
-    let numbers = changes
-        .iter()
-        .filter(|change| matches!(change.movement, Movement::New { .. }))
-        .count();
+    let mut numbers = 0;
+    let mut studies = 0;
+    for GuardedChange { movement, .. } in changes {
+        match movement {
+            Movement::New { .. } => numbers += 1,
+            Movement::NewStudy => studies += 1,
+            _ => return None,
+        }
+    }
     let all: usize = finished
         .iter()
         .map(|study| study.outcome.quantities.len())
         .sum();
-    let claims = finished
-        .iter()
-        .filter(|study| !study.header.settings.is_empty())
-        .count();
-    let files = of_new_files.count();
-    let is_all_new = numbers == all && files >= claims && numbers + files == changes.len();
-    (is_all_new && !changes.is_empty()).then_some(numbers)
+    (studies > 0 && numbers == all && studies >= finished.len()).then_some(numbers)
 }
 
-/// Whether two values agree within a finite tolerance; NaN and infinity agree with nothing.
-pub(super) fn meets(from: f64, to: f64, tolerance: f64) -> bool {
-    tolerance.is_finite() && (to - from).abs() <= tolerance * from.abs()
+/// Numbers of a study with a guard may change as if they were at least this large: what is computed
+/// as a sum in any order scatters about zero by the size of its terms.
+const NEAR_ZERO: f64 = 1e-10;
+
+/// Whether a value agrees with a guarded number within a finite tolerance; NaN and infinity agree
+/// with nothing.
+///
+/// * `guard`: the tolerance of the study, if it has one.
+pub(super) fn meets(from: &Guarded, guard: Option<f64>, to: f64) -> bool {
+    let Guarded {
+        value, tolerance, ..
+    } = *from;
+    let [share, size] = match guard {
+        Some(guard) => [tolerance.max(guard), value.abs().max(NEAR_ZERO)],
+        None => [tolerance, value.abs()],
+    };
+    // `max` would ignore NaN.
+    tolerance.is_finite()
+        && value.is_finite()
+        && share.is_finite()
+        && (to - value).abs() <= share * size
 }
 
-/// The changes of one study: in the run's order, then those that have vanished.
-pub(super) fn of_numbers(
-    study: &str,
-    expected: &BTreeMap<String, Guarded>,
-    found: &[Quantity],
-) -> Vec<GuardedChange> {
-    let mut changes = Vec::new();
-    for quantity in found {
-        let movement = match expected.get(&quantity.name) {
-            Some(guarded) => movement(guarded, quantity),
-            None => Some(Movement::New {
-                value: quantity.value,
-            }),
-        };
-        changes
-            .extend(movement.map(|movement| GuardedChange::new(study, &quantity.name, movement)));
-    }
-    let names: HashSet<&str> = found
-        .iter()
-        .map(|quantity| quantity.name.as_str())
-        .collect();
-    let vanished = expected
-        .iter()
-        .filter(|(name, _)| !names.contains(name.as_str()));
-    for (name, guarded) in vanished {
-        let value = guarded.value;
-        changes.push(GuardedChange::new(
-            study,
-            name,
-            Movement::Vanished { value },
-        ));
-    }
-    changes
-}
-
-fn movement(from: &Guarded, to: &Quantity) -> Option<Movement> {
-    if !meets(from.value, to.value, from.tolerance) {
-        Some(Movement::Moved {
-            from: from.value,
+/// What happened to a number.
+///
+/// * `from`: as it was blessed; `None` if it is new.
+/// * `guard`: the blessed tolerance of the study, if it has one.
+pub(super) fn of_number(
+    from: Option<&Guarded>,
+    guard: Option<f64>,
+    to: &Quantity,
+) -> Vec<Movement> {
+    let Some(blessed) = from else {
+        return vec![Movement::New { value: to.value }];
+    };
+    let mut movements = vec![];
+    let Guarded {
+        value,
+        tolerance,
+        claim,
+    } = *blessed;
+    if !meets(blessed, guard, to.value) {
+        movements.push(Movement::Moved {
+            from: value,
             to: to.value,
-            tolerance: from.tolerance,
-        })
-    } else if from.tolerance != to.tolerance {
-        Some(Movement::Tolerance {
-            from: from.tolerance,
-            to: to.tolerance,
-        })
-    } else {
-        None
+            tolerance: guard.map_or(tolerance, |guard| guard.max(tolerance)),
+        });
     }
+    if tolerance != to.tolerance {
+        movements.push(Movement::Tolerance {
+            from: tolerance,
+            to: to.tolerance,
+        });
+    }
+    if claim != to.claim {
+        movements.push(Movement::Claim {
+            from: claim,
+            to: to.claim,
+        });
+    }
+    movements
 }
 
 impl fmt::Display for GuardedChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let colon = if self.movement.is_of_one_claim() {
-            ":"
-        } else {
-            ""
-        };
-        write!(
-            f,
-            "{}: {}{colon} {}",
-            self.study,
-            self.subject(),
-            self.movement
-        )
+        let Self {
+            study,
+            name,
+            movement,
+        } = self;
+        write!(f, "{study}: {name} {movement}")
     }
 }
 
@@ -278,18 +259,36 @@ impl fmt::Display for Movement {
             }
             Self::New { value } => write!(f, "is new: {}", plain_text(*value)),
             Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(*value)),
-            Self::Claim { from, to, .. } => {
-                let [from, to] = [from, to].map(|value| value.as_deref().unwrap_or("absent"));
-                write!(f, "was {from}, is {to}")
+            Self::Claim { from, to } => {
+                let [from, to] =
+                    [from, to].map(|must| must.map_or("none".to_owned(), String::from));
+                let how = if self.is_loosened() {
+                    "looser"
+                } else {
+                    "tighter"
+                };
+                write!(f, "has a {how} claim: was {from}, is {to}")
             }
-            Self::NewFile { values, guarded: 0 } => write!(f, "is new: {values} values"),
-            Self::NewFile { values, guarded } => {
+            Self::Guard { from, to } => {
+                let text =
+                    |guard: &Option<f64>| guard.map_or("none".to_owned(), |g| format!("{g:e}"));
+                write!(f, "was {}, is {}", text(from), text(to))
+            }
+            Self::Settings { from, to } => match from {
+                Some(from) => write!(f, "have changed: hash {from}, now {to}"),
+                None => write!(
+                    f,
+                    "have no hash in the baseline, which guards the study; now {to}"
+                ),
+            },
+            Self::NewStudy => write!(f, "is new"),
+            Self::VanishedStudy { numbers } => {
                 write!(
                     f,
-                    "has no claims in the baseline, which guards {guarded} of its numbers: {values} values"
+                    "was deleted: it had {}",
+                    counted(*numbers, "guarded number")
                 )
             }
-            Self::VanishedFile { values } => write!(f, "was deleted: it had {values} values"),
         }
     }
 }
@@ -329,133 +328,78 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// The name under which a study file is new or has vanished as a whole.
-const WHOLE_FILE: &str = "study file";
-
-/// The value that stands for a whole file after it has vanished.
-pub(super) const ID: &str = "study.id";
-
-/// A blessed value of a study file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BlessedClaim {
-    /// Its text in the form of [`Header::settings`]; `null` if it was withdrawn.
-    pub value: Option<String>,
-    /// Why it was changed or withdrawn; `None` for the first value.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-}
-
-/// The claims of one study, by the dotted path of the value.
-pub(super) type Claims = BTreeMap<String, BlessedClaim>;
-
-/// Differences between the blessed claims and the current file, by path; a new file is one change.
-///
-/// * `guarded`: how many numbers of the study are guarded.
-pub(super) fn of_claims(
-    header: &Header,
-    blessed: Option<&Claims>,
-    guarded: usize,
-) -> Vec<GuardedChange> {
-    let Header { id, settings, .. } = header;
-    let standing = standing(blessed);
-    if standing.is_empty() {
-        let new = GuardedChange::new(
-            id,
-            WHOLE_FILE,
-            Movement::NewFile {
-                values: settings.len(),
-                guarded,
-            },
-        );
-        return if settings.is_empty() {
-            vec![]
-        } else {
-            vec![new]
-        };
-    }
-    let mut paths: BTreeMap<&str, [Option<&str>; 2]> = standing
-        .into_iter()
-        .map(|(path, value)| (path, [Some(value), None]))
-        .collect();
-    for (path, value) in settings {
-        paths.entry(path).or_default()[1] = Some(value);
-    }
-    let mut changes = vec![];
-    for (path, [from, to]) in &paths {
-        if from != to {
-            let movement = Movement::Claim {
-                from: from.map(str::to_owned),
-                to: to.map(str::to_owned),
-                entry: entry(path, &paths),
-            };
-            changes.push(GuardedChange::new(id, path, movement));
-        }
-    }
-    changes
-}
-
-/// Keys that give the subject of a list entry.
-const ENTRY_KEYS: [&str; 5] = ["norm", "error", "value", "quantity", "name"];
-
-/// The subject of the list entry that holds a value, given by another value of the same entry.
-///
-/// * `paths`: the previous and the current value by path.
-fn entry(path: &str, paths: &BTreeMap<&str, [Option<&str>; 2]>) -> Option<String> {
-    let (entry, _) = path
-        .rsplit_once('.')
-        .filter(|(entry, _)| entry.ends_with(']'))?;
-    let [from, to] = ENTRY_KEYS
-        .iter()
-        .find_map(|key| paths.get(format!("{entry}.{key}").as_str()))?;
-    to.or(*from).map(|value| value.trim_matches('"').to_owned())
-}
-
-/// The change of a study whose file has vanished; `None` if its claims were withdrawn earlier.
-pub(super) fn vanished(id: &str, blessed: &Claims) -> Option<GuardedChange> {
-    let values = standing(Some(blessed)).len();
-    (values > 0).then(|| GuardedChange::new(id, WHOLE_FILE, Movement::VanishedFile { values }))
-}
-
-/// The values that have not been withdrawn.
-fn standing(blessed: Option<&Claims>) -> Vec<(&str, &str)> {
-    let claims = blessed.into_iter().flatten();
-    claims
-        .filter_map(|(path, claim)| Some((path.as_str(), claim.value.as_deref()?)))
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_tolerance_is_relative_to_a_number_of_any_size() {
-        for size in [1e-12, 1e-3, 1.0, 1e6] {
-            for from in [size, -size] {
-                assert!(meets(from, 1.0009 * from, 1e-3), "{from:e}");
-                assert!(!meets(from, 1.0011 * from, 1e-3), "{from:e}");
-                assert!(!meets(from, -from, 1e-3), "{from:e}");
-            }
+    const fn guarded(value: f64, tolerance: f64) -> Guarded {
+        Guarded {
+            value,
+            tolerance,
+            claim: None,
         }
-        assert!(meets(0.0, 0.0, 1e-3) && !meets(0.0, 1e-300, 1e-3));
     }
 
     #[test]
-    fn a_number_that_vanishes_is_a_change_whatever_else_the_run_has() {
-        let guarded = |value| Guarded {
-            value,
-            tolerance: 1e-3,
-            reason: None,
+    fn a_tolerance_is_relative_to_a_number_of_any_size() {
+        let meets = |from: f64, to: f64| meets(&guarded(from, 1e-3), None, to);
+        for size in [1e-12, 1e-3, 1.0, 1e6] {
+            for from in [size, -size] {
+                assert!(meets(from, 1.0009 * from), "{from:e}");
+                assert!(!meets(from, 1.0011 * from), "{from:e}");
+                assert!(!meets(from, -from), "{from:e}");
+            }
+        }
+        assert!(meets(0.0, 0.0) && !meets(0.0, 1e-300));
+    }
+
+    #[test]
+    fn a_guard_widens_a_tolerance_and_is_absolute_near_zero() {
+        let guarded_by =
+            |from: f64, tolerance: f64, to: f64| meets(&guarded(from, tolerance), Some(1e-4), to);
+        for from in [-2.0, 1e-9] {
+            assert!(guarded_by(from, 1e-6, 1.00009 * from), "{from:e}");
+            assert!(!guarded_by(from, 1e-6, 1.00011 * from), "{from:e}");
+            assert!(guarded_by(from, 1e-2, 1.009 * from), "{from:e}");
+        }
+        assert!(guarded_by(0.0, 1e-6, 0.9e-14) && !guarded_by(0.0, 1e-6, 1.1e-14));
+        assert!(guarded_by(1e-16, 1e-6, -1e-15) && !guarded_by(1e-16, 1e-6, 1e-13));
+        for broken in [f64::NAN, f64::INFINITY] {
+            assert!(!guarded_by(broken, 1e-6, broken), "{broken}");
+            assert!(!guarded_by(1.0, broken, 1.0), "{broken}");
+            assert!(!meets(&guarded(1.0, 1e-6), Some(broken), 2.0), "{broken}");
+        }
+    }
+
+    #[test]
+    fn what_guards_less_is_loosened() {
+        let claim = |from: Option<f64>, to: Option<f64>| {
+            let [from, to] = [from, to].map(|bound| bound.map(Must::AtMost));
+            Movement::Claim { from, to }
         };
-        let expected = BTreeMap::from([
-            ("kept".to_owned(), guarded(1.0)),
-            ("gone".to_owned(), guarded(2.0)),
-        ]);
-        let gone = GuardedChange::new("study", "gone", Movement::Vanished { value: 2.0 });
-        let kept = GuardedChange::new("study", "kept", Movement::Vanished { value: 1.0 });
-        let found = Quantity::new("kept", 1.0, 1e-3);
-        assert_eq!(of_numbers("study", &expected, &[]), [gone.clone(), kept]);
-        assert_eq!(of_numbers("study", &expected, &[found]), [gone]);
+        let guard = |from, to| Movement::Guard { from, to };
+        let tolerance = |from, to| Movement::Tolerance { from, to };
+        for loosened in [
+            claim(Some(1.0), Some(10.0)),
+            claim(Some(1.0), None),
+            guard(None, Some(1e-4)),
+            guard(Some(1e-4), Some(1e-3)),
+            tolerance(1e-6, 1e-5),
+            tolerance(1e-6, f64::NAN),
+            Movement::Vanished { value: 1.0 },
+            Movement::VanishedStudy { numbers: 0 },
+        ] {
+            assert!(loosened.is_loosened(), "{loosened:?}");
+        }
+        for other in [
+            claim(Some(1.0), Some(0.1)),
+            claim(None, Some(1.0)),
+            guard(Some(1e-4), None),
+            tolerance(1e-5, 1e-6),
+            Movement::New { value: 1.0 },
+            Movement::NewStudy,
+        ] {
+            assert!(!other.is_loosened(), "{other:?}");
+        }
     }
 }

@@ -1,6 +1,8 @@
 //! Judged rates: as guarded numbers, as a table, and in a sentence.
 
+use super::ErrorColumn;
 use crate::judge::verdict::{RateVerdict, Verdict};
+use crate::study::must::Must;
 use crate::study::outcome::{NamedRate, Quantity, Table};
 use crate::study::subject::Sort;
 use crate::text::number::{
@@ -10,18 +12,26 @@ use crate::text::number::{
 /// Relative change of an observed rate that the baseline tolerates.
 pub(crate) const RATE_TOLERANCE: f64 = 1e-4;
 
-/// The observed rates, as numbers that the baseline guards.
-pub(crate) fn rate_quantities(rates: &[NamedRate]) -> impl Iterator<Item = Quantity> {
-    rates.iter().filter_map(
-        |NamedRate {
-             name,
-             subject,
-             rate,
-         }| {
-            let guarded = Quantity::new(format!("rate {name}"), rate.fitted?, RATE_TOLERANCE);
-            Some(guarded.about(subject.clone()).of_sort(Sort::Rate))
-        },
-    )
+/// The observed rates with their claims, as numbers that the baseline guards.
+///
+/// * `columns`: the errors that have these rates, with their claims; a rate of no column has the
+///   band that it was judged by.
+pub(crate) fn rate_quantities(rates: &[NamedRate], columns: &[ErrorColumn]) -> Vec<Quantity> {
+    let mut quantities = vec![];
+    for named in rates {
+        let Some(fitted) = named.rate.fitted else {
+            continue;
+        };
+        let own = columns.iter().find(|column| column.name == named.name);
+        let claim = own.and_then(|column| column.claim.as_ref()).map(Must::from);
+        quantities.push(
+            Quantity::new(format!("rate {}", named.name), fitted, RATE_TOLERANCE)
+                .claimed(claim.or(named.rate.claimed.map(Must::from)))
+                .about(named.subject.clone())
+                .of_sort(Sort::Rate),
+        );
+    }
+    quantities
 }
 
 /// Order, rate, interval and verdict of each error, in a separate table: for rates that decide

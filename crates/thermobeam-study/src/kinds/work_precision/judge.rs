@@ -8,6 +8,7 @@ use super::{
 use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::min_or_nan;
+use convergence_study::Must;
 use convergence_study::internal::study::readings;
 
 /// Allowed relative change of a ratio of work.
@@ -354,7 +355,8 @@ fn guarded(
     let mut quantities = vec![];
     for ratio in ratios {
         let quantity = Quantity::new(ratio.name(), ratio.value(), RATIO_TOLERANCE);
-        quantities.push(quantity.about(ratio.subject()));
+        let claim = Must::AtLeast(ratio.times);
+        quantities.push(quantity.claimed(claim).about(ratio.subject()));
     }
     for &measure in measures {
         let runs = costed(ran, measure);

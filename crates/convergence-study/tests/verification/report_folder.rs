@@ -47,7 +47,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn a_new_set_replaces_the_old_one_and_leaves_other_files() {
+fn a_new_report_replaces_the_old_one_with_its_figures_and_leaves_other_files() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
     reports
@@ -66,7 +66,6 @@ fn a_new_set_replaces_the_old_one_and_leaves_other_files() {
         "README.md",
         "figures/b.svg",
         "local/times.json",
-        "manifest.txt",
         "notes.txt",
     ];
     assert_eq!(names(&reports.folder), expected);
@@ -74,7 +73,23 @@ fn a_new_set_replaces_the_old_one_and_leaves_other_files() {
         fs::read_to_string(reports.folder.join("README.md")).unwrap(),
         "two"
     );
+    // Of the folders of figures only what is no picture stays.
+    for path in [
+        "figures/notes.txt",
+        "figures/stranger.svg",
+        "figures/page/c.svg",
+    ] {
+        let path = reports.folder.join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, "mine").unwrap();
+    }
     reports.publish(&set(&[("README.md", "three")])).unwrap();
+    assert_eq!(names(&reports.folder.join("figures")), ["notes.txt"]);
+    fs::remove_file(reports.folder.join("figures/notes.txt")).unwrap();
+    reports
+        .publish(&set(&[("README.md", "four"), ("figures/a.svg", "a")]))
+        .unwrap();
+    reports.publish(&set(&[("README.md", "five")])).unwrap();
     assert!(!reports.folder.join("figures").exists());
 }
 
@@ -96,12 +111,7 @@ fn unchanged_files_are_not_written() {
             .modified()
             .unwrap()
     };
-    for path in [
-        "README.md",
-        "figures/a.svg",
-        "figures/b.svg",
-        "manifest.txt",
-    ] {
+    for path in ["README.md", "figures/a.svg", "figures/b.svg"] {
         File::options()
             .append(true)
             .open(reports.folder.join(path))
@@ -116,7 +126,7 @@ fn unchanged_files_are_not_written() {
             ("figures/b.svg", "b"),
         ]))
         .unwrap();
-    assert_eq!(written("manifest.txt"), long_ago, "the same set again");
+    assert_eq!(written("README.md"), long_ago, "the same set again");
     reports
         .publish(&set(&[
             ("README.md", "two"),
@@ -135,69 +145,59 @@ fn unchanged_files_are_not_written() {
     let found = found(&reports.folder);
     let found = found
         .iter()
-        .map(|(path, bytes)| (path.as_str(), bytes.as_str()))
-        .filter(|(path, _)| *path != "manifest.txt");
+        .map(|(path, bytes)| (path.as_str(), bytes.as_str()));
     assert!(found.eq(expected));
 }
 
+/// Whatever number of files had been moved when a run was killed.
 #[test]
-fn a_replacement_that_was_interrupted_is_completed_by_the_next() {
+fn after_a_kill_each_file_is_whole_and_the_next_run_makes_one_report() {
     let files = [
-        ("README.md", "new"),
         ("figures/b.svg", "new"),
         ("results.json", "new"),
+        ("README.md", "new"),
     ];
-    // Whatever number of files had been moved when it happened.
     for moved in 0..=files.len() {
         let folder = tempfile::tempdir().unwrap();
         let reports = reports(folder.path());
         reports
             .publish(&set(&[("README.md", "old"), ("figures/a.svg", "old")]))
             .unwrap();
-        let pending = reports.workshop.join("pending");
-        fs::create_dir_all(pending.join("figures")).unwrap();
-        fs::create_dir_all(reports.folder.join("figures")).unwrap();
+        let staging = reports.workshop.join("staging");
         for (i, (path, bytes)) in files.iter().enumerate() {
-            fs::write(
-                if i < moved {
-                    reports.folder.join(path)
-                } else {
-                    pending.join(path)
-                },
-                bytes,
-            )
-            .unwrap();
+            let place = if i < moved { &reports.folder } else { &staging };
+            fs::create_dir_all(place.join(path).parent().unwrap()).unwrap();
+            fs::write(place.join(path), bytes).unwrap();
         }
-        fs::write(
-            pending.join("manifest.txt"),
-            "README.md\nfigures/b.svg\nresults.json\n",
-        )
-        .unwrap();
-
+        reports.tidy().unwrap();
+        assert!(!staging.exists());
+        let readme = fs::read_to_string(reports.folder.join("README.md")).unwrap();
+        assert_eq!(readme == "new", moved == files.len(), "{moved}");
         reports.publish(&set(&[("README.md", "newest")])).unwrap();
-        assert_eq!(
-            names(&reports.folder),
-            ["README.md", "manifest.txt"],
-            "{moved} files moved"
-        );
+        let mut expected = vec!["README.md"];
+        // Only figures are removed.
+        expected.extend((moved > 1).then_some("results.json"));
+        assert_eq!(names(&reports.folder), expected, "{moved} files moved");
     }
 }
 
+/// A file that cannot take its place stops the others behind it; the report in Markdown is the last.
 #[test]
-fn a_crash_before_the_set_is_pending_leaves_the_old_one() {
+fn the_markdown_takes_its_place_last() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
     reports.publish(&set(&[("README.md", "old")])).unwrap();
-    fs::create_dir_all(reports.workshop.join("staging")).unwrap();
-    fs::write(reports.workshop.join("staging/README.md"), "half").unwrap();
+    fs::create_dir_all(reports.folder.join("z.svg/full")).unwrap();
+    let torn = reports.publish(&set(&[
+        ("README.md", "new"),
+        ("a.svg", "new"),
+        ("z.svg", "new"),
+    ]));
+    assert!(torn.is_err());
+    let read = |name: &str| fs::read_to_string(reports.folder.join(name)).unwrap();
     assert_eq!(
-        fs::read_to_string(reports.folder.join("README.md")).unwrap(),
-        "old"
-    );
-    reports.publish(&set(&[("README.md", "new")])).unwrap();
-    assert_eq!(
-        fs::read_to_string(reports.folder.join("README.md")).unwrap(),
-        "new"
+        (read("a.svg").as_str(), read("README.md").as_str()),
+        ("new", "old")
     );
 }
 
@@ -220,51 +220,6 @@ fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
     assert_eq!(found(&reports.folder), before);
 }
 
-#[test]
-fn a_manifest_with_paths_outside_the_folder_removes_nothing_there() {
-    let folder = tempfile::tempdir().unwrap();
-    let reports = reports(folder.path());
-    let outside = folder.path().join("outside.txt");
-    fs::write(&outside, "mine").unwrap();
-    fs::create_dir_all(&reports.folder).unwrap();
-    fs::write(
-        reports.folder.join("manifest.txt"),
-        format!("../outside.txt\n{}\n", outside.display()),
-    )
-    .unwrap();
-    reports.publish(&set(&[("README.md", "new")])).unwrap();
-    assert!(outside.exists());
-}
-
-#[test]
-fn a_pending_manifest_with_paths_outside_the_folder_moves_nothing() {
-    for path in [
-        "../outside.txt",
-        "../../outside.txt",
-        "/etc/outside.txt",
-        "a/../../outside.txt",
-        "manifest.txt",
-    ] {
-        let folder = tempfile::tempdir().unwrap();
-        let reports = reports(folder.path());
-        reports.publish(&set(&[("README.md", "old")])).unwrap();
-        let pending = reports.workshop.join("pending");
-        fs::create_dir_all(&pending).unwrap();
-        fs::write(pending.join("README.md"), "new").unwrap();
-        fs::write(pending.join("manifest.txt"), format!("README.md\n{path}\n")).unwrap();
-        // What `pending/../../outside.txt` would take from the workshop and from the folder above.
-        fs::write(reports.workshop.join("outside.txt"), "mine").unwrap();
-        fs::write(reports.folder.join("local/outside.txt"), "mine").unwrap();
-        let before = found(folder.path());
-        let error = reports.tidy().unwrap_err().to_string();
-        assert!(
-            error.contains("pending/manifest.txt: found `") && error.contains("remove this folder"),
-            "{error}"
-        );
-        assert_eq!(found(folder.path()), before, "{path}");
-    }
-}
-
 #[cfg(unix)]
 #[test]
 fn pipes_in_place_of_files_do_not_hang() {
@@ -283,20 +238,12 @@ fn pipes_in_place_of_files_do_not_hang() {
                 .success()
         );
     };
-    // A report is replaced whatever it is; a lock or a manifest must be a file.
+    // A report is replaced whatever it is; a lock must be a file.
     pipe(&reports.folder.join("README.md"));
     reports.publish(&set(&[("README.md", "one")])).unwrap();
     assert_eq!(
         fs::read_to_string(reports.folder.join("README.md")).unwrap(),
         "one"
-    );
-    pipe(&reports.workshop.join("pending/manifest.txt"));
-    assert!(
-        reports
-            .tidy()
-            .unwrap_err()
-            .to_string()
-            .contains("expected a regular file")
     );
     pipe(&folder.path().join("lock"));
     assert!(
@@ -318,7 +265,6 @@ fn names_that_leave_the_folder_or_are_there_twice_are_refused() {
         "a\nb",
         "a\u{1b}b",
         "c:x",
-        "manifest.txt",
         "readme.MD",
     ] {
         let mut set = set(&[("README.md", "one")]);

@@ -23,9 +23,9 @@ pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
 }
 
 /// The table of a file that may have only one of these.
-pub(crate) fn only_table<'t>(
+pub(crate) fn only_table<'t, const N: usize>(
     root: &Section<'_>,
-    tables: [&'t str; 3],
+    tables: [&'t str; N],
     allowed: &str,
 ) -> Result<&'t str, InputError> {
     match tables

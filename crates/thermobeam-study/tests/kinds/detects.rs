@@ -1,14 +1,13 @@
-//! Laws of the matrix of faults in studies of manufactured solutions, and of the smallest faults
-//! that they detect.
+//! Laws of the matrix of faults in studies of manufactured solutions.
 
 use std::sync::LazyLock;
 
 use convergence_study::{CaseFailure, FromFile, Kind, Verdict, internal::study::run_cases_here};
-use thermobeam_study::kinds::detects::{Detects, Fault, ROW, Sensitivity};
+use thermobeam_study::kinds::detects::{Detects, Fault, ROW};
 use thermobeam_study::kinds::orders::manufactured::Convergence;
 
 use super::refused::refusal;
-use super::typed::{Runs, changed, counted, each_case_counts, leaves_one_out, report};
+use super::typed::{Runs, changed, counted, each_case_counts, report};
 use super::{file, text};
 use thermobeam_study::exact::norm::Norm;
 
@@ -119,52 +118,6 @@ fn a_failed_level_and_an_honest_error_that_is_not_finite_fail() {
     each_case_counts(&study, &SOUND);
 }
 
-/// Two studies on coarse levels: the full study takes seconds.
-fn sensitivity() -> Sensitivity {
-    let small = text("sensitivity.toml")
-        .replace("[64, 128, 256, 512, 1024]", "[32, 64, 128, 256]")
-        .replace(", \"midpoint-space.toml\"", "")
-        .replace("at_most = 1e-5", "at_most = 1e-3");
-    Sensitivity::parse(&small, &file("sensitivity-small.toml"))
-        .unwrap_or_else(|error| panic!("{error}"))
-}
-
-#[test]
-fn each_coefficient_must_be_detected() {
-    let study = sensitivity();
-    let sound = run_cases_here(&study);
-    assert_eq!(
-        study.judge(&sound).verdict,
-        Verdict::Pass,
-        "{}",
-        report(&study.judge(&sound))
-    );
-    for key in sound.iter().map(|ran| ran.case.data.1) {
-        for planted in [Some(2e-3), Some(f64::NAN), None] {
-            let runs = changed::<Sensitivity>(&sound, |index, found| {
-                if sound[index].case.data.1 == key {
-                    *found = planted;
-                }
-            });
-            assert_eq!(
-                study.judge(&runs).verdict,
-                Verdict::Fail,
-                "{planted:?} for {key}"
-            );
-        }
-    }
-    for case in 0..sound.len() {
-        let mut failed = sound.clone();
-        failed[case].found = Err(CaseFailure::new("planted"));
-        assert_eq!(study.judge(&failed).verdict, Verdict::Fail);
-        if sound[case].ok().is_some_and(Option::is_some) {
-            let items = ["pairs of a study and a coefficient", "not in the range"];
-            leaves_one_out(&study, &sound, case, items, |found| *found = None);
-        }
-    }
-    each_case_counts(&study, &sound);
-}
-
 #[test]
 fn files_with_errors_are_refused() {
     for (name, from, to, message) in [
@@ -189,20 +142,8 @@ fn files_with_errors_are_refused() {
         (
             "negative-controls.toml",
             "[controls]",
-            "[sensitivity]\n[controls]",
+            "[any-order]\n[controls]",
             "one of the tables",
-        ),
-        (
-            "sensitivity.toml",
-            "range = [1e-9, 1e-2]",
-            "range = [1e-2, 1e-9]",
-            "sensitivity.range",
-        ),
-        (
-            "sensitivity.toml",
-            "at_most = 1e-5",
-            "at_most = 2.0",
-            "sensitivity.at_most",
         ),
     ] {
         let error = refusal(&ROW, name, from, to);

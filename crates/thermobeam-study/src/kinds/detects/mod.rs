@@ -1,13 +1,12 @@
 //! Planted faults: solver or sources are wrong on purpose, and a convergence study must fail.
 //!
-//! A check that cannot fail proves nothing. The study file asks its question by one of three
+//! A check that cannot fail proves nothing. The study file asks its question by one of two
 //! tables:
 //!
 //! | table | question |
 //! | --- | --- |
 //! | `[controls]` | does some study fail for each coefficient with a given relative error, and for each defect of the sources? |
 //! | `[any-order]` | the same for studies of kind orders/any-order: does each fail for every coefficient and defect named? |
-//! | `[sensitivity]` | what is the smallest relative error of each coefficient for which a study fails? |
 //!
 //! And of any study that passes `untested` says which coefficients it does not test, by the same
 //! means.
@@ -27,12 +26,10 @@
 mod any_order;
 mod manufactured;
 mod matrix;
-mod smallest;
 
 pub use super::orders::planted::fault::{Fault, Planted};
 pub use super::orders::planted::plantable::Plantable;
 pub use matrix::{Detects, RunOf, UnderFaults};
-pub use smallest::Sensitivity;
 
 use super::orders::{ErrorSource, Orders, any_order::AnyOrder, manufactured::Convergence};
 use super::prelude::*;
@@ -45,14 +42,11 @@ pub const ROW: KindRow = KindRow {
     keys: &[
         Detects::<Convergence>::KEYS[0],
         Detects::<AnyOrder>::KEYS[0],
-        Sensitivity::KEYS[0],
     ],
     read,
     why: "A check that cannot fail proves nothing. Each coefficient of the solver in turn is put off a little from that of the \
-          sources, and each defect in turn is planted in the sources. A study that guards a coefficient detects an error in it \
-          from some size on; bisection finds that size.",
-    judged: "Every fault must make at least one of the studies fail; without a fault, all of them must pass. Of every \
-             coefficient some study must detect a relative error as small as the file says.",
+          sources, and each defect in turn is planted in the sources.",
+    judged: "Every fault must make at least one of the studies fail; without a fault, all of them must pass.",
     failure: "A fault that no study detects: errors of this size in this place would go unnoticed, because a study has lost \
               levels or its tolerance has grown.",
 };
@@ -87,13 +81,11 @@ fn exercise<S: ErrorSource>(studies: &[Described<Orders<S>>], subject: &Subject)
         .unwrap_or_else(|| Exercise::new(MANUFACTURED, Integration::PAPER, ActiveTerms::default()))
 }
 
-/// Reads a study of planted faults, or of the smallest detected faults, depending on the table in
-/// the file.
+/// Reads a study of planted faults in studies of one kind, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    let allowed = "one of the tables [controls], [any-order] and [sensitivity]";
-    match only_table(root, ["controls", "any-order", "sensitivity"], allowed)? {
+    let allowed = "one of the tables [controls] and [any-order]";
+    match only_table(root, ["controls", "any-order"], allowed)? {
         "controls" => read_study::<Detects<Convergence>>(header, root, folder),
-        "any-order" => read_study::<Detects<AnyOrder>>(header, root, folder),
-        _ => read_study::<Sensitivity>(header, root, folder),
+        _ => read_study::<Detects<AnyOrder>>(header, root, folder),
     }
 }

@@ -6,9 +6,9 @@ use convergence_study::{CaseFailure, FromFile, Kind, Verdict, internal::study::r
 use thermobeam_study::kinds::detects::{Detects, Fault, ROW};
 use thermobeam_study::kinds::orders::manufactured::Convergence;
 
+use super::file;
 use super::refused::refusal;
 use super::typed::{Runs, changed, counted, each_case_counts, report};
-use super::{file, text};
 use thermobeam_study::exact::norm::Norm;
 
 type Controls = Detects<Convergence>;

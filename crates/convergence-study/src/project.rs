@@ -23,9 +23,6 @@ pub struct Project {
     pub tables: &'static [(&'static str, Keys)],
     /// Files that `new` writes.
     pub templates: &'static [Template],
-    /// Figures that are also written under a fixed name next to the report: file name of the
-    /// figure, fixed name.
-    pub front_pictures: &'static [(&'static str, &'static str)],
     /// The beginning of the report of a passing run.
     pub front: Front,
     /// Where to look when a study fails.
@@ -36,7 +33,7 @@ pub struct Project {
 }
 
 impl Project {
-    /// A project without kinds, terms, templates and front pictures;
+    /// A project without kinds, terms and templates;
     /// `Project { kinds: &KINDS, ..Project::new(name, command) }` adds kinds.
     pub const fn new(name: &'static str, command: &'static str) -> Self {
         let about = "Run convergence studies, judge them and report on them";
@@ -49,7 +46,6 @@ impl Project {
             terms: &[],
             tables: &[],
             templates: &[],
-            front_pictures: &[],
             front: Front {
                 subject: "",
                 picture: "",

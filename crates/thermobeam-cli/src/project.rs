@@ -27,8 +27,6 @@ pub const fn project(command: &'static str) -> Project {
         terms: &TERMS,
         tables: &[("scene", &[&scene::KEYS])],
         templates: &TEMPLATES,
-        // Other pages show this picture, so its name must not depend on studies.
-        front_pictures: &[("section-5-beam.svg", "beam.svg")],
         front: FRONT,
         places: &PLACES,
         seconds_per_cost: Some(NODE_STEP),
@@ -40,9 +38,9 @@ pub const fn project(command: &'static str) -> Project {
 pub(crate) const NODE_STEP: f64 = 2e-8;
 
 const FRONT: Front = Front {
-    subject: "A viscoelastic Timoshenko beam: clamped at the left, its right end free to move between two obstacles, and \
-              heat spreads along it.",
-    picture: "section-5-beam.svg",
+    subject: "The free end of a viscoelastic Timoshenko beam: clamped at the left, its right end free to move between two \
+              obstacles, and heat spreads along it.",
+    picture: "section-5-figure-3.svg",
     finding: "The paper sees evidence in an experiment that \"for beta < -1/2, there are multiple steady-state solutions\". That does not hold between -0.7116 and \
                -1/2, where the straight beam is the only one; below -0.7116 there are several (section-5, bifurcation). \
                These counts are theorems: `equilibria` proves them with interval arithmetic (THEORY.md, Proven steady states).",

@@ -23,7 +23,6 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{Provenance, README, Record, ReportSet, json, junit};
-use crate::study::Tier;
 use crate::study::outcome::Figure;
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
@@ -95,13 +94,6 @@ impl Findings<'_> {
         set.add("results.json", json(record)?)?;
         set.add("junit.xml", junit(project.name, record))?;
         set.add("errors.csv", self.errors_csv())?;
-        // A project's own pages show the figures of the quick tier.
-        let is_full = self.record.scope == Tier::Full.name();
-        for (file, name) in self.project.front_pictures.iter().filter(|_| !is_full) {
-            if let Some(figure) = self.figures().find(|figure| figure.file == *file) {
-                set.add(*name, figure.svg.as_str())?;
-            }
-        }
         for figure in self.rates().iter().chain(self.figures()) {
             set.add(shared::path(&readme, &figure.file), figure.svg.as_str())?;
         }

@@ -142,10 +142,7 @@ pub(crate) fn every_curve_belongs_to_an_entry_of_the_legend(figures: &Figures) {
             named("data-series").all(|series| entries.contains(&series)),
             "{name}: {entries:?}"
         );
-        let has_curves = !matches!(
-            *name,
-            "surface" | "space-time" | "animation" | "forest" | "variants"
-        );
+        let has_curves = !matches!(*name, "surface" | "space-time" | "forest" | "variants");
         assert_eq!(named("data-series").next().is_some(), has_curves, "{name}");
     }
 }

@@ -11,10 +11,7 @@ use convergence_study::{
 };
 
 /// The project of these studies; none of them is read from a file.
-pub(crate) const PROJECT: Project = Project {
-    front_pictures: &[("a-front.svg", "front.svg")],
-    ..Project::new("fakes", "cargo xtask")
-};
+pub(crate) const PROJECT: Project = Project::new("fakes", "cargo xtask");
 
 /// What the cases of a study do.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +35,8 @@ pub(crate) enum Does {
     TooShort,
     /// Nothing is judged, but a pass is claimed.
     Nothing,
+    /// First order, with two figures of one name: no report can be made of it.
+    DrawTwice,
 }
 
 pub(crate) struct Fake {
@@ -148,11 +147,15 @@ impl Kind for Fake {
             format!("<svg>{}</svg>", self.scale)
         };
         let figure = Figure::new("errors", "errors | h", svg);
+        let figures = match self.does {
+            Does::DrawTwice => vec![figure.clone(), figure],
+            _ => vec![figure],
+        };
         Outcome {
             levels: errors.iter().enumerate().map(level).collect(),
             quantities: vec![quantity],
             tables: vec![table],
-            figures: vec![figure],
+            figures,
             ..Outcome::new(
                 rate.reason.clone(),
                 vec![NamedRate::new("velocity", rate)],

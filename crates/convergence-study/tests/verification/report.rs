@@ -150,20 +150,6 @@ fn the_same_outcomes_give_the_same_bytes() {
     assert_eq!(files(), files());
 }
 
-#[test]
-fn the_picture_for_the_front_page_has_a_name_of_its_own() {
-    let mut studies = finished(vec![study("a", Does::Converge)]);
-    let has_front = |studies: &[Finished]| {
-        let files = with(studies, |findings| findings.files().unwrap());
-        files
-            .files()
-            .any(|(path, bytes)| path == "front.svg" && bytes == b"<svg/>")
-    };
-    assert!(!has_front(&studies));
-    studies[0].outcome.figures[0].file = "a-front.svg".to_owned();
-    assert!(has_front(&studies));
-}
-
 fn moved(study: &str, name: &str, to: f64) -> GuardedChange {
     let movement = Movement::Moved {
         from: 1.0,

@@ -6,17 +6,11 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use convergence_study::{
-    Blessing, Header, Progress, Project, Scope, Study, Tier, Verdict, Verification, VerifyRequest,
+    Blessing, Header, Progress, Scope, Study, Tier, Verdict, Verification, VerifyRequest,
     internal::report::NEWEST, verify,
 };
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};
-
-/// Its report cannot be made: two of its files have one name.
-const TWICE: Project = Project {
-    front_pictures: &[("a-errors.svg", "README.md")],
-    ..PROJECT
-};
 
 fn run(studies: Vec<Box<dyn Study>>, request: &VerifyRequest) -> Verification {
     verify(&PROJECT, &studies, request, &|_| {}).unwrap()
@@ -156,7 +150,8 @@ fn no_program_reads_an_older_result_while_a_run_is_under_way() {
     assert_eq!(seen.into_inner(), 1);
     assert_eq!(committed(&reports), before);
     // A run that ends without a result puts them back.
-    let error = verify(&TWICE, &studies, &plain, &|_| {}).unwrap_err();
+    let twice = [study("a", Does::DrawTwice)];
+    let error = verify(&PROJECT, &twice, &plain, &|_| {}).unwrap_err();
     assert!(error.to_string().contains("cannot be written"), "{error}");
     assert_eq!(committed(&reports), before);
 }
@@ -235,7 +230,7 @@ fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
         bless: true,
         ..request(root.path(), &["a"])
     };
-    let failed = verify(&TWICE, &[study("a", Does::Converge)], &bless, &|_| {})
+    let failed = verify(&PROJECT, &[study("a", Does::DrawTwice)], &bless, &|_| {})
         .unwrap_err()
         .to_string();
     assert!(

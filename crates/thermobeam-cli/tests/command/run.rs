@@ -118,7 +118,6 @@ fn the_history_and_the_pictures_of_every_scheme_are_written() {
         names.sort();
         let pictures = [
             "energy.svg",
-            "motion.svg",
             "space-time.svg",
             "tip-displacement.svg",
             "tip-rotation.svg",

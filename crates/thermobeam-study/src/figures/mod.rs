@@ -1,10 +1,7 @@
 //! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document
 //! out.
 
-mod animation;
 mod pictures;
-
-pub use animation::{Animation, Frames, animation};
 
 use convergence_judge::text::lists::distinct;
 use convergence_study::internal::plots::{

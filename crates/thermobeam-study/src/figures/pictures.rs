@@ -1,18 +1,16 @@
-//! The pictures of one run: its displacement over space and time, its motion, and its numbers over
-//! time.
+//! The pictures of one run: its displacement over space and time, and its numbers over time.
 
 use convergence_study::internal::plots::{self, Axis, Guide, Phases, Series, SpaceTime, xy::Xy};
 
-use super::{Animation, Frames, animation, energy_at_rest, obstacle_lines};
+use super::{energy_at_rest, obstacle_lines};
 use crate::run::Sample;
-use crate::run::history::RunHistory;
+use crate::run::history::{Frames, RunHistory};
 use crate::run::simulate::Run;
 use crate::scene::Scene;
 
 impl Run {
-    /// Names of files and their SVG documents: u over space and time, the beam in motion, tip
-    /// displacement with the obstacles, tip rotation, energy with its limit β²/(4ρ). None if no
-    /// frames were kept.
+    /// Names of files and their SVG documents: u over space and time, tip displacement with the
+    /// obstacles, tip rotation, energy with its limit β²/(4ρ). None if no frames were kept.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
         let Some(history) = self
             .history
@@ -23,7 +21,6 @@ impl Run {
         };
         vec![
             ("space-time.svg", space_time(scene, &history.frames)),
-            ("motion.svg", motion(scene, &history.frames)),
             ("tip-displacement.svg", self.displacement(scene, history)),
             ("tip-rotation.svg", rotation(scene, history)),
             ("energy.svg", energy(scene, history)),
@@ -60,17 +57,6 @@ fn space_time(scene: &Scene, frames: &Frames) -> String {
         times: frames.times.clone(),
         nodes: frames.points.clone(),
         frames: frames.u.clone(),
-    })
-}
-
-fn motion(scene: &Scene, frames: &Frames) -> String {
-    animation(&Animation {
-        title: title(scene, "the beam between its obstacles"),
-        frames: frames.clone(),
-        obstacles: scene
-            .obstacles
-            .map(|obstacles| (obstacles.g1, obstacles.g2)),
-        seconds: 20.0,
     })
 }
 

@@ -8,7 +8,6 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     vec![
         ("contraction", contraction(&contraction_factors())),
         ("bifurcation", equilibria()),
-        ("animation", animation(&motion())),
     ]
 }
 
@@ -17,11 +16,6 @@ fn series(label: &str, points: Vec<(f64, f64)>) -> Series {
         label: label.into(),
         points,
     }
-}
-
-fn tip(t: f64) -> f64 {
-    let free = 0.16 * (-0.25 * t).exp() * (9.0 * t).sin() + 0.004 * (60.0 * t).sin();
-    free.clamp(-0.0105, 0.1004)
 }
 
 pub(crate) fn contraction_factors() -> ContractionFactors {
@@ -90,26 +84,4 @@ pub(crate) fn equilibria() -> String {
         obstacles,
         ends,
     })
-}
-
-pub(crate) fn motion() -> Animation {
-    let times: Vec<f64> = (0..60).map(|n| 3.0 * f64::from(n) / 59.0).collect();
-    let nodes: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
-    let shape = |t: f64, x: f64| {
-        tip(t) * x * x * (3.0 - x) / 2.0 + 0.012 * (4.71 * x).sin() * (16.0 * t).sin() * (1.0 - x)
-    };
-    let u = times
-        .iter()
-        .map(|&t| nodes.iter().map(|&x| shape(t, x)).collect())
-        .collect();
-    Animation {
-        title: Some("A beam between two obstacles".into()),
-        frames: Frames {
-            u,
-            times,
-            points: nodes,
-        },
-        obstacles: Some((-0.01, 0.1)),
-        seconds: 10.0,
-    }
 }

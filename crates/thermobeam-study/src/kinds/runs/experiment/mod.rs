@@ -357,16 +357,6 @@ impl Experiments {
         let label = format!("{}, fixed point and Newton", scene.name);
         Case::new(label, cost, Task::FixedPoint(experiment))
     }
-
-    /// The experiment that is shown in motion: the middle one of the first group, which has no
-    /// axial force at rest.
-    fn animated(&self) -> usize {
-        let first = self
-            .experiments
-            .iter()
-            .filter(|experiment| experiment.group == SectionGroup::First);
-        first.count() / 2
-    }
 }
 
 /// The energy of the straight beam at rest; NaN for the linear beam, whose energy differs by a

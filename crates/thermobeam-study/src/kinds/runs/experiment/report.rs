@@ -6,7 +6,6 @@ use super::{
     judge,
     plotted::{ENERGY, Plotted, PlottedSeries, U_TIP},
     straight_energy,
-    trace::SPAN,
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -18,10 +17,6 @@ use convergence_study::{
     internal::plots::{self, inset::InsetFrame, xy::Xy},
 };
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
-
-/// Duration of one cycle of the animation in seconds: slower than the beam, so that the impacts can
-/// be followed.
-const SECONDS: f64 = 16.0;
 
 pub(super) fn findings(study: &Experiments, runs: &SectionFive<'_>) -> Findings {
     let plotted = plotted(runs);
@@ -58,7 +53,7 @@ pub(super) fn findings(study: &Experiments, runs: &SectionFive<'_>) -> Findings 
         headline,
         checks,
         listings,
-        figures: animation(all).into_iter().chain(drawn).collect(),
+        figures: drawn.collect(),
         ..Findings::default()
     }
 }
@@ -105,24 +100,6 @@ impl Tally {
             holding: own.filter(|check| check.verdict == Verdict::Pass).count(),
         }
     }
-}
-
-fn animation(all: &[OfExperiment<'_>]) -> Option<Figure> {
-    let runs = all
-        .iter()
-        .find(|runs| !runs.first.trace.frames.times.is_empty())?;
-    let caption = format!(
-        "The experiment at {}, θ_A = 0, in motion up to t = {SPAN}, by dG.",
-        figures::beta_label(runs.beam())
-    );
-    let obstacles = runs.experiment.scene.obstacles;
-    let svg = figures::animation(&figures::Animation {
-        title: Some("The beam between its obstacles".to_owned()),
-        frames: runs.first.trace.frames.clone(),
-        obstacles: obstacles.map(|obstacles| (obstacles.g1, obstacles.g2)),
-        seconds: SECONDS,
-    });
-    Some(Figure::new("beam", caption, svg))
 }
 
 /// Where the inset of Figure 2 lies: the energy falls so soon that the middle of the figure is

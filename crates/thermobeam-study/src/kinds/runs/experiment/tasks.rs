@@ -105,7 +105,6 @@ impl Experiments {
             t_end: original.t_end,
             t_max: self.t_max,
             levels: trace::POINTS,
-            frames: experiment == self.animated() && discretisation == 0,
         };
         let mut recorder = Recorder::new(observed, &mut *motion);
         let mut windows = 0.0;
@@ -147,7 +146,6 @@ impl Experiments {
             t_end: scene.t_end,
             t_max: scene.t_end,
             levels: trace::LEVELS,
-            frames: false,
         };
         let mut recorder = Recorder::new(observed, &mut both.fixed_point);
         for _ in 0..scene.steps() {

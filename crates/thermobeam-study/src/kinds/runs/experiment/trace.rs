@@ -1,10 +1,7 @@
 //! What the free end does: recorded step by step, by any method.
 
 use crate::kinds::prelude::*;
-use crate::{
-    figures,
-    run::{AnyMotion, Loaded, Sample},
-};
+use crate::run::{AnyMotion, Loaded, Sample};
 use convergence_judge::text::number::min_or_nan;
 use thermobeam::parameters::Obstacles;
 use thermobeam_exact::equilibrium::Phase;
@@ -18,13 +15,6 @@ pub(super) const LEVELS: usize = 5 * POINTS;
 
 /// After t_end only slow, smooth motion is left: this many times fewer points.
 const FEWER: f64 = 10.0;
-
-/// The time that an animation shows: the beam hits both obstacles several times.
-pub(super) const SPAN: f64 = 6.0;
-
-/// Number of intervals of that time, with a frame at each end; the motion between frames is
-/// interpolated.
-const PARTS: usize = 100;
 
 /// The motion of a beam within the figures' span, and its energy until the end of the run.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +35,6 @@ pub struct Trace {
     pub largest_residual: f64,
     /// Free end and energy over time, at 4000 equal steps of the figures' span, and beyond.
     pub points: Vec<Sample>,
-    /// u in the first seconds, of the experiment that is shown in motion.
-    pub frames: figures::Frames,
 }
 
 /// What is observed of a run.
@@ -58,8 +46,6 @@ pub(super) struct Observed {
     pub(super) t_max: f64,
     /// Intervals of the span at whose ends the free end is observed: a multiple of [`POINTS`].
     pub(super) levels: usize,
-    /// Whether frames are kept.
-    pub(super) frames: bool,
 }
 
 /// A free end at one time.
@@ -78,7 +64,6 @@ pub(super) struct Recorder {
     largest_increase: f64,
     largest_residual: f64,
     points: Vec<Sample>,
-    frames: figures::Frames,
 }
 
 impl Recorder {
@@ -90,13 +75,8 @@ impl Recorder {
             largest_increase: f64::NEG_INFINITY,
             largest_residual: 0.0,
             points: vec![],
-            frames: figures::Frames::default(),
         };
         recorder.push(motion.sample());
-        if observed.frames {
-            recorder.frames.points = motion.snapshot().points();
-            recorder.push_frame(motion, 0.0);
-        }
         recorder
     }
 
@@ -109,7 +89,6 @@ impl Recorder {
             t_end,
             t_max,
             levels,
-            frames,
         } = self.observed;
         let balance = motion.balance()?;
         self.largest_increase = max_or_nan(self.largest_increase, balance.change);
@@ -125,11 +104,6 @@ impl Recorder {
                 self.points.push(motion.inside(t));
             }
         }
-        if frames {
-            for t in motion.snapshot().parts(SPAN, PARTS) {
-                self.push_frame(motion, t);
-            }
-        }
         Ok(balance.change)
     }
 
@@ -143,11 +117,6 @@ impl Recorder {
             u: sample.u_tip,
             phi: sample.phi_tip,
         });
-    }
-
-    fn push_frame(&mut self, motion: &AnyMotion, t: f64) {
-        self.frames.times.push(t);
-        self.frames.u.push(motion.snapshot().shape(t));
     }
 
     /// When u(1) passes a value between two levels that `passes` accepts, interpolated.
@@ -205,7 +174,6 @@ impl Recorder {
             largest_increase: self.largest_increase,
             largest_residual: self.largest_residual,
             points: self.points,
-            frames: self.frames,
         }
     }
 }

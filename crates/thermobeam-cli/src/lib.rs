@@ -66,7 +66,7 @@ pub const PAGES: [HelpPage; 3] = [
                 "PROGRAM run scene.toml --out beam",
             ),
             (
-                "The cheapest run with this error",
+                "A run with at most this error",
                 "PROGRAM run scene.toml --target-error 1e-6",
             ),
         ],

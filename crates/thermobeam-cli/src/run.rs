@@ -24,15 +24,13 @@ use convergence_study::{
     },
 };
 use serde::Serialize;
+use thermobeam_study::accuracy::OutOfReach;
 use thermobeam_study::kinds::tables::cost_of_run;
-use thermobeam_study::predict::Unreachable;
-use thermobeam_study::predict::estimate::Budget;
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::scene::Scene;
 
 use crate::project::NODE_STEP;
-use accuracy::Planned;
 
 /// Simulate one scene
 ///
@@ -42,19 +40,10 @@ use accuracy::Planned;
 pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
-    /// Measure the errors of the result against a run of any order, and find what to refine first
-    /// by two further runs: one with only space refined, one with only the step length halved
-    #[arg(long)]
-    estimate_error: bool,
-    /// Choose the cheapest run with at most this error; it uses dG for any scheme of the scene
+    /// Refine, by dG for any scheme of the scene, until two successive runs agree within this error
+    /// in u(1, t), and show the finer one
     #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
     target_error: Option<f64>,
-    /// Keep the scene's own scheme and choose elements and steps for it
-    #[arg(long, requires = "target_error")]
-    keep_scheme: bool,
-    /// The quantity of the target error
-    #[arg(long, value_enum, default_value_t, requires = "target_error")]
-    quantity: accuracy::QuantityName,
     /// Time limit of the run; the results so far are then shown, and the exit status is 1
     /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
@@ -67,6 +56,14 @@ pub struct Arguments {
 }
 
 impl Arguments {
+    /// A history if files are requested.
+    fn recording(&self) -> Recording {
+        match &self.flags.out {
+            Some(_) => Recording::History,
+            None => Recording::Summary,
+        }
+    }
+
     /// Prints the result, and then the complaint if the verdict is fail.
     fn show(
         &self,
@@ -93,13 +90,11 @@ impl Arguments {
     }
 }
 
-/// The JSON object, with the requested analyses at its top.
+/// The JSON object, with the accuracy at its top if one was requested.
 #[derive(Serialize)]
 struct Printed<'a> {
     #[serde(flatten)]
     object: Object<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error_budget: Option<&'a Budget>,
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<accuracy::Object<'a>>,
 }
@@ -110,32 +105,43 @@ const TICKS: f64 = 1000.0;
 /// Runs the command. Nothing is written, and no folder is created, before the scene has proved
 /// usable.
 pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
-    let read = Scene::read(&arguments.scene)?;
-    let planned = match arguments
-        .target_error
-        .map(|target| accuracy::plan(arguments, &read, target))
-        .transpose()
-    {
-        Ok(planned) => planned,
-        Err(error @ Unreachable::Target { .. }) => {
-            return Err(Unusable::file(&arguments.scene, &error));
+    let scene = Scene::read(&arguments.scene)?;
+    let unusable = |error: &dyn std::error::Error| Unusable::file(&arguments.scene, error);
+    let Some(target) = arguments.target_error else {
+        if !arguments.yes && arguments.time_limit.is_none() {
+            running::consent(
+                &arguments.scene.display().to_string(),
+                NODE_STEP * cost_of_run(&scene),
+                "--time-limit",
+            )?;
         }
+        let simulator = Simulator::new(&scene).map_err(|error| unusable(&error))?;
+        let run = simulate(arguments, &scene, simulator)?;
+        return show(arguments, &scene, &run, None);
+    };
+    match accuracy::search(arguments, &scene, target) {
+        Ok(reached) => {
+            if let Some(folder) = &arguments.flags.out {
+                atomic::prepare_folder(folder)?;
+            }
+            let accuracy = accuracy::Object::new(target, &reached);
+            show(arguments, &reached.scene, &reached.run, Some(accuracy))
+        }
+        Err(error @ OutOfReach::Target(_)) => Err(unusable(&error)),
         Err(error) => {
             screen::complain(&format!("{}: {error}", arguments.scene.display()));
-            return Ok(Verdict::Fail);
+            Ok(Verdict::Fail)
         }
-    };
-    let scene = planned.as_ref().map_or(&read, Planned::scene);
-    if !arguments.yes && arguments.time_limit.is_none() {
-        running::consent(
-            &arguments.scene.display().to_string(),
-            NODE_STEP * cost_of_run(scene),
-            "--time-limit",
-        )?;
     }
-    let simulator =
-        Simulator::new(scene).map_err(|error| Unusable::file(&arguments.scene, &error))?;
-    let run = simulate(arguments, scene, simulator)?;
+}
+
+/// Writes the files of a run that has ended, and prints the result.
+fn show(
+    arguments: &Arguments,
+    scene: &Scene,
+    run: &Run,
+    accuracy: Option<accuracy::Object<'_>>,
+) -> CommandOutcome {
     let written = arguments
         .flags
         .out
@@ -147,76 +153,29 @@ pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
                 .map(|history| ("history.csv", history.csv()));
             write_files(folder, history.chain(run.pictures(scene)))
         })?;
-    let finished = Finished {
-        scene,
-        planned: planned.as_ref(),
-        run: &run,
-        written: &written,
+    let lines = accuracy.as_ref().map(accuracy::Object::lines);
+    let worth = match accuracy {
+        None => format!("\n{}\n", summary::UNKNOWN),
+        Some(_) => String::new(),
     };
-    finished.show(arguments)
-}
-
-/// A run that has ended, and what led to it.
-struct Finished<'a> {
-    scene: &'a Scene,
-    /// The search for a target error.
-    planned: Option<&'a Planned>,
-    run: &'a Run,
-    /// The files.
-    written: &'a [PathBuf],
-}
-
-impl Finished<'_> {
-    /// Estimates the error if it is asked for, and prints the result.
-    fn show(&self, arguments: &Arguments) -> CommandOutcome {
-        let Self {
-            scene,
-            planned,
-            run,
-            written,
-        } = *self;
-        // The error of a failed run cannot be estimated.
-        let wanted = arguments.estimate_error && run.failure.is_none();
-        let budget = wanted
-            .then(|| accuracy::budget(arguments, scene))
-            .transpose();
-        let known = budget.as_ref().ok().and_then(Option::as_ref);
-        let complaint = budget
-            .as_ref()
-            .err()
-            .map(|reason| format!("error budget: {reason}"))
-            .or(run.complaint());
-        let accuracy = planned.map(Planned::object);
-        let object = Printed {
-            object: Object::new(scene, run),
-            error_budget: known,
-            accuracy,
-        };
-        let sentence = format!(
-            "{}: {} steps, to t = {} of {}",
-            scene.name, run.steps, run.last.t, scene.t_end
-        );
-        arguments.show(complaint, &object, &sentence, || {
-            let worth = known.map_or(summary::UNKNOWN.to_owned(), ToString::to_string);
-            let worth = if planned.is_some() && known.is_none() {
-                String::new()
-            } else {
-                format!("\n{worth}\n")
-            };
-            summary::summary(scene, run, planned.map(Planned::lines), written) + &worth
-        })
-    }
+    let object = Printed {
+        object: Object::new(scene, run),
+        accuracy,
+    };
+    let sentence = format!(
+        "{}: {} steps, to t = {} of {}",
+        scene.name, run.steps, run.last.t, scene.t_end
+    );
+    arguments.show(run.complaint(), &object, &sentence, || {
+        summary::summary(scene, run, lines, &written) + &worth
+    })
 }
 
 /// Runs the scene, with a bar of the time reached, and a history if files are requested.
 fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::Result<Run> {
-    let recording = match &arguments.flags.out {
-        Some(folder) => {
-            atomic::prepare_folder(folder)?;
-            Recording::History
-        }
-        None => Recording::Summary,
-    };
+    if let Some(folder) = &arguments.flags.out {
+        atomic::prepare_folder(folder)?;
+    }
     let bar = running::counting(
         &scene.name,
         TICKS as usize,
@@ -237,7 +196,9 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
         done.store(step, Ordering::Relaxed);
         bar.set_position((TICKS * t / t_end) as u64);
     };
-    let (run, _) = time_limit::within(arguments.time_limit, || simulator.run(recording, &mut tell));
+    let (run, _) = time_limit::within(arguments.time_limit, || {
+        simulator.run(arguments.recording(), &mut tell)
+    });
     bar.finish_and_clear();
     Ok(run)
 }

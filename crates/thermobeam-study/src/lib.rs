@@ -11,8 +11,8 @@
 //! Studies are data, and so are [`scene`]s, whose functions are [`expression`]s. Each of the
 //! [`kinds`] of study defines what its cases compute and how their results are judged; [`run`]
 //! steps problems, [`mod@error`] measures errors against exact solutions and finer runs,
-//! [`predict`] predicts cost and error. The harness, [`convergence_study`], provides threads,
-//! rates, verdicts, baseline, records and reports.
+//! [`accuracy`] refines until a wanted error is reached. The harness, [`convergence_study`],
+//! provides threads, rates, verdicts, baseline, records and reports.
 //!
 //! ```
 //! use convergence_study::Verdict;
@@ -37,10 +37,10 @@
 //!
 //! The properties of the solver are derived in [`thermobeam::theory`].
 
+pub mod accuracy;
 pub mod error;
 pub mod figures;
 pub mod kinds;
-pub mod predict;
 pub mod run;
 pub mod scene;
 pub mod sweep;

@@ -2,12 +2,12 @@
 
 #![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
 
+mod accuracy;
 mod fuzz;
 mod input;
 mod kinds;
 mod manufactured;
 mod plots;
-mod predict;
 mod simulate;
 mod sweep;
 

@@ -19,8 +19,7 @@ use thermobeam_study::scene::Scene;
 pub(super) type SummaryLine = (&'static str, String, String);
 
 /// The note on a run whose errors are not known.
-pub(super) const UNKNOWN: &str =
-    "Six digits are shown; --estimate-error says how many are right, --format json has all.";
+pub(super) const UNKNOWN: &str = "Six digits are shown; --target-error makes a run whose digits are right, --format json has all.";
 
 /// The results in aligned columns; all quantities are dimensionless except times on the clock.
 pub(super) fn summary(

@@ -5,114 +5,86 @@ use super::{Folder, ended, thermobeam};
 const SWING: &str = "[beam]\na = 0\n[initial]\nu_t = \"0.1*x\"\n[time]\nt_end = 1\ndt = 0.1";
 
 #[test]
-fn a_target_error_is_met_and_reported_with_method_parts_and_cost() {
+fn a_target_error_is_met_and_reported_with_its_runs() {
     let folder = Folder::new();
     let scene = folder.file("swing.toml", SWING);
     let with = |arguments: &[&str]| ended(thermobeam().arg("run").arg(&scene).args(arguments));
-    let object = |arguments: &[&str]| {
-        let json = with(&[arguments, &["--format", "json"]].concat());
-        assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
-        serde_json::from_str::<serde_json::Value>(&json.stdout).expect("JSON")
-    };
-    let cheapest = object(&["--target-error", "1e-5"]);
-    let number = |of: &serde_json::Value, key: &str| {
-        of[key].as_f64().unwrap_or_else(|| panic!("{key}: {of}"))
-    };
-    let accuracy = &cheapest["accuracy"];
+    let json = with(&["--target-error", "1e-5", "--format", "json"]);
+    assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
+    let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
+    let accuracy = &value["accuracy"];
+    let number = |key: &str| accuracy[key].as_f64().unwrap_or_else(|| panic!("no {key}"));
+    assert_eq!(value["scheme"], "dg");
+    assert!(number("target_error") == 1e-5 && number("believed_error") <= 1e-5);
+    assert!(number("search_runs") >= 3.0 && number("search_work") > 0.0);
     assert_eq!(
-        (&cheapest["scheme"], &accuracy["quantity"]),
-        (&"dg".into(), &"tip".into())
+        accuracy["nodes"].as_array().map(Vec::len),
+        value["elements"].as_u64().map(|n| n as usize + 1)
     );
-    assert!(
-        number(accuracy, "target_error") == 1e-5
-            && (1e-9..=1e-5).contains(&number(accuracy, "believed_error"))
-    );
-    assert!(number(accuracy, "search_work") > number(accuracy, "unknown_solves"));
-
-    let kept = object(&["--target-error", "1e-3", "--keep-scheme"]);
-    let accuracy = &kept["accuracy"];
-    assert_eq!(kept["scheme"], "euler-crank-nicolson");
-    assert!((1e-4..=1e-3).contains(&number(accuracy, "believed_error")));
-    assert_eq!(
-        number(accuracy, "node_steps"),
-        number(&kept, "elements") * number(&kept, "steps")
-    );
-
-    let text = with(&["--target-error", "1e-2", "--quantity", "theorem-3.4"]);
+    let text = with(&["--target-error", "1e-2"]);
     assert_eq!(text.status, Some(0));
-    for piece in ["target", "estimated", "Theorem 3.4", "the cheapest"] {
+    for piece in ["target", "estimated", "the difference to a coarser run"] {
         assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
     }
+    assert!(!text.stdout.contains("--target-error"), "{}", text.stdout);
 }
 
 #[test]
-fn the_errors_of_any_scheme_are_measured_and_shown() {
+fn the_files_of_a_target_error_are_those_of_its_run() {
     let folder = Folder::new();
-    for (scheme, left) in [
-        ("dt = 0.1", 1e-5),
-        ("scheme = \"midpoint\"\ndt = 0.1", 1e-5),
-        ("scheme = \"dg\"", 0.0),
-    ] {
-        let scene = folder.file("swing.toml", &SWING.replace("dt = 0.1", scheme));
-        let json = ended(thermobeam().arg("run").arg(&scene).args([
-            "--estimate-error",
-            "--format",
-            "json",
-        ]));
-        let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
-        let quantities = value["error_budget"]["quantities"]
-            .as_array()
-            .expect("quantities");
-        assert_eq!(quantities.len(), 8, "{value}");
-        let [tip, end] = [3, 0].map(|k| quantities[k]["total"].as_f64().expect("an error"));
-        assert!(tip > left && tip < 0.1 && end <= 1.01 * tip, "{value}");
-        let text = ended(thermobeam().arg("run").arg(&scene).arg("--estimate-error"));
-        assert!(
-            text.stdout.contains("Errors, by a run of any order"),
-            "{}",
-            text.stdout
-        );
-    }
+    let scene = folder.file("swing.toml", SWING);
+    let out = folder.path("out");
+    let ended = ended(
+        thermobeam()
+            .arg("run")
+            .arg(&scene)
+            .args(["--target-error", "1e-5", "--out"])
+            .arg(&out),
+    );
+    assert_eq!(ended.status, Some(0), "{}", ended.stderr);
+    let history = std::fs::read_to_string(out.join("history.csv")).expect("a history");
+    let last: f64 = history
+        .lines()
+        .last()
+        .and_then(|line| line.split(',').nth(1)?.parse().ok())
+        .expect("u(1)");
+    let text = std::fs::read_to_string(out.join("run.json")).expect("JSON");
+    let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(value["final"]["u_tip"].as_f64(), Some(last));
 }
 
 #[test]
 fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
     let folder = Folder::new();
     let scene = folder.file("swing.toml", SWING);
+    let out = folder.path("out");
     let far = ended(
         thermobeam()
             .arg("run")
             .arg(&scene)
-            .args(["--target-error", "1e-17"]),
+            .args(["--target-error", "1e-17", "--out"])
+            .arg(&out),
     );
     assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
-    assert!(far.stderr.contains("can be reached"), "{}", far.stderr);
-    let kept = ended(thermobeam().arg("run").arg(&scene).args([
-        "--target-error",
-        "1e-9",
-        "--keep-scheme",
-    ]));
-    assert_eq!((kept.status, kept.stdout.as_str()), (Some(1), ""));
     assert!(
-        kept.stderr.contains("limit of 2.0e10") && kept.stderr.contains("can be reached"),
+        far.stderr.contains("rounding errors") && far.stderr.contains("can be reached"),
         "{}",
-        kept.stderr
+        far.stderr
     );
-    for arguments in [
-        &["--target-error", "0"][..],
-        &["--target-error", "-1"],
-        &["--target-error", "nan"],
-        &["--quantity", "tip"],
-        &["--keep-scheme"],
-    ] {
-        let ended = ended(thermobeam().arg("run").arg(&scene).args(arguments));
-        assert_eq!(
-            (ended.status, ended.stdout.as_str()),
-            (Some(2), ""),
-            "{arguments:?}"
+    assert!(!out.exists());
+    for target in ["0", "-1", "nan"] {
+        let ended = ended(
+            thermobeam()
+                .arg("run")
+                .arg(&scene)
+                .args(["--target-error", target]),
         );
-        let says = ended.stderr.contains("expected a finite number > 0");
-        assert_eq!(says, arguments[0] == "--target-error", "{}", ended.stderr);
+        assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""));
+        assert!(
+            ended.stderr.contains("expected a finite number > 0"),
+            "{}",
+            ended.stderr
+        );
     }
 }
 

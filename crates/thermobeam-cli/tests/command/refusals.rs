@@ -50,7 +50,10 @@ const REFUSED: [(&str, &str); 85] = [
         "run scene.toml --target-error small",
         "expected a finite number > 0",
     ),
-    ("run scene.toml --keep-scheme", "--target-error <ERROR>"),
+    (
+        "run scene.toml --target-error 1e-3 --keep-scheme",
+        "unexpected argument '--keep-scheme'",
+    ),
     ("run scene.toml --format csv", "possible values: text, json"),
     ("run scene.toml --jobs 0", "expected a whole number >= 1"),
     ("equilibria", WITHOUT),

@@ -81,8 +81,7 @@ fn the_summary_says_what_was_left_out() {
     );
     let ended = ended(thermobeam().arg("run").arg(cold));
     assert_eq!((ended.status, ended.stderr.as_str()), (Some(0), ""));
-    let digits =
-        "Six digits are shown; --estimate-error says how many are right, --format json has all.\n";
+    let digits = "Six digits are shown; --target-error makes a run whose digits are right, --format json has all.\n";
     for piece in [
         "cold: 100 elements, 10 steps",
         "nothing heats the beam",

@@ -8,7 +8,6 @@ pub mod detects;
 mod interval;
 pub mod orders;
 mod prelude;
-pub mod random_errors;
 pub mod runs;
 pub mod settings;
 pub mod solvers;
@@ -32,7 +31,7 @@ use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 20] = [
+pub const KINDS: [KindRow; 19] = [
     Convergence::ROW,
     AnyOrder::ROW,
     detects::ROW,
@@ -47,7 +46,6 @@ pub const KINDS: [KindRow; 20] = [
     runs::exact_experiments::ROW,
     runs::equilibrium::ROW,
     runs::bifurcation::ROW,
-    random_errors::ROW,
     runs::rigid::ROW,
     runs::solutions::ROW,
     runs::dependence::ROW,

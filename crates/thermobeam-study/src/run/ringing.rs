@@ -43,7 +43,7 @@ fn ringing(scene: &Scene, run: &Run) -> Option<String> {
     Some(format!(
         "the free end starts {depth:.1e} beyond an obstacle that throws it back in less than a step, and the midpoint rule mirrors it \
          from step to step without an end: u(1) is not that of the beam; expected dt = {dt:.0e}, scheme = \"euler-crank-nicolson\" \
-         or scheme = \"dg\"; `--estimate-error` says how far it is off"
+         or scheme = \"dg\""
     ))
 }
 

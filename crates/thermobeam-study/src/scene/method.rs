@@ -103,29 +103,6 @@ impl Method {
         }
     }
 
-    /// The keys of a scene that lower the error in space.
-    pub(crate) fn finer_space(&self) -> &'static str {
-        match self {
-            Self::OneStep(_) => "Space first: take twice the elements.",
-            Self::Dg(_) => "Space first: raise mesh.degree by 2, or add elements near x = 1.",
-        }
-    }
-
-    /// The keys of a scene that lower the error in time.
-    pub(crate) fn finer_time(&self) -> &'static str {
-        match self {
-            Self::OneStep(stepping) if stepping.scheme.order > 1.0 => {
-                "Time first: take half of dt."
-            }
-            Self::OneStep(_) => {
-                "Time first: take half of dt, or the scheme \"midpoint\", which may leave far less."
-            }
-            Self::Dg(_) => {
-                "Time first: halve dt, restart_dt and growth - 1; where nothing touches, a higher time.degree is cheaper."
-            }
-        }
-    }
-
     /// When the iteration of a step ends.
     pub fn stopping(&self) -> Stopping {
         match self {

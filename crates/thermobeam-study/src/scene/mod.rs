@@ -74,6 +74,13 @@ pub struct Initial {
     pub theta: Option<Expression>,
 }
 
+impl Initial {
+    /// The functions, in the order of [`thermobeam::dg::Field::ALL`].
+    pub(crate) fn fields(&self) -> [&Option<Expression>; 5] {
+        [&self.u, &self.phi, &self.u_t, &self.phi_t, &self.theta]
+    }
+}
+
 /// Everything that a run needs, validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {

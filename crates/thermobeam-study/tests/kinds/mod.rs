@@ -14,7 +14,6 @@ mod experiment;
 mod frequencies;
 mod planted;
 mod projection;
-mod random_errors;
 mod refused;
 mod rigid;
 mod scenes;

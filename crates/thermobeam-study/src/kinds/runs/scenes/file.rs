@@ -3,7 +3,7 @@
 use convergence_study::NamedNumber;
 
 use super::{
-    IndependentAnswer, Most, PREDICTED, Whole,
+    CHOSEN, IndependentAnswer, Most, Whole,
     shown::{NUMBERS, PAIRS, listed},
 };
 use crate::kinds::prelude::*;
@@ -40,9 +40,9 @@ const ANSWER: Key = Key::new(
         )],
         &all(NUMBERS, Form::Number, "what the run must give for it"),
         &all(
-            PREDICTED,
+            [CHOSEN],
             Form::Number,
-            "what the prediction must give for it",
+            "u(1) at the end of the run for an error of `within`",
         ),
         &all(
             PAIRS,
@@ -138,7 +138,7 @@ impl IndependentAnswer {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let within = section.positive("within")?;
         let mut numbers = vec![];
-        for name in NUMBERS.into_iter().chain(PREDICTED) {
+        for name in NUMBERS.into_iter().chain([CHOSEN]) {
             if let Some(field) = section.get(name) {
                 numbers.push(NamedNumber::new(name, field.number()?));
             }

@@ -18,7 +18,6 @@
 //! contact = [[0.0, 0.2]]       # beginning and end of each contact
 //! # u(1) and the number of unstable directions of each steady state, in the order of u(1)
 //! steady = [[-0.01, 0]]
-//! estimated_error = 1e-3       # what `--estimate-error` says of u(1) at the end
 //! # u(1) at the end of the run that `--target-error` chooses for an error of `within`
 //! chosen_u_tip = -0.040865
 //! # with `ends = "answer"`, in addition to an answer or in place of it: bounds
@@ -45,14 +44,10 @@ use super::{
 };
 use crate::kinds::prelude::*;
 use crate::{
+    accuracy::reach,
     kinds::{
         settings::{Exercise, Integration, ItemMethod},
         tables::cost_of_run,
-    },
-    predict::{
-        Work,
-        choice::{ErrorQuantity, choose},
-        estimate::estimate,
     },
     run::{
         simulate::{Recording, Simulator},
@@ -132,11 +127,8 @@ struct Most {
     unsolved: Option<f64>,
 }
 
-/// Keys of what predictions say: the error of a scene, and the run for an accuracy.
-const PREDICTED: [&str; 2] = ["estimated_error", "chosen_u_tip"];
-
-/// Work that a prediction may do.
-const MOST_WORK: f64 = 2e8;
+/// The key of the run for an accuracy.
+const CHOSEN: &str = "chosen_u_tip";
 
 impl Runs for Scenes {
     const KEYS: &'static [Keys] = &[&[&[Key::new(
@@ -386,26 +378,13 @@ impl Whole {
         )
     }
 
-    /// Predictions and steady states, where the answer has them.
+    /// The run for an accuracy and steady states, where the answer has them.
     fn others(&self) -> Result<Vec<NamedNumber>, CaseFailure> {
         let scene = &self.case.scene;
-        let mut no_progress = |_: f64| ();
-        let [error, chosen] = PREDICTED;
         let mut others = vec![];
-        if self.answer.has(error) {
-            let budget = estimate(scene, &mut Work::new(MOST_WORK, &mut no_progress))?;
-            let tip = budget
-                .quantities
-                .iter()
-                .find(|estimate| estimate.name == "u(1) at the end");
-            let total = tip.map_or(f64::NAN, |estimate| estimate.total);
-            others.push(NamedNumber::new(error, total));
-        }
-        if self.answer.has(chosen) {
-            let work = &mut Work::new(MOST_WORK, &mut no_progress);
-            let choice = choose(scene, ErrorQuantity::Tip, self.answer.within, work)?;
-            let run = Simulator::new(&choice.scene)?.run(Recording::Summary, &mut |_, _| ());
-            others.push(NamedNumber::new(chosen, run.last.u_tip));
+        if self.answer.has(CHOSEN) {
+            let reached = reach(scene, self.answer.within, Recording::Summary, &mut |_| ())?;
+            others.push(NamedNumber::new(CHOSEN, reached.run.last.u_tip));
         }
         if self.answer.has(STEADY) {
             let mut pairs = vec![];

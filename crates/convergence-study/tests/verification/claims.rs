@@ -374,7 +374,10 @@ fn a_diagnosis_names_claims_that_changed_and_no_solver() {
         let ran = finished(vec![study]);
         diagnose(&project, &[], &ran, &baseline.compare(&ran, None))
     };
-    let changed = one_of_settings(&baseline.compare(&ran(&[loose.clone()]), None), "a");
+    let changed = one_of_settings(
+        &baseline.compare(&ran(std::slice::from_ref(&loose)), None),
+        "a",
+    );
     let found = diagnosed(failing).expect("a study fails");
     assert_eq!(found.claims, [changed.as_str()]);
     let lines = found.lines();
@@ -420,7 +423,7 @@ fn changed_settings_fail_the_run_and_are_in_every_report() {
     let loose = with("expect[0].tolerance", Some("0.49"));
     let changes = Baseline::read(&baseline)
         .unwrap()
-        .compare(&ran(&[loose.clone()]), None);
+        .compare(&ran(std::slice::from_ref(&loose)), None);
     let change = one_of_settings(&changes, "a");
     let why = change.strip_prefix("a: ").unwrap();
     for bless in [false, true] {

@@ -11,7 +11,7 @@ pub(super) fn of(Baseline { schema, studies }: &Baseline) -> io::Result<String> 
     let mut text = format!("{{\n  \"schema\": {schema},\n  \"studies\": {{");
     let mut separator = "\n";
     for (id, blessed) in studies {
-        let _ = write!(text, "{separator}    {}: {{\n", quoted(id)?);
+        let _ = writeln!(text, "{separator}    {}: {{", quoted(id)?);
         text += &of_study(blessed)?;
         text += "    }";
         separator = ",\n";

@@ -9,7 +9,7 @@ use convergence_study::Verdict;
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;
 use crate::laws::{Law, polluted};
-use crate::sheet::{HitShare, Sheet, SheetRow};
+use crate::sheet::{Sheet, SheetRow};
 
 /// A smooth power.
 pub const BENIGN: [Law; 1] = [polluted(
@@ -108,7 +108,8 @@ pub(crate) fn differences(problems: usize, draw: &mut Draw) -> Result<Sheet, Cal
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for levels in LEVELS {
-        let [mut passes, mut fails, mut wrong] = [HitShare::default(); 3];
+        let columns = ["true pass", "true fail", "wrong pass"];
+        let mut row = SheetRow::new(format!("{levels} levels"), true, &columns);
         for _ in 0..problems {
             let problem = BenignProblem::draw(draw.next()?);
             for (upwind, order) in [(false, 2.0), (true, 1.0)] {
@@ -126,20 +127,16 @@ pub(crate) fn differences(problems: usize, draw: &mut Draw) -> Result<Sheet, Cal
                         .collect();
                     let reading = judge.read(&table);
                     let verdict = judge.decide(&reading, order);
-                    passes.count(verdict.is_pass());
-                    fails.count(verdict == Verdict::Fail);
+                    row.count("true pass", verdict.is_pass());
+                    row.count("true fail", verdict == Verdict::Fail);
                     for off in [-0.5, 0.5] {
-                        wrong.count(judge.decide(&reading, order + off).is_pass());
+                        let wrong = judge.decide(&reading, order + off);
+                        row.count("wrong pass", wrong.is_pass());
                     }
                 }
             }
         }
-        let cells = vec![
-            passes.cell("true pass"),
-            fails.cell("true fail"),
-            wrong.cell("wrong pass"),
-        ];
-        rows.push(SheetRow::new(format!("{levels} levels"), true, cells));
+        rows.push(row);
     }
     Ok(Sheet {
         key: "differences",

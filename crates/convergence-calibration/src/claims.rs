@@ -10,7 +10,7 @@ use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{hidden_term, three_terms, wrong_limit};
 use crate::judge;
 use crate::laws::{LAWS, Law, LawErrors};
-use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
+use crate::sheet::{Sheet, SheetRow};
 
 /// A claim about the constant 1, and one that it refutes.
 const RIGHT: Interval = Interval {
@@ -31,54 +31,45 @@ fn passes(judge: &Judge, table: &LawErrors) -> bool {
 /// Three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the finest error.
 pub(crate) fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
-    let mut wrong_limit = HitShare::default();
-    let mut lower_order = HitShare::default();
+    let columns = ["wrong limit passes", "lower order passes"];
+    let mut row = SheetRow::new("3 levels", true, &columns);
     for _ in 0..tables {
         let random = draw.next()?;
         let part = random.within([0.05, 0.6]);
         let table = hidden_term(FEWEST_LEVELS, part, random);
-        let share = if table.order.is_some() {
-            &mut lower_order
-        } else {
-            &mut wrong_limit
-        };
-        share.count(passes(&judge, &table));
+        let column = columns[usize::from(table.order.is_some())];
+        row.count(column, passes(&judge, &table));
     }
     let title = "Share of tables with three levels that pass at ±0.25 although something else makes up 5 to 60 % of the finest error";
-    let cells = vec![
-        wrong_limit.cell("wrong limit passes"),
-        lower_order.cell("lower order passes"),
-    ];
     Ok(Sheet {
         key: "three",
         title: title.to_owned(),
-        rows: vec![SheetRow::new("3 levels", true, cells)],
+        rows: vec![row],
     })
 }
 
 /// Wrong limits, and three terms of either sign, at three tolerances.
 pub(crate) fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let mut rows = vec![];
+    let columns = [
+        "wrong limit passes",
+        "and departs without its coarsest levels",
+        "three terms pass",
+    ];
     for tolerance in [0.05, 0.1, 0.2] {
         let judge = judge(tolerance)?;
-        let mut limit = HitShare::default();
-        let mut departs_later = HitShare::default();
-        let mut terms = HitShare::default();
+        let mut row = SheetRow::new(format!("±{tolerance}"), true, &columns);
         for _ in 0..tables {
             let table = wrong_limit(draw.next()?);
             let does_pass = passes(&judge, &table);
-            limit.count(does_pass);
-            departs_later.count(
-                does_pass && judge.judge(&table.levels[3..], table.shown).kind == Reason::Departs,
-            );
-            terms.count(passes(&judge, &three_terms(draw.next()?)));
+            let departs_later =
+                does_pass && judge.judge(&table.levels[3..], table.shown).kind == Reason::Departs;
+            let three_terms = three_terms(draw.next()?);
+            row.count("wrong limit passes", does_pass);
+            row.count("and departs without its coarsest levels", departs_later);
+            row.count("three terms pass", passes(&judge, &three_terms));
         }
-        let cells = vec![
-            limit.cell("wrong limit passes"),
-            departs_later.cell("and departs without its coarsest levels"),
-            terms.cell("three terms pass"),
-        ];
-        rows.push(SheetRow::new(format!("±{tolerance}"), true, cells));
+        rows.push(row);
     }
     Ok(Sheet {
         key: "limits",
@@ -98,17 +89,16 @@ const HAS_CONSTANT: [&str; 7] = [
     "pollution, noise 1 %",
 ];
 
-/// Verdicts on a least order and on the constant.
-#[derive(Debug, Clone, Copy, Default)]
-struct OtherClaims {
-    too_much_passes: HitShare,
-    order_passes: HitShare,
-    less_passes: HitShare,
-    interval_holds_constant: HitShare,
-    right_constant_passes: HitShare,
-    right_constant_fails: HitShare,
-    wrong_constant_passes: HitShare,
-}
+const TOO_MUCH: &str = "at least half an order too much passes";
+const COLUMNS: [&str; 7] = [
+    TOO_MUCH,
+    "at least the order passes",
+    "at least half an order less passes",
+    "interval holds the constant",
+    "right constant passes",
+    "right constant fails",
+    "wrong constant passes",
+];
 
 /// Whether the claim of at least this order passes.
 fn passes_at_least(judge: &Judge, reading: &Reading<'_>, order: f64) -> bool {
@@ -117,50 +107,32 @@ fn passes_at_least(judge: &Judge, reading: &Reading<'_>, order: f64) -> bool {
         .is_pass()
 }
 
-impl OtherClaims {
-    fn count(&mut self, law: &Law, table: &LawErrors, judge: &Judge) {
-        let reading = judge.read(&table.levels);
-        let half = 2.0 * DEFAULT_TOLERANCE;
-        let Some(order) = table.order else {
-            self.too_much_passes
-                .count(passes_at_least(judge, &reading, table.shown + half));
-            return;
-        };
-        let too_much = table.shown.max(order) + half;
-        self.too_much_passes
-            .count(passes_at_least(judge, &reading, too_much));
-        self.order_passes
-            .count(passes_at_least(judge, &reading, order));
-        self.less_passes
-            .count(passes_at_least(judge, &reading, order - half));
-        let rate = judge.judge_read(&reading, order);
-        if HAS_CONSTANT.contains(&law.name) && rate.verdict.is_pass() {
-            if let Some(Interval { low, high }) = claims::constant(&table.levels, &rate) {
-                // A pure power is known to the last digit.
-                self.interval_holds_constant
-                    .count(low <= 1.0 + 1e-12 && 1.0 - 1e-12 <= high);
-            }
-            let right = claims::with_constant(&table.levels, rate.clone(), RIGHT).verdict;
-            let wrong = claims::with_constant(&table.levels, rate, WRONG).verdict;
-            self.right_constant_passes.count(right.is_pass());
-            self.right_constant_fails.count(right == Verdict::Fail);
-            self.wrong_constant_passes.count(wrong.is_pass());
-        }
+/// Counts the verdicts on a least order and on the constant.
+fn count(row: &mut SheetRow, law: &Law, table: &LawErrors, judge: &Judge) {
+    let reading = judge.read(&table.levels);
+    let half = 2.0 * DEFAULT_TOLERANCE;
+    let passes = |order| passes_at_least(judge, &reading, order);
+    let Some(order) = table.order else {
+        row.count(TOO_MUCH, passes(table.shown + half));
+        return;
+    };
+    row.count(TOO_MUCH, passes(table.shown.max(order) + half));
+    row.count("at least the order passes", passes(order));
+    row.count("at least half an order less passes", passes(order - half));
+    let rate = judge.judge_read(&reading, order);
+    if !HAS_CONSTANT.contains(&law.name) || !rate.verdict.is_pass() {
+        return;
     }
-
-    fn cells(&self) -> Vec<SheetCell> {
-        vec![
-            self.too_much_passes
-                .cell("at least half an order too much passes"),
-            self.order_passes.cell("at least the order passes"),
-            self.less_passes.cell("at least half an order less passes"),
-            self.interval_holds_constant
-                .cell("interval holds the constant"),
-            self.right_constant_passes.cell("right constant passes"),
-            self.right_constant_fails.cell("right constant fails"),
-            self.wrong_constant_passes.cell("wrong constant passes"),
-        ]
+    if let Some(Interval { low, high }) = claims::constant(&table.levels, &rate) {
+        // A pure power is known to the last digit.
+        let holds = low <= 1.0 + 1e-12 && 1.0 - 1e-12 <= high;
+        row.count("interval holds the constant", holds);
     }
+    let right = claims::with_constant(&table.levels, rate.clone(), RIGHT).verdict;
+    let wrong = claims::with_constant(&table.levels, rate, WRONG).verdict;
+    row.count("right constant passes", right.is_pass());
+    row.count("right constant fails", right == Verdict::Fail);
+    row.count("wrong constant passes", wrong.is_pass());
 }
 
 /// A least order, and the constant of laws that have one.
@@ -168,18 +140,14 @@ pub(crate) fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, Cali
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for levels in [4, 5, 6, 8] {
-        let mut counted = OtherClaims::default();
+        let mut row = SheetRow::new(format!("{levels} levels"), true, &COLUMNS);
         for law in &LAWS {
             for _ in 0..tables {
                 let table = law.draw(levels, 2.0, draw.next()?);
-                counted.count(law, &table, &judge);
+                count(&mut row, law, &table, &judge);
             }
         }
-        rows.push(SheetRow::new(
-            format!("{levels} levels"),
-            true,
-            counted.cells(),
-        ));
+        rows.push(row);
     }
     Ok(Sheet {
         key: "claims",

@@ -13,7 +13,7 @@ use convergence_judge::judge::{
 use crate::draw::{CalibrationError, Draw};
 use crate::fresh::FRESH;
 use crate::laws::{Law, LawGroup};
-use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
+use crate::sheet::{Sheet, SheetRow};
 use crate::{judge, wrong};
 
 /// Numbers of levels, equally often.
@@ -203,7 +203,15 @@ fn product(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
     sum
 }
 
-/// Distances of one practice from the claims of all tables.
+const COLUMNS: [&str; 4] = [
+    "wrong pass",
+    "true pass",
+    "true pass, order shows",
+    "half-width",
+];
+
+/// Distances from the claims of all tables: of one practice, or of this rule, which are 0 where it
+/// passes and infinite where it does not.
 #[derive(Debug, Clone, Default)]
 struct Distances {
     wrong: Vec<f64>,
@@ -213,6 +221,20 @@ struct Distances {
 }
 
 impl Distances {
+    /// * `distance`: from the order of a table of this law.
+    fn push_right(&mut self, law: &Law, distance: f64) {
+        self.right.push(distance);
+        if law.group != LawGroup::Emerging {
+            self.shown.push(distance);
+        }
+    }
+
+    /// The wrong claims that pass with this half-width.
+    fn wrong_passes(&self, half_width: f64) -> usize {
+        let passing = self.wrong.iter().filter(|distance| **distance < half_width);
+        passing.count()
+    }
+
     /// The half-width with which at most so many wrong claims pass.
     fn half_width(&self, wrong_passes: usize) -> f64 {
         let mut sorted = self.wrong.clone();
@@ -220,76 +242,56 @@ impl Distances {
         sorted.get(wrong_passes).copied().unwrap_or(f64::INFINITY)
     }
 
-    fn cells(&self, wrong_passes: usize) -> Vec<SheetCell> {
-        let half_width = self.half_width(wrong_passes);
-        let [wrong, right, shown] = [&self.wrong, &self.right, &self.shown].map(|distances| {
-            let mut share = HitShare::default();
+    fn row(&self, name: &str, declared: bool, half_width: f64) -> SheetRow {
+        let mut row = SheetRow::new(name, declared, &COLUMNS);
+        for (column, distances) in COLUMNS.iter().zip([&self.wrong, &self.right, &self.shown]) {
             for distance in distances {
-                share.count(*distance < half_width);
+                row.count(column, *distance < half_width);
             }
-            share
-        });
-        cells([wrong, right, shown], half_width)
+        }
+        row.add("half-width", half_width);
+        row
     }
-}
-
-fn cells([wrong, right, shown]: [HitShare; 3], half_width: f64) -> Vec<SheetCell> {
-    vec![
-        wrong.cell("wrong pass"),
-        right.cell("true pass"),
-        shown.cell("true pass, order shows"),
-        SheetCell {
-            column: "half-width".to_owned(),
-            value: half_width,
-        },
-    ]
 }
 
 /// The sheet that compares this rule with the others on the [fresh laws](crate::fresh).
 pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
     let judge = judge(DEFAULT_TOLERANCE)?;
-    let [mut wrong_pass, mut true_pass, mut shown_pass] = [HitShare::default(); 3];
-    let mut wrong_passes = 0;
     let weightings = LEVELS.map(Weighting::both);
-    let mut all = vec![Distances::default(); Practice::ALL.len()];
+    let mut own = Distances::default();
+    let mut others = vec![Distances::default(); Practice::ALL.len()];
     for law in &FRESH {
         for k in 0..tables {
             let place = k % LEVELS.len();
             let table = law.draw(LEVELS[place], RATIO, draw.next()?);
             let reading = judge.read(&table.levels);
+            let own_distance = |claim| {
+                if judge.decide(&reading, claim).is_pass() {
+                    0.0
+                } else {
+                    f64::INFINITY
+                }
+            };
             let numbers =
                 Practice::ALL.map(|practice| practice.numbers(&table.levels, &weightings[place]));
             for claim in wrong(&table, 2.0 * DEFAULT_TOLERANCE) {
-                let passes = judge.decide(&reading, claim).is_pass();
-                wrong_pass.count(passes);
-                wrong_passes += usize::from(passes);
-                for (numbers, distances) in numbers.iter().zip(&mut all) {
+                own.wrong.push(own_distance(claim));
+                for (numbers, distances) in numbers.iter().zip(&mut others) {
                     distances.wrong.push(distance(numbers, claim));
                 }
             }
             let Some(order) = table.order else { continue };
-            let passes = judge.decide(&reading, order).is_pass();
-            true_pass.count(passes);
-            if shows(law) {
-                shown_pass.count(passes);
-            }
-            for (numbers, distances) in numbers.iter().zip(&mut all) {
-                let distance = distance(numbers, order);
-                distances.right.push(distance);
-                if shows(law) {
-                    distances.shown.push(distance);
-                }
+            own.push_right(law, own_distance(order));
+            for (numbers, distances) in numbers.iter().zip(&mut others) {
+                distances.push_right(law, distance(numbers, order));
             }
         }
     }
-    let own = cells([wrong_pass, true_pass, shown_pass], DEFAULT_TOLERANCE);
-    let mut rows = vec![SheetRow::new("this rule", true, own)];
-    for (practice, distances) in Practice::ALL.iter().zip(&all) {
-        rows.push(SheetRow::new(
-            practice.name(),
-            false,
-            distances.cells(wrong_passes),
-        ));
+    let wrong_passes = own.wrong_passes(DEFAULT_TOLERANCE);
+    let mut rows = vec![own.row("this rule", true, DEFAULT_TOLERANCE)];
+    for (practice, distances) in Practice::ALL.iter().zip(&others) {
+        let half_width = distances.half_width(wrong_passes);
+        rows.push(distances.row(practice.name(), false, half_width));
     }
     let title = "This rule at ±0.25 and what people do today, at equal shares of wrong claims that pass: nine laws, 4 to 8 levels, steps halved, wrong claims half an order off";
     Ok(Sheet {
@@ -297,11 +299,6 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibrat
         title: title.to_owned(),
         rows,
     })
-}
-
-/// Whether the levels show the order.
-fn shows(law: &Law) -> bool {
-    law.group != LawGroup::Emerging
 }
 
 #[cfg(test)]
@@ -347,7 +344,13 @@ mod tests {
         };
         assert_eq!(distances.half_width(2), 0.3);
         assert_eq!(distances.half_width(4), f64::INFINITY);
-        let cells = distances.cells(1);
-        assert_eq!((cells[0].value, cells[1].value), (0.25, 2.0 / 3.0));
+        let half_width = distances.half_width(1);
+        assert_eq!(distances.wrong_passes(half_width), 1);
+        let row = distances.row("", false, half_width);
+        let columns = ["wrong pass", "true pass", "half-width"];
+        assert_eq!(
+            columns.map(|column| row.value(column)),
+            [Some(0.25), Some(2.0 / 3.0), Some(0.2)]
+        );
     }
 }

@@ -9,7 +9,7 @@ use convergence_study::Verdict;
 use crate::draw::{CalibrationError, Draw};
 use crate::laws::{LAWS, Law, LawErrors, LawGroup};
 use crate::rules::CLAIMS;
-use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
+use crate::sheet::{Sheet, SheetRow};
 use crate::{judge, wrong};
 
 /// Numbers of levels drawn: 3 to 8.
@@ -36,13 +36,13 @@ const NO_INTERVAL: [&str; 12] = [
 pub const ALL: &str = "all declared";
 
 /// Whether the rule answers for a law: it has an order, and is not one of those excepted.
-pub(crate) fn is_declared(law: &Law, not: &[&str]) -> bool {
-    law.group != LawGroup::Stagnating && !not.contains(&law.name)
+fn is_declared(law: &Law) -> bool {
+    law.group != LawGroup::Stagnating && !NO_INTERVAL.contains(&law.name)
 }
 
 /// `count` steps from 1 downwards, with ratio 2 (in two of five cases), 3/2, 3, or a new one in
 /// [1.4, 2.5] each time.
-pub(crate) fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
+fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
     let fixed = [Some(2.0), Some(2.0), Some(1.5), Some(3.0), None][random.below(5)];
     let mut step = 1.0;
     let mut steps = vec![];
@@ -53,38 +53,24 @@ pub(crate) fn steps(random: &mut SplitMix, count: usize) -> Vec<f64> {
     steps
 }
 
-/// Verdicts on claims, and how often the interval holds the order.
-#[derive(Debug, Clone, Copy, Default)]
-struct Verdicts {
-    wrong_pass: HitShare,
-    true_fail: HitShare,
-    inconclusive: HitShare,
-    interval_holds: HitShare,
-}
+const COLUMNS: [&str; 4] = [
+    "wrong pass",
+    "true fail",
+    "inconclusive",
+    "interval holds the order",
+];
 
-impl Verdicts {
-    /// * `off`: distance of the wrong claims from the order.
-    fn count(&mut self, table: &LawErrors, reading: &Reading<'_>, judge: &Judge, off: f64) {
-        for claim in wrong(table, off) {
-            self.wrong_pass
-                .count(judge.decide(reading, claim).is_pass());
-        }
-        let Some(order) = table.order else { return };
-        let verdict = judge.decide(reading, order);
-        self.true_fail.count(verdict == Verdict::Fail);
-        self.inconclusive.count(verdict == Verdict::Inconclusive);
-        if let Some(fit) = reading.fit {
-            self.interval_holds.count(fit.interval.holds(order));
-        }
+/// * `off`: distance of the wrong claims from the order.
+fn count(row: &mut SheetRow, table: &LawErrors, reading: &Reading<'_>, judge: &Judge, off: f64) {
+    for claim in wrong(table, off) {
+        row.count("wrong pass", judge.decide(reading, claim).is_pass());
     }
-
-    fn cells(&self) -> Vec<SheetCell> {
-        vec![
-            self.wrong_pass.cell("wrong pass"),
-            self.true_fail.cell("true fail"),
-            self.inconclusive.cell("inconclusive"),
-            self.interval_holds.cell("interval holds the order"),
-        ]
+    let Some(order) = table.order else { return };
+    let verdict = judge.decide(reading, order);
+    row.count("true fail", verdict == Verdict::Fail);
+    row.count("inconclusive", verdict == Verdict::Inconclusive);
+    if let Some(fit) = reading.fit {
+        row.count("interval holds the order", fit.interval.holds(order));
     }
 }
 
@@ -93,32 +79,29 @@ pub(crate) fn intervals(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibra
     let (tolerance, off) = CLAIMS[0];
     let judge = judge(tolerance)?;
     let mut rows = vec![];
-    let mut by_levels = [Verdicts::default(); LEVEL_COUNTS];
-    let mut of_all = Verdicts::default();
+    let mut by_levels = vec![];
+    for levels in FEWEST_LEVELS..FEWEST_LEVELS + LEVEL_COUNTS {
+        by_levels.push(SheetRow::new(format!("{levels} levels"), false, &COLUMNS));
+    }
+    let mut of_all = SheetRow::new(ALL, true, &COLUMNS);
     for law in &LAWS {
-        let mut of_law = Verdicts::default();
-        let declared = is_declared(law, &NO_INTERVAL);
+        let declared = is_declared(law);
+        let mut of_law = SheetRow::new(law.name, declared, &COLUMNS);
         for _ in 0..tables {
             let random = draw.next()?;
-            let count = FEWEST_LEVELS + random.below(LEVEL_COUNTS);
-            let table = law.draw_at(&steps(random, count), random);
+            let place = random.below(LEVEL_COUNTS);
+            let table = law.draw_at(&steps(random, FEWEST_LEVELS + place), random);
             let reading = judge.read(&table.levels);
-            of_law.count(&table, &reading, &judge, off);
+            count(&mut of_law, &table, &reading, &judge, off);
             if declared {
-                by_levels[count - FEWEST_LEVELS].count(&table, &reading, &judge, off);
-                of_all.count(&table, &reading, &judge, off);
+                count(&mut by_levels[place], &table, &reading, &judge, off);
+                count(&mut of_all, &table, &reading, &judge, off);
             }
         }
-        rows.push(SheetRow::new(law.name, declared, of_law.cells()));
+        rows.push(of_law);
     }
-    for (count, verdicts) in (FEWEST_LEVELS..).zip(&by_levels) {
-        rows.push(SheetRow::new(
-            format!("{count} levels"),
-            false,
-            verdicts.cells(),
-        ));
-    }
-    rows.push(SheetRow::new(ALL, true, of_all.cells()));
+    rows.extend(by_levels);
+    rows.push(of_all);
     Ok(Sheet {
         key: "laws",
         title: "Claims 0.1 off at ±0.05, 3 to 8 levels, equal and unequal ratios".to_owned(),

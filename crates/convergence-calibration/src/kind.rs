@@ -1,9 +1,9 @@
-//! The rules that judge rates, error bars and grids are judged themselves, on data whose order or
-//! limit is known.
+//! The rules that judge rates, limits and grids are judged themselves, on data whose order or limit
+//! is known.
 //!
 //! ```toml
 //! [[measure]]            # what is counted
-//! of = "rule"            # the sheets of the rule, of the bars or of the grids
+//! of = "rule"            # the sheets of the rule, that of the limits or that of the grids
 //! tables = 4             # for each law and mesh
 //! seed = 7919
 //!
@@ -16,6 +16,7 @@
 
 use std::path::Path;
 
+use convergence_judge::text::number::counted;
 use convergence_study::{
     Case, CaseFailure, Check, Figure, Form, FromFile, Header, InputError, Key, Keys, Kind, KindRow,
     Outcome, Quantity, Ran, Section, Subject, Table, completion_check,
@@ -27,9 +28,9 @@ use convergence_study::{
 };
 use plots::Axis;
 
-use crate::bars::of_the_bars;
 use crate::grids::of_grids;
 use crate::hidden::HIDDEN_SHARES;
+use crate::noise::of_noise;
 use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
 use crate::sheet::{Sheet, SheetRow};
 use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
@@ -39,11 +40,10 @@ pub const ROW: KindRow = KindRow {
     name: "calibration",
     keys: Calibration::KEYS,
     read: read_study::<Calibration>,
-    why: "The rules that turn errors into verdicts, and values into error bars, are applied to thousands of made-up sequences and grids whose order or limit \
+    why: "The rules that turn errors into verdicts, and values into a limit, are applied to thousands of made-up sequences and grids whose order or limit \
           is known: pure powers, polluted by higher powers, scattered, tending to a wrong limit.",
-    judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval or a bar holds the truth, and how long it is. Each share \
-             has its limit.",
-    failure: "The rules err more often than is admitted: no verdict, and no error bar, of any other study can be trusted.",
+    judged: "Counted: how often a wrong claim passes, how often a right one fails, how often an interval holds the truth. Each share has its limit.",
+    failure: "The rules err more often than is admitted: no verdict, and no limit, of any other study can be trusted.",
 };
 
 /// A quantity that can be counted.
@@ -64,13 +64,13 @@ static PARTS: [CountedQuantity; 3] = [
         sheets: of_the_rule,
     },
     CountedQuantity {
-        name: "bars",
-        cost: 90,
-        sheets: of_the_bars,
+        name: "noise",
+        cost: 6,
+        sheets: of_noise,
     },
     CountedQuantity {
         name: "grids",
-        cost: 40,
+        cost: 8,
         sheets: of_grids,
     },
 ];
@@ -88,7 +88,7 @@ impl Measure {
         let parts = PARTS.each_ref().map(|part| (part.name, part));
         Ok(Self {
             of: section
-                .require("of", "rule, bars or grids")?
+                .require("of", "rule, noise or grids")?
                 .choice(&parts)?,
             tables: section
                 .require("tables", "a number of tables")?
@@ -253,9 +253,9 @@ impl Kind for Calibration {
             .collect();
         checks.push(completion_check(ran, |_| vec![]));
         let summary = format!(
-            "{} shares of {} sheets are within their limits",
+            "{} shares of {} are within their limits",
             checks.len() - 1,
-            sheets.len()
+            counted(sheets.len(), "sheet")
         );
         Outcome {
             tables: sheets.iter().map(table).collect(),
@@ -298,7 +298,7 @@ fn table(sheet: &Sheet) -> Table {
         } else {
             format!("({})", row.name)
         }];
-        cells.extend(row.cells.iter().map(|cell| text(cell.value)));
+        cells.extend(row.cells.iter().map(|cell| text(cell.value())));
         rows.push(cells);
     }
     let columns = sheet.columns().into_iter().map(str::to_owned);

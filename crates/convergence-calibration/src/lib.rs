@@ -21,7 +21,6 @@
 //! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].
 //! * *compared*: this rule and what people do today on nine [laws](fresh) written for it, each with
 //!   the band that lets as many wrong claims pass.
-//! * *unaligned*: kinks and interfaces in their cells; see `unaligned.rs`.
 //! * *three*: three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the
 //!   finest error.
 //! * *laws*: claims 0.1 off at ±0.05, on 3 to 8 levels with equal and unequal ratios, and how often
@@ -33,10 +32,8 @@
 //!   %.
 //! * *claims*: a least order, claimed half an order too high and too low; and the constant of laws
 //!   that have one, 1, held against 0.8 to 1.25 and against 1.25 to 2. Steps halved, ±0.25.
-//! * *bars*: values `q_k = Q ± e_k`, Q uniform in [-1, 1], and how often their error bar, and the
-//!   grid convergence index of ASME V&V 20, hold the error.
 //! * *noise*: limits of values `1 + h^2` whose errors scatter by 2 %.
-//! * *grids*: see [`grids`].
+//! * *grids*: grids of h and dt whose errors do not tend to zero; see [`grids`].
 //!
 //! # Measured
 //!
@@ -56,15 +53,13 @@
 //!
 //! Certainty is paid for in inconclusive verdicts, and its price falls with the number of levels: a
 //! fifth level is worth its run, and adding levels until there is a decision is cheaper than any
-//! fixed number. Added levels cannot reveal a lower order that shows only on still finer ones. The
-//! bar is a seventh of the index and holds the error as often as an interval of 95 % should. For
-//! *five* noisy values it holds the limit only 9 times in 10, because two rates may agree by
-//! chance. No difference of values can show that their limit is wrong.
+//! fixed number. Added levels cannot reveal a lower order that shows only on still finer ones. For
+//! *five* noisy values the interval of the limit holds it only 9 times in 10, because two rates may
+//! agree by chance. No difference of values can show that their limit is wrong.
 //!
 //! The generator is splitmix64: the same seed gives the same numbers on every machine with the same
 //! libm.
 
-pub mod bars;
 pub mod benign;
 pub mod claims;
 mod compared;
@@ -76,11 +71,11 @@ pub mod hidden;
 pub mod intervals;
 pub mod kind;
 pub mod laws;
+pub mod noise;
 pub mod noisy;
 pub mod rules;
 mod shapes;
 pub mod sheet;
-mod unaligned;
 
 use convergence_judge::judge::verdict::Judge;
 use convergence_study::JudgeError;
@@ -95,7 +90,6 @@ use laws::{LAWS, LawErrors, USUAL, WIDE};
 use noisy::noisy;
 use rules::{hidden, levels, rules};
 use sheet::Sheet;
-use unaligned::unaligned;
 
 pub use draw::{CalibrationError, ELEMENTS_OF_A_TABLE};
 
@@ -114,7 +108,7 @@ fn wrong(table: &LawErrors, off: f64) -> [f64; 2] {
 
 /// The sheets of the rule: *rules* on two sets of meshes, *levels*, *held-out*, *three*, *laws*,
 /// *hidden* three times, *limits*, *claims*, *benign*, *differences*, *noisy*,
-/// *compared*, *unaligned*.
+/// *compared*.
 ///
 /// * `tables`: number of tables for each law and mesh.
 ///
@@ -140,7 +134,6 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         differences(3 * tables, &mut draw(seed, 10))?,
         noisy(20 * tables, &mut draw(seed, 11))?,
         compared(40 * tables, &mut draw(seed, 12))?,
-        unaligned(40 * tables, &mut draw(seed, 13))?,
     ])
 }
 

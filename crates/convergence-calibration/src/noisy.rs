@@ -8,7 +8,7 @@ use convergence_study::Verdict;
 
 use crate::draw::{CalibrationError, Draw};
 use crate::judge;
-use crate::sheet::{HitShare, Sheet, SheetRow};
+use crate::sheet::{Sheet, SheetRow};
 
 /// Standard deviations of log e.
 const NOISES: [f64; 4] = [0.0, 0.003, 0.01, 0.03];
@@ -52,22 +52,19 @@ pub(crate) fn noisy(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibration
     let mut rows = vec![];
     for levels in LEVELS {
         for noise in NOISES {
-            let [mut hidden, mut passes, mut fails] = [HitShare::default(); 3];
+            let name = format!("{levels} levels, noise {} %", 100.0 * noise);
+            let columns = ["hidden order passes", "true pass", "true fail"];
+            let mut row = SheetRow::new(name, true, &columns);
             for _ in 0..tables {
                 let NoisyErrors { p, levels: lower } = errors(levels, noise, true, draw.next()?);
-                hidden.count(judge.decide(&judge.read(&lower), p).is_pass());
+                let hidden = judge.decide(&judge.read(&lower), p);
+                row.count("hidden order passes", hidden.is_pass());
                 let NoisyErrors { p, levels: plain } = errors(levels, noise, false, draw.next()?);
                 let verdict = judge.decide(&judge.read(&plain), p);
-                passes.count(verdict.is_pass());
-                fails.count(verdict == Verdict::Fail);
+                row.count("true pass", verdict.is_pass());
+                row.count("true fail", verdict == Verdict::Fail);
             }
-            let name = format!("{levels} levels, noise {} %", 100.0 * noise);
-            let cells = vec![
-                hidden.cell("hidden order passes"),
-                passes.cell("true pass"),
-                fails.cell("true fail"),
-            ];
-            rows.push(SheetRow::new(name, true, cells));
+            rows.push(row);
         }
     }
     Ok(Sheet {

@@ -13,7 +13,7 @@ use convergence_study::{Verdict, internal::study::until_decided::is_settled};
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};
 use crate::laws::{LAWS, Law, LawErrors, LawGroup, Meshes};
-use crate::sheet::{HitShare, Sheet, SheetCell, SheetRow};
+use crate::sheet::{Sheet, SheetRow};
 use crate::{judge, wrong};
 
 /// Tolerances, each with the distance of the wrong claims from the order.
@@ -60,6 +60,11 @@ impl Rule {
             Self::LastPair => "last pair",
             Self::Physverify => "physverify 0.6",
         }
+    }
+
+    /// Its row, for which only our rule answers.
+    fn row(self, columns: &[String]) -> SheetRow {
+        SheetRow::new(self.name(), self == Self::Ours, columns)
     }
 }
 
@@ -139,32 +144,23 @@ pub fn true_pass(tolerance: f64) -> String {
     format!("true pass, ±{tolerance}")
 }
 
-/// Verdicts at one tolerance.
-#[derive(Debug, Clone, Copy, Default)]
-struct Verdicts {
-    wrong_pass: HitShare,
-    true_pass: HitShare,
-    true_fail: HitShare,
-}
-
-impl Verdicts {
-    /// * `off`: distance of the wrong claims from the order.
-    fn count(&mut self, table: &LawErrors, off: f64, verdict: impl Fn(f64) -> Verdict) {
-        for claim in wrong(table, off) {
-            self.wrong_pass.count(verdict(claim).is_pass());
-        }
-        if let Some(order) = table.order {
-            self.true_pass.count(verdict(order).is_pass());
-            self.true_fail.count(verdict(order) == Verdict::Fail);
-        }
+/// Counts the verdicts at one tolerance.
+///
+/// * `columns`: of wrong claims that pass, and of orders that pass and fail.
+/// * `off`: distance of the wrong claims from the order.
+fn count_claims(
+    row: &mut SheetRow,
+    [wrong_pass, true_pass, true_fail]: &[String; 3],
+    table: &LawErrors,
+    off: f64,
+    verdict: impl Fn(f64) -> Verdict,
+) {
+    for claim in wrong(table, off) {
+        row.count(wrong_pass, verdict(claim).is_pass());
     }
-
-    fn cells(&self, tolerance: f64, off: f64) -> [SheetCell; 3] {
-        [
-            self.wrong_pass.cell(wrong_pass(tolerance, off)),
-            self.true_pass.cell(true_pass(tolerance)),
-            self.true_fail.cell(format!("true fail, ±{tolerance}")),
-        ]
+    if let Some(order) = table.order {
+        row.count(true_pass, verdict(order).is_pass());
+        row.count(true_fail, verdict(order) == Verdict::Fail);
     }
 }
 
@@ -176,9 +172,18 @@ pub(crate) fn rules(
     tables: usize,
     draw: &mut Draw,
 ) -> Result<Sheet, CalibrationError> {
-    let judges = CLAIMS.map(|(tolerance, _)| judge(tolerance));
+    let mut judges = vec![];
+    let mut columns = vec![];
+    for (tolerance, off) in CLAIMS {
+        judges.push(judge(tolerance)?);
+        columns.push([
+            wrong_pass(tolerance, off),
+            true_pass(tolerance),
+            format!("true fail, ±{tolerance}"),
+        ]);
+    }
     let reader = Judge::default().with_floor(0.0)?;
-    let mut counted = [[Verdicts::default(); CLAIMS.len()]; Rule::ALL.len()];
+    let mut rows = Rule::ALL.map(|rule| rule.row(columns.as_flattened()));
     for ((levels, ratio), law) in meshes
         .each()
         .flat_map(|mesh| LAWS.iter().map(move |law| (mesh, law)))
@@ -186,26 +191,18 @@ pub(crate) fn rules(
         for _ in 0..tables {
             let table = law.draw(levels, ratio, draw.next()?);
             let evidence = Evidence::new(&reader, &table.levels);
-            for (rule, verdicts) in Rule::ALL.into_iter().zip(&mut counted) {
-                for ((judge, (_, off)), verdicts) in judges.iter().zip(CLAIMS).zip(verdicts) {
-                    let judge = judge.as_ref().map_err(|error| *error)?;
-                    verdicts.count(&table, off, |order| evidence.decide(rule, judge, order));
+            for (rule, row) in Rule::ALL.into_iter().zip(&mut rows) {
+                for ((judge, columns), (_, off)) in judges.iter().zip(&columns).zip(CLAIMS) {
+                    let verdict = |order| evidence.decide(rule, judge, order);
+                    count_claims(row, columns, &table, off, verdict);
                 }
             }
         }
     }
-    let mut rows = vec![];
-    for (rule, verdicts) in Rule::ALL.into_iter().zip(&counted) {
-        let mut cells = vec![];
-        for ((tolerance, off), verdicts) in CLAIMS.into_iter().zip(verdicts) {
-            cells.extend(verdicts.cells(tolerance, off));
-        }
-        rows.push(SheetRow::new(rule.name(), rule == Rule::Ours, cells));
-    }
     Ok(Sheet {
         key,
         title: format!("Share of claims that pass or fail, 29 error laws, {meshes_in_words}"),
-        rows,
+        rows: rows.to_vec(),
     })
 }
 
@@ -227,91 +224,64 @@ struct Look {
 }
 
 const LOOKS: [Look; 7] = [
-    fixed("3 levels", 3),
-    fixed("4 levels", 4),
-    fixed("5 levels", 5),
-    fixed("6 levels", 6),
-    fixed("8 levels", 8),
-    added("added up to 6", 6),
-    added("added up to 8", 8),
+    look("3 levels", 3, Rule::Ours),
+    look("4 levels", 4, Rule::Ours),
+    look("5 levels", 5, Rule::Ours),
+    look("6 levels", 6, Rule::Ours),
+    look("8 levels", 8, Rule::Ours),
+    look("added up to 6", 6, Rule::LevelsAdded),
+    look("added up to 8", 8, Rule::LevelsAdded),
 ];
 
-const fn fixed(name: &'static str, levels: usize) -> Look {
-    Look {
-        name,
-        levels,
-        rule: Rule::Ours,
-    }
+const fn look(name: &'static str, levels: usize, rule: Rule) -> Look {
+    Look { name, levels, rule }
 }
 
-const fn added(name: &'static str, levels: usize) -> Look {
-    Look {
-        name,
-        levels,
-        rule: Rule::LevelsAdded,
-    }
-}
+/// What one number of levels decides at the default tolerance. A claim is visibly wrong if it
+/// differs from the exponent that the coarse levels show; *levels* is the mean number that a
+/// decision took.
+const LEVELS_COLUMNS: [&str; 7] = [
+    "true pass",
+    "true fail",
+    "wrong pass",
+    "visibly wrong pass",
+    "interval holds the order",
+    "passes without its coarsest level only",
+    "levels",
+];
 
-/// What one number of levels decides at the default tolerance.
-#[derive(Debug, Clone, Copy, Default)]
-struct AtLevels {
-    true_pass: HitShare,
-    true_fail: HitShare,
-    wrong_pass: HitShare,
-    /// Of claims that differ from the exponent that the coarse levels show.
-    visibly_wrong_pass: HitShare,
-    interval_holds: HitShare,
-    passes_without_coarsest: HitShare,
-    /// The mean number of levels that a decision took.
-    levels: HitShare,
-}
-
-impl AtLevels {
-    fn count(&mut self, law: &Law, table: &LawErrors, judge: &Judge, look: &Look) {
-        let evidence = Evidence::new(judge, &table.levels);
-        let is_added = look.rule == Rule::LevelsAdded;
-        if let Some(order) = table.order {
-            let verdict = evidence.decide(look.rule, judge, order);
-            self.true_pass.count(verdict.is_pass());
-            self.true_fail.count(verdict == Verdict::Fail);
-            self.levels.add(if is_added {
-                FIRST_LOOK + evidence.added(judge, order).1
-            } else {
-                look.levels
-            });
-            if let Some(fit) = evidence.all().fit
-                && !is_added
-                && law.group != LawGroup::Emerging
-            {
-                self.interval_holds.count(fit.interval.holds(order));
-            }
-        }
-        for claim in wrong(table, 2.0 * DEFAULT_TOLERANCE) {
-            let passes = evidence.decide(look.rule, judge, claim).is_pass();
-            self.wrong_pass.count(passes);
-            if (claim - table.shown).abs() > DEFAULT_TOLERANCE {
-                self.visibly_wrong_pass.count(passes);
-            }
-        }
-        if look.levels > FEWEST_LEVELS && !is_added {
-            let with = evidence.decide(look.rule, judge, table.shown);
-            let without = judge.decide(&judge.read(&table.levels[1..]), table.shown);
-            self.passes_without_coarsest
-                .count(without.is_pass() && !with.is_pass());
+fn count_look(row: &mut SheetRow, law: &Law, table: &LawErrors, judge: &Judge, look: &Look) {
+    let evidence = Evidence::new(judge, &table.levels);
+    let is_added = look.rule == Rule::LevelsAdded;
+    if let Some(order) = table.order {
+        let verdict = evidence.decide(look.rule, judge, order);
+        row.count("true pass", verdict.is_pass());
+        row.count("true fail", verdict == Verdict::Fail);
+        let levels = if is_added {
+            FIRST_LOOK + evidence.added(judge, order).1
+        } else {
+            look.levels
+        };
+        row.add("levels", levels as f64);
+        if let Some(fit) = evidence.all().fit
+            && !is_added
+            && law.group != LawGroup::Emerging
+        {
+            row.count("interval holds the order", fit.interval.holds(order));
         }
     }
-
-    fn cells(&self) -> Vec<SheetCell> {
-        vec![
-            self.true_pass.cell("true pass"),
-            self.true_fail.cell("true fail"),
-            self.wrong_pass.cell("wrong pass"),
-            self.visibly_wrong_pass.cell("visibly wrong pass"),
-            self.interval_holds.cell("interval holds the order"),
-            self.passes_without_coarsest
-                .cell("passes without its coarsest level only"),
-            self.levels.cell("levels"),
-        ]
+    for claim in wrong(table, 2.0 * DEFAULT_TOLERANCE) {
+        let passes = evidence.decide(look.rule, judge, claim).is_pass();
+        row.count("wrong pass", passes);
+        if (claim - table.shown).abs() > DEFAULT_TOLERANCE {
+            row.count("visibly wrong pass", passes);
+        }
+    }
+    if look.levels > FEWEST_LEVELS && !is_added {
+        let with = evidence.decide(look.rule, judge, table.shown);
+        let without = judge.decide(&judge.read(&table.levels[1..]), table.shown);
+        let is_excused = without.is_pass() && !with.is_pass();
+        row.count("passes without its coarsest level only", is_excused);
     }
 }
 
@@ -326,14 +296,14 @@ pub(crate) fn levels(
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for look in &LOOKS {
-        let mut counted = AtLevels::default();
+        let mut row = SheetRow::new(look.name, true, &LEVELS_COLUMNS);
         for law in laws {
             for _ in 0..tables {
                 let table = law.draw(look.levels, 2.0, draw.next()?);
-                counted.count(law, &table, &judge, look);
+                count_look(&mut row, law, &table, &judge, look);
             }
         }
-        rows.push(SheetRow::new(look.name, true, counted.cells()));
+        rows.push(row);
     }
     let title = format!(
         "Share of claims that pass or fail at ±0.25, {}, steps halved; wrong claims are half an order off",
@@ -356,18 +326,15 @@ pub(crate) fn hidden(
     draw: &mut Draw,
 ) -> Result<Sheet, CalibrationError> {
     let judge = judge(tolerance)?;
-    let mut rows = Rule::ALL.map(|rule| SheetRow::new(rule.name(), rule == Rule::Ours, vec![]));
-    for part in HIDDEN_SHARES {
-        let mut passing = [HitShare::default(); Rule::ALL.len()];
+    let columns = HIDDEN_SHARES.map(hidden_part);
+    let mut rows = Rule::ALL.map(|rule| rule.row(&columns));
+    for (part, column) in HIDDEN_SHARES.into_iter().zip(&columns) {
         for _ in 0..tables {
             let table = hidden_term(levels, part, draw.next()?);
             let evidence = Evidence::new(&judge, &table.levels);
-            for (rule, passing) in Rule::ALL.into_iter().zip(&mut passing) {
-                passing.count(evidence.decide(rule, &judge, table.shown).is_pass());
+            for (rule, row) in Rule::ALL.into_iter().zip(&mut rows) {
+                row.count(column, evidence.decide(rule, &judge, table.shown).is_pass());
             }
-        }
-        for (row, passing) in rows.iter_mut().zip(passing) {
-            row.cells.push(passing.cell(hidden_part(part)));
         }
     }
     let title = format!(

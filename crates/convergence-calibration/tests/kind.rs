@@ -59,7 +59,7 @@ fn each_share_can_be_too_large_or_too_small() {
                     .iter_mut()
                     .flat_map(|sheet| &mut sheet.rows)
                     .flat_map(|row| &mut row.cells)
-                    .for_each(|cell| cell.value = value);
+                    .for_each(|cell| cell.set(value));
             }
         };
         let bounded = study.judge(&sound).checks.len() - 1;
@@ -90,13 +90,16 @@ fn each_share_can_be_too_large_or_too_small() {
 #[test]
 fn a_sheet_column_or_row_that_is_not_there_fails() {
     for (from, to) in [
-        ("sheet = \"bars\"", "sheet = \"bar\""),
-        ("column = \"refused\"", "column = \"refuse\""),
-        ("row = \"all declared\"", "row = \"all\""),
+        ("sheet = \"noise\"", "sheet = \"noises\""),
+        (
+            "column = \"interval holds the limit\"",
+            "column = \"interval holds\"",
+        ),
+        ("least = 0.87", "row = \"9 values\"\nleast = 0.87"),
     ] {
-        let text = text("error-bars.toml")
-            .replace(from, to)
-            .replace("tables = 150", "tables = 1");
+        let changed = text("error-bars.toml").replace(from, to);
+        assert_ne!(changed, text("error-bars.toml"), "{from}");
+        let text = changed.replace("tables = 1500", "tables = 1");
         let study = Calibration::parse(&text, &file("error-bars.toml"))
             .unwrap_or_else(|error| panic!("{error}"));
         let judged = study.judge(&run_cases_here(&study));

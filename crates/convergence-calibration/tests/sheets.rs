@@ -2,9 +2,9 @@
 
 use std::sync::LazyLock;
 
-use convergence_calibration::bars::of_the_bars;
 use convergence_calibration::grids::of_grids;
 use convergence_calibration::intervals::ALL;
+use convergence_calibration::noise::of_noise;
 use convergence_calibration::of_the_rule;
 use convergence_calibration::rules::{CLAIMS, wrong_pass};
 use convergence_calibration::sheet::{Sheet, SheetRow};
@@ -150,35 +150,16 @@ fn constants_are_held_and_too_high_a_least_order_rarely_passes() {
 #[test]
 fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
     let grids = of_grids(120, 5).expect("usable settings");
+    assert_eq!(grids[0].rows.len(), 4);
     for row in &grids[0].rows {
-        let fail = cell(row, "sound orders fail");
-        let holds = cell(row, "interval holds the order");
-        let hidden = cell(row, "hidden order passes");
-        let constant = cell(row, "constant passes");
-        let squares = cell(row, "constant in squares passes");
-        let noisy_fail = cell(row, "sound orders fail, noise 1 %");
-        let noisy_holds = cell(row, "interval holds the order, noise 1 %");
-        assert!(
-            fail == 0.0 && holds >= 0.95 && hidden <= 0.02 && constant == 0.0 && squares <= 0.02,
-            "{row:?}"
-        );
-        assert!(noisy_fail <= 0.02 && noisy_holds >= 0.88, "{row:?}");
+        assert_eq!(cell(row, "constant passes"), 0.0, "{row:?}");
     }
-    let sound: Vec<f64> = grids[0]
-        .rows
-        .iter()
-        .map(|row| cell(row, "sound pass"))
-        .collect();
-    assert!(
-        sound.windows(2).all(|pair| pair[1] > pair[0]) && sound[2] > 0.87,
-        "{sound:?}"
-    );
 }
 
 #[test]
 fn the_same_seed_gives_the_same_sheets() {
     // NaN, for claims that no law has, is not equal to itself.
-    let text = |seed: u64| format!("{:?} {:?}", of_the_rule(1, seed), of_the_bars(1, seed));
+    let text = |seed: u64| format!("{:?} {:?}", of_the_rule(1, seed), of_noise(1, seed));
     assert_eq!(text(7), text(7));
     assert_ne!(text(7), text(8));
 }

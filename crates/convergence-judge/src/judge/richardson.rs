@@ -34,8 +34,9 @@
 //! has to help. All rates from [`DOUBT_OF_A_SINGLE_RATE`] below the lower of the two to the same
 //! distance above the higher are then considered possible.
 //!
-//! How often the bars hold the error is measured by `convergence-calibration`: 97 times in 100; 9
-//! times in 10 for five scattered values, whose two rates may agree by chance.
+//! How often the limit is held if the errors scatter by 2 % is measured by
+//! `convergence-calibration`: 9 times in 10 for five values, whose two rates may agree by chance,
+//! and more often for any other number.
 //!
 //! # What no difference can see
 //!

@@ -318,3 +318,15 @@ def test_a_name_or_a_step_that_is_given_twice_is_refused():
     assert refusal([0.4, 0.2, 0.2, 0.1], SQUARES, order=2) == "h: expected each step once, found 0.2 twice"
     with pytest.raises(ValueError, match="each name of an error once, found `1` twice"):
         cs.study(lambda n: {1: n**-2.0, "1": 1 / n}, [4, 8, 16], order=2)
+
+
+def test_no_column_of_a_table_is_left_out_in_silence():
+    h, errors = [0.2, 0.1, 0.05, 0.025, 0.0125], [2.8e-2, 7e-3, 1.75e-3, 4.375e-4, 1.09375e-4]
+    cs.assert_order({"h": h, "L2": errors, "note": list("abcde"), "converged": [True] * 5, "iterations": [3, 3, 4, 4, 5]}, order=2)
+    lost = [[0.3 * x for x in h], [4.7e-3 + x * x for x in h], errors[:-1] + [float("nan")], errors[:-1] + [None], errors[:-1] + ["diverged"]]
+    columns = [(name, numbers) for name in ["k", "n", "nodes", "time", "cond", "ref", "exact", "order", "residual"] for numbers in lost]
+    for name, cells in [*columns, ("converged", [True] * 4 + [False]), ("status", ["ok"] * 4 + ["diverged"])]:
+        with pytest.raises((AssertionError, ValueError)):
+            cs.assert_order({"h": h, "L2": errors, name: cells}, order=2)
+    with pytest.raises(ValueError, match="both vary: `N`, `dt`"):
+        cs.judge({"N": [16, 32, 64, 128, 256], "dt": h, "L2": errors}, order=2)

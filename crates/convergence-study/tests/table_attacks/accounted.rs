@@ -81,7 +81,10 @@ fn lost() -> Vec<(&'static str, Vec<String>)> {
         column[LAW.levels - 1] = word.to_owned();
         column
     };
+    let mut same = cells(&LAW.errors());
+    same[LAW.levels - 1] = "nan".to_owned();
     vec![
+        ("is another error but for nan", same),
         ("falls like h", over(|h| 0.3 * h)),
         ("falls like h^0.5", over(|h| 0.3 * h.sqrt())),
         ("stalls", over(|h| 4.7e-3 + h * h)),

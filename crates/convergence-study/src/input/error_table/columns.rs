@@ -236,7 +236,7 @@ impl<'t> Cells<'t> {
     /// Whether its distance from another column is an error, absolute or relative, to the digits. A
     /// level without a result says nothing.
     pub(super) fn is_off_by(&self, other: &Self, error: &Self) -> bool {
-        let is_known = |row: &usize| !(error.values[*row].is_nan() || self.values[*row].is_nan());
+        let is_known = |row: &usize| !error.values[*row].is_nan();
         let rows: Vec<usize> = (0..self.values.len()).filter(is_known).collect();
         let distance = |row: usize| (self.values[row] - other.values[row]).abs();
         let half = |row: usize| self.halves[row] + other.halves[row];
@@ -263,7 +263,13 @@ impl<'t> Cells<'t> {
             let limits: Vec<f64> = rows().map(|(value, error)| value - sign * error).collect();
             let least = limits.iter().copied().fold(f64::INFINITY, f64::min);
             let most = limits.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            most - least <= 2.4 * half + SAME * least.abs()
+            let is_one = most - least <= 2.4 * half + SAME * least.abs();
+            // An error is not its own distance from zero, and a level without a number has failed.
+            let is_far = error
+                .values
+                .iter()
+                .all(|error| least.abs().min(most.abs()) > 2.0 * error);
+            is_one && is_far && limits.iter().all(|limit| limit.is_finite())
         };
         let moved = rows()
             .map(|(value, _)| (value - self.values[0]).abs())

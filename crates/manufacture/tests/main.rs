@@ -4,6 +4,7 @@ mod against;
 mod checks;
 mod closed_forms;
 mod domains;
+mod drawn;
 mod emitted;
 mod files;
 mod functions;

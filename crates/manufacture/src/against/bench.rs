@@ -7,13 +7,13 @@ use super::site::{self, Home, Route};
 use crate::arithmetic::graph::Mark;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::arithmetic::{Graph, NodeId};
-use crate::derive::{Basis, Elaborator, Part, Role, Tensor};
-use crate::language::tree::{Tree, TreeKind};
+use crate::derive::{Basis, Elaborator, Part, Role, Tensor, tensor};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
 use crate::problem::{Expression, LineColumn, Location, Parameter, Problem, mentions};
 
-/// The names of unknown factors; no file can contain them.
-pub(crate) const FACTORS: [&str; 2] = [" first factor", " second factor"];
+/// The name of the unknown factor; no file can contain it.
+pub(crate) const FACTOR: &str = " factor";
 
 /// A part of the file replaced by another.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +27,8 @@ pub(crate) struct Rewrite {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Alteration {
     Rewrite(Rewrite),
-    /// Two definitions of one shape change their places.
-    Exchange([String; 2]),
+    /// All of the quantity is divided by a part that changes with time alone.
+    Over(Tree),
     /// All derivatives in the equation, and in what it names.
     Basis(Basis),
     /// The normal of the face points inwards.
@@ -46,7 +46,7 @@ pub(crate) struct Bench {
     known: HashMap<String, Tensor<NodeId>>,
     /// For each definition those that its value is part of, and itself.
     reached: HashMap<String, HashSet<String>>,
-    /// Of the file, then 1 for each unknown factor.
+    /// Of the file, then 1 for the unknown factor.
     parameters: Vec<f64>,
     /// Nodes that were derived or evaluated.
     work: Cell<usize>,
@@ -67,7 +67,7 @@ pub(crate) struct Altered<'b> {
 }
 
 impl Altered<'_> {
-    /// All components at a point, with these unknown factors.
+    /// All components, at points and with an unknown factor.
     pub(crate) fn evaluation(&self) -> Evaluation<'_> {
         Evaluation {
             tape: Tape::new(self.graph, &self.tensor.parts),
@@ -85,26 +85,24 @@ pub(crate) struct Evaluation<'b> {
 }
 
 impl Evaluation<'_> {
-    /// All components at a point, with these unknown factors.
-    pub(crate) fn at(&self, point: &[f64], factors: [f64; 2]) -> Vec<SizedValue> {
+    /// All components at a point, with this unknown factor.
+    pub(crate) fn at(&self, point: &[f64], factor: f64) -> Vec<SizedValue> {
         self.work.set(self.work.get() + self.tape.work());
         let mut parameters = self.parameters.to_vec();
-        let known = parameters.len() - factors.len();
-        parameters[known..].copy_from_slice(&factors);
+        parameters.pop();
+        parameters.push(factor);
         self.tape.with(point, &parameters).roots
     }
 }
 
 impl Bench {
-    /// `None` if the file with unknown factors has no values; it has, if it has without.
+    /// `None` if the file with an unknown factor has no values; it has, if it has without.
     pub(crate) fn new(model: &Model, part: Part) -> Option<Self> {
         let mut problem = model.problem.clone();
-        for name in FACTORS {
-            problem.parameters.push(Parameter {
-                name: name.to_owned(),
-                expression: one(),
-            });
-        }
+        problem.parameters.push(Parameter {
+            name: FACTOR.to_owned(),
+            expression: one(),
+        });
         let parameters = problem.parameter_values(&[]).ok()?;
         let graph = Graph::new(problem.intervals.clone(), parameters.clone());
         let mut elaborator = Elaborator::new(&problem, graph);
@@ -171,41 +169,34 @@ impl Bench {
     /// What becomes of a quantity, given to `see`; `None` if the altered file has no such values.
     pub(crate) fn altered<R>(
         &mut self,
-        alterations: &[&Alteration],
+        alteration: Option<&Alteration>,
         quantity: &str,
         see: impl FnOnce(&Altered<'_>) -> R,
     ) -> Option<R> {
-        let mut undo: Vec<Rewrite> = vec![];
+        let mut undo = None;
         let mut known = self.known.clone();
         let mut basis = Basis::Turning;
-        let mut is_inward = false;
-        for alteration in alterations {
-            match alteration {
-                Alteration::Rewrite(rewrite) => {
-                    undo.extend(self.rewrite(rewrite));
-                    if let Home::Definition { name, .. } = &rewrite.home {
-                        known.retain(|known, _| !self.reached[name].contains(known));
-                    }
+        match alteration {
+            Some(Alteration::Rewrite(rewrite)) => {
+                undo = self.rewrite(rewrite);
+                if let Home::Definition { name, .. } = &rewrite.home {
+                    known.retain(|known, _| !self.reached[name].contains(known));
                 }
-                Alteration::Exchange(names) => {
-                    let values = names.each_ref().map(|name| self.known.get(name).cloned());
-                    for name in names {
-                        known.retain(|known, _| !self.reached[name].contains(known));
-                    }
-                    let [first, second] = values;
-                    known.insert(names[1].clone(), first?);
-                    known.insert(names[0].clone(), second?);
-                }
-                Alteration::Basis(other) => {
-                    basis = *other;
-                    known.clear();
-                }
-                Alteration::Normal => is_inward = true,
             }
+            Some(Alteration::Basis(other)) => {
+                basis = *other;
+                known.clear();
+            }
+            _ => (),
         }
-        let tensor = self.derived(known, basis, is_inward, quantity);
-        for rewrite in undo.iter().rev() {
-            self.rewrite(rewrite);
+        let is_inward = alteration == Some(&Alteration::Normal);
+        let divisor = match alteration {
+            Some(Alteration::Over(tree)) => Some(tree),
+            _ => None,
+        };
+        let tensor = self.derived(known, basis, is_inward, quantity, divisor);
+        if let Some(undo) = undo {
+            self.rewrite(&undo);
         }
         let seen = tensor.map(|tensor| {
             see(&Altered {
@@ -238,6 +229,7 @@ impl Bench {
         basis: Basis,
         is_inward: bool,
         quantity: &str,
+        divisor: Option<&Tree>,
     ) -> Option<Tensor<NodeId>> {
         let graph = std::mem::take(&mut self.graph);
         let mut elaborator = Elaborator::new(&self.problem, graph);
@@ -258,25 +250,16 @@ impl Bench {
                     .map(|source| source.tensor)
             }
         };
+        let divisor = divisor.and_then(|tree| elaborator.tree(tree, &one()).ok());
+        let tensor = tensor.map(|tensor| match divisor {
+            None => tensor,
+            Some(divisor) => {
+                let divisor = &divisor.parts[0];
+                tensor::scale(&mut elaborator.algebra, Binary::Divide, &tensor, divisor)
+            }
+        });
         self.graph = elaborator.algebra;
         tensor
-    }
-
-    /// The definitions and fields of the same shape, pair by pair.
-    pub(crate) fn of_one_shape(&self) -> Vec<[String; 2]> {
-        let mut names: Vec<&String> = self.known.keys().collect();
-        names.sort();
-        let mut pairs = vec![];
-        for (place, first) in names.iter().enumerate() {
-            for second in &names[..place] {
-                let is_open = self.reached[*first].contains(*second)
-                    || self.reached[*second].contains(*first);
-                if !is_open && self.known[*first].shape == self.known[*second].shape {
-                    pairs.push([(*second).clone(), (*first).clone()]);
-                }
-            }
-        }
-        pairs
     }
 }
 

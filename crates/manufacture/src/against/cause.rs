@@ -52,9 +52,8 @@ pub(super) struct Nearest {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Unexplained {
     pub(super) nearest: Vec<Nearest>,
-    /// How many edits were tried, and how many pairs.
+    /// How many edits were tried.
     pub(super) edits: usize,
-    pub(super) pairs: usize,
     /// The limit of work was reached.
     pub(super) is_cut: bool,
 }
@@ -69,16 +68,11 @@ pub(super) enum Cause {
     FactorOfSource(f64),
     /// Several terms, each with a factor.
     Terms(Vec<TermFactor>),
-    /// One edit, or two that are made together.
-    Edits(Vec<Named>),
+    Edit(Named),
     /// The values of one time.
     Time(f64),
-    /// The values of a time that is later by this.
-    TimeShift(f64),
     Component(String),
     Coordinates([String; 2]),
-    /// Two parameters are exchanged.
-    Parameters([String; 2]),
     Parameter {
         name: String,
         value: f64,
@@ -105,7 +99,8 @@ pub(crate) fn kind(change: EditKind, factor: f64) -> &'static str {
         EditKind::Summand | EditKind::Part if factor == -1.0 => "sign",
         EditKind::Summand | EditKind::Part if factor == 0.0 => "missing-term",
         EditKind::Summand | EditKind::Part => "coefficient",
-        EditKind::LostFactor | EditKind::LostDivisor => "missing-factor",
+        EditKind::LostFactor | EditKind::LostDivisor | EditKind::LostTime => "missing-factor",
+        EditKind::TimeFactor => "time-factor",
         EditKind::TimesForOver => "inverse-factor",
         EditKind::Square => "exponent",
         EditKind::LostOperator => "missing-operator",
@@ -113,10 +108,9 @@ pub(crate) fn kind(change: EditKind, factor: f64) -> &'static str {
         EditKind::TransposedGradient => "transposed-gradient",
         EditKind::MissingTranspose => "missing-transpose",
         EditKind::Order => "order",
-        EditKind::Operator | EditKind::TakenBelow => "operator",
+        EditKind::Operator | EditKind::Typed | EditKind::TakenBelow => "operator",
         EditKind::Held | EditKind::OneDifferentiated => "product-rule",
         EditKind::Basis => "basis",
-        EditKind::Exchange => "exchange",
         EditKind::Parameters => "parameters",
         EditKind::Normal => "normal",
         EditKind::Derivative => "derivative",
@@ -137,12 +131,10 @@ impl Cause {
             Cause::Constant(_) => "constant",
             Cause::FactorOfSource(_) => "factor-of-source",
             Cause::Terms(terms) => of_factors(terms.iter().map(|term| term.factor)),
-            Cause::Edits(edits) => edits.first().map_or("none", |named| named.edit.kind),
+            Cause::Edit(named) => named.edit.kind,
             Cause::Time(_) => "time",
-            Cause::TimeShift(_) => "time-shift",
             Cause::Component(_) => "components",
             Cause::Coordinates(_) => "coordinates",
-            Cause::Parameters(_) => "parameters",
             Cause::Parameter { .. } => "parameter",
             Cause::None(_) => "none",
         }
@@ -152,12 +144,9 @@ impl Cause {
     pub(super) fn terms(&self) -> Vec<String> {
         match self {
             Cause::Terms(terms) => terms.iter().map(|term| term.label.clone()).collect(),
-            Cause::Edits(edits) => edits
-                .iter()
-                .filter_map(|named| named.label.clone())
-                .collect(),
+            Cause::Edit(named) => named.label.iter().cloned().collect(),
             Cause::Component(name) | Cause::Parameter { name, .. } => vec![name.clone()],
-            Cause::Coordinates(names) | Cause::Parameters(names) => names.to_vec(),
+            Cause::Coordinates(names) => names.to_vec(),
             _ => vec![],
         }
     }
@@ -168,20 +157,11 @@ impl Cause {
             Cause::Constant(number)
             | Cause::FactorOfSource(number)
             | Cause::Time(number)
-            | Cause::TimeShift(number)
             | Cause::Parameter { value: number, .. } => vec![*number],
             Cause::Terms(terms) => terms.iter().map(|term| term.factor).collect(),
-            Cause::Edits(edits) => {
-                let edits = edits.iter().filter(|named| named.change.has_factor());
-                edits.map(|named| named.factor).collect()
-            }
+            Cause::Edit(named) if named.change.has_factor() => vec![named.factor],
             _ => vec![],
         }
-    }
-
-    /// Whether its words say where its edits are.
-    pub(super) fn has_place(&self) -> bool {
-        matches!(self, Cause::Edits(edits) if edits.len() > 1 || edits.iter().all(|e| e.label.is_none()))
     }
 
     /// What a colleague would say.
@@ -208,24 +188,12 @@ impl Cause {
                 format!("your values are the right ones times {number}")
             }
             Cause::Terms(terms) => of_terms(terms, &quoted, others),
-            Cause::Edits(edits) => match edits.as_slice() {
-                [named] => one_edit(named, file, others),
-                _ => {
-                    let parts: Vec<String> = edits
-                        .iter()
-                        .map(|named| place_and_text(named, file))
-                        .collect();
-                    format!("two mistakes together: {}", parts.join("; and "))
-                }
-            },
+            Cause::Edit(named) => one_edit(named, file, others),
             Cause::Time(number) => {
                 format!("your values are those of the time {number} at all times")
             }
-            Cause::TimeShift(number) => {
-                format!("your values are those of a time that is later by {number}")
-            }
             Cause::Component(_) => format!("your values are those of {quoted}"),
-            Cause::Coordinates(_) | Cause::Parameters(_) => {
+            Cause::Coordinates(_) => {
                 format!("your values fit with {quoted} exchanged")
             }
             Cause::Parameter { value, .. } => format!("your values fit with {quoted} = {value}"),
@@ -236,7 +204,7 @@ impl Cause {
 
 impl Unexplained {
     fn words(&self, file: &str) -> String {
-        let Self { edits, pairs, .. } = self;
+        let edits = self.edits;
         let nearest: Vec<String> = self
             .nearest
             .iter()
@@ -256,9 +224,7 @@ impl Unexplained {
             true => ", where the limit of work was reached",
             false => "",
         };
-        format!(
-            "no explanation found by {edits} edit(s) and {pairs} pair(s) of the best{cut}{nearest}"
-        )
+        format!("no explanation found by {edits} edit(s){cut}{nearest}")
     }
 }
 

@@ -3,10 +3,9 @@
 use super::bench::Alteration;
 use super::candidates::EditKind;
 use super::cause::{Cause, Nearest, Unexplained, place_and_text};
-use super::pairs;
 use super::search::EditSearch;
 use super::solve::{Curve, Sample, columns};
-use super::trial::{Effect, FAR_FETCHED, NEW_NUMBER, Near, Trial, attempt, cost, sample};
+use super::trial::{FAR_FETCHED, NEW_NUMBER, Near, Trial, attempt, cost, sample};
 use super::whole::Component;
 use crate::fit::Column;
 
@@ -54,16 +53,13 @@ struct Single {
 struct Tried {
     count: usize,
     matches: Vec<Match>,
-    effects: Vec<Effect>,
     near: Vec<Near>,
 }
 
 /// Whether two edits have the same values at fresh points.
 fn is_same(first: &[f64], second: &[f64]) -> bool {
     const SAME: f64 = 1e-9;
-    let largest = first
-        .iter()
-        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let largest = first.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     let mut pairs = first.iter().zip(second);
     pairs.all(|(a, b)| (a - b).abs() <= SAME * largest)
 }
@@ -122,7 +118,6 @@ impl<'a, 'm> EditSearch<'a, 'm> {
             found.breadth = self.breadth(quantity, found);
         }
         self.order(&mut tried.matches);
-        let mut pair = None;
         let mut explained = vec![];
         for component in &wrong {
             let single = self.single(component, &components, &tried);
@@ -134,20 +129,11 @@ impl<'a, 'm> EditSearch<'a, 'm> {
             let single = near.or_else(|| self.of_whole(component)).or(far);
             explained.push(match single {
                 Some(single) => single,
-                None => {
-                    let pair = pair.get_or_insert_with(|| {
-                        pairs::search(self, quantity, &trial, &tried.effects)
-                    });
-                    Explained::plain(match pair.fits(component.place) {
-                        Some(edits) => Cause::Edits(edits),
-                        None => Cause::None(Unexplained {
-                            nearest: self.nearest(quantity, &tried),
-                            edits: tried.count,
-                            pairs: pair.count,
-                            is_cut: self.bench.is_exhausted(),
-                        }),
-                    })
-                }
+                None => Explained::plain(Cause::None(Unexplained {
+                    nearest: self.nearest(quantity, &tried),
+                    edits: tried.count,
+                    is_cut: self.bench.is_exhausted(),
+                })),
             });
         }
         explained
@@ -171,7 +157,7 @@ impl<'a, 'm> EditSearch<'a, 'm> {
             }
             let seen = self
                 .bench
-                .altered(&[&candidate.alteration], name, |altered| {
+                .altered(Some(&candidate.alteration), name, |altered| {
                     let mut curve = Curve::new(altered.evaluation(), &trial.points);
                     let outcome = attempt(&mut curve, &candidate, trial);
                     let evaluation = altered.evaluation();
@@ -179,17 +165,16 @@ impl<'a, 'm> EditSearch<'a, 'm> {
                         candidate: place,
                         factor,
                         fits: trial.fits(curve.at(factor)),
-                        fresh: columns(&fresh, |point| evaluation.at(point, [factor, 1.0])),
+                        fresh: columns(&fresh, |point| evaluation.at(point, factor)),
                         breadth: 0,
                     });
-                    (matches.collect::<Vec<_>>(), outcome.effect, outcome.near)
+                    (matches.collect::<Vec<_>>(), outcome.near)
                 });
             tried.count += 1;
-            let Some((matches, effect, near)) = seen else {
+            let Some((matches, near)) = seen else {
                 continue;
             };
             tried.matches.extend(matches);
-            tried.effects.extend(effect.map(|effect| effect.of(place)));
             tried.near.extend(near.map(|near| Near {
                 candidate: place,
                 ..near
@@ -227,7 +212,7 @@ impl<'a, 'm> EditSearch<'a, 'm> {
                 _ => true,
             };
             if !reaches {
-                let right = components.iter().filter(|c| c.fits(&c.source));
+                let right = components.iter().filter(|c| c.is_right());
                 others += right.count();
                 continue;
             }
@@ -237,7 +222,7 @@ impl<'a, 'm> EditSearch<'a, 'm> {
             let name = self.name(other);
             let seen = self
                 .bench
-                .altered(&[&candidate.alteration], name, |altered| {
+                .altered(Some(&candidate.alteration), name, |altered| {
                     Curve::new(altered.evaluation(), &points)
                         .at(factor)
                         .to_vec()
@@ -286,7 +271,7 @@ impl<'a, 'm> EditSearch<'a, 'm> {
                 continue;
             }
             let alteration = self.candidates[found.candidate].alteration.clone();
-            if !self.fits_everywhere(component, &[&alteration], [found.factor, 1.0]) {
+            if !self.fits_everywhere(component, &alteration, found.factor) {
                 continue;
             }
             groups.push(found);
@@ -302,7 +287,7 @@ impl<'a, 'm> EditSearch<'a, 'm> {
         Some(Single {
             is_far_fetched: cost(&self.candidates[best.candidate], best.factor) >= FAR_FETCHED,
             explained: Explained {
-                cause: Cause::Edits(vec![named]),
+                cause: Cause::Edit(named),
                 alternatives,
             },
         })

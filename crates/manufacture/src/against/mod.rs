@@ -8,7 +8,7 @@
 //! | `bench.rs` | what becomes of a quantity after an edit |
 //! | `solve.rs`, `trial.rs` | the factor of an edit, and whether it fits at a few points |
 //! | `search.rs` | the components of an answer, and the edits that may explain them |
-//! | `explain.rs`, `pairs.rs`, `whole.rs` | the edit that fits everywhere, pairs, what concerns all of a component |
+//! | `explain.rs`, `whole.rs` | the edit that fits everywhere; what concerns all of a component |
 //! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
 pub(crate) mod ask;
@@ -16,7 +16,6 @@ pub(crate) mod bench;
 pub(crate) mod candidates;
 pub(crate) mod cause;
 mod explain;
-mod pairs;
 mod right;
 mod search;
 mod sentence;
@@ -55,8 +54,8 @@ pub struct Comparison {
     pub terms: Vec<String>,
     /// A factor for each term, or the number that the cause is about.
     pub factors: Vec<f64>,
-    /// The changes of the file that give the values of the other program: one, or two together;
-    /// none where the values are right or unexplained.
+    /// The change of the file that gives the values of the other program; none where they are
+    /// right or unexplained, and where the cause is about all of them.
     pub edits: Vec<Edit>,
     /// Other terms or edits that fit as well.
     pub alternatives: Vec<String>,

@@ -3,7 +3,7 @@
 use super::bench::{Alteration, Bench};
 use super::candidates::{self, Candidate};
 use super::cause::Named;
-use super::right::{ComponentPlace, Right};
+use super::right::Right;
 use super::text;
 use super::trial::cost;
 use super::whole::Component;
@@ -28,8 +28,7 @@ impl<'a, 'm> EditSearch<'a, 'm> {
         fresh: Vec<Vec<f64>>,
     ) -> Option<Self> {
         let bench = Bench::new(right.model, right.part)?;
-        let alike = bench.of_one_shape();
-        let candidates = candidates::all(&right.model.problem, right.part, &alike);
+        let candidates = candidates::all(&right.model.problem, right.part);
         Some(Self {
             right,
             components,
@@ -72,15 +71,15 @@ impl<'a, 'm> EditSearch<'a, 'm> {
     pub(super) fn fits_everywhere(
         &mut self,
         component: &Component<'a, 'm>,
-        alterations: &[&Alteration],
-        factors: [f64; 2],
+        alteration: &Alteration,
+        factor: f64,
     ) -> bool {
         let name = self.name(component.place.quantity);
         let points = &self.right.points;
-        let fits = self.bench.altered(alterations, name, |altered| {
+        let fits = self.bench.altered(Some(alteration), name, |altered| {
             let evaluation = altered.evaluation();
             points.iter().enumerate().all(|(place, point)| {
-                let value = evaluation.at(point, factors)[component.place.component].value;
+                let value = evaluation.at(point, factor)[component.place.component].value;
                 (component.foreign[place] - value).abs() <= component.allowed[place]
             })
         });
@@ -102,9 +101,4 @@ pub(super) fn place_of(right: &Right<'_>, quantity: usize) -> problem::Location 
         || problem.equations[0].place.clone(),
         |d| d.value.place().clone(),
     )
-}
-
-/// A component by its place among those of the answer.
-pub(super) fn position(components: &[Component<'_, '_>], place: ComponentPlace) -> Option<usize> {
-    components.iter().position(|c| c.place == place)
 }

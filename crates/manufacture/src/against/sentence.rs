@@ -4,17 +4,17 @@ use std::collections::BTreeMap;
 
 use super::Comparison;
 use super::ask::ForeignQuantity;
-use super::candidates;
-use super::cause::{Cause, Edit, TermFactor, Unexplained};
+use super::cause::{Cause, Edit, Named, Unexplained};
 use super::explain::Explained;
 use super::right::{ComponentPlace, Right};
 use super::search::{EditSearch, place_of};
-use super::text::{self, of_whole};
+use super::site::Span;
+use super::text::of_whole;
 use super::whole::Component;
-use crate::problem::{Expression, Problem};
+use crate::problem::{Expression, LineColumn};
 
-/// A value explains another within this many spreads of the file's own two evaluations, or within
-/// the digits printed.
+/// A value explains another within this many spreads of the file's own two evaluations, of the
+/// larger of both sides, or within the digits printed.
 ///
 /// Another program sums in another order, and may expand products: its rounding is larger than the
 /// spread, but of its kind.
@@ -76,10 +76,9 @@ fn component<'a, 'm>(
     });
     let values = right.values(place);
     let spread = spreads[place.quantity][place.component];
-    let allowed = values
-        .iter()
-        .zip(&answer.units)
-        .map(|(v, unit)| SPREADS * spread * v.size + unit);
+    let triples = values.iter().zip(&answer.values).zip(&answer.units);
+    let allowed = triples
+        .map(|((right, foreign), unit)| SPREADS * spread * right.size.max(foreign.abs()) + unit);
     Component {
         right,
         place,
@@ -102,7 +101,6 @@ fn comparison(
     let differences = component.differences();
     let largest = differences.iter().copied().fold(0.0, f64::max);
     let labels = right.labels(component.place);
-    let edits = edits(right, component.place, &cause);
     let words = cause.words(&right.model.problem.file, &labels);
     let words = match &cause {
         Cause::Equal if largest == 0.0 => format!("{words}, to the last digit"),
@@ -111,7 +109,7 @@ fn comparison(
              of the two evaluations of the file, or within the digits printed"
         ),
         Cause::None(_) => format!("{words}; {}", where_it_differs(right, &differences)),
-        _ => placed(words, &cause, &edits, &right.model.problem.file),
+        _ => placed(words, right, component.place, &cause),
     };
     let words = match alternatives.is_empty() {
         true => words,
@@ -124,19 +122,41 @@ fn comparison(
         cause: cause.name(),
         terms: cause.terms(),
         factors: cause.factors(),
-        edits,
+        edits: match cause {
+            Cause::Edit(named) => vec![named.edit],
+            _ => vec![],
+        },
         alternatives,
     }
 }
 
-/// Words with the place of the edit, if they do not name it.
-fn placed(words: String, cause: &Cause, edits: &[Edit], file: &str) -> String {
-    match edits.first() {
-        Some(Edit { line, column, .. }) if !cause.has_place() => {
-            format!("{words} ({file}:{line}:{column})")
+/// Words with the place of what they are about, if they do not name it.
+fn placed(words: String, right: &Right<'_>, place: ComponentPlace, cause: &Cause) -> String {
+    let problem = &right.model.problem;
+    let whole = place_of(right, place.quantity);
+    let terms = problem
+        .equations
+        .iter()
+        .flat_map(|equation| &equation.terms);
+    let LineColumn { line, column } = match cause {
+        Cause::Edit(named) if named.label.is_none() => return words,
+        Cause::Edit(Named { edit, .. }) => LineColumn {
+            line: edit.line,
+            column: edit.column,
+        },
+        Cause::Terms(changed) => {
+            let mut terms = terms.filter(|term| term.label == changed[0].label);
+            let first = terms.next().map(|term| &term.expression);
+            first.map_or(whole.text, |Expression { place, text, tree }| {
+                place.of_text(text, Span::of(tree, text).start)
+            })
         }
-        _ => words,
-    }
+        _ => {
+            let Edit { line, column, .. } = of_whole(problem, &whole, String::new(), String::new());
+            LineColumn { line, column }
+        }
+    };
+    format!("{words} ({}:{line}:{column})", problem.file)
 }
 
 /// Where the difference is largest and where it is smallest.
@@ -150,85 +170,4 @@ fn where_it_differs(right: &Right<'_>, differences: &[f64]) -> String {
         })
     });
     format!("your values differ by {largest} and by {smallest}")
-}
-
-/// The edits of a cause, each with its place.
-fn edits(right: &Right<'_>, place: ComponentPlace, cause: &Cause) -> Vec<Edit> {
-    let problem = &right.model.problem;
-    let whole = place_of(right, place.quantity);
-    let of_all = |old: &str, new: String| {
-        vec![Edit {
-            kind: cause.name(),
-            ..of_whole(problem, &whole, old.to_owned(), new)
-        }]
-    };
-    let sum = sum(&right.labels(place), &whole.key);
-    match cause {
-        Cause::Equal | Cause::None(_) => vec![],
-        Cause::Edits(edits) => edits.iter().map(|named| named.edit.clone()).collect(),
-        Cause::SignOfSource => of_all(&sum, format!("-({sum})")),
-        Cause::Normal => of_all("n", "-n".to_owned()),
-        Cause::Constant(number) => of_all(&sum, format!("{sum} + {number}")),
-        Cause::FactorOfSource(factor) => of_all(&sum, format!("{factor}*({sum})")),
-        Cause::Terms(terms) => {
-            let name = &right.quantities[place.quantity].quantity.name;
-            let edit = |term: &TermFactor| {
-                let candidate = candidates::of_term(problem, name, &term.label)?;
-                Some(text::named(problem, &whole, &candidate, term.factor).edit)
-            };
-            terms.iter().filter_map(edit).collect()
-        }
-        Cause::Time(time) => of_all(time_name(right), time.to_string()),
-        Cause::TimeShift(shift) => {
-            let name = time_name(right);
-            of_all(name, format!("{name} + {shift}"))
-        }
-        Cause::Component(name) => of_all(right.name(place), name.clone()),
-        Cause::Coordinates([first, second]) => {
-            of_all(&format!("{first}, {second}"), format!("{second}, {first}"))
-        }
-        Cause::Parameters(names) => {
-            let [first, second] = names.each_ref().map(|name| parameter(problem, name));
-            let both = first.zip(second);
-            both.map_or_else(Vec::new, |(first, second)| {
-                let new = |of: &Expression, other: &Expression| Edit {
-                    kind: cause.name(),
-                    ..of_whole(problem, &of.place, of.text.clone(), other.text.clone())
-                };
-                vec![new(first, second), new(second, first)]
-            })
-        }
-        Cause::Parameter { name, value } => {
-            parameter(problem, name).map_or_else(Vec::new, |expression| {
-                vec![Edit {
-                    kind: cause.name(),
-                    ..of_whole(
-                        problem,
-                        &expression.place,
-                        expression.text.clone(),
-                        value.to_string(),
-                    )
-                }]
-            })
-        }
-    }
-}
-
-fn parameter<'p>(problem: &'p Problem, name: &str) -> Option<&'p Expression> {
-    let mut parameters = problem.parameters.iter();
-    parameters
-        .find(|parameter| parameter.name == name)
-        .map(|parameter| &parameter.expression)
-}
-
-fn time_name<'r>(right: &'r Right<'_>) -> &'r str {
-    right.model.problem.time.as_deref().unwrap_or("")
-}
-
-/// The sum of all terms in words; for a datum its key.
-fn sum(labels: &[&str], key: &str) -> String {
-    if labels.is_empty() {
-        return key.to_owned();
-    }
-    labels.join(" + ").replace(" + -", " - ")
 }

@@ -56,7 +56,7 @@ impl<'c> Curve<'c> {
     pub(super) fn at(&mut self, factor: f64) -> &[Column] {
         let place = self.known.iter().position(|entry| entry.0 == factor);
         let place = place.unwrap_or_else(|| {
-            let at = |point: &[f64]| self.evaluation.at(point, [factor, 1.0]);
+            let at = |point: &[f64]| self.evaluation.at(point, factor);
             self.known.push((factor, columns(self.points, at)));
             self.known.len() - 1
         });
@@ -85,8 +85,6 @@ pub(super) struct Solved {
     /// The factor that comes nearest, and the share of the difference that it leaves.
     pub(super) nearest: f64,
     pub(super) left: f64,
-    /// What one more of the factor adds, if the quantity is linear in it.
-    pub(super) slope: Option<Column>,
 }
 
 /// Changes below this share of the values are rounding.
@@ -124,16 +122,16 @@ pub(super) fn factor(curve: &mut Curve<'_>, sample: &Sample) -> Option<Solved> {
     }
     let bend = fit::norm(&difference(&slope, &before));
     if bend <= 1e-9 * (fit::norm(&slope) + ROUNDING * scale) {
-        return Some(linear(sample, &one, slope));
+        return Some(linear(sample, &one, &slope));
     }
     Some(bent(&mut value, sample))
 }
 
-fn linear(sample: &Sample, one: &Column, slope: Column) -> Solved {
+fn linear(sample: &Sample, one: &Column, slope: &Column) -> Solved {
     let rest = difference(&sample.foreign, one);
-    let factor = 1.0 + fit::least_squares(&[&slope], &rest).factors[0];
+    let factor = 1.0 + fit::least_squares(&[slope], &rest).factors[0];
     let with = |factor: f64| -> Column {
-        let pairs = one.iter().zip(&slope);
+        let pairs = one.iter().zip(slope);
         pairs
             .map(|(one, slope)| one + (factor - 1.0) * slope)
             .collect()
@@ -144,7 +142,6 @@ fn linear(sample: &Sample, one: &Column, slope: Column) -> Solved {
         factor: factors.find(|factor| sample.fits(&with(*factor))),
         nearest: simple(factor),
         left: sample.left_by(&with(factor)),
-        slope: Some(slope),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Edits as texts: what the file has, and what it would have after the edit.
 
-use super::bench::{Alteration, FACTORS, Rewrite};
+use super::bench::{Alteration, FACTOR, Rewrite};
 use super::candidates::{Candidate, EditKind, number};
 use super::cause::{Edit, Named, kind};
 use super::site::{self, Home, Span};
@@ -27,11 +27,8 @@ pub(crate) fn named(
     };
     let mut label = None;
     let edit = match &candidate.alteration {
-        Alteration::Exchange(names) => {
-            let [first, second] = names;
-            about_all(format!("{first}, {second}"), format!("{second}, {first}"))
-        }
         Alteration::Normal => about_all("n".to_owned(), "-n".to_owned()),
+        Alteration::Over(tree) => about_all(tree.to_string(), String::new()),
         Alteration::Basis(basis) => {
             let system = problem.system.name();
             let new = match basis {
@@ -389,7 +386,7 @@ pub(super) fn has_simple_number(candidate: &Candidate, factor: f64) -> bool {
     let TreeKind::Binary(Binary::Multiply, operands) = &rewrite.new.kind else {
         return false;
     };
-    let is_factor = matches!(&operands[1].kind, TreeKind::Name(name) if name == FACTORS[0]);
+    let is_factor = matches!(&operands[1].kind, TreeKind::Name(name) if name == FACTOR);
     match (&operands[0].kind, candidate.change) {
         (TreeKind::Number(value, _), EditKind::Exponent) => {
             let new = simple(value * factor);

@@ -1,7 +1,7 @@
 //! One edit, tried at a few points.
 
 use super::candidates::{Candidate, EditKind};
-use super::solve::{self, Curve, Sample, Solved, difference};
+use super::solve::{self, Curve, Sample, Solved};
 use super::text;
 use super::whole::Component;
 use crate::fit::Column;
@@ -29,12 +29,12 @@ impl Trial {
 }
 
 pub(super) fn sample(component: &Component<'_, '_>, places: &[usize]) -> Sample {
-    let of = |column: &[f64]| places.iter().map(|place| column[*place]).collect();
+    let places = || places.iter().copied();
     Sample {
         component: component.place.component,
-        right: of(&component.source),
-        foreign: of(component.foreign),
-        allowed: of(&component.allowed),
+        right: places().map(|place| component.source[place]).collect(),
+        foreign: places().map(|place| component.foreign[place]).collect(),
+        allowed: places().map(|place| component.allowed[place]).collect(),
     }
 }
 
@@ -46,45 +46,10 @@ pub(super) struct Near {
     pub(super) left: f64,
 }
 
-/// What an edit adds to all components that are wrong, one after the other.
-#[derive(Debug, Clone)]
-pub(super) struct Effect {
-    pub(super) candidate: usize,
-    /// For one more of its factor, or for the edit itself.
-    pub(super) column: Column,
-    pub(super) is_free: bool,
-}
-
-impl Effect {
-    /// Of an edit without a number.
-    fn fixed(column: Column) -> Self {
-        Self {
-            candidate: 0,
-            column,
-            is_free: false,
-        }
-    }
-
-    /// The same, of this candidate.
-    pub(super) fn of(self, candidate: usize) -> Self {
-        Self { candidate, ..self }
-    }
-
-    /// Of an edit whose values are linear in a factor.
-    fn free(column: Column) -> Self {
-        Self {
-            candidate: 0,
-            column,
-            is_free: true,
-        }
-    }
-}
-
 #[derive(Default)]
 pub(super) struct TrialResult {
     /// The factors with which a component fits.
     pub(super) factors: Vec<f64>,
-    pub(super) effect: Option<Effect>,
     pub(super) near: Option<Near>,
 }
 
@@ -93,7 +58,6 @@ pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Tria
     let mut outcome = TrialResult::default();
     if !candidate.has_factor() {
         let columns = curve.at(1.0).to_vec();
-        let mut change = vec![];
         let mut left = 0.0_f64;
         for sample in trial.wrong() {
             let values = &columns[sample.component];
@@ -101,9 +65,7 @@ pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Tria
                 outcome.factors = vec![1.0];
             }
             left = left.max(sample.left_by(values));
-            change.extend(difference(values, &sample.right));
         }
-        outcome.effect = Some(Effect::fixed(change));
         outcome.near = Some(Near {
             candidate: 0,
             factor: 1.0,
@@ -131,21 +93,7 @@ pub(super) fn attempt(curve: &mut Curve<'_>, candidate: &Candidate, trial: &Tria
             left: left.fold(0.0, f64::max),
         });
     }
-    outcome.effect = slopes(&solved, trial).map(Effect::free);
     outcome
-}
-
-/// What one more of a factor adds to all components that are wrong; `None` if that is not one
-/// number for all values of the factor.
-fn slopes(solved: &[Option<Solved>], trial: &Trial) -> Option<Column> {
-    let mut all = vec![];
-    for (solved, sample) in solved.iter().zip(trial.wrong()) {
-        match solved {
-            Some(solved) => all.extend(solved.slope.clone()?),
-            None => all.extend(vec![0.0; sample.right.len()]),
-        }
-    }
-    Some(all)
 }
 
 /// The cost of an edit with a simple number that the file does not have there.
@@ -161,10 +109,14 @@ pub(super) fn cost(candidate: &Candidate, factor: f64) -> usize {
     match candidate.change {
         EditKind::Term | EditKind::Summand if is_lost => 10,
         EditKind::LostFactor | EditKind::LostDivisor | EditKind::LostOperator => 10,
-        EditKind::Normal => 5,
+        EditKind::Normal | EditKind::TimeFactor => 9,
         EditKind::TransposedGradient | EditKind::MissingTranspose | EditKind::Held => 11,
         EditKind::Exponent if text::has_simple_number(candidate, factor) => 11,
-        EditKind::TimesForOver | EditKind::Order | EditKind::Operator | EditKind::Function => 12,
+        EditKind::TimesForOver
+        | EditKind::Typed
+        | EditKind::Order
+        | EditKind::Operator
+        | EditKind::Function => 12,
         EditKind::Derivative | EditKind::Index | EditKind::Branch | EditKind::LostBracket => 13,
         EditKind::Name => 16,
         EditKind::Term | EditKind::Summand | EditKind::Part
@@ -172,9 +124,12 @@ pub(super) fn cost(candidate: &Candidate, factor: f64) -> usize {
         {
             12
         }
-        EditKind::Exchange | EditKind::Parameters | EditKind::Basis => 13,
+        EditKind::Parameters | EditKind::Basis => 13,
         EditKind::Part if is_lost => 14,
-        EditKind::OneDifferentiated | EditKind::TakenBelow | EditKind::Square => 15,
+        EditKind::LostTime
+        | EditKind::OneDifferentiated
+        | EditKind::TakenBelow
+        | EditKind::Square => 15,
         _ if candidate.has_factor() && is_simple => NEW_NUMBER,
         _ => FAR_FETCHED,
     }

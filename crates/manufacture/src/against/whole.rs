@@ -33,6 +33,10 @@ impl Component<'_, '_> {
         triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
     }
 
+    pub(super) fn is_right(&self) -> bool {
+        self.fits(&self.source)
+    }
+
     fn combined(&self, columns: &[&Column], factors: &[f64]) -> Column {
         let mut sum = vec![0.0; self.source.len()];
         for (column, factor) in columns.iter().zip(factors) {
@@ -105,40 +109,23 @@ impl Component<'_, '_> {
         Some(Cause::Terms(terms.collect()))
     }
 
-    /// The values of the first or of the last time at all times, or of a later or earlier time.
+    /// The values of the first or of the last time at all times.
     pub(super) fn of_time(&self) -> Option<Cause> {
         let problem = &self.right.model.problem;
         problem.time.as_ref()?;
-        let ends = problem.intervals.last()?;
-        for time in ends {
-            if self.fits_at(|_| *time) {
-                return Some(Cause::Time(*time));
-            }
-        }
-        let rows = self.right.rows(self.place);
-        let parameters = &self.right.model.graph.parameters;
-        let shifted = |shift: f64| {
-            let points = self.few().iter();
-            let points = points.map(|point| at_time(point, |time| time + shift));
-            Some(self.column(&rows, points, parameters))
-        };
-        let length = ends[1] - ends[0];
-        for start in [0.0, 0.1 * length, -0.1 * length] {
-            let shift = self.newton(start, 0.1 * length, shifted);
-            let Some(shift) = shift.map(simple) else {
-                continue;
-            };
-            if shift != 0.0 && self.fits_at(|time| time + shift) {
-                return Some(Cause::TimeShift(shift));
-            }
-        }
-        None
+        let mut ends = problem.intervals.last()?.iter();
+        let time = ends.find(|time| self.fits_at(**time))?;
+        Some(Cause::Time(*time))
     }
 
-    /// Whether the values at other times explain all points; the first few are tried first.
-    fn fits_at(&self, time: impl Fn(f64) -> f64) -> bool {
-        let points = self.right.points.iter();
-        let points: Vec<Vec<f64>> = points.map(|point| at_time(point, &time)).collect();
+    /// Whether the values at one time explain all points.
+    fn fits_at(&self, time: f64) -> bool {
+        let mut points = self.right.points.clone();
+        for point in &mut points {
+            if let Some(last) = point.last_mut() {
+                *last = time;
+            }
+        }
         self.fits_everywhere(&points, &self.right.model.graph.parameters)
     }
 
@@ -197,20 +184,10 @@ impl Component<'_, '_> {
         None
     }
 
-    /// Two parameters exchanged, or one with another value.
+    /// A parameter with another value.
     pub(super) fn of_parameters(&self) -> Option<Cause> {
         let parameters = &self.right.model.problem.parameters;
         let values = &self.right.model.graph.parameters;
-        for first in 0..parameters.len() {
-            for second in first + 1..parameters.len() {
-                let mut exchanged = values.clone();
-                exchanged.swap(first, second);
-                if values[first] != values[second] && self.fits_with(&exchanged) {
-                    let names = [first, second].map(|place| parameters[place].name.clone());
-                    return Some(Cause::Parameters(names));
-                }
-            }
-        }
         let rows = self.right.rows(self.place);
         for (index, parameter) in parameters.iter().enumerate() {
             let with = |value: f64| {
@@ -265,13 +242,4 @@ impl Component<'_, '_> {
         }
         Some(value)
     }
-}
-
-/// A point at another time.
-fn at_time(point: &[f64], time: impl Fn(f64) -> f64) -> Vec<f64> {
-    let mut point = point.to_vec();
-    if let Some(last) = point.last_mut() {
-        *last = time(*last);
-    }
-    point
 }

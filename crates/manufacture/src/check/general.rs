@@ -58,15 +58,15 @@ impl General {
         let Some(bench) = &mut self.bench else {
             return true;
         };
-        let mut values = |edits: &[&Alteration]| {
-            bench.altered(edits, source, |altered| {
+        let mut values = |edit: Option<&Alteration>| {
+            bench.altered(edit, source, |altered| {
                 let evaluation = altered.evaluation();
                 let points = self.points.iter();
-                let values = points.map(|point| evaluation.at(point, [1.0; 2]));
+                let values = points.map(|point| evaluation.at(point, 1.0));
                 values.collect::<Vec<_>>()
             })
         };
-        let (Some(right), Some(edited)) = (values(&[]), values(&[edit])) else {
+        let (Some(right), Some(edited)) = (values(None), values(Some(edit))) else {
             return true;
         };
         let mut pairs = right.iter().flatten().zip(edited.iter().flatten());

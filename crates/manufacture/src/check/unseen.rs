@@ -24,7 +24,7 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let Some(mut bench) = Bench::new(model, Part::Interior) else {
         return vec![];
     };
-    let mut candidates = candidates::all(problem, Part::Interior, &[]);
+    let mut candidates = candidates::all(problem, Part::Interior);
     let differential = differential(problem);
     candidates.retain(|candidate| is_common(problem, candidate, &differential));
     let mut findings: Vec<Finding> = vec![];
@@ -145,14 +145,14 @@ fn is_unseen(
     let Some(index) = sources.position(is_source) else {
         return false;
     };
-    let Some(right) = bench.altered(&[], equation, |right| right.tensor.clone()) else {
+    let Some(right) = bench.altered(None, equation, |right| right.tensor.clone()) else {
         return false;
     };
-    let unseen = bench.altered(&[&candidate.alteration], equation, |altered| {
+    let unseen = bench.altered(Some(&candidate.alteration), equation, |altered| {
         let evaluation = altered.evaluation();
         altered.tensor != right
             && sampled.over(index).all(|(point, right)| {
-                let values = evaluation.at(point, [1.0; 2]);
+                let values = evaluation.at(point, 1.0);
                 right.iter().zip(&values).all(|(a, b)| is_same(a, b))
             })
     });

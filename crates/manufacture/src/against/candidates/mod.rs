@@ -7,14 +7,13 @@ mod walk;
 
 use std::collections::HashMap;
 
-use super::bench::{Alteration, Rewrite};
+use super::bench::Alteration;
 use super::site::{self, Home};
 use crate::derive::{Basis, Part};
-use crate::language::tree::Tree;
+use crate::language::tree::{Tree, TreeKind};
 use crate::problem::{Problem, System, mentions};
 
 pub(crate) use trees::number;
-use trees::times_factor;
 use walk::{Role, Walk};
 
 /// What an edit does.
@@ -30,8 +29,14 @@ pub(crate) enum EditKind {
     Exponent,
     LostFactor,
     LostDivisor,
+    /// A factor that changes with time alone is forgotten in a term.
+    LostTime,
+    /// The same in all of a quantity.
+    TimeFactor,
     /// A product in place of a quotient, or the other way round.
     TimesForOver,
+    /// `*` in place of `^`, or the other way round.
+    Typed,
     /// A square in place of a number.
     Square,
     /// The argument in place of a function or an operator of it.
@@ -64,9 +69,7 @@ pub(crate) enum EditKind {
     Name,
     /// Another summand, with an unknown factor.
     Added,
-    /// Two definitions exchanged.
-    Exchange,
-    /// Two parameters exchanged.
+    /// Two parameters exchanged in an expression.
     Parameters,
     /// The normal of a face points inwards.
     Normal,
@@ -104,12 +107,10 @@ const DEFINITION: usize = 20;
 const EXACT: usize = 1000;
 
 /// All candidates in the expressions that a comparison is about.
-///
-/// * `alike`: definitions of one shape, pair by pair.
-pub(crate) fn all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
+pub(crate) fn all(problem: &Problem, part: Part) -> Vec<Candidate> {
     let homes = homes(problem, part);
-    let mut found = in_expressions(problem, alike, &homes);
-    found.extend(of_all(problem, part, alike));
+    let mut found = in_expressions(problem, &homes);
+    found.extend(of_all(problem, part));
     found
 }
 
@@ -137,7 +138,7 @@ pub(crate) fn homes(problem: &Problem, part: Part) -> Vec<Home> {
     homes
 }
 
-fn in_expressions(problem: &Problem, alike: &[[String; 2]], homes: &[Home]) -> Vec<Candidate> {
+fn in_expressions(problem: &Problem, homes: &[Home]) -> Vec<Candidate> {
     let mut found = vec![];
     let distances = distances(problem, homes);
     for home in homes {
@@ -154,13 +155,15 @@ fn in_expressions(problem: &Problem, alike: &[[String; 2]], homes: &[Home]) -> V
         };
         let mut walk = Walk {
             problem,
-            alike,
             home,
             depth: distance,
             found: &mut found,
         };
         walk.visit(&expression.tree, &mut vec![], Role::Root);
         walk.exchanges(&expression.tree);
+        if !matches!(home, Home::Definition { .. }) {
+            walk.without_time(&expression.tree, &of_time(problem));
+        }
         if matches!(home, Home::Term { term: 0, .. } | Home::Datum { .. }) {
             walk.added(&expression.tree);
         }
@@ -169,14 +172,14 @@ fn in_expressions(problem: &Problem, alike: &[[String; 2]], homes: &[Home]) -> V
 }
 
 /// Edits that are about all of a quantity.
-fn of_all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate> {
+fn of_all(problem: &Problem, part: Part) -> Vec<Candidate> {
     let mut found = vec![];
     let mut add = |change: EditKind, alteration: Alteration| {
         found.push(Candidate {
             change,
             alteration,
             depth: 0,
-            is_rare: change == EditKind::Exchange,
+            is_rare: false,
         });
     };
     if problem.system != System::Cartesian {
@@ -187,30 +190,49 @@ fn of_all(problem: &Problem, part: Part, alike: &[[String; 2]]) -> Vec<Candidate
     if part != Part::Interior {
         add(EditKind::Normal, Alteration::Normal);
     }
-    for names in alike {
-        add(EditKind::Exchange, Alteration::Exchange(names.clone()));
+    for tree in of_time(problem) {
+        add(EditKind::TimeFactor, Alteration::Over(tree));
     }
     found
 }
 
-/// A factor at the term with a label.
-pub(crate) fn of_term(problem: &Problem, equation: &str, label: &str) -> Option<Candidate> {
-    let mut equations = problem.equations.iter();
-    let equation = equations.position(|entry| entry.name == equation)?;
-    let mut terms = problem.equations[equation].terms.iter();
-    let term = terms.position(|term| term.label == label)?;
-    let home = Home::Term { equation, term };
-    let new = times_factor(&home.expression(problem)?.tree);
-    Some(Candidate {
-        change: EditKind::Term,
-        alteration: Alteration::Rewrite(Rewrite {
-            home,
-            route: vec![],
-            new,
-        }),
-        depth: 0,
-        is_rare: false,
-    })
+/// The factors of the solution and of definitions that change with time alone.
+fn of_time(problem: &Problem) -> Vec<Tree> {
+    let mut found = vec![];
+    for definition in problem.definitions.values() {
+        for part in site::parts(&definition.value) {
+            gather_of_time(problem, &part.tree, &mut found);
+        }
+    }
+    found
+}
+
+fn gather_of_time(problem: &Problem, tree: &Tree, found: &mut Vec<Tree>) {
+    let mut names = vec![];
+    site::names(tree, &mut names);
+    let variables = problem.variables();
+    let is_time = |name: &&str| Some(*name) == problem.time.as_deref();
+    let is_constant = |name: &&str| {
+        let is_known = problem.definitions.contains_key(*name);
+        !is_known && !variables.contains(name)
+    };
+    let is_factor = !matches!(
+        tree.kind,
+        TreeKind::Name(_) | TreeKind::Negate(_) | TreeKind::Binary(..)
+    );
+    let has_time = names.iter().any(is_time);
+    if is_factor && has_time && names.iter().all(|name| is_time(name) || is_constant(name)) {
+        if !found
+            .iter()
+            .any(|known| known.to_string() == tree.to_string())
+        {
+            found.push(tree.clone());
+        }
+        return;
+    }
+    for child in tree.children() {
+        gather_of_time(problem, child, found);
+    }
 }
 
 /// How far each definition is from a term, or from a datum.

@@ -3,15 +3,22 @@
 use super::super::site::{self, Route};
 use super::EditKind;
 use super::trees::{binary, gradient, held, is_chain, node, number, operator};
-use super::walk::Walk;
+use super::walk::{Role, Walk};
 use crate::language::names::{Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 
 impl Walk<'_> {
-    pub(super) fn binary(&mut self, operator: Binary, operands: &[Tree; 2], route: &Route) {
+    pub(super) fn binary(
+        &mut self,
+        operator: Binary,
+        operands: &[Tree; 2],
+        route: &Route,
+        role: Role,
+    ) {
         let [left, right] = operands;
         match operator {
             Binary::Multiply => {
+                self.add(EditKind::Typed, route, raised(left, right));
                 self.add(EditKind::LostFactor, route, left.clone());
                 self.add(
                     EditKind::TimesForOver,
@@ -24,6 +31,12 @@ impl Walk<'_> {
                 }
             }
             Binary::Divide => {
+                // `a/b^2` becomes `a/b*2`.
+                if let TreeKind::Binary(Binary::Power, power) = &right.kind {
+                    let quotient = binary(Binary::Divide, left, &power[0]);
+                    let product = binary(Binary::Multiply, &quotient, &power[1]);
+                    self.add(EditKind::Typed, route, product);
+                }
                 self.add(EditKind::LostDivisor, route, left.clone());
                 self.brackets(operator, operands, route);
                 let product = binary(Binary::Multiply, left, right);
@@ -32,6 +45,14 @@ impl Walk<'_> {
                     let inverse = binary(Binary::Divide, &number("1", 1.0), right);
                     self.add(EditKind::LostFactor, route, inverse);
                 }
+            }
+            Binary::Power => {
+                let product = binary(Binary::Multiply, left, right);
+                let product = match role {
+                    Role::Factor => in_bracket(product),
+                    _ => product,
+                };
+                self.add(EditKind::Typed, route, product);
             }
             _ => (),
         }
@@ -81,6 +102,17 @@ impl Walk<'_> {
                 self.add(EditKind::TakenBelow, route, new);
             }
         }
+    }
+}
+
+/// `a^b` as it is read with `a` before it: an exponent belongs to the last factor.
+fn raised(of: &Tree, exponent: &Tree) -> Tree {
+    match &of.kind {
+        TreeKind::Binary(operator @ (Binary::Multiply | Binary::Divide | Binary::Power), parts) => {
+            binary(*operator, &parts[0], &raised(&parts[1], exponent))
+        }
+        TreeKind::Negate(inner) => node(TreeKind::Negate(Box::new(raised(inner, exponent)))),
+        _ => binary(Binary::Power, of, exponent),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Trees that no text is parsed to.
 
-use super::super::bench::FACTORS;
+use super::super::bench::FACTOR;
 use crate::language::names::{self, Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 
@@ -34,7 +34,7 @@ pub(super) fn held(tree: &Tree) -> Tree {
 
 /// A part times an unknown factor.
 pub(super) fn times_factor(tree: &Tree) -> Tree {
-    binary(Binary::Multiply, tree, &name(FACTORS[0]))
+    binary(Binary::Multiply, tree, &name(FACTOR))
 }
 
 /// Whether brackets around it change nothing.

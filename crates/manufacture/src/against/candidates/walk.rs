@@ -25,8 +25,6 @@ pub(super) enum Role {
 
 pub(super) struct Walk<'c> {
     pub(super) problem: &'c Problem,
-    /// Definitions of one shape, pair by pair.
-    pub(super) alike: &'c [[String; 2]],
     pub(super) home: &'c Home,
     /// How far the expression is from a top-level term.
     pub(super) depth: usize,
@@ -102,7 +100,7 @@ impl Walk<'_> {
             self.chain(tree, route);
         }
         match &tree.kind {
-            TreeKind::Binary(operator, operands) => self.binary(*operator, operands, route),
+            TreeKind::Binary(operator, operands) => self.binary(*operator, operands, route, role),
             TreeKind::Call(callee, parts) => self.call(*callee, parts, route),
             TreeKind::Name(named) => {
                 if role == Role::Factor {
@@ -125,45 +123,46 @@ impl Walk<'_> {
         }
     }
 
-    /// Names of the same kind: variables, parameters, definitions of the same shape.
-    pub(super) fn others(&self, named: &str) -> Vec<String> {
+    /// Names of the same kind: variables, parameters.
+    fn others(&self, named: &str) -> Vec<String> {
         let parameters = self.problem.parameters.iter();
         let parameters: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
-        for kind in [self.problem.variables(), parameters] {
-            if kind.contains(&named) {
-                let others = kind.into_iter().filter(|other| *other != named);
-                return others.map(str::to_owned).collect();
-            }
-        }
-        let pairs = self.alike.iter();
-        pairs
-            .filter_map(|[first, second]| match [first == named, second == named] {
-                [true, _] => Some(second.clone()),
-                [_, true] => Some(first.clone()),
-                _ => None,
-            })
-            .collect()
+        let mut kinds = [self.problem.variables(), parameters].into_iter();
+        let kind = kinds.find(|kind| kind.contains(&named)).unwrap_or_default();
+        let others = kind.into_iter().filter(|other| *other != named);
+        others.map(str::to_owned).collect()
     }
 
-    /// Two names of one kind exchanged in all of an expression.
+    /// Two parameters exchanged in all of an expression.
     pub(super) fn exchanges(&mut self, tree: &Tree) {
         let mut names = vec![];
         site::names(tree, &mut names);
-        names.sort_unstable();
-        names.dedup();
-        for (place, first) in names.iter().enumerate() {
-            for second in self.others(first) {
-                if names[place..].contains(&second.as_str()) {
-                    let mut new = tree.clone();
-                    exchange(&mut new, first, &second);
-                    let mut parameters = self.problem.parameters.iter();
-                    let change = match parameters.any(|parameter| parameter.name == **first) {
-                        true => EditKind::Parameters,
-                        false => EditKind::Exchange,
-                    };
-                    self.add_rare(change, &vec![], new);
-                }
+        let parameters = self.problem.parameters.iter();
+        let mut parameters: Vec<&str> = parameters.map(|p| p.name.as_str()).collect();
+        parameters.retain(|name| names.contains(name));
+        for (place, first) in parameters.iter().enumerate() {
+            for second in &parameters[..place] {
+                let mut new = tree.clone();
+                exchange(&mut new, first, second);
+                self.add_rare(EditKind::Parameters, &vec![], new);
             }
+        }
+    }
+
+    /// All of an expression without a factor that changes with time alone.
+    pub(super) fn without_time(&mut self, tree: &Tree, factors: &[Tree]) {
+        let whole = match tree.kind {
+            TreeKind::Binary(Binary::Add | Binary::Subtract, _) => {
+                node(TreeKind::Bracket(Box::new(tree.clone())))
+            }
+            _ => tree.clone(),
+        };
+        for factor in factors {
+            self.add(
+                EditKind::LostTime,
+                &vec![],
+                binary(Binary::Divide, &whole, factor),
+            );
         }
     }
 

@@ -162,7 +162,7 @@ impl Descent<'_, '_> {
         point
     }
 
-    /// The point, with zeros in place of coordinates next to them, if the margin is lost there, too.
+    /// The point, with zeros in place of coordinates next to zero, if the margin is lost there.
     fn snapped(&self, point: Vec<f64>) -> Vec<f64> {
         let pairs = point.iter().zip(&self.sides);
         let is_next = |x: f64, [low, high]: [f64; 2]| x.abs() <= NEAR * (high - low);

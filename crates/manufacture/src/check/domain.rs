@@ -2,17 +2,19 @@
 //!
 //! A *margin* is a number that is zero where an operation loses its value: a divisor, the argument
 //! of a logarithm or a root, the cosine of the angle of `tan`, 1 - |argument| of `asin` and `acos`.
-//! Points are drawn inside, on all faces, edges and corners. Between two points at which a divisor
-//! has different signs the way is halved, along points where its operation is evaluated: a
-//! continuous margin has a zero there, to the last digit. From the points with the smallest
-//! margins a pattern search goes down, to a zero or to a minimum.
+//! Points are drawn inside, on all faces, edges and corners. Between four pairs of points at which
+//! a divisor has different signs the way is halved, along points where its operation is evaluated:
+//! a continuous margin has a zero there, to the last digit. From the four points with the smallest
+//! margins, a tenth of a side apart, a pattern search goes down, to a zero or to a minimum.
 //!
-//! What that guarantees. A divisor that changes its sign between points of the sample is found. A
-//! region of the share p of the domain, in which an operation has no value, is missed by N points
-//! with the probability (1 - p)^N. The search finds a minimum near its start, not the least one: a
-//! zero is missed that is in no valley of the smallest margins of the sample, such as one of even
-//! order in a needle far narrower than the distance of the points, beside other minima. On a level
-//! nothing is followed: there only the points count. So nothing found is not "free of poles".
+//! What that guarantees. A continuous divisor that has both signs in the sample, and is evaluated
+//! between them, has a zero that is found; of several zeros some may stay unseen. A region of the
+//! share p of the domain, in which an operation has no value, is missed by N points with the
+//! probability (1 - p)^N. The search ends at a point from which no step goes down, near its start:
+//! a zero is missed that is in no valley of the smallest margins of the sample, such as one of even
+//! order in a needle far narrower than the distance of the points, beside other minima; or at the
+//! end of a curved or folded valley, in which 400 sweeps did not suffice. On a level nothing is
+//! followed: there only the points count. So nothing found is not "free of poles".
 //!
 //! A margin that goes to zero matters if a quantity grows without bound there: by a power, or by as
 //! much for each factor of ten in distance as a logarithm. The quotient `sin(x)/x` does not.
@@ -122,8 +124,8 @@ impl Largest {
     }
 }
 
-/// Whether values grow without bound, each nearer by the same factor than the one before: those of a
-/// power do, and those of a logarithm by as much each time.
+/// Whether values grow without bound, each nearer by the same factor than the one before: those of
+/// a power do, and those of a logarithm by as much each time.
 ///
 /// * `least`: growth by less is rounding of the place.
 fn is_growing(values: &[Largest], least: f64) -> bool {

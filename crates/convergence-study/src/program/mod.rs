@@ -9,7 +9,7 @@
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
 //! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
-//! | `answer.rs`, `lines.rs` | its answer: an object, or lines |
+//! | `answer.rs`, `lines.rs`, `once.rs` | its answer: an object, or lines |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `values.rs` | the same for values without an exact solution |
 //! | `begin.rs` | what `new program` writes |
@@ -21,6 +21,7 @@ mod file;
 pub(crate) mod guard;
 mod judge;
 mod lines;
+mod once;
 mod output;
 mod refine;
 mod values;

@@ -2,7 +2,7 @@
 //! one the errors are judged.
 
 use super::columns::{Cells, DIMENSIONS, are_in_proportion};
-use super::names::{Word, is_edge, reciprocal};
+use super::names::{Word, reciprocal};
 use super::reader::{NEIGHBOURS, TableReader};
 use super::step::StepColumn;
 use crate::input::InputError;
@@ -34,6 +34,11 @@ impl Family {
             _ => None,
         }
     }
+}
+
+/// Whether what a name counts has one dimension: 1/h, time steps.
+pub(super) fn is_edge(name: &str) -> bool {
+    reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt"
 }
 
 /// A column that may be the step, with the steps that it then gives.

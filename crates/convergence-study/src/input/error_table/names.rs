@@ -429,8 +429,9 @@ pub(super) fn is_error(name: &str) -> bool {
     let lower = name.to_lowercase();
     let joined: String = lower.chars().filter(|c| c.is_alphanumeric()).collect();
     let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).collect();
-    let has = |word: &str| words.contains(&word);
-    let is_mean = ["rms", "rmse", "mae", "mse"].into_iter().any(has);
+    let is_mean = ["rms", "rmse", "mae", "mse"]
+        .iter()
+        .any(|word| words.contains(word));
     is_mean
         || joined.contains("resid")
         || Word::of_norm(&lower, &joined, &words) == Some(Word::Error)
@@ -439,11 +440,6 @@ pub(super) fn is_error(name: &str) -> bool {
 /// Whether a name is a line of prose: `Now solving 8x8...`.
 pub(super) fn is_sentence(name: &str) -> bool {
     name.ends_with(['.', '!', '…']) && name.contains(' ')
-}
-
-/// Whether what a name counts has one dimension: 1/h, time steps.
-pub(super) fn is_edge(name: &str) -> bool {
-    reciprocal(name).is_some() || name.to_lowercase().ends_with("steps") || name == "nt"
 }
 
 /// A name without the markup of mathematics.

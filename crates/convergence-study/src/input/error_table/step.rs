@@ -2,6 +2,7 @@
 
 use super::Offer;
 use super::columns::{Cells, DIMENSIONS, sign};
+use super::families::is_edge;
 use super::grid::Turned;
 use super::names::{self, Word, reciprocal};
 use super::reader::{HALVED_ROWS, NEIGHBOURS, TableReader, listed};
@@ -346,7 +347,7 @@ impl TableReader<'_> {
     /// What the column of the step holds.
     fn measure(&self, step: usize) -> Result<Measured, InputError> {
         let Cells { name, word, .. } = &self.columns[step];
-        let is_edge = names::is_edge(name);
+        let is_edge = is_edge(name);
         let is_count = self.is_count(step);
         let quoted = format!("`{name}`");
         if *word == Word::Logarithm {

@@ -100,7 +100,7 @@ fn shares_are_disjoint_and_complete_and_merge_to_the_bytes_of_one_run() {
             }
         }
         assert_eq!(seen.len(), lines(&whole).len());
-        let out = folder.path("merged");
+        let out = folder.path(&format!("merged-{n}"));
         let merged = ended(
             thermobeam()
                 .args(["sweep", "--merge"])

@@ -37,6 +37,14 @@ impl Interval {
         hi: f64::INFINITY,
     };
 
+    /// The numbers between two.
+    pub(crate) fn between(a: f64, b: f64) -> Self {
+        Self {
+            lo: a.min(b),
+            hi: a.max(b),
+        }
+    }
+
     /// π: the constant of the standard library is the double below it.
     pub(crate) fn pi() -> Self {
         Self {

@@ -40,13 +40,8 @@ pub(super) fn free_buckling(k: usize) -> f64 {
 
 /// An enclosure of [`free_buckling`].
 pub(super) fn free_pole(k: usize) -> Interval {
-    let kappa = free_kappa(k);
+    let kappa = Interval::pi() * (k as f64 - 0.5);
     Interval::from(1.0) / (kappa.square() + 1.0)
-}
-
-/// An enclosure of κ = (k - 1/2)π.
-pub(super) fn free_kappa(k: usize) -> Interval {
-    Interval::pi() * (k as f64 - 0.5)
 }
 
 /// Number of [`free_buckling`] values strictly above s > 0.

@@ -4,6 +4,7 @@
 mod buckling;
 mod completeness;
 mod discrete;
+mod roots;
 
 use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};

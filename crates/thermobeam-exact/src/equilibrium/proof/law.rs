@@ -16,17 +16,21 @@
 //! follow from τ by `2xτ' = 1 + xτ² - τ`.
 
 use super::super::law::{ForceLaw, Support};
+use super::{Undecided, UndecidedReason};
 use crate::interval::{Interval, sin_cos, stumpff, tanh};
+use thermobeam::contact::Phase;
 
 /// A law in intervals.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct IntervalLaw {
+    /// The contact of which it is the law.
+    pub(super) contact: Phase,
+    /// The law of the solver's numbers.
+    pub(super) force: ForceLaw,
     /// aθ_A.
     pub(super) moment: Interval,
     /// 1 + β.
     pub(super) rest: Interval,
-    pub(super) rho: f64,
-    pub(super) support: Option<Support>,
 }
 
 /// σ and R with their derivatives by s.
@@ -51,13 +55,23 @@ pub(super) struct Solution {
 }
 
 impl IntervalLaw {
-    /// The law of the solver's numbers; aθ_A is the exact product of the two doubles.
-    pub(super) fn new(law: &ForceLaw, moment: Interval) -> Self {
+    /// * `moment`: encloses the exact product aθ_A.
+    pub(super) fn new(contact: Phase, force: ForceLaw, moment: Interval) -> Self {
         Self {
+            contact,
+            force,
             moment,
-            rest: Interval::from(1.0) + law.beta,
-            rho: law.rho,
-            support: law.support,
+            rest: Interval::from(1.0) + force.beta,
+        }
+    }
+
+    /// What is given up in a part of the law.
+    pub(super) fn undecided(&self, reason: UndecidedReason, s: Interval, width: f64) -> Undecided {
+        Undecided {
+            contact: self.contact,
+            n_value: s - 1.0,
+            reason,
+            width,
         }
     }
 
@@ -75,7 +89,7 @@ impl IntervalLaw {
         let u;
         let u_s;
         let stress;
-        match self.support {
+        match self.force.support {
             None => {
                 p = d / s;
                 p_s = -p / s;
@@ -98,8 +112,8 @@ impl IntervalLaw {
         let squared = u.square() + p.square() * r;
         let squared_s = (u * u_s + p * p_s * r) * 2.0 + p.square() * r_s;
         Solution {
-            f: s - self.rest - squared * self.rho,
-            slope: -squared_s * self.rho + 1.0,
+            f: s - self.rest - squared * self.force.rho,
+            slope: -squared_s * self.force.rho + 1.0,
             u_tip: u,
             stress,
         }
@@ -107,7 +121,7 @@ impl IntervalLaw {
 
     /// `G = g + D (1 + εs)`, which a mode of the supported beam feels: at a pole it is not 0.
     pub(super) fn load(&self, s: Interval) -> Interval {
-        self.support.map_or(self.moment, |support| {
+        self.force.support.map_or(self.moment, |support| {
             self.moment * (s * support.epsilon + 1.0) + support.position
         })
     }
@@ -120,17 +134,28 @@ impl IntervalLaw {
         } else {
             Interval::from(1.0)
         };
-        match self.support {
+        match self.force.support {
             None => cosine,
             Some(support) => cosine * pole_function(support.epsilon, s),
         }
     }
 
-    /// u(1)² of the mode at a pole of a supported beam with this ‖u'‖²: there h = 0, so that
-    /// `u(1) = P (s + σ) = -P εs²`.
-    pub(super) fn squared_tip_of_mode(epsilon: f64, s: Interval, squared: Interval) -> Interval {
+    /// u(1)² of the mode at a pole with this ‖u'‖²: with a support h = 0 there, so that `u(1) = P (s
+    /// + σ) = -P εs²`; without one, S = xu(1)²/2.
+    pub(super) fn squared_tip_of_mode(&self, s: Interval, squared: Interval) -> Interval {
+        let Some(Support { epsilon, .. }) = self.force.support else {
+            return squared * 2.0 / s_to_x(s);
+        };
         let reach = (s.square() * epsilon).square();
         squared * reach / (reach + Flexure::at(s).r)
+    }
+
+    /// The stress at which the support holds the tip at u(1), without a load.
+    pub(super) fn stress(&self, u_tip: Interval) -> Interval {
+        let zero = Interval::from(0.0);
+        self.force
+            .support
+            .map_or(zero, |support| -u_tip / support.epsilon)
     }
 }
 

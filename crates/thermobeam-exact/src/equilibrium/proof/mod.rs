@@ -18,11 +18,11 @@ mod law;
 mod roots;
 mod undecided;
 
-use super::law::{ForceLaw, Support, free_kappa, free_pole};
+use super::law::{ForceLaw, free_pole};
 use super::{BUCKLING_VALUES, Completeness, Equilibrium, completeness, laws};
 use crate::interval::Interval;
 use law::IntervalLaw;
-use roots::{poles_above, supported_pole};
+use roots::{Gap, HALVINGS, PARTS};
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 pub use undecided::{Undecided, UndecidedReason};
@@ -76,11 +76,15 @@ impl Proof {
         if same.next().is_some() { None } else { first }
     }
 
-    /// The number of all states in `list` if `list` has each proved state once, and no other.
-    pub fn count_of(&self, list: &[Equilibrium]) -> Option<usize> {
-        let count = self.count()?;
+    /// Whether nothing is undecided and `list` has each proved state once, and no other.
+    pub fn decides(&self, list: &[Equilibrium]) -> bool {
         let all = list.iter().all(|state| self.of(state).is_some());
-        (all && list.len() == count).then_some(count)
+        self.undecided.is_empty() && all && list.len() == self.states.len()
+    }
+
+    /// The number of all states if `list` is proved to be the list of all.
+    pub fn count_of(&self, list: &[Equilibrium]) -> Option<usize> {
+        self.count().filter(|_| self.decides(list))
     }
 }
 
@@ -110,14 +114,15 @@ pub fn prove(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Proof, Parame
         completeness: completeness(beam, obstacles),
     };
     for (contact, law) in laws(beam, obstacles) {
+        let moment = Interval::from(beam.a) * beam.theta_a;
         let mut branch = ProvedBranch {
-            contact,
-            law,
-            intervals: IntervalLaw::new(&law, Interval::from(beam.a) * beam.theta_a),
+            law: IntervalLaw::new(contact, law, moment),
             obstacles: obstacles.copied(),
             proof: &mut proof,
         };
-        branch.prove();
+        if let Err(undecided) = branch.prove() {
+            branch.proof.undecided.push(undecided);
+        }
     }
     Ok(proof)
 }
@@ -142,7 +147,7 @@ pub fn enclose_change(
     let mut change = Interval { lo: low, hi: high };
     loop {
         let mut is_narrower = false;
-        for part in [0.5, 0.25, 0.75, 0.1, 0.9] {
+        for part in PARTS {
             let beta = change.lo + part * change.width();
             if beta <= change.lo || change.hi <= beta {
                 continue;
@@ -163,229 +168,188 @@ pub fn enclose_change(
 
 /// The proof of the states of one law.
 struct ProvedBranch<'p> {
-    contact: Phase,
-    law: ForceLaw,
-    intervals: IntervalLaw,
+    law: IntervalLaw,
     obstacles: Option<Obstacles>,
     proof: &'p mut Proof,
 }
 
 impl ProvedBranch<'_> {
-    fn prove(&mut self) {
-        if self.law.rho == 0.0 {
-            self.linear();
-        } else if self.law.homogeneous() {
-            self.straight_and_buckled();
+    fn prove(&mut self) -> Result<(), Undecided> {
+        if self.law.force.rho == 0.0 {
+            self.linear()
+        } else if self.law.force.homogeneous() {
+            self.straight_and_buckled()
         } else {
-            let poles = poles_above(&self.law, BUCKLING_VALUES + 1);
-            self.bent_above(poles);
-            self.bent_below();
+            let poles = self.law.poles_above(BUCKLING_VALUES + 1)?;
+            self.bent_above(&poles)?;
+            self.bent_below()
         }
-        self.at_minus_one();
     }
 
-    /// With a load: the roots above N = -1.
-    fn bent_above(&mut self, poles: Result<Vec<Interval>, Undecided>) {
-        let poles = match poles {
-            Ok(poles) => poles,
-            Err(undecided) => return self.give_up(undecided),
-        };
-        let reaches = |pole: &Interval| pole.hi < self.intervals.rest.lo;
-        if poles.len() <= BUCKLING_VALUES && !poles.last().is_some_and(reaches) {
-            let s = self.intervals.rest;
-            return self.give_up(Undecided::new(UndecidedReason::Pole, s, s.width()));
+    /// With a load: the roots above N = -1, between these poles.
+    fn bent_above(&mut self, poles: &[Interval]) -> Result<(), Undecided> {
+        let rest = self.law.rest;
+        let reaches = poles.last().is_some_and(|pole| pole.hi < rest.lo);
+        if poles.len() <= BUCKLING_VALUES && !reaches {
+            return Err(self
+                .law
+                .undecided(UndecidedReason::Pole, rest, rest.width()));
         }
-        let mut upper: Option<Interval> = None;
-        for (above, pole) in poles.into_iter().enumerate() {
-            if self.intervals.load(pole).contains(0.0) {
-                return self.give_up(Undecided::new(UndecidedReason::Pole, pole, pole.width()));
-            }
-            let high = upper.map_or(f64::INFINITY, |upper| upper.lo);
-            let roots = match upper {
-                None => self.intervals.root_above(pole.hi),
-                Some(upper) => self.intervals.roots_between(pole, upper),
+        for (above, &pole) in poles.iter().enumerate() {
+            let gap = match above.checked_sub(1) {
+                // f increases from -∞ to ∞.
+                None => {
+                    let scale = pole.hi.max(rest.hi.abs());
+                    let far = (1..HALVINGS).map(|j| scale * 2.0_f64.powi(j));
+                    self.law.rising(pole, far)?
+                }
+                Some(last) => Gap::between(pole, poles[last]),
             };
-            if !self.has_parity(above, pole.hi, high) {
-                return self.give_up(Undecided::new(UndecidedReason::Pole, pole, high - pole.hi));
-            }
-            self.take(roots);
-            upper = Some(pole);
+            self.is_loaded(pole)?;
+            self.has_parity(above, gap)?;
+            self.take(gap);
         }
+        Ok(())
     }
 
-    /// Whether the determinant has the sign of `above` poles next to both ends of an interval
-    /// between two poles.
-    fn has_parity(&self, above: usize, low: f64, high: f64) -> bool {
-        let high = if high.is_finite() { high } else { 2.0 * low };
-        [0.01, 0.99].into_iter().all(|part| {
-            let s = Interval::from(low + part * (high - low));
-            let determinant = self.intervals.determinant(s);
-            if above.is_multiple_of(2) {
+    /// Refuses a pole at which the load of the mode may be 0: f may have no pole there.
+    fn is_loaded(&self, pole: Interval) -> Result<(), Undecided> {
+        if self.law.load(pole).contains(0.0) {
+            return Err(self
+                .law
+                .undecided(UndecidedReason::Pole, pole, pole.width()));
+        }
+        Ok(())
+    }
+
+    /// Refuses a gap next to whose ends the determinant has not the sign of `above` poles.
+    fn has_parity(&self, above: usize, gap: Gap) -> Result<(), Undecided> {
+        let low = gap.left.hi;
+        // Above the largest pole: next to that.
+        let width = if gap.rises { low } else { gap.right.lo - low };
+        for part in [0.01, 0.99] {
+            let determinant = self.law.determinant(Interval::from(low + part * width));
+            let has_sign = if above.is_multiple_of(2) {
                 determinant.is_positive()
             } else {
                 determinant.is_negative()
+            };
+            if !has_sign {
+                return Err(self.law.undecided(UndecidedReason::Pole, gap.left, width));
             }
-        })
+        }
+        Ok(())
     }
 
     /// With a load: the roots below N = -1.
-    fn bent_below(&mut self) {
-        let rest = self.intervals.rest;
-        if self.law.beta >= -1.0 {
-            return;
+    fn bent_below(&mut self) -> Result<(), Undecided> {
+        let rest = self.law.rest;
+        if self.law.force.beta >= -1.0 {
+            return Ok(());
         }
-        let left = 2.0 * rest.lo;
-        let Some(support) = self.law.support else {
-            let at_zero = self.defect_at_minus_one();
-            if at_zero.is_positive() {
-                let roots = self.intervals.root_rising_to_zero();
-                self.take(roots);
-            } else if at_zero.is_negative() {
-                let roots = self.intervals.roots_between(left, 0.0);
-                self.take(roots);
+        // f < 0 at 2 (1 + β).
+        let (far, zero) = (Interval::from(2.0 * rest.lo), Interval::from(0.0));
+        let Some(pole) = self.law.pole_below() else {
+            // f(0⁻); where it is 0, N = -1 is a state: φ = c = 0 and u' = -aθ_A.
+            let at_zero = -rest - self.law.moment.square() * self.law.force.rho;
+            if at_zero.contains(0.0) {
+                let width = at_zero.width();
+                return Err(self.law.undecided(UndecidedReason::MinusOne, zero, width));
             }
-            // Otherwise `at_minus_one` says that it is not decided.
-            return;
+            let gap = if at_zero.is_positive() {
+                let near = (1..HALVINGS).map(|j| rest.lo * 2.0_f64.powi(-j));
+                self.law.rising(far, near)?
+            } else {
+                Gap::between(far, zero)
+            };
+            self.take(gap);
+            return Ok(());
         };
-        let Some(pole) = self.pole_below(support) else {
-            let s = Interval { lo: left, hi: 0.0 };
-            return self.give_up(Undecided::new(UndecidedReason::Pole, s, s.width()));
-        };
-        if self.intervals.load(pole).contains(0.0) {
-            return self.give_up(Undecided::new(UndecidedReason::Pole, pole, pole.width()));
-        }
+        let pole = pole?;
+        self.is_loaded(pole)?;
+        self.take(Gap::between(pole, zero));
         if rest.lo <= pole.hi {
-            let far = left.min(2.0 * pole.lo);
-            let roots = self.intervals.roots_between(far, pole);
-            self.take(roots);
+            let left = far.lo.min(2.0 * pole.lo);
+            self.take(Gap::between(Interval::from(left), pole));
         }
-        let roots = self.intervals.roots_between(pole, 0.0);
-        self.take(roots);
-    }
-
-    fn pole_below(&self, support: Support) -> Option<Interval> {
-        let bounds = Interval {
-            lo: f64::NEG_INFINITY,
-            hi: 0.0,
-        };
-        let guess = self.law.buckling_below_minus_one()?;
-        supported_pole(support.epsilon, guess, bounds)
+        Ok(())
     }
 
     /// Without a load: the straight beam, and the pairs at the buckling values above β. A support
     /// at 0 has one of each pair.
-    fn straight_and_buckled(&mut self) {
-        let support = self.law.support;
-        if support.is_none() {
-            self.straight();
+    fn straight_and_buckled(&mut self) -> Result<(), Undecided> {
+        self.straight();
+        for pole in self.law.poles_above(BUCKLING_VALUES)? {
+            self.buckled(pole);
         }
-        let poles = match poles_above(&self.law, BUCKLING_VALUES) {
-            Ok(poles) => poles,
-            Err(undecided) => return self.give_up(undecided),
-        };
-        for (place, pole) in poles.into_iter().enumerate() {
-            self.buckled(pole, |squared| {
-                support.map_or_else(
-                    || squared * 2.0 / free_kappa(place + 1).square(),
-                    |support| IntervalLaw::squared_tip_of_mode(support.epsilon, pole, squared),
-                )
-            });
+        if self.law.force.beta < -1.0
+            && let Some(pole) = self.law.pole_below()
+        {
+            self.buckled(pole?);
         }
-        if let Some(support) = support.filter(|_| self.law.beta < -1.0) {
-            match self.pole_below(support) {
-                Some(pole) => self.buckled(pole, |squared| {
-                    IntervalLaw::squared_tip_of_mode(support.epsilon, pole, squared)
-                }),
-                None => self.give_up(Undecided::new(
-                    UndecidedReason::Pole,
-                    self.intervals.rest,
-                    1.0,
-                )),
-            }
-        }
+        Ok(())
     }
 
-    /// u = φ = 0 with N = β.
+    /// u = φ = 0 with N = β, which presses nothing.
     fn straight(&mut self) {
-        let n_value = Interval::from(self.law.beta);
-        self.admit(n_value, Interval::from(0.0));
+        if self.law.force.support.is_none() {
+            let n_value = Interval::from(self.law.force.beta);
+            let zero = Interval::from(0.0);
+            self.admit(n_value, zero, zero);
+        }
     }
 
     /// The modes of both signs at a buckling value s, `ρS = s - (1 + β)`.
-    fn buckled(&mut self, s: Interval, squared_tip: impl Fn(Interval) -> Interval) {
-        let excess = s - self.intervals.rest;
+    fn buckled(&mut self, s: Interval) {
+        let excess = s - self.law.rest;
         if excess.is_negative() {
             return;
         }
         if !excess.is_positive() {
-            return self.give_up(Undecided::new(
-                UndecidedReason::Bifurcation,
-                s,
-                excess.width(),
-            ));
+            let width = excess.width();
+            let undecided = self.law.undecided(UndecidedReason::Bifurcation, s, width);
+            return self.proof.undecided.push(undecided);
         }
-        let tip = squared_tip(excess / self.law.rho).sqrt();
+        let squared = excess / self.law.force.rho;
+        let tip = self.law.squared_tip_of_mode(s, squared).sqrt();
         for tip in [tip, -tip] {
-            match self.law.support {
-                None => self.admit(s - 1.0, tip),
-                Some(support) => self.press(s, tip, -tip / support.epsilon),
-            }
+            let stress = self.law.stress(tip);
+            self.admit(s - 1.0, tip, stress);
         }
     }
 
     /// ρ = 0: N = β, and one linear problem.
-    fn linear(&mut self) {
-        let s = self.intervals.rest;
-        if self.law.beta == -1.0 {
-            return self.linear_at_minus_one();
-        }
-        let determinant = self.intervals.determinant(s);
-        let is_regular = s.is_negative() && self.law.support.is_none()
-            || determinant.is_positive()
-            || determinant.is_negative();
-        if !is_regular {
-            return self.give_up(Undecided::new(UndecidedReason::Bifurcation, s, s.width()));
-        }
-        if self.law.homogeneous() {
-            if self.law.support.is_none() {
-                self.straight();
+    fn linear(&mut self) -> Result<(), Undecided> {
+        let ForceLaw { beta, support, .. } = self.law.force;
+        let (s, n_value) = (self.law.rest, Interval::from(beta));
+        if beta == -1.0 {
+            // φ = 0, u' = -aθ_A and no contact.
+            if support.is_none() {
+                let stress = Interval::from(0.0);
+                self.admit(n_value, -self.law.moment, stress);
             }
-            return;
+            return Ok(());
         }
-        let solution = self.intervals.at(s);
-        match self.law.support {
-            None => self.admit(Interval::from(self.law.beta), solution.u_tip),
-            Some(_) => self.press(s, solution.u_tip, solution.stress),
+        let determinant = self.law.determinant(s);
+        if determinant.contains(0.0) {
+            return Err(self
+                .law
+                .undecided(UndecidedReason::Bifurcation, s, s.width()));
         }
+        if self.law.force.homogeneous() {
+            self.straight();
+        } else {
+            let solution = self.law.at(s);
+            self.admit(n_value, solution.u_tip, solution.stress);
+        }
+        Ok(())
     }
 
-    /// ρ = 0 and N = -1: φ = 0, u' = -aθ_A and no contact.
-    fn linear_at_minus_one(&mut self) {
-        if self.law.support.is_none() {
-            self.admit(Interval::from(-1.0), -self.intervals.moment);
-        }
-    }
-
-    /// `-1 - β - ρ(aθ_A)²`: f(0⁻), and the free state at N = -1 exists if it is 0.
-    fn defect_at_minus_one(&self) -> Interval {
-        -self.intervals.rest - self.intervals.moment.square() * self.law.rho
-    }
-
-    /// N = -1 with ρ > 0: φ = c = 0 and u' = -aθ_A, a state without contact.
-    fn at_minus_one(&mut self) {
-        let moves = self.law.rho != 0.0 && self.law.moment != 0.0;
-        let defect = self.defect_at_minus_one();
-        if self.law.support.is_none() && moves && defect.contains(0.0) {
-            let s = Interval::from(0.0);
-            self.give_up(Undecided::new(UndecidedReason::MinusOne, s, defect.width()));
-        }
-    }
-
-    /// Roots of f: the states among them satisfy the inequality of their contact.
-    fn take(&mut self, roots: roots::Roots) {
-        let roots = match roots {
+    /// The roots of f in a gap: the states among them satisfy the inequality of their contact.
+    fn take(&mut self, gap: Gap) {
+        let roots = match self.law.roots(gap) {
             Ok(roots) => roots,
-            Err(undecided) => return self.give_up(undecided),
+            Err(undecided) => return self.proof.undecided.push(undecided),
         };
         let last = free_pole(BUCKLING_VALUES + 1);
         for s in roots {
@@ -394,66 +358,39 @@ impl ProvedBranch<'_> {
                 continue;
             }
             if s.lo > 0.0 && s.lo <= last.hi {
-                self.give_up(Undecided::new(UndecidedReason::Pole, s, s.width()));
+                let undecided = self.law.undecided(UndecidedReason::Pole, s, s.width());
+                self.proof.undecided.push(undecided);
                 continue;
             }
-            let solution = self.intervals.at(s);
-            match self.law.support {
-                None => self.admit(s - 1.0, solution.u_tip),
-                Some(_) => self.press(s, solution.u_tip, solution.stress),
-            }
+            let solution = self.law.at(s);
+            self.admit(s - 1.0, solution.u_tip, solution.stress);
         }
     }
 
-    /// A free state if `g₁ <= u(1) <= g₂`.
-    fn admit(&mut self, n_value: Interval, u_tip: Interval) {
-        let state = ProvedState {
-            contact: self.contact,
-            n_value,
-            u_tip,
+    /// A root of the law is a state if `g₁ <= u(1) <= g₂` without contact, and if its stress presses
+    /// with it: c < 0 on the upper, c > 0 on the lower obstacle.
+    fn admit(&mut self, n_value: Interval, u_tip: Interval, stress: Interval) {
+        let contact = self.law.contact;
+        let (holds, may_hold) = match (contact, self.obstacles) {
+            (Phase::Free, None) => (true, true),
+            (Phase::Free, Some(Obstacles { g1, g2, .. })) => (
+                g1 <= u_tip.lo && u_tip.hi <= g2,
+                g1 <= u_tip.hi && u_tip.lo <= g2,
+            ),
+            (Phase::Upper, _) => (stress.is_negative(), !stress.is_positive()),
+            (Phase::Lower, _) => (stress.is_positive(), !stress.is_negative()),
         };
-        let Some(Obstacles { g1, g2, .. }) = self.obstacles else {
-            return self.proof.states.push(state);
-        };
-        if g1 <= u_tip.lo && u_tip.hi <= g2 {
-            self.proof.states.push(state);
-        } else if u_tip.hi >= g1 && u_tip.lo <= g2 {
-            self.give_up_touch(n_value, u_tip);
-        }
-    }
-
-    /// A state in contact if its stress c presses: c < 0 on the upper, c > 0 on the lower obstacle.
-    fn press(&mut self, s: Interval, u_tip: Interval, stress: Interval) {
-        let outward = if self.contact == Phase::Upper {
-            -stress
-        } else {
-            stress
-        };
-        if outward.is_positive() {
+        if holds {
             self.proof.states.push(ProvedState {
-                contact: self.contact,
-                n_value: s - 1.0,
+                contact,
+                n_value,
                 u_tip,
             });
-        } else if !outward.is_negative() {
-            self.give_up_touch(s - 1.0, u_tip);
+        } else if may_hold {
+            let (s, width) = (n_value + 1.0, u_tip.width());
+            let undecided = self.law.undecided(UndecidedReason::Touch, s, width);
+            self.proof.undecided.push(undecided);
         }
-    }
-
-    fn give_up_touch(&mut self, n_value: Interval, u_tip: Interval) {
-        self.proof.undecided.push(Undecided {
-            contact: self.contact,
-            n_value,
-            reason: UndecidedReason::Touch,
-            width: u_tip.width(),
-        });
-    }
-
-    fn give_up(&mut self, undecided: Undecided) {
-        self.proof.undecided.push(Undecided {
-            contact: self.contact,
-            ..undecided
-        });
     }
 }
 

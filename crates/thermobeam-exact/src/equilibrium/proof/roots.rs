@@ -1,13 +1,13 @@
-//! The roots of f in an interval in which it is concave: their number by signs of enclosures,
-//! their place by interval Newton.
+//! All roots of f between neighbouring poles: their number by signs of enclosures, their places by
+//! interval Newton.
 
 use super::law::{IntervalLaw, pole_function};
 use super::{Undecided, UndecidedReason};
-use crate::equilibrium::law::{free_buckling, free_pole};
+use crate::equilibrium::law::{Support, free_pole};
 use crate::interval::Interval;
 
-/// Halvings towards an end at which f → -∞, and of a bracket.
-const HALVINGS: i32 = 120;
+/// Halvings towards an end of an interval, and of a bracket.
+pub(super) const HALVINGS: i32 = 120;
 
 /// Steps of interval Newton, which at least halves the width in each, or ends.
 const NEWTON_STEPS: usize = 60;
@@ -15,111 +15,66 @@ const NEWTON_STEPS: usize = 60;
 /// Relative distances at which the sign of h next to a pole is tried.
 const POLE_GAPS: i32 = 20;
 
-/// What is known of an interval.
-pub(super) type Roots = Result<Vec<Interval>, Undecided>;
+/// Fractions of an interval at which a sign is tried: off the middle if it is not certain there.
+pub(super) const PARTS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
-/// Encloses the zero of h near `guess`: h falls through 0 there, and by the interlacing of the
-/// values nowhere else between the same two free values.
-///
-/// * `bounds`: the free values on both sides, or -∞ and 0.
-pub(super) fn supported_pole(epsilon: f64, guess: f64, bounds: Interval) -> Option<Interval> {
-    let mut enclosure = Interval::ENTIRE;
-    for power in 0..POLE_GAPS {
-        let gap = guess.abs() * f64::EPSILON * 4.0_f64.powi(power);
-        let [lo, hi] = [guess - gap, guess + gap];
-        if enclosure.lo == f64::NEG_INFINITY
-            && pole_function(epsilon, Interval::from(lo)).is_positive()
-        {
-            enclosure.lo = lo;
-        }
-        if enclosure.hi == f64::INFINITY && pole_function(epsilon, Interval::from(hi)).is_negative()
-        {
-            enclosure.hi = hi;
+/// An interval without poles, in which f is concave and negative towards the left end.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gap {
+    /// Encloses the left end: a pole, or a point at which f < 0.
+    pub(super) left: Interval,
+    /// Encloses the right end.
+    pub(super) right: Interval,
+    /// Whether the right end is a point with f > 0; otherwise f is negative towards that, too.
+    pub(super) rises: bool,
+}
+
+impl Gap {
+    /// Between two ends towards which f is negative.
+    pub(super) fn between(left: Interval, right: Interval) -> Self {
+        Self {
+            left,
+            right,
+            rises: false,
         }
     }
-    (bounds.lo < enclosure.lo && enclosure.hi < bounds.hi && enclosure.width().is_finite())
-        .then_some(enclosure)
 }
 
 impl IntervalLaw {
-    /// The only root above the largest pole: f increases there from -∞ to ∞.
-    pub(super) fn root_above(&self, pole: f64) -> Roots {
-        let scale = pole.max(self.rest.hi.abs());
-        let far = (1..HALVINGS).map(|j| scale * 2.0_f64.powi(j));
-        let Some(high) = far.into_iter().find(|&s| self.sign_is(s, 1.0)) else {
-            return Err(self.undecided(UndecidedReason::Pole, pole, f64::INFINITY));
-        };
-        let Some(low) = self.negative_towards(high, pole) else {
-            return Err(self.undecided(UndecidedReason::Pole, pole, high));
-        };
-        self.crossing(low, high).map(|root| vec![root])
-    }
-
-    /// The roots between two ends between which f is concave: none, or two.
+    /// All roots in a gap: one if f rises to the right end, and none or two otherwise.
     ///
-    /// Proof of none: a concave function lies below each of its tangents. Of two: f is negative,
+    /// Proof of none: a concave function lies below each of its tangents. The tangent is negative
+    /// on the whole of both ends, so that no root hides next to a pole. Of two: f is negative,
     /// positive and negative again at three points.
-    ///
-    /// * `left`, `right`: each encloses an end, such as a pole. The tangent is negative on all of
-    ///   them, so that no root hides next to a pole.
-    pub(super) fn roots_between(
-        &self,
-        left: impl Into<Interval>,
-        right: impl Into<Interval>,
-    ) -> Roots {
-        let (left, right) = (left.into(), right.into());
-        let top = self.top(left.hi, right.lo);
+    pub(super) fn roots(&self, gap: Gap) -> Result<Vec<Interval>, Undecided> {
+        let Gap { left, right, rises } = gap;
+        let top = if rises {
+            right.lo
+        } else {
+            self.top(left.hi, right.lo)
+        };
         let solution = self.at(Interval::from(top));
         if solution.f.is_positive() {
-            let before = self.negative_towards(top, left.hi);
-            let after = self.negative_towards(top, right.lo);
-            let (Some(before), Some(after)) = (before, after) else {
-                return Err(self.undecided(UndecidedReason::Pole, left.lo, right.hi));
-            };
-            return Ok(vec![
-                self.crossing(before, top)?,
-                self.crossing(after, top)?,
-            ]);
+            let mut roots = vec![self.crossing(left.hi, top)?];
+            if !rises {
+                roots.push(self.crossing(right.lo, top)?);
+            }
+            return Ok(roots);
         }
         let is_below = |end: Interval| (solution.f + solution.slope * (end - top)).is_negative();
-        if is_below(left) && is_below(right) {
-            Ok(vec![])
-        } else {
-            Err(self.undecided_by(UndecidedReason::Fold, left.lo, right.hi, solution.f.width()))
+        if !rises && is_below(left) && is_below(right) {
+            return Ok(vec![]);
         }
-    }
-
-    /// The only root in (-∞, 0) of the free beam if f(0⁻) > 0: f is concave there, and negative at
-    /// a point to the left.
-    pub(super) fn root_rising_to_zero(&self) -> Roots {
-        let left = 2.0 * self.rest.lo;
-        let near = (1..HALVINGS).map(|j| self.rest.lo * 2.0_f64.powi(-j));
-        let Some(right) = near.into_iter().find(|&s| self.sign_is(s, 1.0)) else {
-            return Err(self.undecided(UndecidedReason::MinusOne, self.rest.lo, 0.0));
+        let s = Interval {
+            lo: left.lo,
+            hi: right.hi,
         };
-        self.crossing(left, right).map(|root| vec![root])
+        Err(self.undecided(UndecidedReason::Fold, s, solution.f.width()))
     }
 
-    /// Whether the sign of f at s is this one, for certain.
-    fn sign_is(&self, s: f64, sign: f64) -> bool {
-        let f = self.at(Interval::from(s)).f;
-        if sign > 0.0 {
-            f.is_positive()
-        } else {
-            f.is_negative()
-        }
-    }
-
-    /// A point between `from` and `end`, where f → -∞ or is negative, at which f < 0.
-    fn negative_towards(&self, from: f64, end: f64) -> Option<f64> {
-        (0..HALVINGS)
-            .map(|j| end + (from - end) * 2.0_f64.powi(-j))
-            .find(|&s| s != end && self.sign_is(s, -1.0))
-    }
-
-    /// About where f' = 0, by bisection of the middles of its enclosures: a hint, not a proof.
-    fn top(&self, a: f64, b: f64) -> f64 {
-        let (mut lo, mut hi) = (a, b);
+    /// About where f is largest, by bisection of the middles of f': a hint, not a proof.
+    fn top(&self, left: f64, right: f64) -> f64 {
+        let (mut lo, mut hi) = (left, right);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (lo + hi);
             if self.at(Interval::from(middle)).slope.midpoint() > 0.0 {
@@ -129,38 +84,35 @@ impl IntervalLaw {
             }
         }
         let top = 0.5 * (lo + hi);
-        if a < top && top < b {
+        if left < top && top < right {
             top
         } else {
-            0.5 * (a + b)
+            0.5 * (left + right)
         }
     }
 
-    /// Encloses the root between a point with f < 0 and one with f > 0.
-    fn crossing(&self, negative: f64, positive: f64) -> Result<Interval, Undecided> {
-        let (mut below, mut above) = (negative, positive);
+    /// Encloses the only root between an end towards which f is negative and a point with f > 0.
+    fn crossing(&self, end: f64, positive: f64) -> Result<Interval, Undecided> {
+        let s = Interval::between(end, positive);
+        let sign = |s: f64| self.at(Interval::from(s)).f;
+        let near = (0..HALVINGS).map(|j| end + (positive - end) * 2.0_f64.powi(-j));
+        let mut near = near.filter(|&s| s != end);
+        let Some(mut below) = near.find(|&s| sign(s).is_negative()) else {
+            return Err(self.undecided(UndecidedReason::Pole, s, s.width()));
+        };
+        let mut above = positive;
         for _ in 0..HALVINGS {
-            // Off the middle if the sign there is not certain.
-            let places = [0.5, 0.25, 0.75, 0.1, 0.9].map(|part| below + part * (above - below));
-            let certain = places
-                .into_iter()
-                .filter(|&s| s != below && s != above)
-                .find_map(|s| {
-                    let f = self.at(Interval::from(s)).f;
-                    (f.is_positive() || f.is_negative()).then_some((s, f.is_negative()))
-                });
-            match certain {
-                Some((s, true)) => below = s,
-                Some((s, false)) => above = s,
+            let places = PARTS.map(|part| below + part * (above - below));
+            let mut inner = places.into_iter().filter(|&s| s != below && s != above);
+            let is_certain = |s: &f64| sign(*s).is_negative() || sign(*s).is_positive();
+            match inner.find(is_certain) {
+                Some(s) if sign(s).is_negative() => below = s,
+                Some(s) => above = s,
                 None => break,
             }
         }
-        let bracket = Interval {
-            lo: below.min(above),
-            hi: below.max(above),
-        };
-        self.sharpened(bracket)
-            .ok_or_else(|| self.undecided(UndecidedReason::Fold, negative, positive))
+        self.sharpened(Interval::between(below, above))
+            .ok_or_else(|| self.undecided(UndecidedReason::Fold, s, s.width()))
     }
 
     /// Interval Newton, `X ∩ (m - f(m)/f'(X))`; `None` if nothing is left, which contradicts the
@@ -180,44 +132,76 @@ impl IntervalLaw {
         Some(root)
     }
 
-    /// What is given up between two values of s.
-    fn undecided(&self, reason: UndecidedReason, from: f64, to: f64) -> Undecided {
-        self.undecided_by(reason, from, to, (to - from).abs())
-    }
-
-    fn undecided_by(&self, reason: UndecidedReason, from: f64, to: f64, width: f64) -> Undecided {
-        let s = Interval {
-            lo: from.min(to),
-            hi: from.max(to),
-        };
-        Undecided::new(reason, s, width)
-    }
-}
-
-/// The poles of a law above N = -1, in decreasing order: one for each free value.
-pub(super) fn poles_above(
-    law: &crate::equilibrium::law::ForceLaw,
-    count: usize,
-) -> Result<Vec<Interval>, Undecided> {
-    let mut poles = Vec::new();
-    for k in 1..=count {
-        let pole = match law.support {
-            None => free_pole(k),
-            Some(support) => {
-                let bounds = Interval {
-                    lo: free_pole(k + 1).hi,
-                    hi: free_pole(k).lo,
-                };
-                let s = Interval::from(free_buckling(k));
-                supported_pole(support.epsilon, law.buckling(k), bounds)
-                    .ok_or_else(|| Undecided::new(UndecidedReason::Pole, s, bounds.width()))?
-            }
-        };
-        poles.push(pole);
-        // f <= s - (1 + β) < 0 below.
-        if pole.hi < (1.0 + law.beta).next_down() {
-            break;
+    /// A gap in which f has one root, up to the first of some points at which it is positive.
+    pub(super) fn rising(
+        &self,
+        left: Interval,
+        mut points: impl Iterator<Item = f64>,
+    ) -> Result<Gap, Undecided> {
+        let right = points.find(|&s| self.at(Interval::from(s)).f.is_positive());
+        match right.map(Interval::from) {
+            Some(right) => Ok(Gap {
+                left,
+                right,
+                rises: true,
+            }),
+            None => Err(self.undecided(UndecidedReason::Pole, left, f64::INFINITY)),
         }
     }
-    Ok(poles)
+
+    /// The poles of the law above N = -1, in decreasing order, down to the first below 1 + β: at
+    /// most `count`, one for each free value.
+    pub(super) fn poles_above(&self, count: usize) -> Result<Vec<Interval>, Undecided> {
+        let mut poles = Vec::new();
+        for k in 1..=count {
+            let free = free_pole(k);
+            let bounds = Interval {
+                lo: free_pole(k + 1).hi,
+                hi: free.lo,
+            };
+            let pole = match self.force.support {
+                None => free,
+                Some(support) => self.supported_pole(support, self.force.buckling(k), bounds)?,
+            };
+            poles.push(pole);
+            // f <= s - (1 + β) < 0 below.
+            if pole.hi < self.rest.lo {
+                break;
+            }
+        }
+        Ok(poles)
+    }
+
+    /// The only pole below N = -1; none without a support.
+    pub(super) fn pole_below(&self) -> Option<Result<Interval, Undecided>> {
+        let bounds = Interval {
+            lo: f64::NEG_INFINITY,
+            hi: 0.0,
+        };
+        let guess = self.force.buckling_below_minus_one()?;
+        Some(self.supported_pole(self.force.support?, guess, bounds))
+    }
+
+    /// Encloses the zero of h near `guess`: h falls through 0 there, and by the interlacing of the
+    /// values nowhere else between the same two free values.
+    ///
+    /// * `bounds`: the free values on both sides, or -∞ and 0.
+    fn supported_pole(
+        &self,
+        support: Support,
+        guess: f64,
+        bounds: Interval,
+    ) -> Result<Interval, Undecided> {
+        let h = |s: f64| pole_function(support.epsilon, Interval::from(s));
+        let gaps = (0..POLE_GAPS).map(|power| guess.abs() * f64::EPSILON * 4.0_f64.powi(power));
+        let lo = gaps
+            .clone()
+            .map(|gap| guess - gap)
+            .find(|&s| h(s).is_positive());
+        let hi = gaps.map(|gap| guess + gap).find(|&s| h(s).is_negative());
+        match (lo, hi) {
+            (Some(lo), Some(hi)) if bounds.lo < lo && hi < bounds.hi => Ok(Interval { lo, hi }),
+            _ => Err(self.undecided(UndecidedReason::Pole, Interval::from(guess), bounds.width())),
+        }
+    }
 }

@@ -43,15 +43,3 @@ pub struct Undecided {
     /// The width of the enclosure at which it was given up.
     pub width: f64,
 }
-
-impl Undecided {
-    pub(super) fn new(reason: UndecidedReason, s: Interval, width: f64) -> Self {
-        Self {
-            // The prover of a law does not know its contact: `prove` sets it.
-            contact: Phase::Free,
-            n_value: s - 1.0,
-            reason,
-            width,
-        }
-    }
-}

@@ -22,6 +22,10 @@ use convergence_study::{
 };
 
 /// List all steady states of a scene
+///
+/// Each is proved by interval arithmetic, with bounds of N and u(1). At a fold, at a buckling value
+/// and where a tip just touches an obstacle no enclosure decides how many there are: the verdict is
+/// then inconclusive, with the reason, and the exit status 1.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The scene file; only its beam and its obstacles matter
@@ -46,21 +50,34 @@ pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let proof = prove(&scene.beam, scene.obstacles.as_ref())
         .map_err(|error| Unusable::file(&arguments.scene, &error))?;
     let flags = &arguments.flags;
-    let stable = states.iter().filter(|state| state.stable).count();
-    let sentence = format!("{}, {stable} of them stable", counted(states.len()));
-    let words = flags.words(Verdict::Pass, &sentence, || text(&scene, &states, &proof));
+    let (verdict, sentence) = headline(&states, &proof);
+    let words = flags.words(verdict, &sentence, || {
+        text(&scene, &sentence, &states, &proof)
+    });
     Ok(flags.show(
         "equilibria",
-        Verdict::Pass,
+        verdict,
         &EquilibriaList::new(&states, &proof),
         &words,
     )?)
 }
 
+/// The verdict, and the sentence that leads: a number of states only if the proof decides it.
+fn headline(states: &[Equilibrium], proof: &Proof) -> (Verdict, String) {
+    if proof.decides(states) {
+        let stable = states.iter().filter(|state| state.stable).count();
+        let count = counted(states.len());
+        return (Verdict::Pass, format!("{count}, {stable} of them stable"));
+    }
+    let sentence = "the number of steady states is undecided".to_owned();
+    (Verdict::Inconclusive, sentence)
+}
+
 #[derive(Debug, Serialize)]
 struct EquilibriaList {
     equilibria: Vec<ListedState>,
-    /// Whether these are all. If not, unstable states with -1 < N < -0.9996 may be missing, or are.
+    /// Whether these are all, each once. If not, unstable states with -1 < N < -0.9996 may be
+    /// missing, or are; or the proof does not decide.
     complete: bool,
     /// Whether it is proved that these are all, each once.
     proved: bool,
@@ -127,7 +144,7 @@ impl EquilibriaList {
         }
         Self {
             equilibria,
-            complete: proof.completeness == Completeness::Complete,
+            complete: proof.count_of(states).is_some(),
             proved: proof.count_of(states).is_some(),
             undecided,
         }
@@ -141,11 +158,10 @@ fn counted(states: usize) -> String {
     }
 }
 
-fn text(scene: &Scene, states: &[Equilibrium], proof: &Proof) -> String {
-    let count = counted(states.len());
+fn text(scene: &Scene, sentence: &str, states: &[Equilibrium], proof: &Proof) -> String {
     let beam = &scene.beam;
     let mut text = format!(
-        "{}: {count} for beta = {:?}, theta_a = {:?}\n\n",
+        "{}: {sentence}, for beta = {:?}, theta_a = {:?}\n\n",
         scene.name, beam.beta, beam.theta_a
     );
     let _ = writeln!(

@@ -176,3 +176,55 @@ fn each_state_is_proved_with_an_enclosure_or_undecided_with_a_reason() {
         }
     }
 }
+
+#[test]
+fn what_the_proof_does_not_decide_is_inconclusive() {
+    let folder = Folder::new();
+    let time = "[time]\ndt = 0.1\nt_end = 1\n";
+    // The double next to the β at which two states meet.
+    let fold = format!(
+        "[beam]\nbeta = -1.0216245463878471\nrho = 1.0\na = 1.0\ntheta_a = 0.25\n\
+         [initial]\ntheta = \"0.25*(1-x)\"\n{time}"
+    );
+    let beam = "[beam]\nbeta = 0.5\ntheta_a = 20.0\n[initial]\ntheta = \"20*(1-x)\"\n";
+    let free = folder.file("free.toml", &format!("{beam}{time}"));
+    let (text, value) = answers(&free);
+    assert_eq!(
+        (&value["verdict"], &value["complete"]),
+        (&"pass".into(), &true.into())
+    );
+    assert!(
+        text.starts_with("free: one steady state, 1 of them stable, "),
+        "{text}"
+    );
+    // An obstacle exactly at the tip.
+    let tip = value["equilibria"][0]["u_tip"].as_f64().expect("a number");
+    let touching = format!("{beam}[obstacles]\ng2 = {tip:?}\n{time}");
+    let lift_off = beam.replace("0.5", "0.08325920350093916") + "[obstacles]\n" + time;
+    for (name, scene, reason) in [
+        ("fold", fold, "two states cannot be told from one or none"),
+        ("touching", touching, "u(1) cannot be told from"),
+        ("lift-off", lift_off, "u(1) cannot be told from"),
+    ] {
+        let path = folder.file(&format!("{name}.toml"), &scene);
+        let (text, value) = answers(&path);
+        assert_eq!(value["verdict"], "inconclusive", "{name}: {value}");
+        for key in ["complete", "proved"] {
+            assert_eq!(value[key], false, "{name}: {value}");
+        }
+        let headline = format!("{name}: the number of steady states is undecided, for beta = ");
+        assert!(
+            text.starts_with(&headline) && text.contains(reason),
+            "{text}"
+        );
+        for arguments in [&[][..], &["-q"], &["--format", "json"]] {
+            let mut command = thermobeam();
+            let ended = ended(command.arg("equilibria").arg(&path).args(arguments));
+            assert_eq!(ended.status, Some(1), "{name}: {}", ended.stdout);
+            let has_count = ended.stdout.contains("steady states,")
+                && !ended.stdout.contains("steady states is undecided,")
+                || ended.stdout.contains("one steady state");
+            assert!(!has_count, "{name}: {}", ended.stdout);
+        }
+    }
+}

@@ -31,12 +31,13 @@ impl Dice {
         10.0_f64.powf(self.between(low, high))
     }
 
-    /// A loaded beam; every third stands free, and the last six are pushed below N = -1.
+    /// A loaded beam; every third stands free. The last six are pushed below N = -1, and every second
+    /// of the others beyond buckling.
     fn beam(&mut self, place: usize) -> (Beam, Option<Obstacles>) {
-        let beta = if place < BEAMS - 6 {
-            self.between(-0.99, 1.0)
-        } else {
-            self.between(-5.0, -1.05)
+        let beta = match place {
+            _ if place >= BEAMS - 6 => self.between(-5.0, -1.05),
+            _ if place.is_multiple_of(2) => self.between(-0.99, -0.75),
+            _ => self.between(-0.75, 1.0),
         };
         let sign = self.between(-1.0, 1.0).signum();
         let beam = loaded(beta, self.power(-1.0, 1.3), sign * self.power(-2.0, 0.0));
@@ -45,7 +46,7 @@ impl Dice {
             g1: self.between(-0.5, -0.01),
             g2: self.between(0.01, 0.5),
         };
-        (beam, (place % 3 > 0).then_some(obstacles))
+        (beam, (!place.is_multiple_of(3)).then_some(obstacles))
     }
 }
 
@@ -138,9 +139,9 @@ fn roots(f: &impl Fn(f64) -> f64, samples: &[f64]) -> Vec<f64> {
         for _ in 0..200 {
             let middle = 0.5 * (a + b);
             if (f(middle) > 0.0) == (f(a) > 0.0) {
-                a = middle
+                a = middle;
             } else {
-                b = middle
+                b = middle;
             }
         }
         found.push(0.5 * (a + b));

@@ -164,7 +164,7 @@ fn what_could_be_done_before_a_failure_is_kept() {
     assert_eq!(history.rows.len(), run.steps + 1);
     assert_eq!(history.rows.last().unwrap().sample, run.last);
     assert_eq!(history.csv().lines().count(), run.steps + 2);
-    assert_eq!(run.pictures(&scene).len(), 5);
+    assert_eq!(run.pictures(&scene).len(), 4);
 }
 
 /// A clock that gains a millisecond each time it is read.
@@ -212,7 +212,7 @@ fn a_run_that_fails_at_once_has_its_start_and_no_largest_increase() {
             .map(|history| (history.rows.len(), history.frames.times.len())),
         Some((1, 1))
     );
-    assert_eq!(run.pictures(&scene).len(), 5);
+    assert_eq!(run.pictures(&scene).len(), 4);
 }
 
 #[test]

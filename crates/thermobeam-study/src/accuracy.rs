@@ -23,9 +23,9 @@
 //!   known: elements are halved until the data differ by at most E/10 from their projections, at
 //!   10 000 points. A jump is refused, a kink is a node. (u(1) changes by at most about the
 //!   largest difference: the displacement at x = 1 after a unit impulse at x is at most about 1.)
-//! * While N < -1, and N >= β, each wave grows, the shorter the faster, up to the rate s/ζ, s = -(1
-//!   + β), for wave numbers k > √s/ζ. Runs that lack such waves agree. The first mesh resolves k =
-//!   √s/ζ, and the first steps are at most 2ζ/s long.
+//! * While N < -1, and N >= β, each wave grows, the shorter the faster, up to the rate s/ζ with
+//!   `s = -(1 + β)`, for wave numbers k > √s/ζ. Runs that lack such waves agree. The first mesh
+//!   resolves `k = √s/ζ`, and the first steps are at most 2ζ/s long.
 //!
 //! Layers of width √(ζ t) begin at x = 1 with each impact: elements there shrink by a factor of 6
 //! each, down to what the first step needs. Kinks of the data are nodes.

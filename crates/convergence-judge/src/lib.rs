@@ -41,7 +41,7 @@ pub mod rule {}
 pub use interval::Interval;
 #[doc(inline)]
 pub use judge::{
-    claims::Claim,
+    claims::{Bound, Claim},
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
     grid::{Adding, GridErrors, SpaceTime},
     richardson::{Bar, Estimate, Estimator, Gci, NoErrorBar, StepValue},

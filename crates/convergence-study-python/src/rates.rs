@@ -60,10 +60,11 @@ fn claimed(
         return Ok(vec![]);
     };
     let one = |name: Option<String>, claim: Claim| {
-        let order = if claim.at_least {
-            format!("'>={}'", claim.order)
+        let order = claim.bound.written(claim.order);
+        let order = if claim.bound.is_least() {
+            format!("'{order}'")
         } else {
-            claim.order.to_string()
+            order
         };
         let text = match &name {
             Some(name) => format!("{{{}: {order}}}", literal(py, name)),
@@ -73,7 +74,7 @@ fn claimed(
             text,
             name,
             order: ClaimedOrder::Number(claim.order),
-            at_least: claim.at_least,
+            bound: claim.bound,
         }
     };
     Ok(match Claims::read(Some(order), tolerance)? {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Claim, ErrorsOverLevels, Finished, Floor, Header,
+    Axis, Bound, Claim, ErrorsOverLevels, Finished, Floor, Header,
     internal::study::{
         STEPS,
         header::is_name,
@@ -51,6 +51,7 @@ pub(crate) struct NamedClaim {
     order: f64,
     tolerance: f64,
     at_least: bool,
+    any_above: bool,
 }
 
 impl NamedClaim {
@@ -59,13 +60,19 @@ impl NamedClaim {
             name: name.to_owned(),
             order: claim.order,
             tolerance: claim.tolerance,
-            at_least: claim.at_least,
+            at_least: claim.bound.is_least(),
+            any_above: claim.bound == Bound::AnyAbove,
         }
     }
 
     pub(crate) fn claim(&self) -> Claim {
+        let bound = match (self.at_least, self.any_above) {
+            (_, true) => Bound::AnyAbove,
+            (true, false) => Bound::AtLeast,
+            (false, false) => Bound::Both,
+        };
         Claim {
-            at_least: self.at_least,
+            bound,
             ..Claim::new(self.order, self.tolerance)
         }
     }
@@ -115,11 +122,15 @@ impl Results {
             order,
             tolerance,
             at_least,
+            any_above,
         } in &self.claims
         {
             set(format!("expect.{name}.order"), order.to_string());
             set(format!("expect.{name}.tolerance"), tolerance.to_string());
             set(format!("expect.{name}.at_least"), at_least.to_string());
+            if *any_above {
+                set(format!("expect.{name}.any_above"), any_above.to_string());
+            }
         }
         set("levels".to_owned(), self.levels.clone());
         let floor = self.options.floor.value();

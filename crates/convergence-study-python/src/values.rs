@@ -2,14 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use convergence_judge::judge::{claims::order_from_text, fit::Level, verdict::Judge};
+use convergence_judge::judge::{
+    claims::{Bound, order_from_text},
+    fit::Level,
+    verdict::Judge,
+};
 use convergence_study::{Claim, Floor, FrameCell, FrameColumn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
 
 /// The allowed values of an order.
-const ORDER: &str = "a number > 0, or a text such as \">= 2\"";
+const ORDER: &str = "a number > 0, or a text such as \">= 2\", or \">= 2..\" for any higher rate";
 
 pub(crate) fn refuse(message: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(message.to_string())
@@ -137,9 +141,9 @@ pub(crate) enum Order {
 /// The order of a claim.
 pub(crate) fn order_of(claim: &Claim) -> Order {
     let order = claim.order;
-    match claim.at_least {
-        true => Order::Text(format!(">={order:?}")),
-        false => Order::Number(order),
+    match claim.bound {
+        Bound::Both => Order::Number(order),
+        bound => Order::Text(bound.written(format_args!("{order:?}"))),
     }
 }
 
@@ -155,18 +159,18 @@ pub(crate) fn optional_claim(
 /// The claim about an error.
 fn claim(order: &Bound<'_, PyAny>, tolerance: f64) -> PyResult<Claim> {
     let expected = || refuse(format!("order: expected {ORDER}, found {}", shown(order)));
-    let (order, at_least) = match order.extract::<String>() {
+    let (order, bound) = match order.extract::<String>() {
         Ok(text) => order_from_text(&text).ok_or_else(expected)?,
         Err(_) => (
             number(|| "order".to_owned(), order).map_err(|_| expected())?,
-            false,
+            Bound::Both,
         ),
     };
     if !(order > 0.0 && order.is_finite()) {
         return Err(expected());
     }
     Ok(Claim {
-        at_least,
+        bound,
         ..Claim::new(order, tolerance)
     })
 }

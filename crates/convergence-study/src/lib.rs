@@ -111,7 +111,7 @@ mod judge {
 
 #[doc(inline)]
 pub use convergence_judge::judge::{
-    claims::Claim,
+    claims::{Bound, Claim},
     grid::SpaceTime,
     richardson::{Estimator, StepValue},
     verdict::{

@@ -8,21 +8,68 @@ use std::fmt;
 
 use super::fit::Level;
 use super::verdict::{
-    Band, Floor, RateVerdict, Reason, against_claim, judge_band, judged_in_words,
+    Band, Floor, Printed, RateVerdict, Reason, against_claim, judge_band, judged_in_words,
 };
 use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
 
+/// Which rates above an order agree with it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Bound {
+    /// Those within the tolerance, as below it.
+    #[default]
+    Both,
+    /// Those up to one order more, `>=P`: beyond, the whole interval is
+    /// [too good](Reason::TooGood).
+    AtLeast,
+    /// Any, `>=P..`.
+    AnyAbove,
+}
+
+impl Bound {
+    /// Whether the order is a lower bound.
+    pub fn is_least(self) -> bool {
+        self != Self::Both
+    }
+
+    /// A claim as people write it, without its bound: `2`, `>= 2`, `>= 2..`.
+    pub fn split(text: &str) -> (Self, &str) {
+        let text = text.trim();
+        let Some(order) = text.strip_prefix(">=") else {
+            return (Self::Both, text);
+        };
+        match order.strip_suffix("..") {
+            // "2..." is a slip.
+            Some(least) if !least.ends_with('.') => (Self::AnyAbove, least.trim()),
+            _ => (Self::AtLeast, order.trim()),
+        }
+    }
+
+    /// A claim of this order as people write it.
+    pub fn written(self, order: impl fmt::Display) -> String {
+        match self {
+            Self::Both => order.to_string(),
+            Self::AtLeast => format!(">={order}"),
+            Self::AnyAbove => format!(">={order}.."),
+        }
+    }
+
+    /// What comes before the order in a sentence.
+    pub fn words(self) -> &'static str {
+        if self.is_least() { "at least " } else { "" }
+    }
+}
+
 /// What theory claims about an error.
 ///
 /// ```
-/// use convergence_judge::{Claim, Floor, Interval, Level, Reason};
+/// use convergence_judge::{Bound, Claim, Floor, Interval, Level, Reason};
 ///
 /// let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
 /// let between = Interval { low: 2.9, high: 3.1 };
 /// let claim = Claim { constant: Some(between), ..Claim::new(2.0, 0.1) };
 /// assert_eq!(claim.judge(&levels, Floor::NONE).kind, Reason::Agrees);
-/// let bound = Claim { at_least: true, ..Claim::new(1.0, 0.1) };
+/// let bound = Claim { bound: Bound::AtLeast, ..Claim::new(1.0, 0.1) };
 /// assert_eq!(bound.judge(&levels, Floor::NONE).kind, Reason::Agrees);
 /// ```
 ///
@@ -48,8 +95,8 @@ pub struct Claim {
     pub order: f64,
     /// How far the rate may differ from it in either direction.
     pub tolerance: f64,
-    /// Whether the order is a lower bound, so that no rate is too high.
-    pub at_least: bool,
+    /// Which higher rates agree, too.
+    pub bound: Bound,
     /// The two numbers between which the constant must lie, if that is claimed.
     pub constant: Option<Interval>,
 }
@@ -60,7 +107,7 @@ impl Claim {
         Self {
             order,
             tolerance,
-            at_least: false,
+            bound: Bound::Both,
             constant: None,
         }
     }
@@ -76,14 +123,22 @@ impl Claim {
     /// The rate of these levels, coarsest first, held against everything claimed. A claim with an
     /// order or a tolerance that is no claim is inconclusive; the rate is still given.
     pub fn judge(&self, levels: &[Level], floor: Floor) -> RateVerdict {
-        self.judge_rounded(levels, floor, 0.0)
+        self.judge_printed(levels, floor, Printed::default())
     }
 
-    /// The same for errors with few digits: these leave the rate uncertain by `doubt`, and its
-    /// interval is wider by that at either end.
-    pub fn judge_rounded(&self, levels: &[Level], floor: Floor, doubt: f64) -> RateVerdict {
-        let rate = judge_band(levels, self.band(), floor, doubt);
-        let rate = if self.at_least { at_least(rate) } else { rate };
+    /// The same for errors that were printed.
+    pub fn judge_printed(
+        &self,
+        levels: &[Level],
+        floor: Floor,
+        printed: Printed<'_>,
+    ) -> RateVerdict {
+        let rate = judge_band(levels, self.band(), floor, printed);
+        let rate = match self.bound {
+            Bound::Both => rate,
+            Bound::AtLeast => at_least(rate),
+            Bound::AnyAbove => any_above(rate),
+        };
         match self.constant {
             Some(between) => with_constant(levels, rate, between),
             None => rate,
@@ -94,13 +149,13 @@ impl Claim {
     ///
     /// * `shown`: the rate in words.
     pub fn answer(&self, rate: &RateVerdict, shown: &str) -> String {
-        let claim = if self.at_least {
+        let claim = if self.bound.is_least() {
             self.to_string()
         } else {
             self.band().to_string()
         };
         let why = match rate.verdict.is_pass() {
-            true if self.at_least => {
+            true if self.bound.is_least() => {
                 let least = order_text(committed_rate(self.order - self.tolerance));
                 format!("at least {least}")
             }
@@ -112,21 +167,31 @@ impl Claim {
 }
 
 impl fmt::Display for Claim {
-    /// `2 ± 0.1`, `at least 2 ± 0.1`, with the constant after it.
+    /// `2 ± 0.1`, `at least 2 ± 0.1`, with `, any rate` where any higher one agrees, and the
+    /// constant after it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let least = if self.at_least { "at least " } else { "" };
-        write!(f, "{least}{} ± {}", self.order, self.tolerance)?;
+        write!(
+            f,
+            "{}{} ± {}",
+            self.bound.words(),
+            self.order,
+            self.tolerance
+        )?;
+        if self.bound == Bound::AnyAbove {
+            f.write_str(", any rate")?;
+        }
         self.constant.map_or(Ok(()), |Interval { low, high }| {
             write!(f, ", constant {low} to {high}")
         })
     }
 }
 
-/// An order as people write it: `2`, or `>= 2` for a lower bound; `None` if it is neither.
-pub fn order_from_text(text: &str) -> Option<(f64, bool)> {
-    let least = text.trim().strip_prefix(">=");
-    let order = least.unwrap_or(text).trim().parse::<f64>().ok()?;
-    (order > 0.0 && order.is_finite()).then_some((order, least.is_some()))
+/// An order as people write it: `2`, or `>= 2` for a lower bound, or `>= 2..` where any higher rate
+/// will do; `None` if it is none of them.
+pub fn order_from_text(text: &str) -> Option<(f64, Bound)> {
+    let (bound, order) = Bound::split(text);
+    let order = order.parse::<f64>().ok()?;
+    (order > 0.0 && order.is_finite()).then_some((order, bound))
 }
 
 /// Half-width of the interval of a constant, in half-widths of the interval of the rate over the
@@ -148,10 +213,27 @@ pub fn order_of_factor(factor: f64) -> f64 {
     factor.ln()
 }
 
-/// The same rate judged against a lower bound on the order: a higher rate does not fail.
+/// Most that a scheme gains over its order: superconvergence.
+const MOST_GAIN: f64 = 1.0;
+
+/// The same rate judged against a lower bound on the order: a higher rate does not fail, but is
+/// too good where its whole interval lies more than an order above the band.
+pub fn at_least(rate: RateVerdict) -> RateVerdict {
+    let rate = any_above(rate);
+    let (Some(band), Some(interval)) = (rate.claimed, rate.interval) else {
+        return rate;
+    };
+    if rate.verdict.is_pass() && interval.low > band.order + MOST_GAIN + band.tolerance {
+        rate.with_reason(Reason::TooGood, Reason::TooGood.text())
+    } else {
+        rate
+    }
+}
+
+/// The same where any higher rate will do.
 ///
 /// The interval must lie above the band's lower end; rates that move upwards do not depart.
-pub fn at_least(rate: RateVerdict) -> RateVerdict {
+pub fn any_above(rate: RateVerdict) -> RateVerdict {
     let rates = &rate.pairwise[..rate.used.end.saturating_sub(1)];
     let (Some(band), Some(interval), [.., before, last]) = (rate.claimed, rate.interval, rates)
     else {
@@ -286,7 +368,7 @@ mod tests {
             Reason::TooLow
         );
         assert_eq!(
-            at_least(judged(&by_factor(9.0), order_of_factor(5.0))).verdict,
+            any_above(judged(&by_factor(9.0), order_of_factor(5.0))).verdict,
             Verdict::Pass
         );
     }

@@ -32,8 +32,8 @@ pub use interval::{
     CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION,
     rate_interval,
 };
-pub(crate) use range::changes;
-pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range, scatter};
+pub(crate) use range::COMPARISON;
+pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range};
 
 /// One level of a refinement study.
 ///
@@ -90,9 +90,42 @@ pub fn pairwise_rates(levels: &[Level]) -> Vec<f64> {
     levels
         .windows(2)
         .map(|pair| {
-            (pair[0].error.ln() - pair[1].error.ln()) / (pair[0].step.ln() - pair[1].step.ln())
+            log_quotient(pair[0].error, pair[1].error) / log_quotient(pair[0].step, pair[1].step)
         })
         .collect()
+}
+
+/// `log(a / b)`, which a common unit of a and b does not enter but by rounding; of numbers whose
+/// quotient is none, or that are not positive, `log a - log b`.
+pub(crate) fn log_quotient(a: f64, b: f64) -> f64 {
+    let quotient = a / b;
+    if a > 0.0 && b > 0.0 && quotient.is_normal() {
+        quotient.ln()
+    } else {
+        a.ln() - b.ln()
+    }
+}
+
+/// What rounding moves each of the [`pairwise_rates`] by at most.
+///
+/// A step or an error is a decimal number, rounded to a double once, and once more in another unit:
+/// it is off by 2 u of itself, u = 2^-53. The quotient of two is off by 5 u, and its logarithm by
+/// a unit of its last place more, 2 u |L|. So L = log(e_k / e_(k+1)) is off by 5 u + 2 u |L|, ρ =
+/// log(h_k / h_(k+1)) by 5 u + 2 u ρ, and the rate q = L / ρ, rounded once, by
+///
+/// ```text
+///     5 u ((1 + |q|) / ρ + |q|)  <  2^-50 (|q| + (1 + |q|) / ρ),
+/// ```
+///
+/// whatever the units of h and e. 8 in place of 5 is for steps that are computed, as 1/n or a root.
+pub(crate) fn round_off_of_rates(levels: &[Level]) -> Vec<f64> {
+    const UNITS: f64 = 4.0 * f64::EPSILON;
+    let rates = pairwise_rates(levels).into_iter();
+    let of_pair = |(pair, rate): (&[Level], f64)| {
+        let ratio = log_quotient(pair[0].step, pair[1].step);
+        UNITS * (rate.abs() + (1.0 + rate.abs()) / ratio)
+    };
+    levels.windows(2).zip(rates).map(of_pair).collect()
 }
 
 /// Straight line log e = intercept + slope log h by least squares.
@@ -181,6 +214,20 @@ impl Logarithms {
         let y: Vec<f64> = levels.iter().map(|level| level.error.ln()).collect();
         let usable = x.len() >= 2 && x.iter().chain(&y).all(|value| value.is_finite());
         usable.then_some(Self { x, y })
+    }
+
+    /// The same of steps and errors in units of the finest ones.
+    fn of_quotients(levels: &[Level]) -> Option<Self> {
+        let finest = levels.last()?;
+        Self::new(levels)?;
+        let x = levels.iter();
+        let x = x.map(|level| log_quotient(level.step, finest.step));
+        let y = levels.iter();
+        let y = y.map(|level| log_quotient(level.error, finest.error));
+        Some(Self {
+            x: x.collect(),
+            y: y.collect(),
+        })
     }
 }
 

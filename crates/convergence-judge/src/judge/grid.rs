@@ -322,7 +322,7 @@ impl GridErrors<'_> {
         let finest = finest?;
         let next = next?;
         let levels = reduce(&finest, &lines[0], power, order);
-        let mut reading = finest.read(&levels);
+        let mut reading = finest.read(&levels).of_differences();
         if let (Some(fit), Some(other)) = (
             reading.fit,
             next.read(&reduce(&next, &lines[1], power, order)).fit,

@@ -4,23 +4,27 @@
 
 use thiserror::Error;
 
-pub use crate::judge::fit::{Level, scatter};
+pub use crate::judge::fit::Level;
 
 mod cause;
 mod outcome;
 mod reading;
 mod reason;
+mod repeats;
 mod scatter;
 mod tendency;
 mod trend;
+#[cfg(test)]
+mod units;
 mod words;
 
 pub use cause::Cause;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
-pub use reading::Reading;
+pub use reading::{Printed, Reading};
 pub use reason::Reason;
+pub use repeats::{are_equal, significant_digits};
 pub use tendency::Tendency;
-pub use trend::{departs, falls_away};
+pub use trend::Rates;
 pub use words::{Aside, SetAside, Verdict};
 
 /// Two rates and one difference of them: with fewer, nothing tells a rate from chance.
@@ -156,15 +160,7 @@ impl Judge {
 
     /// Judges the levels, coarsest first, against the order that theory claims.
     pub fn judge(&self, levels: &[Level], order: f64) -> RateVerdict {
-        self.judge_rounded(levels, order, 0.0)
-    }
-
-    /// The same for errors with few digits: these leave the rate uncertain by `doubt`, and its
-    /// interval is wider by that at either end.
-    pub fn judge_rounded(&self, levels: &[Level], order: f64, doubt: f64) -> RateVerdict {
-        let mut reading = self.read(levels);
-        reading.widen(doubt);
-        self.judge_read(&reading, order)
+        self.judge_read(&self.read(levels), order)
     }
 
     /// The same for levels that a judge with the same floor has [read](Self::read).
@@ -199,14 +195,12 @@ impl Judge {
 
 /// The rate of the levels, coarsest first, where nothing is claimed: nothing is confirmed.
 pub fn observe(levels: &[Level], floor: Floor) -> RateVerdict {
-    observe_rounded(levels, floor, 0.0)
+    observe_printed(levels, floor, Printed::default())
 }
 
-/// The same for errors with few digits: these leave the rate uncertain by `doubt`, and its interval
-/// is wider by that at either end.
-pub fn observe_rounded(levels: &[Level], floor: Floor, doubt: f64) -> RateVerdict {
-    let mut reading = Reading::new(levels, floor.value());
-    reading.widen(doubt);
+/// The same for errors that were printed.
+pub fn observe_printed(levels: &[Level], floor: Floor, printed: Printed<'_>) -> RateVerdict {
+    let reading = Reading::new(levels, floor.value()).printed(printed);
     RateVerdict::new(
         &reading,
         None,
@@ -226,17 +220,19 @@ pub fn observe_rounded(levels: &[Level], floor: Floor, doubt: f64) -> RateVerdic
 ///
 /// [`Claim::judge`]: crate::judge::claims::Claim::judge
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
-    judge_band(levels, Band { order, tolerance }, Floor::NONE, 0.0)
+    let band = Band { order, tolerance };
+    judge_band(levels, band, Floor::NONE, Printed::default())
 }
 
 /// The verdict on a claim that may be unusable: then it is inconclusive, but the rate is still
 /// given.
-///
-/// * `doubt`: errors with few digits leave the rate uncertain by as much; its interval is wider by
-///   that at either end.
-pub(crate) fn judge_band(levels: &[Level], band: Band, floor: Floor, doubt: f64) -> RateVerdict {
-    let mut reading = Reading::new(levels, floor.value());
-    reading.widen(doubt);
+pub(crate) fn judge_band(
+    levels: &[Level],
+    band: Band,
+    floor: Floor,
+    printed: Printed<'_>,
+) -> RateVerdict {
+    let reading = Reading::new(levels, floor.value()).printed(printed);
     let kind = match Judge::new(band.tolerance) {
         Ok(_) => reading.reason(band.order, band.tolerance),
         Err(JudgeError::ToleranceTooWide(_)) => Reason::ToleranceTooWide,

@@ -8,6 +8,7 @@ use super::answer::Expectation;
 use super::command::filled;
 use super::refine::{self, CaseParameter, refine};
 use crate::input::{Field, Form, InputError, Key, Section, visible};
+use crate::judge::claims::Bound;
 use crate::judge::claims::order_of_factor;
 use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
 use crate::study::{Claim, Header, read_claim};
@@ -343,6 +344,10 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
             return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));
         }
         claim.order = order_of_factor(claim.order);
+        // No scheme gains an order over the degree: any larger factor may be right.
+        if claim.bound.is_least() {
+            claim.bound = Bound::AnyAbove;
+        }
     }
     let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
     let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;

@@ -121,6 +121,7 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let rates = levels.judge();
     let mut checks = exact(study, ran);
     checks.push(completion_check(ran));
+    checks.extend(levels.equal_columns());
     let values = values::judge(study, ran, &levels.refinements);
     let mut quantities = [levels.quantities(&rates), values.quantities].concat();
     claim_exactness(study, &mut quantities);

@@ -3,7 +3,7 @@
 use super::{Request, SourceTable, columns};
 use crate::input::advice::{Argument, Text};
 use crate::input::error_table::{is_degree, names::position};
-use crate::judge::claims::{Claim, order_from_text};
+use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::visible::visible;
 
@@ -16,8 +16,8 @@ pub struct Claimed {
     pub name: Option<String>,
     /// The order.
     pub order: ClaimedOrder,
-    /// Whether a higher rate agrees with it.
-    pub at_least: bool,
+    /// Which higher rates agree with it, too.
+    pub bound: Bound,
 }
 
 /// An order, as a number or by the degree of the elements of each table.
@@ -64,21 +64,18 @@ pub fn claimed(text: &str) -> Result<Claimed, String> {
         .or_else(|| text.rfind('=').map(|at| at + 1));
     let (name, order) = text.split_at(at.unwrap_or(0));
     let name = name.trim_end();
-    let (bound, is_least) = match order.trim().strip_prefix(">=") {
-        Some(bound) => (bound, true),
-        None => (order, false),
-    };
     let number = order_from_text(order).map(|(number, _)| ClaimedOrder::Number(number));
-    let order = number.or_else(|| ClaimedOrder::of_degree(bound));
+    let (bound, order) = Bound::split(order);
+    let order = number.or_else(|| ClaimedOrder::of_degree(order));
     let order = order.filter(|_| name.is_empty() || name.ends_with('='));
     let order = order.ok_or(
-        "expected a number > 0, '>=P' with such a number P, or NAME= before one of them; P may be p + 1, with the degree p of each table",
+        "expected a number > 0, '>=P' with such a number P, or NAME= before one of them; P may be p + 1, with the degree p of each table, and '>=P..' takes any higher rate",
     )?;
     Ok(Claimed {
         text: text.to_owned(),
         name: name.strip_suffix('=').map(str::to_owned),
         order,
-        at_least: is_least,
+        bound,
     })
 }
 
@@ -175,13 +172,13 @@ fn claims_of(
     let all = names.len();
     let claim =
         |(k, name): (usize, &&str)| match own[k].or(own[all]).or(general[k]).or(general[all]) {
-            Some(claimed) if claimed.at_least && k >= source.table.columns.len() => {
+            Some(claimed) if claimed.bound.is_least() && k >= source.table.columns.len() => {
                 Err(Text::from("expected an order alone for values; found ")
                     + Argument::Order.with(&claimed.text)
                     + format!(" for `{name}`"))
             }
             Some(claimed) => Ok(Some(Claim {
-                at_least: claimed.at_least,
+                bound: claimed.bound,
                 ..Claim::new(order(claimed, source)?, request.tolerance)
             })),
             None => Ok(None),

@@ -3,10 +3,11 @@
 use serde_json::{Value, json};
 
 use super::shown::{sentence, text};
-use super::{JudgedColumn, Judgement};
+use super::{EqualColumns, JudgedColumn, Judgement};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
 use crate::input::error_table::{Doubt, NotError};
+use crate::judge::claims::Bound;
 use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
 use crate::judge::shown;
@@ -103,7 +104,12 @@ fn object(findings: &Judgement<'_>) -> Value {
         object["norm"] = json!(judged.column.name);
         object["decides"] = json!(judged.decides);
         object["order"] = json!(judged.claim.map(|claim| claim.order));
-        object["at_least"] = json!(judged.claim.is_some_and(|claim| claim.at_least));
+        object["at_least"] = json!(judged.claim.is_some_and(|claim| claim.bound.is_least()));
+        object["any_above"] = json!(
+            judged
+                .claim
+                .is_some_and(|claim| claim.bound == Bound::AnyAbove)
+        );
         object["levels"] = judged.column.levels.iter().map(level).collect();
         object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
         if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {
@@ -122,6 +128,7 @@ fn object(findings: &Judgement<'_>) -> Value {
     let table = &findings.source.table;
     let mut notes = vec![table.reading.clone()];
     notes.extend(table.doubts.iter().map(Doubt::to_string));
+    notes.extend(findings.equals.iter().map(EqualColumns::to_string));
     json!({
         "step": findings.source.table.step, "floor": findings.floor.value(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
@@ -198,8 +205,7 @@ pub(crate) fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
 pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> {
     let case = |judged: &JudgedColumn<'_>| {
         let claim = judged.claim.map_or(String::new(), |claim| {
-            let least = if claim.at_least { "at least " } else { "" };
-            format!(": order {least}{}", claim.order)
+            format!(": order {}{}", claim.bound.words(), claim.order)
         });
         (
             judged.column.name.clone() + &claim,
@@ -212,6 +218,9 @@ pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> 
     if cases.is_empty() {
         cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
     }
+    // Those with claims do not pass, and say why.
+    let unclaimed = findings.equals.iter().filter(|equal| !equal.are_claimed);
+    cases.extend(unclaimed.map(|equal| (equal.to_string(), Verdict::Pass, String::new())));
     if !findings.source.table.doubts.is_empty() {
         let name = "the table".to_owned();
         cases.push((name, Verdict::Inconclusive, sentence(findings)));

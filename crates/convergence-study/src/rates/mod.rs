@@ -15,6 +15,7 @@ use crate::input::error_table::{Choice, Column, RateTable};
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{Floor, RateVerdict, Verdict};
 use crate::judge::{self, claims::Claim};
+use crate::text::visible::visible;
 pub use claims::{Claimed, ClaimedOrder, claimed};
 #[cfg(feature = "command-line")]
 pub(crate) use forms::{cases, csv, rows_in_markdown};
@@ -83,6 +84,22 @@ pub(crate) struct Judgement<'t> {
     columns: Vec<JudgedColumn<'t>>,
     floor: Floor,
     verdict: Verdict,
+    /// Errors that are equal in all digits.
+    equals: Vec<EqualColumns>,
+}
+
+/// Two columns of errors that are equal on all levels, in all digits.
+pub(crate) struct EqualColumns {
+    names: [String; 2],
+    /// Whether both have claims, of which then neither passes.
+    are_claimed: bool,
+}
+
+impl std::fmt::Display for EqualColumns {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [one, other] = self.names.each_ref().map(|name| visible(name));
+        write!(f, "{one} and {other} are equal in all digits")
+    }
 }
 
 /// What is judged, and how.
@@ -273,7 +290,8 @@ pub(crate) fn judgements<'t>(
 ) -> Result<Vec<Judgement<'t>>, Refusal> {
     let claims = claims::claims(request, sources)?;
     let judged = |(source, claims): (&'t SourceTable, Vec<Option<Claim>>)| {
-        let columns = judged_columns(source, &claims, rule, request.all);
+        let mut columns = judged_columns(source, &claims, rule, request.all);
+        let equals = equal_columns(&mut columns);
         let deciding = columns.iter().filter(|column| column.decides);
         let verdicts = deciding.map(|column| column.rate.verdict);
         // What a failed run has printed may look right, and so may two tables in one.
@@ -285,6 +303,7 @@ pub(crate) fn judgements<'t>(
             columns,
             floor: rule.floor,
             verdict,
+            equals,
         }
     };
     Ok(sources.iter().zip(claims).map(judged).collect())
@@ -324,6 +343,32 @@ fn judged_columns<'t>(
     };
     let columns = columns(&source.table).zip(claims).enumerate();
     columns.map(judged).collect()
+}
+
+/// Each column of errors that equals one before it; where both have claims, none of them passes.
+fn equal_columns(columns: &mut [JudgedColumn<'_>]) -> Vec<EqualColumns> {
+    let mut equals = vec![];
+    for k in 0..columns.len() {
+        let is_equal = |other: &usize| {
+            let [one, other] = [&columns[*other], &columns[k]];
+            one.estimate.is_none() && other.estimate.is_none() && one.column.equals(other.column)
+        };
+        let same: Vec<usize> = (0..k).filter(is_equal).collect();
+        let claimed = same.iter().find(|same| columns[**same].is_claimed());
+        let Some(&first) = claimed.or(same.first()) else {
+            continue;
+        };
+        let are_claimed = columns[first].is_claimed() && columns[k].is_claimed();
+        let names = [first, k].map(|k| columns[k].column.name.clone());
+        if are_claimed {
+            for (column, other) in [(first, &names[1]), (k, &names[0])] {
+                let rate = columns[column].rate.clone();
+                columns[column].rate = rate.equal_to(other);
+            }
+        }
+        equals.push(EqualColumns { names, are_claimed });
+    }
+    equals
 }
 
 /// The columns to judge: errors, then values.

@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use super::{JudgedColumn, Judgement};
+use super::{EqualColumns, JudgedColumn, Judgement};
 use crate::input::error_table::NotError;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Tendency, Verdict};
@@ -118,6 +118,9 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
             words += &format!(", and {more} more");
         }
     }
+    let equals = findings.iter().flat_map(|findings| &findings.equals);
+    let equals: Vec<String> = equals.map(EqualColumns::to_string).collect();
+    words.extend(distinct(&equals).iter().map(|equal| format!("; {equal}")));
     let tables = || findings.iter().map(|findings| &findings.source.table);
     let doubts = distinct(tables().flat_map(|table| &table.doubts));
     words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));

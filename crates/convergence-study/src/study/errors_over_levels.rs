@@ -252,6 +252,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::claims::Bound;
     use crate::judge::verdict::Reason;
     use crate::study::run_cases_here;
 
@@ -283,7 +284,7 @@ mod tests {
         let found = judged(&levels(COUNTS, solve).claiming(
             "e",
             Claim {
-                at_least: true,
+                bound: Bound::AtLeast,
                 ..Claim::new(2.0, 0.1)
             },
         ));

@@ -9,7 +9,7 @@ use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
 use crate::interval::Interval;
-use crate::judge::claims::{Claim, order_from_text};
+use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::judge::verdict::DEFAULT_TOLERANCE;
 use crate::text::visible;
 
@@ -388,16 +388,16 @@ fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
 /// # Errors
 /// An invalid order or constant.
 pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError> {
-    let allowed = "a number > 0, or a text such as \">= 2\"";
+    let allowed = "a number > 0, or a text such as \">= 2\", or \">= 2..\" for any higher rate";
     let field = section.require(key, allowed)?;
-    let (order, at_least) = match field.text() {
+    let (order, bound) = match field.text() {
         Ok(text) => order_from_text(text)
-            .filter(|(_, least)| *least)
+            .filter(|(_, bound)| bound.is_least())
             .ok_or_else(|| field.refuse_as_written(allowed))?,
-        Err(_) => (field.positive()?, false),
+        Err(_) => (field.positive()?, Bound::Both),
     };
     Ok(Claim {
-        at_least,
+        bound,
         constant: constant(section)?,
         ..Claim::new(order, DEFAULT_TOLERANCE)
     })

@@ -2,7 +2,7 @@
 
 mod numbers;
 
-use convergence_judge::judge::verdict::{Aside, Judge, SetAside, falls_away};
+use convergence_judge::judge::verdict::{Aside, Judge, Rates, SetAside};
 use convergence_study::{Band, Level, RateVerdict, Reason, Verdict, judge, judge_pairs};
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
@@ -283,7 +283,7 @@ fn rates_fall_away_when_they_fall_twice_and_end_half_an_order_below() {
         (&[0.75, 0.375], false),
         (&[0.75, f64::NAN, 0.375], false),
     ] {
-        assert_eq!(falls_away(rates, 1.0), expected, "{rates:?}");
+        assert_eq!(Rates::exact(rates).falls_away(1.0), expected, "{rates:?}");
     }
 }
 

@@ -52,7 +52,7 @@ pub struct RateInterval {
 /// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not
 ///   differ.
 pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
-    let Logarithms { x, y } = Logarithms::new(levels)?;
+    let Logarithms { x, y } = Logarithms::of_quotients(levels)?;
     let m = x.len();
     if m < 3 || x[m - 2] == x[m - 1] {
         return None;

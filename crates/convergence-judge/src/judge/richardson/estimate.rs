@@ -154,7 +154,7 @@ impl Estimator {
         let judge = self.judge_of(values);
         let floor = judge.floor();
         let levels = differences(&judge, values, order);
-        let reading = judge.read(&levels);
+        let reading = judge.read(&levels).of_differences();
         let judged = judge.judge_read(&reading, order);
         let scatter = reading.fit.map_or(0.0, |fit| fit.scatter);
         let usable = if order > 0.0 && order.is_finite() {

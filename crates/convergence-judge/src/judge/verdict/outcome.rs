@@ -342,6 +342,16 @@ impl RateVerdict {
         }
     }
 
+    /// The same rate where another error with a claim is equal to this one in all digits: it does
+    /// not pass.
+    pub fn equal_to(self, other: &str) -> Self {
+        if !self.verdict.is_pass() {
+            return self;
+        }
+        let words = format!("equal to `{other}` in all digits");
+        self.with_reason(Reason::EqualColumns, &words)
+    }
+
     /// What follows the reason: the interval and the claim; empty without an interval.
     fn numbers(&self) -> String {
         let Some(interval) = self.interval else {
@@ -412,12 +422,16 @@ impl RateVerdict {
             set_aside: reading.set_aside(),
             verdict: kind.verdict(),
             kind,
-            because: kind.brief().into(),
+            because: reading.words(kind).into(),
             reason: Prose::default(),
             tendency: reading.tendency().filter(|_| kind.is_about_the_errors()),
             cause: cause.filter(|_| !kind.verdict().is_pass()),
         };
-        verdict.reason = format!("{}{}", kind.text(), verdict.numbers()).into();
+        let words = match kind {
+            Reason::Repeats => reading.words(kind),
+            _ => kind.text().to_owned(),
+        };
+        verdict.reason = format!("{words}{}", verdict.numbers()).into();
         verdict
     }
 }

@@ -3,14 +3,29 @@
 use std::ops::Range;
 
 use super::cause::Cause;
-use super::reason::Reason;
+use super::reason::{REPEATED, Reason};
 use super::tendency::Tendency;
+use super::trend::Rates;
 use super::words::{Aside, SetAside};
-use super::{FEWEST_LEVELS, scatter, trend};
+use super::{FEWEST_LEVELS, repeats, scatter};
 use crate::interval::Interval;
 use crate::judge::fit::{
     Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
 };
+
+/// Two steps that are rounded, in another unit once more, and divided have a ratio that is off by
+/// five units of 2^-53.
+const SPAN_ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
+/// What is known of errors that were printed.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Printed<'a> {
+    /// Their digits leave the rate uncertain by this: its interval is wider by it at either end.
+    pub doubt: f64,
+    /// The number of significant digits of each error, coarsest first; empty: those of the shortest
+    /// decimal.
+    pub digits: &'a [usize],
+}
 
 /// A sequence of errors, read once and held against any number of claims: see
 /// [`Judge::read`](super::Judge::read).
@@ -30,11 +45,19 @@ pub struct Reading<'a> {
     pub fit: Option<RateInterval>,
     /// What makes rates impossible to form.
     unusable: Option<Reason>,
+    /// The rates between levels above the floor.
+    rates: Rates,
+    /// Round-off, in the unit of the errors; 0 if it is not known.
+    floor: f64,
+    /// The number of printed digits of each error; empty if they are those of the numbers.
+    digits: &'a [usize],
+    /// Whether the numbers are the errors of levels, each from a run of its own.
+    are_errors: bool,
 }
 
 impl<'a> Reading<'a> {
     pub(super) fn new(sequence: &'a [Level], floor: f64) -> Self {
-        let unusable = defect(sequence);
+        let unusable = defect(sequence, floor);
         let range = match unusable {
             Some(_) => 0..0,
             None => asymptotic_range(sequence, floor),
@@ -51,16 +74,32 @@ impl<'a> Reading<'a> {
             sequence,
             levels: sequence.len(),
             pairwise: pairwise_rates(sequence),
+            rates: Rates::of(&sequence[..end]),
             range,
             used,
             fit,
             unusable,
+            floor,
+            digits: &[],
+            are_errors: true,
         }
     }
 
-    /// Limit of the finest pairwise rates that the fit uses.
-    pub(super) fn extrapolated(&self) -> Option<f64> {
-        extrapolated_rate(&self.sequence[self.used.clone()])
+    /// The same of differences, two of which may be equal.
+    pub(crate) fn of_differences(self) -> Self {
+        Self {
+            are_errors: false,
+            ..self
+        }
+    }
+
+    /// The same of errors that were printed.
+    pub(super) fn printed(mut self, printed: Printed<'a>) -> Self {
+        self.widen(printed.doubt);
+        Self {
+            digits: printed.digits,
+            ..self
+        }
     }
 
     /// Extends the interval at either end.
@@ -69,6 +108,31 @@ impl<'a> Reading<'a> {
             interval.low -= doubt;
             interval.high += doubt;
         }
+    }
+
+    /// The number of significant digits of the error at a level.
+    fn digits(&self, level: usize) -> usize {
+        let printed = self.digits.get(level).copied();
+        printed.unwrap_or_else(|| repeats::significant_digits(self.sequence[level].error))
+    }
+
+    /// The first level above the floor that repeats the error of the one before.
+    pub(super) fn repeated(&self) -> Option<usize> {
+        repeats::repeated(self.above_floor(), |level| self.digits(level))
+    }
+
+    /// Limit of the finest pairwise rates that the fit uses.
+    pub(super) fn extrapolated(&self) -> Option<f64> {
+        extrapolated_rate(&self.sequence[self.used.clone()])
+    }
+
+    /// The reason in a few words, with the level if it concerns one.
+    pub(super) fn words(&self, reason: Reason) -> String {
+        let level = self.repeated().filter(|_| reason == Reason::Repeats);
+        level.map_or_else(
+            || reason.brief().to_owned(),
+            |level| format!("level {} repeats the one before: {REPEATED}", level + 1),
+        )
     }
 
     /// The constant C of error = C step^rate for the fitted rate, through the finest level that the
@@ -86,13 +150,13 @@ impl<'a> Reading<'a> {
     /// The law that explains the levels above the floor, if rates can be formed.
     pub(super) fn cause(&self, order: f64) -> Option<Cause> {
         self.fit
-            .and_then(|_| Cause::of(&self.sequence[..self.range.end], order, |_| 0.0))
+            .and_then(|_| Cause::of(self.above_floor(), order, |_| 0.0))
     }
 
     /// What the errors above the floor tend to.
     pub(super) fn tendency(&self) -> Option<Tendency> {
         match self.unusable {
-            None => Tendency::of(&self.sequence[..self.range.end]),
+            None => Tendency::of(self.above_floor()),
             Some(Reason::ZeroError) => Tendency::of(self.sequence),
             Some(_) => None,
         }
@@ -109,7 +173,7 @@ impl<'a> Reading<'a> {
         } else {
             self.used.start
         };
-        let finest = self.rates().last().copied().unwrap_or(f64::NAN);
+        let finest = self.rates.values().last().copied().unwrap_or(f64::NAN);
         // The level next to the range was dropped for its rate, or because the range is as long as
         // it may be.
         let because = match coarse.checked_sub(1) {
@@ -147,13 +211,28 @@ impl<'a> Reading<'a> {
         if self.range.end < FEWEST_LEVELS {
             return Reason::RoundOffFloor;
         }
-        if self.span() < super::LEAST_SPAN {
+        let decided = self.decided(order, tolerance);
+        if !self.are_errors {
+            return decided;
+        }
+        repeats::doubted(
+            decided,
+            self.above_floor(),
+            &self.rates,
+            |level| self.digits(level),
+            self.floor > 0.0,
+        )
+    }
+
+    /// The reason that the rates between levels above the floor give.
+    fn decided(&self, order: f64, tolerance: f64) -> Reason {
+        if self.span() < super::LEAST_SPAN * (1.0 - SPAN_ROUND_OFF) {
             return Reason::LevelsTooClose;
         }
-        if trend::jumps(self.rates()) {
+        if self.rates.jumps() {
             return Reason::Jump;
         }
-        if trend::falls_away(self.rates(), order) {
+        if self.rates.falls_away(order) {
             return Reason::FallsAway;
         }
         if self.range.len() < FEWEST_LEVELS {
@@ -167,21 +246,19 @@ impl<'a> Reading<'a> {
 
     /// Steps 6 and 7: the trend of the rates, and the interval against the band.
     fn compare(&self, interval: Interval, order: f64, tolerance: f64) -> Reason {
-        let rates = self.rates();
-        if trend::departs(rates, tolerance) && !trend::approaches(rates, order, tolerance) {
+        let rates = &self.rates;
+        if rates.departs(tolerance) && !rates.approaches(order, tolerance) {
             return Reason::Departs;
         }
-        let grows = rates.last().is_none_or(|finest| *finest <= 0.0);
+        let grows = rates.values().last().is_none_or(|finest| *finest <= 0.0);
         match compare(interval, order, tolerance) {
             Reason::TooLow if grows => Reason::ErrorGrows,
             Reason::TooLow => Reason::TooLow,
             // The finest error is not smaller, which scatter may explain: there is no order that
             // could agree.
             _ if grows => Reason::IntervalTooWide,
-            Reason::Agrees if trend::emerges(rates, order, tolerance) => Reason::NotAsymptotic,
-            Reason::Agrees
-                if scatter::hides(&self.sequence[..self.range.end], order, tolerance) =>
-            {
+            Reason::Agrees if rates.emerges(order, tolerance) => Reason::NotAsymptotic,
+            Reason::Agrees if scatter::hides(self.above_floor(), order, tolerance) => {
                 Reason::LowerOrderLikely
             }
             reason => reason,
@@ -190,21 +267,29 @@ impl<'a> Reading<'a> {
 
     /// Ratio of the coarsest step above the floor to the finest.
     fn span(&self) -> f64 {
-        let above_floor = &self.sequence[..self.range.end];
-        above_floor
+        let levels = self.above_floor();
+        levels
             .first()
-            .zip(above_floor.last())
+            .zip(levels.last())
             .map_or(f64::INFINITY, |(coarse, fine)| coarse.step / fine.step)
     }
 
-    /// The rates between levels above the floor.
-    fn rates(&self) -> &[f64] {
-        &self.pairwise[..self.range.end.saturating_sub(1)]
+    /// The levels above the floor.
+    fn above_floor(&self) -> &'a [Level] {
+        &self.sequence[..self.range.end]
     }
 }
 
 /// Steps 1 and 2 of the rule, except for what depends on the claim.
-fn defect(levels: &[Level]) -> Option<Reason> {
+///
+/// * `floor`: fine levels that are zero are dropped with those up to it, if it is known.
+fn defect(levels: &[Level], floor: f64) -> Option<Reason> {
+    let end = levels.iter().rposition(|level| level.error > floor);
+    let above_floor = if floor > 0.0 {
+        &levels[..end.map_or(0, |finest| finest + 1)]
+    } else {
+        levels
+    };
     let decreasing = levels
         .iter()
         .all(|level| level.step > 0.0 && level.step.is_finite())
@@ -215,7 +300,7 @@ fn defect(levels: &[Level]) -> Option<Reason> {
         Some(Reason::NegativeError)
     } else if levels.len() < FEWEST_LEVELS {
         Some(Reason::TooFewLevels)
-    } else if levels.iter().any(|level| level.error == 0.0) {
+    } else if above_floor.iter().any(|level| level.error == 0.0) {
         Some(Reason::ZeroError)
     } else if !decreasing {
         Some(Reason::StepsNotDecreasing)

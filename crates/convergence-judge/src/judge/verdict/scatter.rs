@@ -2,7 +2,7 @@
 //! explains far better than the order claimed does.
 
 use super::cause::line;
-use crate::judge::fit::{Level, POLLUTION_EXPONENTS};
+use crate::judge::fit::{Level, POLLUTION_EXPONENTS, log_quotient};
 
 /// Most of the finest levels that are looked at.
 const MOST: usize = 8;
@@ -41,16 +41,16 @@ pub(super) fn hides(levels: &[Level], order: f64, tolerance: f64) -> bool {
 
 /// * `least`: the change of the finest rate below which a term of lower order counts for nothing.
 fn hides_among(levels: &[Level], order: f64, least: f64) -> bool {
-    let finest = levels[levels.len() - 1].step;
-    // In units of the finest step, so that no power overflows.
+    let finest = levels[levels.len() - 1];
+    // In units of the finest level, so that no power overflows.
     let x: Vec<f64> = levels
         .iter()
-        .map(|level| (level.step / finest).ln())
+        .map(|level| log_quotient(level.step, finest.step))
         .collect();
     let heights: Vec<f64> = levels
         .iter()
         .zip(&x)
-        .map(|(level, x)| level.error.ln() - order * x)
+        .map(|(level, x)| log_quotient(level.error, finest.error) - order * x)
         .collect();
     let count = levels.len() as f64;
     let constant = squares(&heights, |_| mean(&heights)) * (count - 2.0) / (count - 1.0);

@@ -3,7 +3,7 @@
 use crate::judge::claims::Claim;
 use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
 use crate::judge::richardson::{Estimate, Estimator, StepValue};
-use crate::judge::verdict::{self, Cause, Floor, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{self, Cause, Floor, Printed, RateVerdict, Reason, Verdict};
 use crate::text::number::counted;
 
 /// Rounding below this share of a number changes no verdict.
@@ -48,10 +48,21 @@ impl Column {
             is_exact,
             doubt,
         } = self.rounding(floor);
-        let mut judged = claim.judge_rounded(&self.levels, floor, doubt);
+        let digits = self.digits();
+        let printed = Printed {
+            doubt,
+            digits: &digits,
+        };
+        let mut judged = claim.judge_printed(&self.levels, floor, printed);
         let needs_no_digits = matches!(
             judged.kind,
-            Reason::NonFiniteError | Reason::NegativeError | Reason::TooFewLevels
+            Reason::NonFiniteError
+                | Reason::NegativeError
+                | Reason::TooFewLevels
+                | Reason::Identical
+                | Reason::Repeats
+                | Reason::Alternates
+                | Reason::NothingTested
         );
         if is_exact || needs_no_digits || judged.verdict == Verdict::Pass {
             return judged;
@@ -79,7 +90,8 @@ impl Column {
 
     /// The rate of the errors where nothing is claimed: nothing is confirmed.
     pub fn observe(&self, floor: Floor) -> RateVerdict {
-        verdict::observe_rounded(&self.levels, floor, self.rounding(floor).doubt)
+        let doubt = self.rounding(floor).doubt;
+        verdict::observe_printed(&self.levels, floor, Printed { doubt, digits: &[] })
     }
 
     /// What rounding does to the rate of the errors above the floor.
@@ -161,10 +173,33 @@ impl Column {
         corners
     }
 
+    /// Whether another column has the same numbers, in all digits.
+    pub(crate) fn equals(&self, other: &Self) -> bool {
+        verdict::are_equal(&self.levels, &other.levels, |level| self.digits_at(level))
+    }
+
+    /// The number of printed digits of each number.
+    fn digits(&self) -> Vec<usize> {
+        let levels = 0..self.levels.len();
+        levels.map(|level| self.digits_at(level)).collect()
+    }
+
+    fn digits_at(&self, level: usize) -> usize {
+        /// Against the rounding of a logarithm that is a whole number.
+        const ROUND_OFF: f64 = 1e-9;
+        let error = self.levels[level].error.abs();
+        if self.halves[level] == 0.0 {
+            return verdict::significant_digits(error);
+        }
+        let share = self.halves[level] / error;
+        let digits = -(2.0 * share).log10() + ROUND_OFF;
+        digits.clamp(0.0, 16.0).floor() as usize + 1
+    }
+
     fn without_digits(&self, judged: RateVerdict) -> RateVerdict {
         let last = self.levels.len() - 1;
         let share = self.halves[last] / self.levels[last].error.abs();
-        let digits = (-(2.0 * share).log10()).clamp(0.0, 16.0).floor() as usize + 1;
+        let digits = self.digits_at(last);
         let rate = judged.finest_rate().unwrap_or(0.0);
         let is_step = rate * self.step_halves[last] / self.levels[last].step > share;
         let what = if is_step {

@@ -35,6 +35,12 @@ pub(super) const NO_ERROR: &str = "No rate can be had from what is no error. A r
      round-off; on all levels an instability or missing data. To try: the first step of the coarsest failing level; the same \
      with a tenth of dt; the energy step by step, which shows the step at which it begins.";
 
+/// Of errors that are those of another run.
+pub(super) const REPEATED_RUN: &str = "Two discretizations of one problem have errors that differ in the second digit, and never agree in all of them. Errors \
+     that do are one number, printed twice: a file that a failed run has left, a count that the program does not read or \
+     rounds, a last step that is cut or left out so that runs end at other times, one norm for two fields. To try: print \
+     the number of unknowns and the end time beside each error; delete all output, then run one level alone.";
+
 /// Of errors that are lost in round-off.
 pub(super) const ROUND_OFF: &str = "Subtraction leaves an error of about 1e-16 times the condition of the problem, which grows like 1/h or 1/h^2: the sum \
      C h^p + eps/h^k has a minimum, and levels beyond it say nothing. To try: coarser levels; a larger solution error by \

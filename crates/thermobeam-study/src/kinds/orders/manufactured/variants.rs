@@ -202,7 +202,7 @@ impl Convergence {
         for (_, claim) in &mut study.expect {
             let tolerance = claim.tolerance.max(TOLERANCE);
             *claim = Claim {
-                at_least: claim.at_least,
+                bound: claim.bound,
                 ..Claim::new(claim.order, tolerance)
             };
         }

@@ -1,0 +1,111 @@
+//! Tests that the units of steps and errors decide nothing.
+
+use super::{Judge, Level, Reason, Verdict, judge};
+use crate::judge::random::SplitMix;
+
+/// Lengths and times in units that people use, and numbers of no kind.
+const UNITS: [f64; 12] = [
+    1.0,
+    2.0,
+    10.0,
+    1e3,
+    1e-3,
+    1e-6,
+    1e-9,
+    0.3048,
+    0.0254,
+    60.0,
+    86_400.0,
+    1.234_567_8,
+];
+
+fn levels(steps: &[f64], errors: &[f64], [h, e]: [f64; 2]) -> Vec<Level> {
+    let levels = steps.iter().zip(errors);
+    let level = |(step, error): (&f64, &f64)| Level {
+        step: h * step,
+        error: e * error,
+    };
+    levels.map(level).collect()
+}
+
+#[test]
+fn a_rate_that_stands_still_before_it_changes_has_one_verdict_in_all_units() {
+    for (errors, order) in [
+        ([0.16, 0.04, 0.01, 0.002_485], 2.0),
+        ([1e-2, 2.5e-3, 6.25e-4, 1.57e-4], 2.0),
+        ([0.16, 0.04, 0.01, 0.0035], 2.0),
+    ] {
+        let reason = |first: f64| {
+            let steps = [1.0, 0.5, 0.25, 0.125];
+            judge(&levels(&steps, &errors, [first, 1.0]), order, 0.25).kind
+        };
+        let expected = reason(1.0);
+        for first in [0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7, 4.0, 1e-9, 3e5] {
+            assert_eq!(reason(first), expected, "{errors:?} {first}");
+        }
+    }
+    let steps = [0.25, 0.125, 0.0625, 0.031_25];
+    let passes = levels(&steps, &[0.16, 0.04, 0.01, 0.002_485], [1.0; 2]);
+    assert_eq!(judge(&passes, 2.0, 0.25).kind, Reason::Agrees);
+}
+
+/// Steps, and errors whose rates are repeated, round numbers, or pollute and scatter.
+fn table(random: &mut SplitMix) -> [Vec<f64>; 2] {
+    let count = 3 + (5.0 * random.uniform()) as usize;
+    let ratio = [2.0, 2.0, 3.0, 4.0, 10.0, 1.5][(6.0 * random.uniform()) as usize];
+    let steps: Vec<f64> = (0..count)
+        .map(|k| 0.4 * f64::powi(ratio, -(k as i32)))
+        .collect();
+    let kind = (4.0 * random.uniform()) as usize;
+    let a = random.uniform();
+    let mut errors = vec![0.1 + random.uniform()];
+    for k in 1..count {
+        let rate = match kind {
+            // Rates of whole halves of an order, which meet every threshold of the rule.
+            0 => 0.5 * (8.0 * random.uniform()).floor() - 0.5,
+            // The order, but for the last level or two.
+            1 if k + 2 < count => 2.0,
+            1 => 2.0 + 0.01 * (100.0 * random.uniform() - 50.0).round(),
+            2 => 2.0 + a * steps[k],
+            _ => 2.0 + 0.2 * (random.uniform() - 0.5),
+        };
+        errors.push(errors[k - 1] / ratio.powf(rate));
+    }
+    // As a table prints them, but for the last digits.
+    let printed = |error: &f64| format!("{error:.9e}").parse().unwrap_or(*error);
+    let is_printed = random.uniform() < 0.5;
+    let printed: Vec<f64> = errors.iter().map(printed).collect();
+    [steps, if is_printed { printed } else { errors }]
+}
+
+#[test]
+fn a_thousand_tables_have_one_verdict_and_one_reason_in_all_units() {
+    let mut random = SplitMix::new(75);
+    let judges = [0.25, 0.1, 0.01].map(|tolerance| Judge::new(tolerance).expect("a tolerance"));
+    let mut verdicts = [0; 3];
+    for number in 0..1000 {
+        let [steps, errors] = table(&mut random);
+        for judge in &judges {
+            for order in [2.0, 1.5] {
+                let found = |units: [f64; 2]| {
+                    let levels = levels(&steps, &errors, units);
+                    judge.judge_read(&judge.read(&levels), order).kind
+                };
+                let expected = found([1.0; 2]);
+                verdicts[expected.verdict() as usize] += 1;
+                for h in UNITS {
+                    for e in UNITS {
+                        assert_eq!(
+                            found([h, e]),
+                            expected,
+                            "table {number}: {steps:?} {errors:?} in {h}, {e}, claim {order} ± {}",
+                            judge.tolerance()
+                        );
+                    }
+                }
+            }
+        }
+    }
+    assert!(verdicts.iter().all(|count| *count > 500), "{verdicts:?}");
+    assert_eq!(Verdict::Fail as usize, 2);
+}

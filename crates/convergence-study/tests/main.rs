@@ -3,7 +3,8 @@
 mod asserted;
 #[cfg(feature = "command-line")]
 mod ci;
-#[cfg(feature = "reports")]
+#[cfg(all(feature = "tables", feature = "reports"))]
+mod doubted;
 #[cfg(feature = "files")]
 mod error_table;
 #[cfg(feature = "command-line")]

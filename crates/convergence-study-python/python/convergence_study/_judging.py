@@ -41,7 +41,7 @@ def judge(
     `convergence-study rates` does; step (a name, or a number from 1), columns (of errors), names (for all columns), dim and ratio (of the
     steps of numbered levels) say what the table does not.
 
-    order: a number > 0, or ">= 2" for a minimum order; for a table also a dict of names and orders; None for no claim, which is never a pass.
+    order: a number > 0, or ">= 2" for a minimum order, ">= 2.." if any higher rate will do; for a table also a dict of names and orders; None for no claim, which is never a pass.
     tolerance: allowed deviation of the rate from the order, 0 < tolerance < 0.5. floor: round-off, in the unit of the errors: the finest
     levels are dropped as long as their errors are not above it.
 

@@ -33,8 +33,8 @@ pub struct Arguments {
     /// The tables; `-` is standard input, which is read without a file, too
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least; may
-    /// be repeated. Without one nothing passes
+    /// The order that theory claims, for all columns or as NAME=P for one, '>=P' for the least,
+    /// '>=P..' if any higher rate will do; may be repeated. Without one nothing passes
     ///
     /// P may be p, p+1, p-1 for the degree p of each table, in a column p or in the heading, as in
     /// 'Degree = 2'. TABLE:NAME=P is about one table, by its heading or as 'Table 2'.

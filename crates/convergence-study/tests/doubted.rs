@@ -1,0 +1,215 @@
+//! Errors that are those of another level, of another column, or of no discretization: tables and
+//! studies say so, and do not pass.
+
+use convergence_study::{
+    Bound, Choice, Claim, Kind, Outcome, Reason, Verdict,
+    internal::{
+        rates::{Claimed, Request, Tables, claimed, object, sheet},
+        study::run_cases_here,
+    },
+    levels,
+};
+use serde_json::Value;
+
+const STEPS: [&str; 5] = ["0.2", "0.1", "0.05", "0.025", "0.0125"];
+const RIGHT: [&str; 5] = ["4.087e-1", "1.023e-1", "2.561e-2", "6.403e-3", "1.601e-3"];
+const OTHER: [&str; 5] = ["8.123e-1", "2.036e-1", "5.095e-2", "1.274e-2", "3.186e-3"];
+
+fn text(columns: &[(&str, [&str; 5])]) -> String {
+    let names: String = columns.iter().map(|(name, _)| format!(" {name}")).collect();
+    let row = |k: usize| {
+        let cells: String = columns
+            .iter()
+            .map(|(_, cells)| format!(" {}", cells[k]))
+            .collect();
+        format!("{}{cells}\n", STEPS[k])
+    };
+    format!("h{names}\n") + &(0..STEPS.len()).map(row).collect::<String>()
+}
+
+fn request(orders: &[&str], floor: f64) -> Request {
+    let claims: Vec<Claimed> = orders
+        .iter()
+        .map(|order| claimed(order).expect("a claim"))
+        .collect();
+    Request {
+        claims,
+        tolerance: 0.25,
+        floor,
+        choice: Choice::default(),
+        all: false,
+    }
+}
+
+fn judged(columns: &[(&str, [&str; 5])], orders: &[&str]) -> Value {
+    let text = text(columns);
+    object("rates", Tables::Text(&text), &request(orders, 0.0)).expect("a table")
+}
+
+fn codes(object: &Value) -> Vec<&str> {
+    let rates = object["rates"].as_array().expect("rates").iter();
+    rates
+        .map(|rate| rate["code"].as_str().expect("a code"))
+        .collect()
+}
+
+#[test]
+fn a_table_with_a_repeated_level_does_not_pass() {
+    let right = judged(&[("L2", RIGHT)], &["2"]);
+    assert_eq!(
+        (right["verdict"].as_str(), codes(&right)),
+        (Some("pass"), vec!["agrees"])
+    );
+    for level in 1..RIGHT.len() {
+        let mut errors = RIGHT;
+        errors[level] = errors[level - 1];
+        let found = judged(&[("L2", errors)], &["2"]);
+        assert_eq!(codes(&found), ["repeats"], "{errors:?}");
+        assert_eq!(found["verdict"], "inconclusive");
+    }
+    // Printed with three digits, of which the number has one.
+    let zeros = ["1.00", "1.00", "0.250", "0.0625", "0.015625"];
+    assert_eq!(codes(&judged(&[("L2", zeros)], &["2"])), ["repeats"]);
+    let found = judged(&[("L2", ["4.087e-1"; 5])], &["2"]);
+    assert_eq!(
+        (codes(&found), &found["verdict"]),
+        (vec!["identical"], &Value::from("fail"))
+    );
+}
+
+#[test]
+fn equal_columns_with_claims_do_not_pass_and_others_are_named() {
+    let other = judged(&[("L2", RIGHT), ("max", OTHER)], &["2"]);
+    assert_eq!(
+        (codes(&other), &other["verdict"]),
+        (vec!["agrees"; 2], &Value::from("pass"))
+    );
+    let notes = |object: &Value| object["notes"].to_string();
+    assert!(!notes(&other).contains("equal in all digits"));
+
+    let both = judged(&[("L2", RIGHT), ("max", RIGHT)], &["2"]);
+    assert_eq!(codes(&both), ["equal-columns"; 2]);
+    assert_eq!(both["verdict"], "inconclusive");
+    assert!(notes(&both).contains("L2 and max are equal in all digits"));
+
+    let one = judged(&[("L2", RIGHT), ("max", RIGHT)], &["L2=2"]);
+    assert_eq!(
+        (codes(&one), &one["verdict"]),
+        (vec!["agrees", "unclaimed"], &Value::from("pass"))
+    );
+    let text = text(&[("L2", RIGHT), ("max", RIGHT)]);
+    let shown = sheet("rates", &text, &request(&["L2=2"], 0.0)).expect("a table");
+    assert!(
+        shown
+            .sentence
+            .contains("L2 and max are equal in all digits"),
+        "{}",
+        shown.sentence
+    );
+}
+
+#[test]
+fn zeros_below_the_floor_are_dropped_from_a_table() {
+    let rows = [
+        ("2", "1.3205e-8"),
+        ("4", "2.0764e-10"),
+        ("8", "3.2496e-12"),
+        ("16", "5.0848e-14"),
+        ("32", "6.6613e-16"),
+        ("64", "0"),
+        ("128", "0"),
+    ];
+    let text = rows
+        .iter()
+        .fold("n e\n".to_owned(), |text, (n, e)| text + n + " " + e + "\n");
+    let judged = |floor: f64| {
+        let found = object("rates", Tables::Text(&text), &request(&["6"], floor)).expect("a table");
+        (
+            codes(&found)[0].to_owned(),
+            found["verdict"].as_str().map(str::to_owned),
+        )
+    };
+    assert_eq!(
+        judged(1e-14),
+        ("agrees".to_owned(), Some("pass".to_owned()))
+    );
+    assert_eq!(
+        judged(0.0),
+        ("zero".to_owned(), Some("inconclusive".to_owned()))
+    );
+}
+
+#[test]
+fn a_claim_of_a_table_may_be_open() {
+    let steep = ["4.087e-1", "2.561e-2", "1.601e-3", "1.0006e-4", "6.254e-6"];
+    for (order, code) in [
+        ("2", "too-high"),
+        (">=2", "too-good"),
+        (">=2..", "agrees"),
+        ("L2=>=2..", "agrees"),
+        (">=3", "agrees"),
+    ] {
+        assert_eq!(
+            codes(&judged(&[("L2", steep)], &[order])),
+            [code],
+            "{order}"
+        );
+    }
+    assert!(claimed("2..").is_err() && claimed(">=2...").is_err());
+    let degree = claimed("L2=>=p+1..").expect("a claim");
+    assert_eq!(degree.bound, Bound::AnyAbove);
+}
+
+fn outcome(
+    errors: impl Fn(usize) -> Vec<(&'static str, f64)> + Send + Sync,
+    names: &[&str],
+) -> Outcome {
+    let study = levels([4, 8, 16, 32, 64], errors);
+    let study = names.iter().fold(study, |study, name| {
+        study.claiming(*name, Claim::new(2.0, 0.25))
+    });
+    study.judge(&run_cases_here(&study))
+}
+
+#[test]
+fn a_program_with_a_repeated_level_or_column_does_not_pass() {
+    let error = |n: usize| 0.347_1 * (n as f64).powi(-2);
+    let right = outcome(
+        |n| vec![("L2", error(n)), ("max", 2.1 * error(n))],
+        &["L2", "max"],
+    );
+    assert_eq!(right.verdict, Verdict::Pass);
+
+    let stale = outcome(
+        |n| vec![("L2", error(if n == 16 { 8 } else { n }))],
+        &["L2"],
+    );
+    assert_eq!(
+        (stale.verdict, stale.rates[0].rate.kind),
+        (Verdict::Inconclusive, Reason::Repeats)
+    );
+
+    let unused = outcome(|_| vec![("L2", error(8))], &["L2"]);
+    assert_eq!(
+        (unused.verdict, unused.rates[0].rate.kind),
+        (Verdict::Fail, Reason::Identical)
+    );
+    let words = unused.rates[0].rate.because.to_string();
+    assert!(words.contains("does the program use {n}?"), "{words}");
+
+    let equal = |n: usize| vec![("L2", error(n)), ("max", error(n))];
+    let both = outcome(equal, &["L2", "max"]);
+    assert_eq!(both.verdict, Verdict::Inconclusive);
+    assert!(
+        both.rates
+            .iter()
+            .all(|rate| rate.rate.kind == Reason::EqualColumns)
+    );
+    let one = outcome(equal, &["L2"]);
+    assert_eq!(one.verdict, Verdict::Pass);
+    assert!(
+        one.checks
+            .iter()
+            .any(|check| check.claim.to_string().contains("equal in all digits"))
+    );
+}

@@ -122,10 +122,10 @@ fn the_bits_of_a_rate_are_those_that_python_has() {
     assert_eq!(
         (rate.fitted, rate.interval),
         (
-            Some(1.9993524479350304),
+            Some(1.9993524479350309),
             Some(Interval {
-                low: 1.9921437580830135,
-                high: 2.0065611377870476
+                low: 1.992143758083014,
+                high: 2.006561137787048
             })
         )
     );

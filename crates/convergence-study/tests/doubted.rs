@@ -123,7 +123,9 @@ fn zeros_below_the_floor_are_dropped_from_a_table() {
         .iter()
         .fold("n e\n".to_owned(), |text, (n, e)| text + n + " " + e + "\n");
     let judged = |floor: f64| {
-        let found = object("rates", Tables::Text(&text), &request(&["6"], floor)).expect("a table");
+        let mut request = request(&["6"], floor);
+        request.choice.dim = Some(1.0);
+        let found = object("rates", Tables::Text(&text), &request).expect("a table");
         (
             codes(&found)[0].to_owned(),
             found["verdict"].as_str().map(str::to_owned),

@@ -216,9 +216,10 @@ fn an_interval_is_never_narrower_than_the_round_off_of_the_logarithms() {
     for (m, unit) in [(3, 5.0), (3, 1e-9), (4, 5.0), (6, 1.0), (6, 1e-9)] {
         let steps: Vec<f64> = UNEVEN[..m].iter().map(|h| unit * h).collect();
         let data = levels(&steps, |h| h);
-        let scale = data
-            .iter()
-            .fold(1.0_f64, |scale, level| scale.max(level.error.ln().abs()));
+        // In units of the finest error.
+        let scale = data.iter().fold(1.0_f64, |scale, level| {
+            scale.max((level.error / data[m - 1].error).ln().abs())
+        });
         let round_off = 8.0 * f64::EPSILON * scale;
         let half = if m == 3 {
             let apart = (steps[0] / steps[2]).powf(1.0 / 6.0) - 1.0;

@@ -352,6 +352,7 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
         TooLow,
         TooHigh,
         ConstantOff,
+        Identical,
     ];
     for reason in Reason::all() {
         let expected = match reason {

@@ -146,7 +146,9 @@ impl Rates {
             return false;
         };
         let larger = |from: f64, to: f64, factor: f64| larger(from, to, factor, round_off);
-        if larger(before, last, GROWTH) && (before + last).abs() > two {
+        // Rates that stood still have no direction that the last change could turn.
+        let goes_on = larger(before, last, GROWTH) || before == 0.0;
+        if goes_on && (before + last).abs() > two {
             return true;
         }
         let [.., first, _, _] = changes[..] else {
@@ -302,6 +304,10 @@ mod tests {
             (&[-1.0, -1.5], 15.5, false),
             (&[-1.0, -1.09], 8.0, false),
             (&[-1.0, -1.12], 8.0, true),
+            // After none.
+            (&[0.0, -1.5], 8.5, true),
+            (&[0.0, 1.5], 8.5, true),
+            (&[0.0, 1.5], 9.5, false),
             // After fading pollution, four times as large, over more than a tenth.
             (&[1.5, 1.0, -4.5], 44.0, true),
             (&[-1.5, -1.0, 4.5], 44.0, true),

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Bound, Claim, ErrorsOverLevels, Finished, Floor, Header,
+    Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header,
     internal::study::{
         STEPS,
         header::is_name,
@@ -61,15 +61,15 @@ impl NamedClaim {
             order: claim.order,
             tolerance: claim.tolerance,
             at_least: claim.bound.is_least(),
-            any_above: claim.bound == Bound::AnyAbove,
+            any_above: claim.bound == ClaimBound::AnyAbove,
         }
     }
 
     pub(crate) fn claim(&self) -> Claim {
         let bound = match (self.at_least, self.any_above) {
-            (_, true) => Bound::AnyAbove,
-            (true, false) => Bound::AtLeast,
-            (false, false) => Bound::Both,
+            (_, true) => ClaimBound::AnyAbove,
+            (true, false) => ClaimBound::AtLeast,
+            (false, false) => ClaimBound::Both,
         };
         Claim {
             bound,

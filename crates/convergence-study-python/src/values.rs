@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use convergence_judge::judge::{
-    claims::{Bound, order_from_text},
+    claims::{Bound as ClaimBound, order_from_text},
     fit::Level,
     verdict::Judge,
 };
@@ -142,7 +142,7 @@ pub(crate) enum Order {
 pub(crate) fn order_of(claim: &Claim) -> Order {
     let order = claim.order;
     match claim.bound {
-        Bound::Both => Order::Number(order),
+        ClaimBound::Both => Order::Number(order),
         bound => Order::Text(bound.written(format_args!("{order:?}"))),
     }
 }
@@ -163,7 +163,7 @@ fn claim(order: &Bound<'_, PyAny>, tolerance: f64) -> PyResult<Claim> {
         Ok(text) => order_from_text(&text).ok_or_else(expected)?,
         Err(_) => (
             number(|| "order".to_owned(), order).map_err(|_| expected())?,
-            Bound::Both,
+            ClaimBound::Both,
         ),
     };
     if !(order > 0.0 && order.is_finite()) {

@@ -297,6 +297,7 @@ fn levels(study: &Program, ran: &[CaseRun]) -> Levels {
         refinements,
         ErrorColumn::of(&study.claims(false), &found),
     )
+    .of_answers()
 }
 
 /// Every error of every level, with the work that the program counts.

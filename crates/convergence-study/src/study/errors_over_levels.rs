@@ -172,6 +172,7 @@ impl<F> ErrorsOverLevels<F> {
             refinements,
             ErrorColumn::of(&self.claims, &errors),
         )
+        .of_answers()
     }
 }
 

@@ -194,6 +194,9 @@ pub struct Levels {
     /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
     /// that is known.
     pub floor: Floor,
+    /// Whether programs or functions have answered the errors: two with claims must then not be
+    /// equal. Norms that a kind computes itself may be equal by definition.
+    are_answers: bool,
 }
 
 impl Levels {
@@ -210,6 +213,15 @@ impl Levels {
             refinements,
             columns,
             floor: Floor::NONE,
+            are_answers: false,
+        }
+    }
+
+    /// The same of errors that programs or functions have answered.
+    pub(crate) fn of_answers(self) -> Self {
+        Self {
+            are_answers: true,
+            ..self
         }
     }
 
@@ -264,7 +276,8 @@ impl Levels {
     fn equal(&self, one: &ErrorColumn, other: &ErrorColumn) -> bool {
         let points = self.points(one);
         let digits = |level: usize| significant_digits(points[level].error);
-        one.name != other.name
+        self.are_answers
+            && one.name != other.name
             && one.errors == other.errors
             && are_equal(&points, &self.points(other), digits)
     }
@@ -322,7 +335,10 @@ impl Levels {
             errors: column.errors.iter().copied().take(levels).collect(),
             ..column.clone()
         });
-        Self::new(self.axis, refinements, columns).with_floor(self.floor)
+        Self {
+            are_answers: self.are_answers,
+            ..Self::new(self.axis, refinements, columns).with_floor(self.floor)
+        }
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and

@@ -65,7 +65,7 @@ impl From<Band> for Must {
 impl From<&Claim> for Must {
     /// The rates that a claim accepts.
     fn from(claim: &Claim) -> Self {
-        if claim.at_least {
+        if claim.bound.is_least() {
             Self::AtLeast(claim.order - claim.tolerance)
         } else {
             claim.band().into()

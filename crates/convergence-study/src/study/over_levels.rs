@@ -1,6 +1,7 @@
 //! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
 //! kinds of study.
 
+mod equal;
 #[cfg(feature = "reports")]
 mod figure;
 mod rates;
@@ -9,7 +10,7 @@ use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
 use super::subject::{Sort, Subject};
 pub(crate) use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
-use crate::judge::verdict::{Floor, RateVerdict, Reason, are_equal, significant_digits};
+use crate::judge::verdict::{Floor, RateVerdict, Reason};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use rates::rate_quantities;
@@ -194,8 +195,8 @@ pub struct Levels {
     /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
     /// that is known.
     pub floor: Floor,
-    /// Whether programs or functions have answered the errors: two with claims must then not be
-    /// equal. Norms that a kind computes itself may be equal by definition.
+    /// Whether programs or functions have answered the errors, of which two with claims must not be
+    /// equal: norms that a kind computes may be.
     are_answers: bool,
 }
 
@@ -256,49 +257,14 @@ impl Levels {
         let mut verdicts = vec![];
         for column in &self.columns {
             if let Some(claim) = &column.claim {
-                let rate = self.verdict(column, claim);
-                let mut others = self.columns.iter();
-                let twin = others.find(|other| other.claim.is_some() && self.equal(column, other));
                 verdicts.push(NamedRate {
                     name: column.name.clone(),
                     subject: column.subject.clone(),
-                    rate: match twin {
-                        Some(other) => rate.equal_to(&other.name),
-                        None => rate,
-                    },
+                    rate: self.unless_equal(column, self.verdict(column, claim)),
                 });
             }
         }
         verdicts
-    }
-
-    /// Whether two columns are equal on all levels, in all digits.
-    fn equal(&self, one: &ErrorColumn, other: &ErrorColumn) -> bool {
-        let points = self.points(one);
-        let digits = |level: usize| significant_digits(points[level].error);
-        self.are_answers
-            && one.name != other.name
-            && one.errors == other.errors
-            && are_equal(&points, &self.points(other), digits)
-    }
-
-    /// A check for each error that equals one before it, unless both have claims, which then do not
-    /// pass: it says so.
-    pub(crate) fn equal_columns(&self) -> Vec<Check> {
-        let mut checks = vec![];
-        for (k, column) in self.columns.iter().enumerate() {
-            let mut before = self.columns[..k].iter();
-            let Some(first) = before.find(|first| self.equal(first, column)) else {
-                continue;
-            };
-            if first.claim.is_none() || column.claim.is_none() {
-                let names = format!("{} and {}", first.name, column.name);
-                let claim = format!("{names}, equal in all digits, are not both claimed");
-                let check = Check::that(true, claim, "equal on all levels");
-                checks.push(check.about(Subject::of(&column.name)));
-            }
-        }
-        checks
     }
 
     /// The verdict on the claim about an error.
@@ -336,8 +302,9 @@ impl Levels {
             ..column.clone()
         });
         Self {
-            are_answers: self.are_answers,
-            ..Self::new(self.axis, refinements, columns).with_floor(self.floor)
+            refinements: refinements.collect(),
+            columns: columns.collect(),
+            ..self.clone()
         }
     }
 

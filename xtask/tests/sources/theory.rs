@@ -47,6 +47,7 @@ fn known() -> BTreeSet<String> {
         "thermobeam",
         "thermobeam-exact",
         "thermobeam-study",
+        "thermobeam-cli",
         "convergence-study",
     ] {
         for folder in ["src", "tests"] {

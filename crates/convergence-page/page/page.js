@@ -1,8 +1,8 @@
 "use strict";
 // Nothing of the text is ever markup: words become text nodes, figures are images.
 const byId = (id) => document.getElementById(id);
-const OPTIONS = ["step", "columns", "values", "names", "dim", "ratio", "floor"];
-const LISTS = new Set(["columns", "values", "names"]);
+const OPTIONS = ["step", "columns", "values", "names", "lines", "dim", "ratio", "floor"];
+const LISTS = new Set(["columns", "values", "names", "lines"]);
 const NUMBERS = new Set(["dim", "ratio", "floor", "tolerance"]);
 const LONGEST_FILE = 4 << 20;
 // A question that takes longer is given up: in milliseconds.
@@ -129,6 +129,11 @@ function answer(found) {
   for (const table of found.tables) {
     if (found.tables.length > 1) nodes.push(element("h3", {}, table.name));
     nodes.push(element("p", { className: "help" }, table.reading));
+    for (const doubt of table.doubts) {
+      const row = element("p", { className: "row" }, `Doubt: ${doubt.because} `);
+      if (doubt.settings) row.append(offered(doubt.settings));
+      nodes.push(row);
+    }
     nodes.push(...table.columns.map(column));
     nodes.push(element("div", { className: "scroll", tabIndex: 0 }, cells(table.rows)));
     if (table.legend.trim() !== "") nodes.push(element("p", { className: "help legend" }, table.legend.trim()));
@@ -163,12 +168,17 @@ function refusal(refused) {
   nodes.push(element("pre", {}, refused.message));
   if (refused.line) nodes.push(place(refused));
   for (const offer of refused.offers ?? []) {
-    const words = Object.entries(offer.settings).map(([name, value]) => `${name} ${[value].flat().join(",")}`).join(", ");
-    const button = element("button", { type: "button" }, `Read it with ${words}`);
-    button.addEventListener("click", () => take(offer.settings));
-    nodes.push(element("p", { className: "row" }, button, offer.comment));
+    nodes.push(element("p", { className: "row" }, offered(offer.settings), offer.comment));
   }
   return nodes;
+}
+
+// A button that reads the table with these settings.
+function offered(settings) {
+  const words = Object.entries(settings).map(([name, value]) => `${name} ${[value].flat().join(",")}`).join(", ");
+  const button = element("button", { type: "button" }, `Read it with ${words}`);
+  button.addEventListener("click", () => take(settings));
+  return button;
 }
 
 // A letter that is not seen, or turns the text around, as a mark.

@@ -58,9 +58,29 @@ fn how_a_table_is_read_needs_no_claim() {
 
 #[test]
 fn a_refusal_names_the_place_and_the_command() {
-    let question = json!({"text": "h, L2\n0.1, 1e-2\n0.05, 2x\n", "order": ["2"]});
+    let text = "A study\nn, L2\n10, 1.60e-1\n20, 4.00e-2\n40, 1.00e-2\n";
+    let question = json!({"text": text, "order": ["2"]});
     let refused = &answer(judge, &question)["refused"];
-    assert_eq!(refused["line"], 3, "{refused}");
+    assert_eq!(refused["line"], 2, "{refused}");
+    assert_eq!(refused["offers"][0]["settings"], json!({"dim": 1.0}));
+}
+
+#[test]
+fn what_is_left_out_and_what_is_doubted_is_shown() {
+    let text = "h, L2, rate\n0.2, 4.00e-2, -\n0.1, 1.00e-2, 2.00\n0.05, 2.50e-3, 2.00\n\n0.0125\n";
+    let found = answer(judge, &json!({"text": text, "order": ["2"]}));
+    assert_eq!(found["verdict"], "inconclusive", "{found}");
+    let table = &found["tables"][0];
+    let reading = table["reading"].as_str().expect("text");
+    assert!(
+        reading.ends_with("left out: `rate` (the rates of `L2`)"),
+        "{reading}"
+    );
+    let doubt = &table["doubts"][0];
+    assert_eq!(doubt["because"], "outside the tables: line 6, `0.0125`");
+    assert_eq!(doubt["settings"], json!({"lines": ["1-4"]}));
+    let settings = json!({"text": text, "order": ["2"], "lines": ["1-4"]});
+    assert_eq!(answer(judge, &settings)["verdict"], "pass");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Judges tables of errors.
 
+use std::collections::BTreeMap;
+
 use convergence_judge::{
     judge::{
         fit::Level,
@@ -27,7 +29,8 @@ type Arguments = (String, String, Vec<f64>, Vec<f64>, Option<Order>, f64, f64);
 /// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval:
 /// its two ends, or None; pairwise: the rates between neighbouring levels, one fewer than
 /// levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
-/// order: the claimed order, or None; table(): step, error and rate of each level, coarse to fine,
+/// order: the claimed order, or None; left_out: the columns of its table that were set aside, by name
+/// with the reason; table(): step, error and rate of each level, coarse to fine,
 /// as a pandas DataFrame if pandas is available, otherwise as a dict of lists; to_dict(): all of it
 /// in types that JSON knows. It has no truth value. In a notebook it is shown as a table and a
 /// picture.
@@ -40,6 +43,8 @@ pub(crate) struct Judgement {
     pub(crate) tolerance: f64,
     pub(crate) floor: Floor,
     pub(crate) rate: RateVerdict,
+    /// The columns of its table that were set aside, each with the reason.
+    pub(crate) left_out: Vec<(String, String)>,
 }
 
 /// Decimals of the rate in the first line of a failing test.
@@ -131,6 +136,7 @@ impl Judgement {
             claim,
             tolerance,
             floor,
+            left_out: vec![],
         })
     }
 
@@ -185,6 +191,11 @@ impl Judgement {
     #[getter]
     fn pairwise(&self) -> Vec<f64> {
         self.rate.pairwise.clone()
+    }
+
+    #[getter]
+    fn left_out(&self) -> BTreeMap<String, String> {
+        self.left_out.iter().cloned().collect()
     }
 
     #[getter]

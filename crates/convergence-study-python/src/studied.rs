@@ -62,6 +62,7 @@ impl Study {
                 tolerance: claim.tolerance,
                 floor: self.results.options.floor,
                 rate: rate.clone(),
+                left_out: vec![],
             })
         };
         outcome.rates.iter().filter_map(judgement).collect()

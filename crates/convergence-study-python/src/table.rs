@@ -64,6 +64,10 @@ pub(crate) fn judge_table(
     if let Some(doubt) = table.doubts.first() {
         return Err(refuse(format!("table: {doubt}")));
     }
+    let left_out = table.left_out.iter();
+    let left_out: Vec<(String, String)> = left_out
+        .map(|one| (one.column.clone(), one.because.clone()))
+        .collect();
     let judged = |column: &Column, claim: Option<Claim>| Judgement {
         name: column.name.clone(),
         step: table.step.clone(),
@@ -75,10 +79,15 @@ pub(crate) fn judge_table(
         claim,
         tolerance,
         floor,
+        left_out: left_out.clone(),
     };
     let named = match claims {
         Claims::ForAll(claim) => {
-            let judgements = table.columns.iter().map(|column| judged(column, claim));
+            let claim_of = |column: &Column| claim.filter(|_| column.is_chosen);
+            let judgements = table
+                .columns
+                .iter()
+                .map(|column| judged(column, claim_of(column)));
             return Ok(Some(judgements.collect()));
         }
         Claims::Named(named) => named,

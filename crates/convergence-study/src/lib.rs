@@ -144,8 +144,8 @@ pub mod variants {
 pub use crate::{
     input::{
         Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
-        error_table::{
-            Choice, Column, Doubt, FrameCell, FrameColumn, NotError, Offer, Parameter, RateTable,
+        table::{
+            Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
         },
     },
     study::{FromFile, KindRow, read_claim, read_study},

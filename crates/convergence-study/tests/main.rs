@@ -5,8 +5,6 @@ mod asserted;
 mod ci;
 #[cfg(all(feature = "tables", feature = "reports"))]
 mod doubted;
-#[cfg(feature = "files")]
-mod error_table;
 #[cfg(feature = "command-line")]
 mod examples;
 #[cfg(feature = "command-line")]
@@ -19,8 +17,6 @@ mod readme;
 mod richardson;
 #[cfg(feature = "tables")]
 mod table_attacks;
-#[cfg(feature = "files")]
-mod tables;
 mod verdict_laws;
 mod verdict_rule;
 mod verdict_tables;

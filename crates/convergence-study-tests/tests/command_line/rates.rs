@@ -57,14 +57,15 @@ fn rates_come_in_words_and_as_an_object() {
         ),
         (&false.into(), &0.05.into())
     );
-    let (status, _, err) = run(&root, &["rates", "t", "--order", "l2=2"]);
+    let (status, _, err) = run(&root, &["rates", "t", "--order", "L9=2"]);
     assert!(
-        status == Some(2) && err.contains("expected a column of errors: L2, H1, max; found `l2`"),
+        status == Some(2) && err.contains("expected a column of errors: L2, H1, max; found `L9`"),
         "{err}"
     );
     let (status, _, err) = run(&root, &["rates", "t", "--columns", "L2,L3"]);
     assert!(
-        status == Some(2) && err.contains("t:1:1: expected a column for --columns"),
+        status == Some(2)
+            && err.contains("t:1:1: expected --columns L3, the name or number of a column"),
         "{err}"
     );
 }

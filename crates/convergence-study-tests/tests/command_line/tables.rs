@@ -33,10 +33,11 @@ fn told(root: &TempDir, table: &str, options: &[&str]) -> (Option<i32>, String) 
 #[test]
 fn rates_says_how_it_read_a_table() {
     let root = workspace(false);
-    let text = "spam,L2,other\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
+    let text = "h,L2,dofs\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
     fs::write(root.path().join("t"), text).unwrap();
     let rates = |more: &[&str]| run(&root, &[&["rates", "t"], more].concat());
-    let reading = "step: `spam`, by its ratio 2; errors: `L2`; left out: `other` (a count)";
+    let because = "a count that grows as the step falls";
+    let reading = format!("step: `h`; errors: `L2`; left out: `dofs` ({because})");
     let (status, out, _) = rates(&["--order", "2", "--quiet"]);
     assert_eq!(
         (status, out.as_str()),
@@ -48,26 +49,42 @@ fn rates_says_how_it_read_a_table() {
     let (_, out, _) = rates(&["--order", "2", "--format", "json"]);
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
-        (&object["notes"][0], &object["not_errors"][0]["column"]),
-        (&reading.into(), &"other".into())
+        (&object["notes"][0], &object["left_out"]),
+        (
+            &json!(reading),
+            &json!([{"column": "dofs", "because": because}])
+        )
     );
     let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]);
     let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
-    assert!(page.contains(reading), "{err}{page}");
-    // If named, it is the step, which the quiet answer does not mention, and no claimed name is
-    // taken for it.
-    let (status, out, _) = rates(&["--order", "L2=2", "--step", "spam", "--quiet"]);
-    assert!(status == Some(0) && !out.contains("step: "), "{out}");
-    let (status, _, err) = rates(&["--order", "spam=2"]);
+    assert!(page.contains(&reading), "{err}{page}");
+    let junit = fs::read_to_string(root.path().join("out/notes/junit.xml")).unwrap();
     assert!(
-        status == Some(2) && err.contains("expected --dim D for h = other^(-1/D)"),
+        junit.contains("tests=\"2\" skipped=\"1\"")
+            && junit.contains(&format!("<skipped message=\"{because}\"/>")),
+        "{junit}"
+    );
+    // No claimed name is taken for the step.
+    let (status, _, err) = rates(&["--order", "h=2"]);
+    assert!(
+        status == Some(2) && err.contains("expected --dim D for h = dofs^(-1/D)"),
         "{err}"
     );
     // A column left out is judged if its name is claimed or chosen.
-    for more in [&["--order", "other=2"][..], &["--columns", "L2,other"]] {
+    for more in [&["--order", "dofs=2"][..], &["--columns", "L2,dofs"]] {
         let (status, out, _) = rates(&[&["--order", "2"], more].concat());
         assert_eq!(status, Some(1), "{more:?}: {out}");
     }
+    // Lines outside are a doubt, with the command that says where the table is.
+    fs::write(root.path().join("t"), format!("{text}\n0.05\n")).unwrap();
+    let (status, out, _) = rates(&["--order", "2"]);
+    assert!(
+        status == Some(1)
+            && out.contains("doubt: outside the tables: line 6, `0.05`\n")
+            && out.contains(" rates t --order 2 --lines 1-4\n"),
+        "{out}"
+    );
+    assert_eq!(rates(&["--order", "2", "--lines", "1-4"]).0, Some(0));
     let utf_16: Vec<u8> = "\u{feff}h,L2\n"
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
@@ -103,8 +120,8 @@ fn claims_that_contradict_each_other_are_refused() {
             "found `L2=2,H1`; repeat --order for each column",
         ),
         (
-            &["--order", "l2 [pa]=2"],
-            "found `l2 [pa]`, did you mean `L2 [Pa]`?",
+            &["--order", "L2 [P]=2"],
+            "found `L2 [P]`, did you mean `L2 [Pa]`?",
         ),
         (
             &["--order", "-2"],
@@ -117,7 +134,7 @@ fn claims_that_contradict_each_other_are_refused() {
         (&["--dim", "-1"], "expected a number > 0"),
         (
             &["--columns", "2", "--values", "2"],
-            "each column of --columns and --values once, found twice `L2 [Pa]`",
+            "each column of --columns and --values once, found `L2 [Pa]` twice",
         ),
     ] {
         let (status, out, err) = run(&root, &[&["rates", "t"], options].concat());
@@ -285,11 +302,7 @@ fn values_and_rounded_numbers_are_told_from_errors() {
     let drag = "h, drag\n0.1, 5.577\n0.05, 5.5718\n0.025, 5.5704\n";
     let (status, text) = told(&root, drag, &["--order", "2"]);
     assert!(
-        status == Some(2) && text.contains("`drag` (tends to 5.56988: a value, not an error)"),
-        "{text}"
-    );
-    assert!(
-        text.ends_with("powers rates TABLE --order 2 --values drag"),
+        status == Some(1) && text.contains("If `drag` is a value and no error: --values 'drag'."),
         "{text}"
     );
     let value = |h: f64| 5.5699 + 0.45 * h * h + 0.1 * h.powi(3);
@@ -395,7 +408,7 @@ fn words_name_what_is_there() {
     let order = "h,err,order\n0.1,0.1,\n0.05,0.05,2.00\n0.025,0.025,2.00\n0.0125,0.0125,2.00\n";
     let (_, text) = told(&root, order, &["--order", "1"]);
     assert!(
-        text.contains("left out: `order` (factors by which `err` falls, not its rates)"),
+        text.contains("left out: `order` (the factors of `err`)"),
         "{text}"
     );
     // The last differences would end above zero, but the rate says that the error goes on falling.
@@ -462,7 +475,7 @@ fn a_refusal_is_an_object_for_programs() {
     );
     let parts = json!([
         {"argument": "dim", "value": "D"},
-        " for h = n^(-1/D), with D = 1 for cells along an edge, or ",
+        " for h = n^(-1/D), or ",
         {"argument": "step", "value": "COLUMN"},
     ]);
     assert_eq!(refused["expected"], parts);

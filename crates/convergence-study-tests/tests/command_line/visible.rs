@@ -94,7 +94,7 @@ fn names_of_columns_and_files_are_no_commands() {
         let (status, out, err) = run(&root, &["rates", "table.csv", "--order", "1"]);
         assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
         assert!(
-            err.contains("table.csv:1:3: expected a name without control characters, found `"),
+            err.contains("table.csv:1:1: expected a name without control characters, found `"),
             "{err}"
         );
         is_harmless(&err);

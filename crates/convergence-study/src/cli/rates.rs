@@ -10,7 +10,7 @@ use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::input::advice::CommandLine;
-use crate::input::error_table::Choice;
+use crate::input::table::{Choice, LineRange};
 use crate::judge::verdict::{self, Verdict};
 use crate::project::Project;
 use crate::rates::{
@@ -18,12 +18,11 @@ use crate::rates::{
     verdict_in_markdown,
 };
 use crate::store::{JudgedSuite, atomic, junit_of};
-use crate::text::names::quoted;
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
-/// The input may be tables, logs, lists or JSON. A column is judged unless its name, or arithmetic
-/// that can be checked, says that it is something else; a line says how the table was read. Several
+/// The input may be tables, logs, lists or JSON. Every number is a step, an error that is judged, or
+/// was set aside, by arithmetic that can be checked: the first line says each, with the reason. Several
 /// tables of one file are judged each under its heading, and the worst verdict decides. Exit status 0
 /// if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell,
 /// nothing is claimed in a table or a table cannot be read beside others, 2 if no table can be read,
@@ -76,6 +75,10 @@ pub struct Arguments {
     /// h = R^(-level)
     #[arg(long, value_name = "R", value_parser = ratio, conflicts_with = "dim", allow_negative_numbers = true)]
     ratio: Option<f64>,
+    /// The lines where a table is, from 1; may be repeated. Others are no doubt, unless they tell
+    /// of a failure
+    #[arg(long, value_name = "A-B", value_delimiter = ',')]
+    lines: Vec<LineRange>,
     /// Columns without a claim count, too: then nothing passes
     #[arg(long)]
     all: bool,
@@ -133,7 +136,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
 /// too.
 fn refuse(project: &Project, arguments: &Arguments, refusal: &Refusal) -> Unusable {
     let command = match refusal {
-        Refusal::Table { file, .. } => Some(arguments.command(project, file)),
+        Refusal::Table { file, .. } => Some(rates::call(project.command, file, &arguments.order)),
         Refusal::Claim(_) | Refusal::Rule(_) => None,
     };
     let surface = CommandLine {
@@ -157,6 +160,7 @@ impl Arguments {
                 columns: self.columns.clone(),
                 values: self.values.clone(),
                 names: self.names.clone(),
+                lines: self.lines.clone(),
                 dim: self.dim,
                 ratio: self.ratio,
                 ..Choice::default()
@@ -177,17 +181,6 @@ impl Arguments {
             ));
         }
         Ok(vec!["-".to_owned()])
-    }
-
-    /// The command that judges a file, without the settings of the reader.
-    fn command(&self, project: &Project, file: &str) -> String {
-        let orders = self.order.iter();
-        let orders = orders.map(|claimed| format!(" --order {}", quoted(&claimed.text)));
-        format!(
-            "{} rates {file}{}",
-            project.command,
-            orders.collect::<String>()
-        )
     }
 }
 
@@ -219,6 +212,7 @@ fn write(
     let suite = |judgement: &Judgement<'_>| JudgedSuite {
         name: judgement.name().to_owned(),
         cases: cases(judgement),
+        skipped: judgement.left_out(),
     };
     let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
     let junit = junit_of(project.name, &suites);

@@ -23,11 +23,13 @@ pub enum Argument {
     Dim,
     /// The ratio of the steps of consecutive levels.
     Ratio,
+    /// The lines of the table.
+    Lines,
 }
 
 impl Argument {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Order,
         Self::Step,
         Self::Columns,
@@ -35,6 +37,7 @@ impl Argument {
         Self::Names,
         Self::Dim,
         Self::Ratio,
+        Self::Lines,
     ];
 
     /// Its name: that of an option without dashes.
@@ -47,6 +50,7 @@ impl Argument {
             Self::Names => "names",
             Self::Dim => "dim",
             Self::Ratio => "ratio",
+            Self::Lines => "lines",
         }
     }
 
@@ -58,6 +62,7 @@ impl Argument {
             Self::Columns | Self::Values | Self::Names => "LIST",
             Self::Dim => "D",
             Self::Ratio => "R",
+            Self::Lines => "A-B",
         }
     }
 

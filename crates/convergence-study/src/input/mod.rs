@@ -8,6 +8,7 @@ pub(crate) mod advice;
 mod keys;
 mod lists;
 mod settings;
+pub(crate) mod table;
 mod values;
 
 use std::fmt;
@@ -20,14 +21,12 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use advice::{CommandLine, Surface, Text};
-use error_table::Offer;
+use table::Offer;
 
 pub use convergence_keys::{Form, Key, Keys};
 
 use crate::text::names::did_you_mean;
 use crate::text::visible;
-
-pub(crate) mod error_table;
 
 pub(crate) use crate::text::visible::visible;
 pub(crate) use values::shorten;
@@ -122,12 +121,6 @@ impl InputError {
         }
         let complaint = self.complaint.words(surface) + &offers.collect::<String>();
         text + ": " + &visible::lines(&complaint)
-    }
-
-    /// The same error, with choices that may read the table.
-    fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
-        self.offers.extend(offers);
-        self
     }
 }
 

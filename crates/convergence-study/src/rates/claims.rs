@@ -2,7 +2,7 @@
 
 use super::{Request, SourceTable, columns};
 use crate::input::advice::{Argument, Text};
-use crate::input::error_table::{is_degree, names::position};
+use crate::input::table::names::{is_degree, position};
 use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::visible::visible;
@@ -148,6 +148,9 @@ fn claims_of(
     let names: Vec<&str> = columns(&source.table)
         .map(|column| column.name.as_str())
         .collect();
+    let is_chosen: Vec<bool> = columns(&source.table)
+        .map(|column| column.is_chosen)
+        .collect();
     // The last entry is the claim for all columns.
     let mut general: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
     let mut own = general.clone();
@@ -170,8 +173,13 @@ fn claims_of(
         }
     }
     let all = names.len();
-    let claim =
-        |(k, name): (usize, &&str)| match own[k].or(own[all]).or(general[k]).or(general[all]) {
+    // What the caller has not chosen has an order only by its own name.
+    let [own_of_all, general_of_all] = [own[all], general[all]];
+    let claim = |(k, name): (usize, &&str)| {
+        let of_all = |claimed: Option<&Claimed>| claimed.filter(|_| is_chosen[k]).cloned();
+        let own = own[k].cloned().or_else(|| of_all(own_of_all));
+        let claimed = own.or_else(|| general[k].cloned());
+        match claimed.or_else(|| of_all(general_of_all)) {
             Some(claimed) if claimed.bound.is_least() && k >= source.table.columns.len() => {
                 Err(Text::from("expected an order alone for values; found ")
                     + Argument::Order.with(&claimed.text)
@@ -179,10 +187,11 @@ fn claims_of(
             }
             Some(claimed) => Ok(Some(Claim {
                 bound: claimed.bound,
-                ..Claim::new(order(claimed, source)?, request.tolerance)
+                ..Claim::new(order(&claimed, source)?, request.tolerance)
             })),
             None => Ok(None),
-        };
+        }
+    };
     names.iter().enumerate().map(claim).collect()
 }
 
@@ -192,10 +201,7 @@ fn order(claimed: &Claimed, source: &SourceTable) -> Result<f64, Text> {
         ClaimedOrder::Number(order) => return Ok(*order),
         ClaimedOrder::Degree { name, plus } => (name, plus),
     };
-    let mut parameters = source.table.parameters.iter();
-    let order = parameters
-        .find(|parameter| parameter.is_called(name))
-        .map(|parameter| parameter.value + plus);
+    let order = source.table.degree.map(|degree| f64::from(degree) + plus);
     order.filter(|order| *order > 0.0 && order.is_finite()).ok_or_else(|| {
         let found = order.map_or("none".to_owned(), |order| format!("an order of {order}"));
         Argument::Order.with(&claimed.text)

@@ -6,7 +6,7 @@ use super::shown::{sentence, text};
 use super::{EqualColumns, JudgedColumn, Judgement};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
-use crate::input::error_table::{Doubt, NotError};
+use crate::input::table::{Doubt, LeftOut, RateTable};
 use crate::judge::claims::Bound;
 use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
@@ -120,20 +120,28 @@ fn object(findings: &Judgement<'_>) -> Value {
         }
         object
     };
-    let not_errors = findings.source.table.not_errors.iter().map(
-        |NotError {
-             column, because, ..
-         }| json!({"column": column, "because": because}),
-    );
     let table = &findings.source.table;
+    let left_out = table.left_out.iter();
+    let left_out =
+        left_out.map(|LeftOut { column, because }| json!({"column": column, "because": because}));
     let mut notes = vec![table.reading.clone()];
     notes.extend(table.doubts.iter().map(Doubt::to_string));
     notes.extend(findings.equals.iter().map(EqualColumns::to_string));
     json!({
         "step": findings.source.table.step, "floor": findings.floor.value(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "not_errors": not_errors.collect::<Vec<_>>(), "notes": notes,
+        "left_out": left_out.collect::<Vec<_>>(), "notes": notes,
+        "doubts": doubts(table),
     })
+}
+
+/// The doubts about a table, each with the settings that remove it.
+pub(super) fn doubts(table: &RateTable) -> Vec<Value> {
+    let doubt = |doubt: &Doubt| {
+        let settings = doubt.offer().map(super::refusal::settings);
+        json!({"because": doubt.to_string(), "settings": settings})
+    };
+    table.doubts.iter().map(doubt).collect()
 }
 
 /// The errors over the steps, columns with a claim first.

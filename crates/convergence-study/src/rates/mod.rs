@@ -11,10 +11,11 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::exchange;
-use crate::input::error_table::{Choice, Column, RateTable};
+use crate::input::table::{Choice, Column, Doubt, RateTable};
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{Floor, RateVerdict, Verdict};
 use crate::judge::{self, claims::Claim};
+use crate::text::names::quoted;
 use crate::text::visible::visible;
 pub use claims::{Claimed, ClaimedOrder, claimed};
 #[cfg(feature = "command-line")]
@@ -39,6 +40,15 @@ impl Judgement<'_> {
     #[cfg(feature = "command-line")]
     pub(crate) fn name(&self) -> &str {
         &self.source.name
+    }
+
+    /// The columns that were set aside, each with the reason.
+    #[cfg(feature = "command-line")]
+    pub(crate) fn left_out(&self) -> Vec<(String, String)> {
+        let left_out = self.source.table.left_out.iter();
+        left_out
+            .map(|one| (one.column.clone(), one.because.clone()))
+            .collect()
     }
 }
 
@@ -80,6 +90,8 @@ impl SourceTable {
 pub(crate) struct Judgement<'t> {
     /// The program of the caller, in the commands that advice names.
     command: &'t str,
+    /// The command that judges the file by the same claims, without the settings of the reader.
+    call: String,
     source: &'t SourceTable,
     columns: Vec<JudgedColumn<'t>>,
     floor: Floor,
@@ -195,6 +207,8 @@ pub struct TableSheet {
     pub name: String,
     /// How it was read.
     pub reading: String,
+    /// What speaks against it, each as an object with the settings that remove it.
+    pub doubts: Vec<Value>,
     /// Steps, errors and rates as text: the names, then a row for each level.
     pub rows: Vec<Vec<String>>,
     /// The meaning of the marks in the rows, a line for each.
@@ -258,6 +272,7 @@ fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
     TableSheet {
         name: judgement.source.name.clone(),
         reading: table.reading.clone(),
+        doubts: forms::doubts(table),
         rows: judge::shown::rows(&table.step, &columns),
         legend: judge::shown::legend(&columns, judgement.floor.value()),
         columns: judgement.columns.iter().map(column).collect(),
@@ -294,11 +309,13 @@ pub(crate) fn judgements<'t>(
         let equals = equal_columns(&mut columns);
         let deciding = columns.iter().filter(|column| column.decides);
         let verdicts = deciding.map(|column| column.rate.verdict);
-        // What a failed run has printed may look right, and so may two tables in one.
+        // What a failed run has printed may look right.
         let doubts = source.table.doubts.iter();
+        let doubts = doubts.filter(|doubt| counts(doubt, &columns));
         let verdict = Verdict::worst(verdicts.chain(doubts.map(|_| Verdict::Inconclusive)));
         Judgement {
             command,
+            call: call(command, &source.file, &request.claims),
             source,
             columns,
             floor: rule.floor,
@@ -307,6 +324,24 @@ pub(crate) fn judgements<'t>(
         }
     };
     Ok(sources.iter().zip(claims).map(judged).collect())
+}
+
+/// The command that judges a file by these claims, without the settings of the reader.
+pub(crate) fn call(command: &str, file: &str, claims: &[Claimed]) -> String {
+    let orders = claims
+        .iter()
+        .map(|claimed| format!(" --order {}", quoted(&claimed.text)));
+    format!("{command} rates {file}{}", orders.collect::<String>())
+}
+
+/// Whether a doubt speaks against the verdict: not one about an error without a claim.
+fn counts(doubt: &Doubt, columns: &[JudgedColumn<'_>]) -> bool {
+    let Doubt::Column { column, .. } = doubt else {
+        return true;
+    };
+    let mut judged = columns.iter();
+    let judged = judged.find(|judged| judged.column.name == *column);
+    judged.is_none_or(|judged| judged.decides)
 }
 
 /// The verdict on all tables.

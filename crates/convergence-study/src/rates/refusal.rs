@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::input::advice::{self, MessagePart, Surface, Text};
-use crate::input::error_table::Offer;
+use crate::input::table::Offer;
 use crate::input::{Complaint, InputError};
 use crate::judge::verdict::JudgeError;
 
@@ -77,16 +77,20 @@ fn part(part: &MessagePart) -> Value {
 
 /// Settings by name, with the call that has them.
 fn offer(offer: &Offer, surface: &dyn Surface) -> Value {
-    let settings = offer.choice.settings();
-    let mut by_name = serde_json::Map::new();
-    for setting in &settings {
-        by_name.insert(setting.argument.name().to_owned(), value(&setting.value));
-    }
     json!({
-        "settings": by_name,
+        "settings": settings(offer),
         "comment": offer.comment,
-        "call": surface.call(&settings),
+        "call": surface.call(&offer.choice.settings()),
     })
+}
+
+/// Settings by name.
+pub(super) fn settings(offer: &Offer) -> Value {
+    let settings = offer.choice.settings().into_iter();
+    settings
+        .map(|setting| (setting.argument.name().to_owned(), value(&setting.value)))
+        .collect::<serde_json::Map<_, _>>()
+        .into()
 }
 
 /// The value of an argument.

@@ -3,16 +3,14 @@
 use std::slice;
 
 use super::{EqualColumns, JudgedColumn, Judgement};
-use crate::input::error_table::NotError;
+use crate::input::advice::CommandLine;
+use crate::input::table::Doubt;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
 use crate::judge::verdict::{Tendency, Verdict};
 use crate::text::lists::distinct;
 use crate::text::number::{counted, pair_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
-
-/// Most columns that a verdict names as left out.
-const LISTED: usize = 12;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
@@ -93,41 +91,29 @@ pub(crate) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
     agree + &reservations(findings)
 }
 
-/// What a verdict does not cover: columns that are left out by their names alone, and a run that
-/// has failed.
+/// What speaks against the tables.
 fn reservations(findings: &[Judgement<'_>]) -> String {
-    let mut left_out: Vec<String> = vec![];
-    for findings in findings {
-        let not_errors = findings.source.table.not_errors.iter();
-        for NotError {
-            column, because, ..
-        } in not_errors.filter(|one| !one.is_checked)
-        {
-            let words = format!("{} ({because})", visible(column));
-            if !left_out.contains(&words) {
-                left_out.push(words);
-            }
-        }
-    }
-    let mut words = String::new();
-    if !left_out.is_empty() {
-        let more = left_out.len().saturating_sub(LISTED);
-        left_out.truncate(LISTED);
-        words += &format!("; left out: {}", left_out.join(", "));
-        if more > 0 {
-            words += &format!(", and {more} more");
-        }
-    }
     let equals = findings.iter().flat_map(|findings| &findings.equals);
     let equals: Vec<String> = equals.map(EqualColumns::to_string).collect();
-    words.extend(distinct(&equals).iter().map(|equal| format!("; {equal}")));
     let tables = || findings.iter().map(|findings| &findings.source.table);
     let doubts = distinct(tables().flat_map(|table| &table.doubts));
-    words.extend(doubts.iter().map(|doubt| format!("; {doubt}")));
-    words
+    let doubts = doubts.iter().map(|doubt| format!("; {doubt}"));
+    let equals = distinct(&equals)
+        .into_iter()
+        .map(|equal| format!("; {equal}"));
+    equals.chain(doubts).collect()
 }
 
 impl Judgement<'_> {
+    /// The command that removes a doubt, on a line of its own.
+    fn way_out(&self, doubt: &Doubt) -> String {
+        let surface = CommandLine {
+            command: Some(&self.call),
+        };
+        let line = doubt.offer().and_then(|offer| offer.line(&surface));
+        line.unwrap_or_default()
+    }
+
     pub(super) fn columns_with_rates(&self) -> Vec<Shown<'_>> {
         self.columns
             .iter()
@@ -156,19 +142,19 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
         )
     };
     let last = format!("{}: {}\n", shown(findings.verdict), sentence(findings));
-    let reading = format!("{}\n", table.reading);
+    let mut reading = format!("{}\n", table.reading);
+    for doubt in &table.doubts {
+        reading += &format!("doubt: {doubt}{}\n", findings.way_out(doubt));
+    }
     if quiet {
         let lines: String = columns
             .iter()
             .filter(|judged| judged.decides && !is_pass(judged))
             .map(line)
             .collect();
-        return if table.is_guessed {
-            reading
-        } else {
-            String::new()
-        } + &lines
-            + &last;
+        let is_plain = table.left_out.is_empty() && table.doubts.is_empty();
+        let reading = if is_plain { "" } else { &reading };
+        return format!("{reading}{lines}{last}");
     }
     let mut text = reading
         + &shown::table(

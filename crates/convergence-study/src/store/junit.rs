@@ -28,15 +28,23 @@ pub(crate) struct JudgedSuite {
     pub name: String,
     /// The name of each test case, its verdict, and the reason unless it is a pass.
     pub cases: Vec<(String, Verdict, String)>,
+    /// The name of each column that is set aside, and the reason.
+    pub skipped: Vec<(String, String)>,
 }
 
 /// A document with these suites.
 pub(crate) fn junit_of(name: &str, suites: &[JudgedSuite]) -> String {
-    let suites = suites.iter().map(|JudgedSuite { name, cases }| {
-        let cases = cases.iter();
+    let suites = suites.iter().map(|suite| {
+        let name = &suite.name;
+        let cases = suite.cases.iter();
         let cases = cases.map(|(case, verdict, reason)| Case::new(name, case, *verdict, reason));
+        let skipped = suite.skipped.iter();
+        let skipped = skipped.map(|(case, reason)| Case {
+            is_skipped: true,
+            ..Case::new(name, case, Verdict::Inconclusive, reason)
+        });
         Suite {
-            cases: cases.collect(),
+            cases: cases.chain(skipped).collect(),
             ..Suite::new(name)
         }
     });
@@ -72,6 +80,8 @@ struct Case {
     reason: String,
     /// More about a failure, empty if there is no more.
     description: String,
+    /// Whether it is not judged.
+    is_skipped: bool,
 }
 
 impl Case {
@@ -82,11 +92,12 @@ impl Case {
             verdict,
             reason: reason.to_owned(),
             description: String::new(),
+            is_skipped: false,
         }
     }
 
     fn fails(&self) -> bool {
-        self.verdict != Verdict::Pass
+        self.verdict != Verdict::Pass && !self.is_skipped
     }
 }
 
@@ -145,12 +156,13 @@ fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Suite {
 fn document(name: &str, suites: &[Suite]) -> String {
     let cases: Vec<&Case> = suites.iter().flat_map(|suite| &suite.cases).collect();
     let failures = cases.iter().filter(|case| case.fails()).count();
+    let skipped = cases.iter().filter(|case| case.is_skipped).count();
     let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
     let name = attribute("name", name);
     let tests = cases.len();
     let _ = writeln!(
         text,
-        "<testsuites{name} tests=\"{tests}\" skipped=\"0\" failures=\"{failures}\" errors=\"0\">"
+        "<testsuites{name} tests=\"{tests}\" skipped=\"{skipped}\" failures=\"{failures}\" errors=\"0\">"
     );
     for suite in suites {
         write_suite(&mut text, suite);
@@ -160,11 +172,12 @@ fn document(name: &str, suites: &[Suite]) -> String {
 
 fn write_suite(text: &mut String, suite: &Suite) {
     let failures = suite.cases.iter().filter(|case| case.fails()).count();
+    let skipped = suite.cases.iter().filter(|case| case.is_skipped).count();
     let name = attribute("name", &suite.name);
     let tests = suite.cases.len();
     let _ = writeln!(
         text,
-        "    <testsuite{name} tests=\"{tests}\" skipped=\"0\" errors=\"0\" failures=\"{failures}\">"
+        "    <testsuite{name} tests=\"{tests}\" skipped=\"{skipped}\" errors=\"0\" failures=\"{failures}\">"
     );
     if !suite.properties.is_empty() {
         *text += "        <properties>\n";
@@ -186,11 +199,16 @@ fn write_suite(text: &mut String, suite: &Suite) {
 
 fn write_case(text: &mut String, case: &Case) {
     let attributes = attribute("name", &case.name) + &attribute("classname", &case.class);
-    if !case.fails() {
+    if !case.fails() && !case.is_skipped {
         let _ = writeln!(text, "        <testcase{attributes}/>");
         return;
     }
     let _ = writeln!(text, "        <testcase{attributes}>");
+    if case.is_skipped {
+        let why = attribute("message", &case.reason);
+        let _ = writeln!(text, "            <skipped{why}/>\n        </testcase>");
+        return;
+    }
     let why = attribute("message", &case.reason) + &attribute("type", case.verdict.name());
     let description = content(&case.description);
     let _ = writeln!(

@@ -207,37 +207,6 @@ fn what_a_name_and_the_numbers_say_alike_is_left_out() {
     }
 }
 
-#[test]
-fn logarithms_are_left_out_beside_their_numbers() {
-    let law = Law { levels: 4, ..LAW };
-    let mut table = Table::new("h", law, &[("L2", 2.0)]);
-    let logarithms =
-        |numbers: Vec<f64>| cells(&numbers.iter().map(|x| x.log10()).collect::<Vec<_>>());
-    table.add("log10(h)", logarithms(law.steps()));
-    table.add("log10(L2)", logarithms(law.errors()));
-    assert!(passes(&Form::Csv.write(&table)));
-    table.add(
-        "log10(H1)",
-        logarithms(law.steps().iter().map(|h| 0.3 + h).collect()),
-    );
-    assert!(!passes(&Form::Csv.write(&table)));
-}
-
-#[test]
-fn values_are_left_out_beside_the_errors_that_they_have() {
-    let law = Law { levels: 4, ..LAW };
-    let values: Vec<f64> = law.errors().iter().map(|error| 3.0 - error).collect();
-    for form in Form::ALL {
-        let mut table = Table::new("h", law, &[("error", 2.0)]);
-        table.add("computed", cells(&values));
-        assert!(passes(&form.write(&table)), "{form:?}");
-        table.add("exact", cells(&[3.0; 4]));
-        assert!(passes(&form.write(&table)), "{form:?}");
-        table.add("reference", cells(&[2.99; 4]));
-        assert!(!passes(&form.write(&table)), "{form:?}");
-    }
-}
-
 /// A table over two steps, of which the errors are halved over the first.
 fn two_families(space: &str, time: &str, ratio: f64, orders: Option<&str>) -> Table {
     let law = Law { order: 1.0, ..LAW };
@@ -331,7 +300,9 @@ fn printed_rates_choose_the_step_of_two_that_vary() {
     let sheet = answer(right, &["2"]).expect("a table");
     assert!(sheet.verdict.is_pass(), "{}", sheet.text);
     assert!(
-        sheet.text.contains("left out: `dt` (a step)"),
+        sheet
+            .text
+            .contains("left out: `dt` (a step of the other family)"),
         "{}",
         sheet.text
     );
@@ -360,11 +331,13 @@ fn a_chosen_step_leaves_out_the_step_of_the_other_family() {
     for (choice, other) in [(choice("dt", None), "N"), (choice("N", Some(1.0)), "dt")] {
         let table = RateTable::parse_with(&text, "f", &choice).expect("a table");
         assert_eq!(table.columns.len(), 1, "{}", table.reading);
-        assert_eq!(table.not_errors[0].column, other);
+        assert_eq!(table.left_out[0].column, other);
     }
     let refusal = RateTable::parse_with(&text, "f", &Choice::default()).unwrap_err();
     assert!(
-        refusal.to_string().contains("both vary: `N`, `dt`"),
+        refusal
+            .to_string()
+            .contains("one of the steps, in space or in time, found `N`, `dt`"),
         "{refusal}"
     );
 }
@@ -378,7 +351,7 @@ fn printed_rates_of_another_step_are_a_doubt() {
             text += &format!("{h} {error:e} {rate}\n");
         }
         let sheet = answer(&text, &["2"]).expect("a table");
-        let said = format!("the rates {name} are those of no column over h");
+        let said = format!("`{name}` is named like rates, and fits no error over the step");
         assert!(
             !sheet.verdict.is_pass() && sheet.sentence.contains(&said),
             "{}",

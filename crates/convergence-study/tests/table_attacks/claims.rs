@@ -32,7 +32,8 @@ fn an_order_may_be_claimed_by_the_degree_in_the_heading() {
         |p| format!("# p: {p}\n"),
         |p| format!("\npolynomial degree {p}\n\n"),
     ];
-    for form in Form::ALL {
+    // A heading in a text of JSON makes it none.
+    for form in Form::ALL.into_iter().filter(|form| !form.is_json()) {
         for heading in headings {
             let text = degrees(form, heading);
             assert_eq!(

@@ -1,17 +1,19 @@
 //! Documents and logs in which a table is not alone.
 
-use super::{answer, passes};
+use convergence_study::Choice;
+
+use super::{answer, chosen, passes};
 
 /// A sound table in Markdown.
 const SOUND: &str = "| h | L2 |\n|---|---|\n| 0.4 | 0.1600 |\n| 0.2 | 0.0400 |\n| 0.1 | 0.0100 |\n";
 
-/// What stands around rows between bars is prose, but rows and logs in it are none that may be
-/// skipped: nothing passes.
+/// Prose is nothing; what looks like a row, or has a number for a column, lets nothing pass until
+/// the caller says where the table is.
 #[test]
-fn a_failing_run_outside_the_bars_lets_nothing_pass() {
-    let settings = "Settings: CFL = 0.4, kappa = 1e-2, T = 1 on [10, 20, 40] cells.\n";
+fn a_failing_run_outside_the_table_lets_nothing_pass() {
+    let prose = "Settings: CFL = 0.4, kappa = 1e-2 on coarse cells, see https://a.b/2 for more.\n";
     assert!(passes(&format!(
-        "{settings}\n{SOUND}\n- L2 = 3e-7 at N = 200\n"
+        "{prose}\n{SOUND}\nThe scheme is of second order.\n"
     )));
     for failing in [
         "h L2\n0.4 0.41\n0.2 0.40\n0.1 0.40\n",
@@ -21,10 +23,37 @@ fn a_failing_run_outside_the_bars_lets_nothing_pass() {
         "{\"h\": [0.4, 0.2, 0.1], \"L2\": [0.41, 0.40, 0.40]}\n",
         "L2: 0.41\nL2: 0.40\nL2: 0.40\n",
         "0.4 | 0.41\n0.2 | 0.40\n0.1 | 0.40\n",
+        "[0.41, 0.40, 0.40]\n",
+        "0.0125\n",
+        "level 4: NaN\n",
+        "L2: nan\n",
+        "L2 = 3e-7 at N = 200\n",
+        "residual: 0.5\nresidual: 0.4\n",
     ] {
         for text in [format!("{SOUND}\n{failing}"), format!("{failing}\n{SOUND}")] {
             assert!(!passes(&text), "{text}");
         }
+        let lines = Choice {
+            lines: vec!["1-5".parse().expect("lines")],
+            ..Choice::default()
+        };
+        let text = format!("{SOUND}\n{failing}");
+        let sheet = chosen(&text, &["2"], lines).expect("the first table");
+        assert!(sheet.verdict.is_pass(), "{}", sheet.text);
+    }
+    // A failed run is not excused.
+    let lines = Choice {
+        lines: vec!["1-5".parse().expect("lines")],
+        ..Choice::default()
+    };
+    let text = format!("{SOUND}\nTraceback (most recent call last):\n");
+    let sheet = chosen(&text, &["2"], lines).expect("the first table");
+    assert!(!sheet.verdict.is_pass(), "{}", sheet.text);
+    for lines in ["0-3", "3-2", "a-b", "3-"] {
+        assert!(
+            lines.parse::<convergence_study::LineRange>().is_err(),
+            "{lines}"
+        );
     }
 }
 
@@ -45,7 +74,9 @@ fn a_row_that_has_lost_its_frame_is_not_skipped() {
         "0.05 & 0.0090 \\\\",
         "| not converged | 0.05 |",
         "| 0.05 | not converged |",
-        "<tr><td>0.05</td><td>0.0090</td></tr>",
+        "| 0.05 | 0.0025* |",
+        "| 0.05 | <0.0025 |",
+        "| 0.05 | 2.5e-3/9e-3 |",
     ] {
         assert!(!passes(&format!("{SOUND}{row}\n")), "{row}");
     }
@@ -54,7 +85,7 @@ fn a_row_that_has_lost_its_frame_is_not_skipped() {
 /// A table that no choice reads is a doubt beside others, with its message; alone it is refused.
 #[test]
 fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {
-    let broken = "| h | H1 |\n|---|---|\n| 0.4 | 0.4 |\n| 0.2 | abc |\n| 0.1 | 0.1 |\n";
+    let broken = "| h | H1 |\n|---|---|\n| 0.4 | 0.4 |\n| 0.2 | 0.2* |\n| 0.1 | 0.1 |\n";
     assert!(answer(broken, &["2"]).is_none());
     for text in [format!("{SOUND}\n{broken}"), format!("{broken}\n{SOUND}")] {
         let sheet = answer(&text, &["2"]).expect("the other table");
@@ -62,7 +93,7 @@ fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {
         for words in [
             "1 of 1 column agrees",
             "a table is not read",
-            "expected a number, found `abc`",
+            "expected a number alone in each cell, found `0.2*`",
         ] {
             assert!(sheet.sentence.contains(words), "{}", sheet.sentence);
         }
@@ -71,60 +102,37 @@ fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {
     }
 }
 
-/// The numbers of a command are arguments; its messages are not, and neither are its results.
+/// JSON has numbers at any depth; a number beside the lists is a doubt.
 #[test]
-fn a_command_is_no_row_and_hides_none() {
-    let rows = "h = 0.4, L2 = 0.1600\nh = 0.2, L2 = 0.0400\nh = 0.1, L2 = 0.0100\n";
-    for command in [
-        "./solve -n 8 -tol=1e-10 9",
-        "$ ./solve -n 8",
-        "// mpirun -np 4 ./solve -o 2",
+fn a_number_beside_lists_of_json_lets_nothing_pass() {
+    let lists = "\"h\": [0.4, 0.2, 0.1], \"L2\": [0.1600, 0.0400, 0.0100]";
+    assert!(passes(&format!("{{{lists}}}")));
+    assert!(passes(&format!(
+        "{{\"name\": \"Poisson\", \"runs\": {{{lists}}}}}"
+    )));
+    for more in [
+        "\"H1\": 0.4",
+        "\"last\": [0.5]",
+        "\"ok\": false",
+        "\"H1\": [0.4, 0.4]",
+        "\"H1\": NaN",
+        "\"L2\": [0.4, 0.4, 0.4]",
+        "\"status\": \"diverged\"",
     ] {
-        assert!(passes(&format!("{command}\n{rows}")), "{command}");
-    }
-    for line in [
-        "mpirun noticed that process rank 0 exited on signal 9",
-        "./run.sh: line 3: 812 Segmentation fault  ./solve",
-        "$ h = 0.05, L2 = 0.9",
-        "./solve: h = 0.05, L2 = 0.9",
-        "mpirun: L2 = 0.9",
-    ] {
-        assert!(!passes(&format!("{rows}{line}\n")), "{line}");
+        assert!(!passes(&format!("{{{lists}, {more}}}")), "{more}");
     }
 }
 
-/// `--dim` is for tables with counts; beside them one with a step keeps it, by its name only.
 #[test]
-fn a_dimension_goes_to_the_tables_with_counts() {
-    use convergence_study::{Choice, RateTable};
-
-    let counts = "Space\nn,L2\n4,0.1600\n8,0.0400\n16,0.0100\n";
-    let steps = "Time\ndt,L2\n0.4,0.1600\n0.2,0.0400\n0.1,0.0100\n";
-    let choice = Choice {
-        dim: Some(1.0),
-        ..Choice::default()
-    };
-    let read = |text: &str| RateTable::parse_all_with(text, "t", &choice);
-    let tables = read(&format!("{counts}{steps}")).expect("both tables");
-    let labels: Vec<&str> = tables
-        .iter()
-        .map(|(_, table)| table.step.as_str())
-        .collect();
-    assert_eq!(labels, ["1/n", "dt"]);
-    assert!(read(steps).is_err());
-    // `eps` could be the step by its numbers alone.
-    let levels = "Space\nlevel,L2\n0,0.1600\n1,0.0400\n2,0.0100\n";
-    let nameless = steps.replace("dt", "eps");
-    let choice = Choice {
-        ratio: Some(2.0),
-        ..Choice::default()
-    };
-    let tables = RateTable::parse_all_with(&format!("{levels}{nameless}"), "t", &choice);
-    let tables = tables.expect("the table with levels");
-    let labels: Vec<&str> = tables
-        .iter()
-        .map(|(_, table)| table.step.as_str())
-        .collect();
-    assert_eq!(labels, ["2^(-level)"]);
-    assert_eq!(tables[0].1.doubts.len(), 1);
+fn each_form_of_the_page_is_read() {
+    let page = include_str!("../../book/src/tables.md");
+    let parts = page.split("```text\n").skip(1);
+    let tables = parts.filter_map(|part| Some(part.split_once("```")?.0));
+    let mut count = 0;
+    for table in tables {
+        let sheet = answer(table, &["L2=2", "H1=1"]).expect(table);
+        assert!(sheet.verdict.is_pass(), "{}", sheet.text);
+        count += 1;
+    }
+    assert_eq!(count, 4);
 }

@@ -108,6 +108,10 @@ impl Form {
         Self::JsonRecords,
     ];
 
+    pub(super) fn is_json(self) -> bool {
+        matches!(self, Self::JsonLines | Self::JsonLists | Self::JsonRecords)
+    }
+
     pub(super) fn write(self, table: &Table) -> String {
         let Table { names, rows } = table;
         let lines = |separator: &str, end: &str| {

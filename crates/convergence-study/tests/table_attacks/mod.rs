@@ -2,20 +2,25 @@
 
 mod accounted;
 mod claims;
-mod cuts;
 mod documents;
 mod forms;
-mod found;
 mod laws;
+mod limits;
+mod rules;
 
 use convergence_study::{
     Choice,
-    internal::rates::{self, Claimed, Request, Sheet, claimed},
+    internal::rates::{self, Claimed, Refusal, Request, Sheet, claimed},
 };
 use forms::{Form, Law, Table, cells};
 
 /// The verdict on a text and the line that says it; `None` for a refusal.
 fn answer(text: &str, orders: &[&str]) -> Option<Sheet> {
+    chosen(text, orders, Choice::default()).ok()
+}
+
+/// The same with a choice.
+fn chosen(text: &str, orders: &[&str], choice: Choice) -> Result<Sheet, Refusal> {
     let claims: Vec<Claimed> = orders
         .iter()
         .map(|order| claimed(order).expect("an order"))
@@ -24,10 +29,10 @@ fn answer(text: &str, orders: &[&str]) -> Option<Sheet> {
         claims,
         tolerance: 0.25,
         floor: 0.0,
-        choice: Choice::default(),
+        choice,
         all: false,
     };
-    rates::sheet("rates", text, &request).ok()
+    rates::sheet("rates", text, &request)
 }
 
 fn passes(text: &str) -> bool {
@@ -322,21 +327,4 @@ fn a_line_of_a_failed_run_is_quoted_and_nothing_passes() {
             }
         }
     }
-}
-
-#[test]
-fn a_name_that_comes_more_often_than_the_step_is_not_left_out_in_silence() {
-    let mut text = String::new();
-    for (h, error) in LAW.steps().into_iter().zip(LAW.errors()) {
-        text += &format!("h = {h}\nT = 0.7\nT = 0.5\nT = 0.4\nL2 = {error:e}\n");
-    }
-    // It may be an error under a claim for all columns, and is none under a claim for another.
-    let all = answer(&text, &["2"]).expect("a table");
-    assert!(!all.verdict.is_pass() && all.sentence.contains("T is no column"));
-    let named = answer(&text, &["L2=2"]).expect("a table");
-    assert!(
-        named.verdict.is_pass() && named.sentence.contains("T (printed 15 times for 5 levels)"),
-        "{}",
-        named.sentence
-    );
 }

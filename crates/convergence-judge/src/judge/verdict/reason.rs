@@ -16,7 +16,8 @@ pub(super) const REPEATED: &str = "a stale file, or an argument that is not used
 #[serde(into = "&'static str", try_from = "String")]
 #[non_exhaustive]
 pub enum Reason {
-    /// The whole interval lies in the band about the order.
+    /// The whole interval lies in the band about the order, the rates do not move away from it, and
+    /// no lower order explains the errors better.
     #[default]
     Agrees,
     /// A level has no result: its case failed, or lacks this error.

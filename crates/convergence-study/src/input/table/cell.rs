@@ -1,0 +1,277 @@
+//! A cell of a table: its text without markup, and the number that it holds.
+
+/// A number as printed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Number {
+    pub(super) value: f64,
+    /// Half a unit of the last printed place; 0 of a whole number.
+    pub(super) half: f64,
+    /// Digits behind the point; `None` of a whole number.
+    pub(super) decimals: Option<i32>,
+    /// The power of ten behind the digits, if one is printed.
+    pub(super) exponent: Option<i32>,
+    /// Digits without zeros in front.
+    pub(super) digits: usize,
+    /// The counts along all edges, where the cell is `16x32`: the value is the first.
+    pub(super) edges: Vec<f64>,
+}
+
+/// A cell.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Cell {
+    pub(super) text: String,
+    pub(super) number: Option<Number>,
+}
+
+/// How the numbers of a table are written.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Style {
+    /// `0,1`.
+    comma: bool,
+    /// `1,024`.
+    thousands: bool,
+}
+
+/// LaTeX commands around a number or a name.
+const COMMANDS: &str = r"\num{ \text{ \textrm{ \textbf{ \mathrm{ \mathbf{ \operatorname{";
+/// Markup that stands for nothing.
+const MARKS: &str = r"\hline \toprule \midrule \bottomrule \\ ** ` \, \; \! $";
+/// What stands in a cell where a number failed or is absent, in small letters.
+const FAILURES: &str = "- -- --- – — / ? n/a none null fail failed diverged divergent blow-up blowup overflow inf +inf -inf infinity -infinity";
+/// Beginnings of words of a failure.
+const FAILING: &str = "nan -nan +nan 1.# -1.# ** ## -- diverge fail";
+
+/// A text without markup and with single blanks.
+pub(super) fn plain(text: &str) -> String {
+    let mut text = text.replace('\u{2212}', "-");
+    let has_markup = text.contains(['\\', '*', '`', '$']);
+    for command in COMMANDS.split(' ').filter(|_| has_markup) {
+        while let Some(start) = text.find(command) {
+            text.replace_range(start..start + command.len(), "");
+            if let Some(end) = text[start..].find('}') {
+                text.remove(start + end);
+            }
+        }
+    }
+    for mark in MARKS.split(' ').filter(|_| has_markup) {
+        text = text.replace(mark, " ");
+    }
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+impl Style {
+    /// The style that the cells of a table share.
+    pub(super) fn of<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> Self {
+        let with_comma = cells.clone().filter(|cell| {
+            let behind = cell.split_once(',').map(|(_, behind)| behind);
+            behind.is_some_and(|text| text.starts_with(|c: char| c.is_ascii_digit()))
+        });
+        let mut plain_cells = with_comma.map(plain).peekable();
+        if plain_cells.peek().is_none() {
+            return Self::default();
+        }
+        let plain_cells: Vec<String> = plain_cells.collect();
+        let has_point = cells.clone().any(|cell| cell.contains('.'));
+        let is_decimal = |cell: &String| cell.matches(',').count() == 1;
+        let comma = !has_point && plain_cells.iter().all(is_decimal);
+        let begins_with_zero = plain_cells.iter().any(|cell| cell.starts_with("0,"));
+        let thousands = plain_cells.iter().all(|cell| are_thousands(cell));
+        let thousands = thousands && !(comma && begins_with_zero);
+        Self {
+            comma: comma && !thousands,
+            thousands,
+        }
+    }
+}
+
+fn are_digits(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit())
+}
+
+fn are_thousands(cell: &str) -> bool {
+    let mut groups = cell.split(',');
+    let first = groups.next().unwrap_or_default();
+    first.len() < 4 && are_digits(first) && groups.all(|one| one.len() == 3 && are_digits(one))
+}
+
+impl Cell {
+    pub(super) fn new(raw: &str, style: Style) -> Self {
+        let text = plain(raw);
+        let number = real(&text, style).or_else(|| edges(&text));
+        Self { text, number }
+    }
+
+    /// A number without rounding.
+    pub(super) fn exact(value: f64) -> Self {
+        let number = Number {
+            value,
+            half: 0.0,
+            decimals: (value.fract() != 0.0).then_some(0),
+            exponent: None,
+            digits: 3,
+            edges: vec![],
+        };
+        Self {
+            text: value.to_string(),
+            number: value.is_finite().then_some(number),
+        }
+    }
+
+    pub(super) fn value(&self) -> Option<f64> {
+        self.number.as_ref().map(|number| number.value)
+    }
+
+    pub(super) fn is_whole(&self) -> bool {
+        let number = self.number.as_ref();
+        number.is_some_and(|number| number.decimals.is_none())
+    }
+
+    /// Whether the cell is empty or a dash, as where there is no rate.
+    pub(super) fn is_blank(&self) -> bool {
+        self.text.chars().all(|c| "-–—".contains(c))
+    }
+
+    /// Whether the cell begins like a number and is none.
+    pub(super) fn is_broken(&self) -> bool {
+        let start = self
+            .text
+            .trim_start_matches(['<', '>', '~', '≈', '±', '+', '-', ' ']);
+        let rest = start.trim_start_matches(|c: char| c.is_ascii_digit() || ".,".contains(c));
+        let power = rest.strip_prefix(['e', 'E', 'd', 'D']).unwrap_or(rest);
+        let power = power.strip_prefix(['+', '-']).unwrap_or(power);
+        let behind = power.trim_start_matches(|c: char| c.is_ascii_digit());
+        let rest = if behind.len() < power.len() {
+            behind
+        } else {
+            rest
+        };
+        self.number.is_none()
+            && !is_failure(&self.text)
+            && start.starts_with(|c: char| c.is_ascii_digit() || c == '.' && start.len() > 1)
+            && !rest.starts_with(char::is_alphanumeric)
+    }
+}
+
+/// Whether a text says that there is no number.
+pub(super) fn is_failure(text: &str) -> bool {
+    let text = text.to_lowercase();
+    let is_word = FAILURES.split(' ').any(|word| word == text);
+    let begins = FAILING.split(' ').any(|start| text.starts_with(start));
+    text.is_empty() || is_word || begins || text.chars().all(|c| c == '*' || c == '#')
+}
+
+/// Whether a text is a number.
+pub(super) fn is_number(text: &str) -> bool {
+    Cell::new(text, Style::default()).number.is_some()
+}
+
+/// Digits, a fraction of whole numbers, or digits with a power of ten behind `e`, `d` or `× 10`.
+fn real(text: &str, style: Style) -> Option<Number> {
+    if !text.contains(|c: char| c.is_ascii_digit()) || text.starts_with(char::is_alphabetic) {
+        return None;
+    }
+    if let Some((above, below)) = text.split_once('/')
+        && are_digits(above)
+        && are_digits(below)
+    {
+        return Some(Number {
+            value: above.parse::<f64>().ok()? / below.parse::<f64>().ok()?,
+            half: 0.0,
+            decimals: Some(0),
+            exponent: None,
+            digits: 0,
+            edges: vec![],
+        });
+    }
+    let (mantissa, exponent) = match power_of_ten(text) {
+        Some(parts) => (parts.mantissa, Some(parts.exponent)),
+        None => match text.split_once(['e', 'E', 'd', 'D']) {
+            Some((mantissa, exponent)) => (mantissa, Some(exponent.parse().ok()?)),
+            None => (text, None),
+        },
+    };
+    let mantissa = match style {
+        Style { comma: true, .. } => mantissa.replace(',', "."),
+        Style { thousands, .. } if thousands && are_thousands(mantissa) => {
+            mantissa.replace(',', "")
+        }
+        _ => mantissa.to_owned(),
+    };
+    let digits = mantissa.strip_prefix(['+', '-']).unwrap_or(&mantissa);
+    let (whole, places) = digits.split_once('.').unwrap_or((digits, ""));
+    let all = format!("{whole}{places}");
+    if !are_digits(&all) {
+        return None;
+    }
+    let is_whole = exponent.is_none() && !digits.contains('.');
+    let decimals = places.len() as i32;
+    let power = exponent.unwrap_or(0);
+    Some(Number {
+        value: format!("{mantissa}e{power}").parse().ok()?,
+        half: if is_whole {
+            0.0
+        } else {
+            0.5 * 10f64.powi(power - decimals)
+        },
+        decimals: (!is_whole).then_some(decimals),
+        exponent,
+        digits: all.trim_start_matches('0').len(),
+        edges: vec![],
+    })
+}
+
+struct Scaled<'t> {
+    mantissa: &'t str,
+    exponent: i32,
+}
+
+/// `2.09 × 10⁻⁵`, `2.09 \cdot 10^{-5}`.
+fn power_of_ten(text: &str) -> Option<Scaled<'_>> {
+    const ABOVE: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺";
+    let mut marks = ["×", "·", "\\cdot", "\\times", "x"].into_iter();
+    let (mantissa, power) = marks.find_map(|mark| text.split_once(mark))?;
+    let power = power.trim_start().strip_prefix("10")?.trim_start();
+    let exponent = match power.strip_prefix('^') {
+        Some(power) => power.trim_matches(['{', '}', '(', ')', ' ']).to_owned(),
+        None => {
+            let digit = |c| ABOVE.chars().position(|above| above == c);
+            let digits: Option<Vec<usize>> = power.chars().map(digit).collect();
+            let digits = digits?
+                .into_iter()
+                .map(|digit| char::from(b"0123456789-+"[digit]));
+            digits.collect()
+        }
+    };
+    Some(Scaled {
+        mantissa: mantissa.trim(),
+        exponent: exponent.parse().ok()?,
+    })
+}
+
+/// `16x32`, `16 × 16 × 16 (fine)`, `16²`.
+fn edges(text: &str) -> Option<Number> {
+    let base = ["²", "³", "^2", "^3"]
+        .iter()
+        .find_map(|end| text.strip_suffix(end));
+    let mut counts: Vec<f64> = vec![];
+    for part in base.unwrap_or(text).split(['x', '×']) {
+        let part = part.trim();
+        let end = part
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(part.len());
+        let (count, rest) = part.split_at(end);
+        let goes_on = rest.starts_with(|c: char| c.is_alphanumeric() || "._^".contains(c));
+        if goes_on || base.is_some() && !rest.is_empty() {
+            return None;
+        }
+        counts.push(count.parse().ok()?);
+    }
+    (counts.len() > 1 || base.is_some()).then(|| Number {
+        value: counts[0],
+        half: 0.0,
+        decimals: None,
+        exponent: None,
+        digits: 0,
+        edges: counts,
+    })
+}

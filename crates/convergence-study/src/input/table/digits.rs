@@ -1,0 +1,263 @@
+//! Printed digits: the part that rounding hides decides nothing.
+
+use crate::judge::claims::Claim;
+use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
+use crate::judge::richardson::{Estimate, Estimator, StepValue};
+use crate::judge::verdict::{self, Cause, Floor, Printed, RateVerdict, Reason, Verdict};
+use crate::text::number::{counted, plain_text};
+
+use super::Doubt;
+
+/// Rounding below this share of a number changes no verdict.
+const NOTHING: f64 = 1e-9;
+/// The finest levels, which rounding changes most.
+const FINEST: usize = 4;
+
+/// A column of errors or of values, coarsest level first.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Column {
+    /// Its name as shown.
+    pub name: String,
+    /// Steps and numbers.
+    pub levels: Vec<Level>,
+    /// Half a unit of the last printed place of each number; 0 if it is exact.
+    pub halves: Vec<f64>,
+    /// The same for the steps.
+    pub step_halves: Vec<f64>,
+    /// Whether an order that is claimed for all columns is claimed for it: the caller names it, or
+    /// no other column.
+    pub is_chosen: bool,
+}
+
+/// What rounding does to the rate of a column.
+struct Rounding {
+    /// Levels above the floor.
+    used: usize,
+    /// The rate between the finest of them.
+    finest_rate: f64,
+    /// Whether rounding changes nothing.
+    is_exact: bool,
+    /// By how much it may change the finest rate.
+    doubt: f64,
+}
+
+impl Column {
+    /// Judges the errors. The interval, whatever is claimed, is wider by as much as rounding moves
+    /// the finest rate. If without rounding there would be a verdict, or if other digits could turn
+    /// another verdict into a pass, the reason is missing digits.
+    pub fn judge(&self, claim: &Claim, floor: Floor) -> RateVerdict {
+        let Rounding {
+            used,
+            finest_rate,
+            is_exact,
+            doubt,
+        } = self.rounding(floor);
+        let digits = self.digits();
+        let printed = Printed {
+            doubt,
+            digits: &digits,
+        };
+        let mut judged = claim.judge_printed(&self.levels, floor, printed);
+        let needs_no_digits = matches!(
+            judged.kind,
+            Reason::NonFiniteError
+                | Reason::NegativeError
+                | Reason::TooFewLevels
+                | Reason::Identical
+                | Reason::Repeats
+                | Reason::Alternates
+                | Reason::NothingTested
+        );
+        if is_exact || needs_no_digits || judged.verdict == Verdict::Pass {
+            return judged;
+        }
+        judged.cause = judged.cause.or_else(|| {
+            Cause::of(&self.levels[..used], claim.order, |k| {
+                self.share(k, finest_rate)
+            })
+        });
+        let possible: Vec<Verdict> = self
+            .corners(finest_rate)
+            .iter()
+            .map(|levels| claim.judge(levels, floor).verdict)
+            .collect();
+        let is_undone = judged.verdict == Verdict::Inconclusive
+            && claim.judge(&self.levels, floor).verdict != Verdict::Inconclusive;
+        let is_poor = doubt > claim.tolerance
+            && (judged.verdict != Verdict::Fail || possible.contains(&Verdict::Inconclusive));
+        if is_undone || is_poor || possible.contains(&Verdict::Pass) {
+            self.without_digits(judged)
+        } else {
+            judged
+        }
+    }
+
+    /// The doubt that errors fall by steady rates on either side of a jump, as those of two tables.
+    pub(super) fn jump(&self) -> Option<Doubt> {
+        /// Largest difference between steady rates.
+        const STEADY: f64 = 0.25;
+        /// Least rate of convergence.
+        const FALLS: f64 = 0.5;
+        /// Least difference between a jump and the rates on either side.
+        const JUMP: f64 = 1.0;
+        let rates = pairwise_rates(&self.levels);
+        let at = (1..rates.len()).find(|k| (rates[*k] - rates[k - 1]).abs() > STEADY)?;
+        let is_steady = |side: &[f64]| {
+            let low = side.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = side.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let is_apart = rates[at] > high + JUMP || rates[at] < low - JUMP;
+            side.len() > 1 && high - low < STEADY && low > FALLS && is_apart
+        };
+        (is_steady(&rates[..at]) && is_steady(&rates[at + 1..])).then(|| Doubt::Column {
+            column: self.name.clone(),
+            because: format!(
+                "jumps between the steps {} and {}, as if another table began",
+                plain_text(self.levels[at].step),
+                plain_text(self.levels[at + 1].step)
+            ),
+        })
+    }
+
+    /// The rate of the errors where nothing is claimed: nothing is confirmed.
+    pub fn observe(&self, floor: Floor) -> RateVerdict {
+        let doubt = self.rounding(floor).doubt;
+        verdict::observe_printed(&self.levels, floor, Printed { doubt, digits: &[] })
+    }
+
+    /// What rounding does to the rate of the errors above the floor.
+    fn rounding(&self, floor: Floor) -> Rounding {
+        let used = asymptotic_range(&self.levels, floor.value()).end;
+        let finest_rate = pairwise_rates(&self.levels[..used])
+            .last()
+            .copied()
+            .unwrap_or(0.0);
+        let share = |k: usize| self.share(k, finest_rate);
+        let is_exact = (0..self.levels.len()).all(|k| share(k) < NOTHING);
+        let finest = self.levels[..used].windows(2).enumerate().next_back();
+        let doubt = finest.map_or(0.0, |(k, pair)| {
+            (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln()
+        });
+        let is_known = !is_exact && doubt.is_finite();
+        Rounding {
+            used,
+            finest_rate,
+            is_exact,
+            doubt: if is_known { doubt } else { 0.0 },
+        }
+    }
+
+    /// Judges the differences of the values, and estimates their limit.
+    ///
+    /// * `order`: claimed by theory; without one, nothing is confirmed.
+    pub fn estimate(&self, estimator: &Estimator, order: Option<f64>) -> Estimate {
+        let of = |levels: &[Level]| match order {
+            Some(order) => estimator.estimate(&as_values(levels), order),
+            None => estimator.estimate_unclaimed(&as_values(levels)),
+        };
+        let mut estimate = of(&self.levels);
+        let rate = estimate.judged.finest_rate().unwrap_or(0.0);
+        let corners: Vec<Estimate> = self.corners(rate).iter().map(|levels| of(levels)).collect();
+        let verdict = estimate.judged.verdict;
+        if order.is_some()
+            && corners
+                .iter()
+                .any(|corner| corner.judged.verdict != verdict)
+        {
+            estimate.judged = self.without_digits(estimate.judged);
+        }
+        if let Ok(bar) = &mut estimate.bar {
+            for other in corners.iter().filter_map(|corner| corner.bar.as_ref().ok()) {
+                bar.limit.low = bar.limit.low.min(other.limit.low);
+                bar.limit.high = bar.limit.high.max(other.limit.high);
+            }
+        }
+        estimate
+    }
+
+    /// The uncertainty of an error from its last place and that of its step, relative to the error.
+    fn share(&self, k: usize, rate: f64) -> f64 {
+        self.half(k, rate) / self.levels[k].error.abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// The uncertainty from the last places of an error and of its step, in the unit of the error.
+    ///
+    /// * `rate`: how fast the error changes with the step.
+    fn half(&self, k: usize, rate: f64) -> f64 {
+        let Level { step, error } = self.levels[k];
+        self.halves[k] + error.abs() * rate.max(0.0) * self.step_halves[k] / step
+    }
+
+    /// The numbers that may have been rounded to the finest ones: each unchanged, or half a unit
+    /// more or less.
+    fn corners(&self, rate: f64) -> Vec<Vec<Level>> {
+        let mut corners = vec![self.levels.clone()];
+        for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {
+            let half = self.half(k, rate);
+            if half > NOTHING * self.levels[k].error.abs() && half.is_finite() {
+                corners = [0.0, -half, half]
+                    .into_iter()
+                    .flat_map(|change| with_change(&corners, k, change))
+                    .collect();
+            }
+        }
+        corners
+    }
+
+    /// Whether another column has the same numbers, in all digits.
+    pub(crate) fn equals(&self, other: &Self) -> bool {
+        verdict::are_equal(&self.levels, &other.levels, |level| self.digits_at(level))
+    }
+
+    /// The number of printed digits of each number.
+    fn digits(&self) -> Vec<usize> {
+        let levels = 0..self.levels.len();
+        levels.map(|level| self.digits_at(level)).collect()
+    }
+
+    fn digits_at(&self, level: usize) -> usize {
+        /// Against the rounding of a logarithm that is a whole number.
+        const ROUND_OFF: f64 = 1e-9;
+        let error = self.levels[level].error.abs();
+        if self.halves[level] == 0.0 {
+            return verdict::significant_digits(error);
+        }
+        let share = self.halves[level] / error;
+        let digits = -(2.0 * share).log10() + ROUND_OFF;
+        digits.clamp(0.0, 16.0).floor() as usize + 1
+    }
+
+    fn without_digits(&self, judged: RateVerdict) -> RateVerdict {
+        let last = self.levels.len() - 1;
+        let share = self.halves[last] / self.levels[last].error.abs();
+        let digits = self.digits_at(last);
+        let rate = judged.finest_rate().unwrap_or(0.0);
+        let is_step = rate * self.step_halves[last] / self.levels[last].step > share;
+        let what = if is_step {
+            "the steps have too few digits".to_owned()
+        } else {
+            counted(digits, "digit")
+        };
+        judged.with_reason(Reason::Digits, &format!("{what}: print more"))
+    }
+}
+
+/// Lists of levels whose k-th error is changed by this much.
+fn with_change(lists: &[Vec<Level>], k: usize, change: f64) -> Vec<Vec<Level>> {
+    let mut lists = lists.to_vec();
+    for levels in &mut lists {
+        levels[k].error += change;
+    }
+    lists
+}
+
+/// Levels that hold values in place of errors.
+fn as_values(levels: &[Level]) -> Vec<StepValue> {
+    levels
+        .iter()
+        .map(|level| StepValue {
+            step: level.step,
+            value: level.error,
+        })
+        .collect()
+}

@@ -1,0 +1,113 @@
+//! Logs: names with their numbers, the levels alone on a line or as blocks of lines.
+
+use std::collections::HashSet;
+
+use super::super::Refused;
+use super::super::grid::{COLUMNS, Grid};
+use super::lines::{Block, Lines};
+use super::{Pair, TABLES, is_frame, pairs};
+
+/// The numbers of a level.
+struct Record<'t> {
+    pairs: Vec<Pair<'t>>,
+    lines: Vec<usize>,
+    /// Other words between it and the record before, with `#` for each number.
+    between: String,
+}
+
+impl<'t> Record<'t> {
+    fn names(&self) -> impl Iterator<Item = &'t str> {
+        self.pairs.iter().map(|pair| pair.name)
+    }
+
+    /// Drops what stands below a block that has all names of the one before; whether there is any.
+    fn end_like(&mut self, before: &Self) -> bool {
+        let count = before.pairs.len();
+        let is_longer = self.pairs.len() > count && self.pairs.len() == self.lines.len();
+        let ends = is_longer && self.names().take(count).eq(before.names());
+        if ends {
+            self.pairs.truncate(count);
+            self.lines.truncate(count);
+        }
+        ends
+    }
+
+    /// Whether a line with one name goes on with the block that ends just above it.
+    fn takes(&self, pairs: &[Pair<'_>], line: usize) -> bool {
+        let is_block = self.pairs.len() == self.lines.len() && self.pairs.len() < COLUMNS;
+        let is_next = self.lines.last().is_some_and(|last| last + 1 == line);
+        is_block && is_next && pairs.len() == 1 && self.names().all(|name| name != pairs[0].name)
+    }
+}
+
+/// Finds the records of unused lines that have the same names, and marks their lines as used.
+pub(super) fn find(lines: &mut Lines<'_>) -> Result<Vec<Block>, Refused> {
+    let mut runs: Vec<Vec<Record<'_>>> = vec![];
+    let mut is_cut = false;
+    for mut record in records(lines) {
+        let last = runs.last().and_then(|run| run.last());
+        let ends = last.is_some_and(|last| record.end_like(last));
+        match runs.last_mut() {
+            Some(run) if !is_cut && follows(run, &record) => run.push(record),
+            _ => runs.push(vec![record]),
+        }
+        is_cut = ends;
+    }
+    let mut blocks = vec![];
+    for run in runs {
+        let names: Vec<&str> = run[0].names().collect();
+        let distinct: HashSet<&str> = names.iter().copied().collect();
+        if run.len() < 2 || names.len() < 2 || distinct.len() < names.len() || blocks.len() > TABLES
+        {
+            continue;
+        }
+        let row = |record: &Record<'_>| {
+            let values = record.pairs.iter().map(|pair| pair.value.to_owned());
+            values.collect()
+        };
+        let grid = Grid {
+            names: names.into_iter().map(str::to_owned).collect(),
+            rows: run.iter().map(row).collect(),
+            ..Grid::default()
+        };
+        let own: Vec<usize> = run.into_iter().flat_map(|record| record.lines).collect();
+        own.iter().for_each(|line| lines.used[*line] = true);
+        blocks.push(Block { grid, lines: own });
+    }
+    Ok(blocks)
+}
+
+fn records<'t>(lines: &Lines<'t>) -> Vec<Record<'t>> {
+    let mut records: Vec<Record<'t>> = vec![];
+    let mut between = String::new();
+    for (k, line) in lines.text.iter().enumerate() {
+        let found = if lines.used[k] { None } else { pairs(line) };
+        let Some(found) = found else {
+            if lines.used[k] {
+                between.push('|');
+            } else if !is_frame(line) {
+                between.extend(line.chars().filter(|c| !c.is_ascii_digit() && *c != '.'));
+            }
+            continue;
+        };
+        match records.last_mut() {
+            Some(last) if between.is_empty() && last.takes(&found, k) => {
+                last.pairs.extend(found);
+                last.lines.push(k);
+            }
+            _ => records.push(Record {
+                pairs: found,
+                lines: vec![k],
+                between: std::mem::take(&mut between),
+            }),
+        }
+    }
+    records
+}
+
+/// Whether a record has the names of those before it, and the same words above it.
+fn follows(run: &[Record<'_>], record: &Record<'_>) -> bool {
+    let last = &run[run.len() - 1];
+    let is_same = last.names().eq(record.names());
+    is_same && (run.len() == 1 || last.between == record.between)
+}

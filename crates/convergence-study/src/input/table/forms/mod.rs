@@ -1,0 +1,104 @@
+//! The tables of a text, in each form in which they may stand.
+
+mod html;
+mod json;
+mod lines;
+mod lists;
+mod logs;
+mod outside;
+mod rows;
+
+use super::cell::is_failure;
+use super::grid::Grid;
+use super::{Choice, Doubt, Refused};
+
+/// Most tables of a text.
+const TABLES: usize = 1_000;
+
+/// What a text holds.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) grids: Vec<Result<Grid, Refused>>,
+    pub(super) doubts: Vec<Doubt>,
+}
+
+impl Found {
+    /// Adds a table; refuses one more than a text may have.
+    fn add(&mut self, grid: Result<Grid, Refused>) -> Result<(), Refused> {
+        self.grids
+            .push(grid.and_then(|grid| grid.check().map(|()| grid)));
+        if self.grids.len() > TABLES {
+            return Err(Refused::new(format!("at most {TABLES} tables"), "more"));
+        }
+        Ok(())
+    }
+}
+
+/// Finds the tables of a text, and the lines that are a doubt.
+pub(super) fn find(text: &str, choice: &Choice) -> Result<Found, Refused> {
+    let mut found = if let Some(values) = json::values(text) {
+        json::find(&values)?
+    } else if text.to_lowercase().contains("<table") {
+        html::find(text)?
+    } else {
+        lines::find(text, choice)?
+    };
+    found.doubts.extend(outside::failed_run(text));
+    Ok(found)
+}
+
+/// A name with its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Pair<'t> {
+    name: &'t str,
+    value: &'t str,
+}
+
+/// The names and numbers of a line that holds nothing else, but for words beside numbers:
+/// `h = 0.1, L2 error: 1e-3, method = SIPG`.
+fn pairs(line: &str) -> Option<Vec<Pair<'_>>> {
+    let mut pairs = vec![];
+    let mut has_number = false;
+    let mut rest = line.trim();
+    while !rest.is_empty() {
+        let (name, behind) = rest.split_once(['=', ':'])?;
+        let behind = behind.trim_start();
+        let end = behind.find(|c: char| c.is_whitespace() || ",;)".contains(c));
+        let (value, more) = behind.split_at(end.unwrap_or(behind.len()));
+        let name = name.trim();
+        let is_name = name.starts_with(|c: char| c.is_alphabetic() || "$\\|".contains(c));
+        let is_word = value
+            .chars()
+            .all(|c| c.is_alphanumeric() || "+-._×⁻".contains(c));
+        let digits = value.trim_start_matches(['+', '-']);
+        let is_flag = ["true", "false"].contains(&value.to_lowercase().as_str());
+        has_number |= is_word && digits.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        has_number |= is_failure(value) || is_flag;
+        if !is_name
+            || name.contains([',', ';'])
+            || value.is_empty()
+            || !is_word && !is_failure(value)
+        {
+            return None;
+        }
+        pairs.push(Pair { name, value });
+        rest = more.trim_start_matches([',', ';', ' ', '\t']);
+    }
+    has_number.then_some(pairs)
+}
+
+/// Whether a line draws a frame, says types, or is LaTeX around a table: it stands for nothing.
+fn is_frame(line: &str) -> bool {
+    const LATEX: &str =
+        r"\hline \toprule \midrule \bottomrule \begin \end \centering \label \cline \small";
+    const TYPES: [&str; 4] = ["Int", "UInt", "Float", "String"];
+    let line = line.trim();
+    let is_type = |word: &str| {
+        let name = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == '?');
+        TYPES.contains(&name) || word.chars().all(|c| "│|┼─".contains(c))
+    };
+    line.chars()
+        .all(|c| c.is_whitespace() || "|+:=_*#─│┼╪═–—&-".contains(c))
+        || line.starts_with('\\') && LATEX.split(' ').any(|start| line.starts_with(start))
+        || line.split_whitespace().all(is_type)
+}

@@ -1,0 +1,103 @@
+//! Columns of numbers and words: a data frame, a dict of lists.
+
+use super::cell::{Cell, Style};
+use super::grid::{Cells, Grid};
+use super::{Choice, RateTable, Refused, table_of_columns};
+use crate::input::InputError;
+use crate::text::number::counted;
+
+/// A column of a data frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameColumn {
+    /// Its name.
+    pub name: String,
+    /// Its cells, row by row.
+    pub cells: Vec<FrameCell>,
+}
+
+/// A cell of a data frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FrameCell {
+    /// A number; NaN is a level without a result.
+    Number(f64),
+    /// A word, such as `diverged`, or nothing.
+    Word(String),
+}
+
+impl FrameColumn {
+    /// A column of numbers.
+    pub fn of_numbers(name: impl Into<String>, numbers: impl IntoIterator<Item = f64>) -> Self {
+        Self {
+            name: name.into(),
+            cells: numbers.into_iter().map(FrameCell::Number).collect(),
+        }
+    }
+}
+
+impl FrameCell {
+    fn cell(&self) -> Cell {
+        match self {
+            Self::Number(number) => Cell::exact(*number),
+            Self::Word(word) => Cell::new(word, Style::default()),
+        }
+    }
+}
+
+impl RateTable {
+    /// Reads the columns of a data frame, with all digits of their numbers.
+    ///
+    /// * `argument`: the name of the data frame in messages.
+    ///
+    /// # Errors
+    /// As [`RateTable::parse_with`]; also for columns of different lengths, for fewer than two rows,
+    /// and for several ladders.
+    pub fn from_columns(
+        columns: &[FrameColumn],
+        argument: &str,
+        choice: &Choice,
+    ) -> Result<Self, InputError> {
+        let read = |choice: &Choice| frame(columns, choice);
+        let table = read(choice)
+            .map_err(|refused| refused.trying(|choice| read(choice).map(|one| vec![one])));
+        table.map_err(|refused| refused.error(argument))
+    }
+}
+
+fn frame(columns: &[FrameColumn], choice: &Choice) -> Result<RateTable, Refused> {
+    let rows = columns.first().map_or(0, |column| column.cells.len());
+    if let Some(other) = columns.iter().find(|column| column.cells.len() != rows) {
+        let found = format!("{} in `{}`", other.cells.len(), other.name);
+        return Err(Refused::new(
+            format!("{} in each column", counted(rows, "cell")),
+            found,
+        ));
+    }
+    if rows < 2 || columns.len() < 2 {
+        return Err(Refused::new(
+            "at least two columns of at least two rows",
+            "fewer",
+        ));
+    }
+    let grid = Grid {
+        names: columns.iter().map(|column| column.name.clone()).collect(),
+        rows: vec![vec![String::new(); columns.len()]; rows],
+        ..Grid::default()
+    };
+    grid.check()?;
+    let cells = |column: &FrameColumn| column.cells.iter().map(FrameCell::cell).collect();
+    let columns: Vec<Cells> = columns
+        .iter()
+        .map(|column| Cells::new(&column.name, cells(column)))
+        .collect();
+    let mut tables = table_of_columns(&grid, &columns, choice)?;
+    match &tables[..] {
+        [_] => Ok(tables.remove(0).table),
+        several => {
+            let found = counted(several.len(), "table");
+            Err(Refused::new(
+                "one table: give one method, and one degree, at a time",
+                found,
+            ))
+        }
+    }
+}

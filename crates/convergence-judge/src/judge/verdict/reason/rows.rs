@@ -24,7 +24,8 @@ pub(super) static ROWS: [ReasonRow; 34] = [
         wants_a_level: false,
         code: "agrees",
         text: "the rate agrees with the order",
-        advice: "The whole interval of the rate lies within the tolerance of the order.",
+        advice: "The whole interval of the rate lies within the tolerance of the order, the rates do not \
+                 move away from it, and no lower order explains the errors better.",
         mathematics: NEXT_TERM,
     },
     ReasonRow {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::time::Duration;
 
+use convergence_study::internal::store::content_hash;
 use thermobeam_study::sweep::{self, CaseLine, Header, RESULTS, ShareFile, Sweep, SweepShare};
 
 const BASE: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.05\ng2 = 0.05\n\
@@ -236,7 +237,11 @@ fn the_hash_is_that_of_sweep_scene_and_version() {
     let (sweep, _) = small(folder.path());
     let text = std::fs::read_to_string(folder.path().join("sweep.toml")).unwrap();
     let hashed = format!("{}\0{text}\0{BASE}", env!("CARGO_PKG_VERSION"));
-    let hash = convergence_study::internal::store::content_hash(hashed.as_bytes());
+    let hash = content_hash(hashed.as_bytes());
+    // Computed by an independent program; shares of one sweep depend on it.
+    assert_eq!(content_hash(b""), 0xC381_7C01_6BA4_FF30);
+    let parameters = content_hash(b"{\"beam.beta\":0.5}");
+    assert_eq!(parameters, 0xC5F6_866D_E049_E3BB);
     assert_eq!(sweep.hash, hash);
     std::fs::write(folder.path().join("base.toml"), format!("{BASE}\n")).unwrap();
     let other = Sweep::read(folder.path().join("sweep.toml")).unwrap();

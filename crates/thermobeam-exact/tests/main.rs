@@ -2,7 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
 
-mod dense;
 mod drawn;
 mod equilibrium;
 mod errors;

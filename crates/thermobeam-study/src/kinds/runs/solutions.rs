@@ -22,11 +22,12 @@ use crate::kinds::prelude::*;
 use crate::{
     exact::{
         assembly::{coupling, mass, stiffness},
-        dense::{Dense, Eigenpair, dot, eigenpairs},
+        dense::{Eigenpair, eigenpairs, solve},
     },
     kinds::settings::{ActiveTerms, CONTACT, Exercise, Integration},
     scene::{Coefficients, tables},
 };
+use nalgebra::DMatrix;
 use thermobeam::{
     bracket::bisect,
     kirchhoff::BUCKLING,
@@ -236,9 +237,9 @@ struct StepFromRest<'a> {
     study: &'a Solutions,
     dt: f64,
     /// A(0) of V alone: W and Θ, which m does not concern, are eliminated.
-    matrix: Dense,
+    matrix: DMatrix<f64>,
     /// K at the nodes of u.
-    stiffness: Dense,
+    stiffness: DMatrix<f64>,
 }
 
 /// The answer of u to a unit load at the tip.
@@ -255,18 +256,17 @@ impl<'a> StepFromRest<'a> {
     fn new(study: &'a Solutions, dt: f64) -> Result<Self, CaseFailure> {
         let n = study.mesh.elements();
         let matrix = dense(study, dt);
-        let others = matrix.rows() - n;
-        let eliminated = matrix
-            .part([n, n], others, others)
-            .solve(&matrix.part([n, 0], others, n))
+        let others = matrix.nrows() - n;
+        let part = |at, shape| matrix.view(at, shape).into_owned();
+        let of_u = part((n, 0), (others, n));
+        let eliminated = solve(part((n, n), (others, others)), &of_u)
             .ok_or_else(|| CaseFailure::new("the equations of φ and θ are singular"))?;
-        let of_others = matrix.part([0, n], n, others).times(&eliminated);
         let k = stiffness(&study.mesh);
         Ok(Self {
             study,
             dt,
-            matrix: matrix.part([0, 0], n, n).plus(-1.0, &of_others),
-            stiffness: Dense::from_fn(n, n, |i, j| k.entry(i + 1, j + 1)),
+            matrix: part((0, 0), (n, n)) - part((0, n), (n, others)) * eliminated,
+            stiffness: DMatrix::from_fn(n, n, |i, j| k.entry(i + 1, j + 1)),
         })
     }
 
@@ -278,10 +278,10 @@ impl<'a> StepFromRest<'a> {
     /// The answer for the mean axial force m; NaN if the matrix is singular to the last bit.
     fn answer(&self, m: f64) -> UnitLoadResponse {
         let n = self.study.mesh.elements();
-        let matrix = self.matrix.plus(0.5 * m * self.dt, &self.stiffness);
-        let mut load = vec![0.0; n];
+        let matrix = &self.matrix + &self.stiffness * (0.5 * m * self.dt);
+        let mut load = DMatrix::zeros(n, 1);
         load[n - 1] = self.dt;
-        let Some(u) = matrix.solve_one(&load) else {
+        let Some(u) = solve(matrix, &load) else {
             return UnitLoadResponse {
                 tip: f64::NAN,
                 slope_squared: f64::NAN,
@@ -289,7 +289,7 @@ impl<'a> StepFromRest<'a> {
         };
         UnitLoadResponse {
             tip: u[n - 1],
-            slope_squared: dot(&u, &self.stiffness.multiply(&u)),
+            slope_squared: u.dot(&(&self.stiffness * &u)),
         }
     }
 
@@ -338,7 +338,7 @@ impl<'a> StepFromRest<'a> {
         } = self.study.obstacles;
         let n = self.study.mesh.elements();
         let mut held = self.matrix.clone();
-        held[[n - 1, n - 1]] += self.dt / epsilon;
+        held[(n - 1, n - 1)] += self.dt / epsilon;
         let modes = self.modes(&held)?;
         let mut ends = vec![beta, end];
         ends.extend(
@@ -364,7 +364,7 @@ impl<'a> StepFromRest<'a> {
     }
 
     /// Eigenvalues and vectors x of a matrix in units of K, with `xᵀKx = 1`.
-    fn modes(&self, matrix: &Dense) -> Result<Vec<Eigenpair>, CaseFailure> {
+    fn modes(&self, matrix: &DMatrix<f64>) -> Result<Vec<Eigenpair>, CaseFailure> {
         eigenpairs(matrix, &self.stiffness)
             .ok_or_else(|| CaseFailure::new("K is not positive definite"))
     }
@@ -427,7 +427,7 @@ fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 /// The matrix of V, W and Θ of (3.7) without axial force: u and φ at nodes 1 to n, θ at 1 to n - 1.
-fn dense(study: &Solutions, dt: f64) -> Dense {
+fn dense(study: &Solutions, dt: f64) -> DMatrix<f64> {
     let n = study.mesh.elements();
     let Beam { zeta, a, .. } = study.beam;
     let (m, k, c) = (
@@ -436,23 +436,23 @@ fn dense(study: &Solutions, dt: f64) -> Dense {
         coupling(&study.mesh),
     );
     let (inertia, sigma) = (1.0 / dt, zeta + 0.5 * dt);
-    let mut matrix = Dense::zeros(3 * n - 1, 3 * n - 1);
+    let mut matrix = DMatrix::zeros(3 * n - 1, 3 * n - 1);
     for i in 1..=n {
         for j in 1..=n {
             let (u, w) = (i - 1, n + i - 1);
             let (of_u, of_w, of_theta) = (j - 1, n + j - 1, 2 * n + j - 1);
             let (mass, stiffness) = (m.entry(i, j), k.entry(i, j));
-            matrix[[u, of_u]] = inertia * mass + sigma * stiffness;
-            matrix[[u, of_w]] = -sigma * c.entry(i, j);
-            matrix[[w, of_u]] = -sigma * c.entry(j, i);
-            matrix[[w, of_w]] = (inertia + sigma) * mass + sigma * stiffness;
+            matrix[(u, of_u)] = inertia * mass + sigma * stiffness;
+            matrix[(u, of_w)] = -sigma * c.entry(i, j);
+            matrix[(w, of_u)] = -sigma * c.entry(j, i);
+            matrix[(w, of_w)] = (inertia + sigma) * mass + sigma * stiffness;
             if j < n {
-                matrix[[w, of_theta]] = -a * c.entry(i, j);
+                matrix[(w, of_theta)] = -a * c.entry(i, j);
                 // The row of θ_j and the column of φ_i.
-                matrix[[of_theta, w]] = a * c.entry(i, j);
+                matrix[(of_theta, w)] = a * c.entry(i, j);
             }
             if i < n && j < n {
-                matrix[[2 * n + i - 1, of_theta]] = 2.0 / dt * mass + stiffness;
+                matrix[(2 * n + i - 1, of_theta)] = 2.0 / dt * mass + stiffness;
             }
         }
     }

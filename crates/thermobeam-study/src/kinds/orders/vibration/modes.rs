@@ -24,9 +24,10 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::DMatrix;
 use thermobeam_exact::{
     assembly::{Tridiagonal, coupling, mass, stiffness},
-    dense::{Dense, Eigenpair, eigenpairs},
+    dense::{Eigenpair, eigenpairs},
     vibration::Mode,
 };
 
@@ -213,14 +214,14 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
     let n = mesh.elements();
     let [mass, stiffness, coupling] =
         [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| at_nodes(&matrix, n));
-    let [mut a, mut b] = [0, 1].map(|_| Dense::zeros(2 * n, 2 * n));
-    let opposite = Dense::zeros(n, n).plus(-1.0, &coupling);
-    a.put([0, 0], &stiffness);
-    a.put([n, n], &stiffness.plus(1.0, &mass));
-    a.put([0, n], &opposite);
-    a.put([n, 0], &opposite.transpose());
-    b.put([0, 0], &mass);
-    b.put([n, n], &mass);
+    let [mut a, mut b] = [0, 1].map(|_| DMatrix::zeros(2 * n, 2 * n));
+    let block = (n, n);
+    a.view_mut((0, 0), block).copy_from(&stiffness);
+    a.view_mut((n, n), block).copy_from(&(stiffness + &mass));
+    a.view_mut((0, n), block).copy_from(&-&coupling);
+    a.view_mut((n, 0), block).copy_from(&-coupling.transpose());
+    b.view_mut((0, 0), block).copy_from(&mass);
+    b.view_mut((n, n), block).copy_from(&mass);
     let mut vibrations = vec![];
     for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
         let tip = x[n - 1];
@@ -243,12 +244,7 @@ fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
     let [a, b] = [stiffness(mesh), mass(mesh)].map(|matrix| at_nodes(&matrix, n - 1));
     let mut temperatures = vec![];
     for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
-        let mut largest = 0.0_f64;
-        for &value in &x {
-            if value.abs() > largest.abs() {
-                largest = value;
-            }
-        }
+        let largest = x[x.icamax()];
         let mut theta = vec![0.0];
         theta.extend(x.iter().map(|value| value / largest));
         theta.push(0.0);
@@ -261,8 +257,8 @@ fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
 }
 
 /// The entries at the nodes 1 to n.
-fn at_nodes(matrix: &Tridiagonal, n: usize) -> Dense {
-    Dense::from_fn(n, n, |i, j| matrix.entry(i + 1, j + 1))
+fn at_nodes(matrix: &Tridiagonal, n: usize) -> DMatrix<f64> {
+    DMatrix::from_fn(n, n, |i, j| matrix.entry(i + 1, j + 1))
 }
 
 #[cfg(test)]

@@ -221,9 +221,7 @@ impl Ladder<'_> {
     }
 
     fn ways(&self, column: usize) -> Result<Vec<Candidate>, Refused> {
-        let Cells {
-            name, key, cells, ..
-        } = &self.columns[column];
+        let key = &self.columns[column].key;
         let cells_are_whole = self.columns[column].is_whole();
         let family = family(key);
         let way = |kind, dim| Candidate {
@@ -241,26 +239,7 @@ impl Ladder<'_> {
                 ..way(Kind::Nodes, Some(1.0))
             }
         };
-        let edges = || {
-            cells
-                .iter()
-                .filter_map(|cell| cell.number.as_ref())
-                .map(|number| &number.edges)
-        };
-        if edges().any(|edges| !edges.is_empty()) {
-            if self.choice.dim.is_some_and(|dim| dim != 1.0) {
-                let found = format!("`{name}`, the count along an edge");
-                let offer = self.choice.offer("", |choice| choice.dim = None);
-                return Err(Refused::new(Argument::Dim.with("1"), found).offering([offer]));
-            }
-            let alike = |edges: &Vec<f64>| edges.last().copied().unwrap_or_default();
-            let last = Steps::exact(edges().map(alike).collect());
-            if !are_proportional(&sizes(&self.columns[column], None), &last, 0.2) {
-                return Err(Refused::new(
-                    "edges that are refined alike",
-                    format!("`{name}`"),
-                ));
-            }
+        if self.has_edges(column)? {
             return Ok(vec![nodes(), way(Kind::Edge, Some(1.0))]);
         }
         let is_size = self.columns[column].is_size();
@@ -291,6 +270,31 @@ impl Ladder<'_> {
                 Ok(ways)
             }
         }
+    }
+
+    /// Whether the cells are grids such as `16x16`, whose last edge is the count.
+    ///
+    /// # Errors
+    /// Another dimension than 1 is asked for, or the edges are not refined alike.
+    fn has_edges(&self, column: usize) -> Result<bool, Refused> {
+        let Cells { name, cells, .. } = &self.columns[column];
+        let numbers = cells.iter().filter_map(|cell| cell.number.as_ref());
+        let edges: Vec<&Vec<f64>> = numbers.map(|number| &number.edges).collect();
+        if edges.iter().all(|edges| edges.is_empty()) {
+            return Ok(false);
+        }
+        if self.choice.dim.is_some_and(|dim| dim != 1.0) {
+            let found = format!("`{name}`, the count along an edge");
+            let offer = self.choice.offer("", |choice| choice.dim = None);
+            return Err(Refused::new(Argument::Dim.with("1"), found).offering([offer]));
+        }
+        let last = edges.iter().map(|edges| edges.last().copied());
+        let last = Steps::exact(last.map(Option::unwrap_or_default).collect());
+        if !are_proportional(&sizes(&self.columns[column], None), &last, 0.2) {
+            let found = format!("`{name}`");
+            return Err(Refused::new("edges that are refined alike", found));
+        }
+        Ok(true)
     }
 
     /// The dimensions that a count may have.

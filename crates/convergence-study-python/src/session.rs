@@ -69,11 +69,7 @@ impl Request {
     /// Accepts the studies into the baseline.
     ///
     /// * Returns the lines to print, and whether it is accepted.
-    fn bless(
-        &self,
-        numbers: &mut Baseline,
-        studies: &[Finished],
-    ) -> PyResult<(Vec<String>, bool)> {
+    fn bless(&self, numbers: &mut Baseline, studies: &[Finished]) -> PyResult<(Vec<String>, bool)> {
         let mut known = headers(studies);
         known.extend(self.not_judged(numbers, &known));
         let loosened = match numbers.bless(studies, Some(&known), self.loosened) {
@@ -91,7 +87,10 @@ impl Request {
             .iter()
             .map(|change| format!("loosened: {change}"))
             .collect();
-        lines.push(format!("baseline: blessed, see {}", self.baseline.display()));
+        lines.push(format!(
+            "baseline: blessed, see {}",
+            self.baseline.display()
+        ));
         Ok((lines, true))
     }
 }

@@ -22,14 +22,23 @@ use pyo3::types::PyDict;
 use crate::values::{self, Order};
 
 /// The arguments that make a [`Judgement`] again.
-type Arguments = (String, String, Vec<f64>, Vec<f64>, Option<Order>, f64, f64);
+type Arguments = (
+    String,
+    String,
+    Vec<f64>,
+    Vec<f64>,
+    Option<Order>,
+    f64,
+    f64,
+    BTreeMap<String, String>,
+);
 
 /// The judgement of one error: the verdict, and the numbers behind it.
 ///
 /// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval:
 /// its two ends, or None; pairwise: the rates between neighbouring levels, one fewer than
 /// levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
-/// order: the claimed order, or None; left_out: the columns of its table that were set aside, by name
+/// order: the claimed order, or None; left_out: the columns of its table that are not judged, by name
 /// with the reason; table(): step, error and rate of each level, coarse to fine,
 /// as a pandas DataFrame if pandas is available, otherwise as a dict of lists; to_dict(): all of it
 /// in types that JSON knows. It has no truth value. In a notebook it is shown as a table and a
@@ -43,8 +52,8 @@ pub(crate) struct Judgement {
     pub(crate) tolerance: f64,
     pub(crate) floor: Floor,
     pub(crate) rate: RateVerdict,
-    /// The columns of its table that were set aside, each with the reason.
-    pub(crate) left_out: Vec<(String, String)>,
+    /// The columns of its table that are not judged, each with the reason.
+    pub(crate) left_out: BTreeMap<String, String>,
 }
 
 /// Decimals of the rate in the first line of a failing test.
@@ -111,7 +120,11 @@ impl Judgement {
 impl Judgement {
     /// Judges levels, coarse to fine; `copy` and `pickle` repeat the judgement.
     #[new]
-    #[pyo3(signature = (name, step, h, errors, order=None, tolerance=DEFAULT_TOLERANCE, floor=0.0))]
+    #[pyo3(signature = (name, step, h, errors, order=None, tolerance=DEFAULT_TOLERANCE, floor=0.0, left_out=BTreeMap::new()))]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the arguments of the constructor in Python"
+    )]
     fn new(
         name: String,
         step: String,
@@ -120,6 +133,7 @@ impl Judgement {
         order: Option<&Bound<'_, PyAny>>,
         tolerance: f64,
         floor: f64,
+        left_out: BTreeMap<String, String>,
     ) -> PyResult<Self> {
         let claim = values::optional_claim(order, tolerance)?;
         let floor = values::floor_of(floor)?;
@@ -136,7 +150,7 @@ impl Judgement {
             claim,
             tolerance,
             floor,
-            left_out: vec![],
+            left_out,
         })
     }
 
@@ -149,6 +163,7 @@ impl Judgement {
             self.claim.as_ref().map(values::order_of),
             self.tolerance,
             self.floor.value(),
+            self.left_out.clone(),
         )
     }
 
@@ -195,7 +210,7 @@ impl Judgement {
 
     #[getter]
     fn left_out(&self) -> BTreeMap<String, String> {
-        self.left_out.iter().cloned().collect()
+        self.left_out.clone()
     }
 
     #[getter]
@@ -219,7 +234,7 @@ impl Judgement {
 
     pub(crate) fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
         let fields = [
-            "name", "verdict", "order", "rate", "interval", "code", "reason", "advice",
+            "name", "verdict", "order", "rate", "interval", "code", "reason", "advice", "left_out",
         ];
         let dict = attributes(slf, &fields)?;
         let own = slf.get();

@@ -36,7 +36,7 @@ pub(crate) fn rates(
         claims: claimed(py, order, tolerance)?,
         tolerance,
         floor,
-        choice: chosen.into(),
+        choice: chosen.choice()?,
         all: false,
     };
     let (tables, first) = if is_text {

@@ -62,7 +62,7 @@ impl Study {
                 tolerance: claim.tolerance,
                 floor: self.results.options.floor,
                 rate: rate.clone(),
-                left_out: vec![],
+                left_out: std::collections::BTreeMap::new(),
             })
         };
         outcome.rates.iter().filter_map(judgement).collect()

@@ -1,6 +1,8 @@
 //! Tables of several errors, read as `convergence-study rates` reads them.
 
-use convergence_study::{Choice, Claim, Column, RateTable, observe};
+use std::collections::BTreeMap;
+
+use convergence_study::{Choice, Claim, Column, RateTable, Reason, observe};
 use pyo3::prelude::*;
 
 use crate::call::{Call, OF_JUDGE};
@@ -17,26 +19,36 @@ pub(crate) struct Chosen {
     names: Option<Vec<String>>,
     dim: Option<f64>,
     ratio: Option<f64>,
+    lines: Option<Vec<String>>,
 }
 
-impl From<Chosen> for Choice {
-    fn from(chosen: Chosen) -> Self {
-        Self {
-            step: chosen.step,
-            columns: chosen.columns,
-            values: chosen.values.unwrap_or_default(),
-            names: chosen.names,
-            dim: chosen.dim,
-            ratio: chosen.ratio,
-            ..Self::default()
-        }
+impl Chosen {
+    /// # Errors
+    /// `ValueError` for lines that are no range.
+    pub(crate) fn choice(self) -> PyResult<Choice> {
+        let lines = self.lines.iter().flatten();
+        let range = |text: &String| {
+            let refused = |expected| refuse(format!("lines: {expected}; found {text:?}"));
+            text.parse().map_err(refused)
+        };
+        Ok(Choice {
+            lines: lines.map(range).collect::<PyResult<_>>()?,
+            step: self.step,
+            columns: self.columns,
+            values: self.values.unwrap_or_default(),
+            names: self.names,
+            dim: self.dim,
+            ratio: self.ratio,
+            ..Choice::default()
+        })
     }
 }
 
 /// Judges the columns of a data frame or of a dict of lists; `None` if `table` is neither.
 ///
 /// * `function`: the function that was called, for the calls that a refusal offers.
-/// * Returns the judgements of the columns with a claim, or of all for a common claim.
+/// * Returns the judgements of the columns with a claim; of all, or of those that are chosen, for
+///   a common claim. What is not judged is left out, with the reason.
 ///
 /// # Errors
 /// `ValueError` with the argument, or with the cell of the table.
@@ -53,7 +65,7 @@ pub(crate) fn judge_table(
     let floor = values::floor_of(floor)?;
     let choice = Choice {
         claimed: claims.names(),
-        ..chosen.into()
+        ..chosen.choice()?
     };
     let call = Call::new(table.py(), function, "table", order, OF_JUDGE)?;
     let Some(columns) = values::columns(table)? else {
@@ -64,35 +76,45 @@ pub(crate) fn judge_table(
     if let Some(doubt) = table.doubts.first() {
         return Err(refuse(format!("table: {doubt}")));
     }
-    let left_out = table.left_out.iter();
-    let left_out: Vec<(String, String)> = left_out
-        .map(|one| (one.column.clone(), one.because.clone()))
-        .collect();
-    let judged = |column: &Column, claim: Option<Claim>| Judgement {
-        name: column.name.clone(),
+    let judged = judged_columns(&table, claims)?;
+    let left_out = left_out(&table, &judged);
+    let judgement = |one: JudgedColumn<'_>| Judgement {
+        name: one.column.name.clone(),
         step: table.step.clone(),
-        rate: match &claim {
-            Some(claim) => claim.judge(&column.levels, floor),
-            None => observe(&column.levels, floor),
+        rate: match &one.claim {
+            Some(claim) => claim.judge(&one.column.levels, floor),
+            None => observe(&one.column.levels, floor),
         },
-        levels: column.levels.clone(),
-        claim,
+        levels: one.column.levels.clone(),
+        claim: one.claim,
         tolerance,
         floor,
         left_out: left_out.clone(),
     };
+    Ok(Some(judged.into_iter().map(judgement).collect()))
+}
+
+/// A column that is judged.
+struct JudgedColumn<'t> {
+    column: &'t Column,
+    claim: Option<Claim>,
+}
+
+/// The columns with a claim by name; for a common claim those that are chosen.
+///
+/// # Errors
+/// `ValueError` for the name of no column of errors.
+fn judged_columns(table: &RateTable, claims: Claims) -> PyResult<Vec<JudgedColumn<'_>>> {
     let named = match claims {
         Claims::ForAll(claim) => {
-            let claim_of = |column: &Column| claim.filter(|_| column.is_chosen);
-            let judgements = table
-                .columns
-                .iter()
-                .map(|column| judged(column, claim_of(column)));
-            return Ok(Some(judgements.collect()));
+            let chosen = table.columns.iter().filter(|column| column.is_chosen);
+            return Ok(chosen
+                .map(|column| JudgedColumn { column, claim })
+                .collect());
         }
         Claims::Named(named) => named,
     };
-    let judgement = |(name, claim): (String, Claim)| {
+    let judged = |(name, claim): (String, Claim)| {
         let column = table.column(&name).ok_or_else(|| {
             let names: Vec<&str> = table.columns.iter().map(|one| one.name.as_str()).collect();
             let known = names.join(", ");
@@ -100,11 +122,23 @@ pub(crate) fn judge_table(
                 "order: expected names of columns of errors, {known}; found `{name}`"
             ))
         })?;
-        Ok(judged(column, Some(claim)))
+        let claim = Some(claim);
+        Ok(JudgedColumn { column, claim })
     };
-    named
-        .into_iter()
-        .map(judgement)
-        .collect::<PyResult<_>>()
-        .map(Some)
+    named.into_iter().map(judged).collect()
+}
+
+/// The columns that are not judged, by name, each with the reason.
+fn left_out(table: &RateTable, judged: &[JudgedColumn<'_>]) -> BTreeMap<String, String> {
+    let is_judged = |column: &Column| judged.iter().any(|one| std::ptr::eq(one.column, column));
+    let others = table.columns.iter().filter(|column| !is_judged(column));
+    let others = others.map(|column| {
+        let because = Reason::NotClaimed.text();
+        (column.name.clone(), because.to_owned())
+    });
+    let left_out = table.left_out.iter();
+    left_out
+        .map(|one| (one.column.clone(), one.because.clone()))
+        .chain(others)
+        .collect()
 }

@@ -60,13 +60,15 @@ def test_tables_are_refused_in_words_of_python_with_calls_that_work():
     # Levels that halve the step, two columns of steps, one name twice.
     levels = {"level": [0, 1, 2, 3], "L2": SQUARES}
     text = refusal(levels, order=2)
-    assert "judge(table, order=2, ratio=2)  # if each level halves the step" in text
+    assert "judge(table, order=2, ratio=2)  # if each row halves the step" in text
     assert cs.judge(levels, order=2, ratio=2)["L2"].verdict == "pass"
     assert "step='dx'" in refusal({"dx": STEPS, "dt": [0.3, 0.1, 0.02, 0.01], "L2": SQUARES}, order=2)
-    assert refusal({"h": [0.2, 0.1, 0.1], "L2": [4, 1, 1]}, order=2).endswith("found `h` = 0.1 in rows 1 and 2")
-    assert refusal({"h": STEPS, "L2": [1, 2, 3]}, order=2).startswith("L2: expected 4 numbers, as other columns have, found 3")
-    assert refusal({"h": STEPS, "L2": [1, "x", 2, 3]}, order=2) == "L2[1]: expected a number, found 'x'"
-    assert refusal({"h": [0.2, 0, 0.1], "L2": [4, 1, 1]}, order=2).startswith("h[1]: expected a step, a finite number > 0, found")
+    assert refusal({"h": [0.2, 0.1, 0.1], "L2": [4, 1, 1]}, order=2).startswith("h: expected steps that fall or rise from row to row")
+    assert refusal({"h": STEPS, "L2": [1, 2, 3]}, order=2) == "h: expected 4 cells in each column, found 3 in `L2`"
+    assert refusal({"h": [0.2, 0, 0.1], "L2": [4, 1, 1]}, order=2).startswith("h: expected a column of steps")
+    # What is no number is a level that failed.
+    failed = cs.judge({"h": STEPS, "L2": [1, "x", 2, 3]}, order=2)["L2"]
+    assert failed.verdict == "fail" and failed.reason == "an error is NaN or infinite"
 
 
 def test_every_refusal_of_a_table_is_in_words_of_python():
@@ -94,9 +96,12 @@ def test_offers_are_the_call_as_it_was_made_with_other_arguments(convergence):
     text = refusal(both, order=2, ratio=2, dim=2)
     assert text.splitlines() == ["h: expected one of dim=... and ratio=..., found both", "  judge(table, order=2, ratio=2)"]
     values = {"h": STEPS, "it's": [3.1, 3.04, 3.01, 3.0025]}
-    assert "expected a column of errors, or columns=LIST, found `it's` (tends to 3" in refusal(values, order=2)
-    doubtful = {"h": STEPS, "it's": [3.1, 3.04, 3.01, 3.0025], "2": SQUARES}
-    assert refusal(doubtful, order=2).splitlines()[1:] == ["  judge(table, order=2, columns=[2, \"it's\"])  # if it is an error"]
+    tending = cs.judge(values, order=2)["it's"]
+    assert (tending.verdict, tending.code) == ("fail", "too-low") and tending.advice.startswith("The errors tend to about 3, not to zero")
+    two = {"it's": STEPS, "2": [0.3, 0.1, 0.02, 0.01], "L2": SQUARES}
+    text = refusal(two, order=2, names=["it's dt", "dx", "L2"], step="no")
+    assert text == "h: expected step=no, the name or number of a column, found it's dt, dx, L2"
+    assert refusal({"N": N, "dt": H, "L2": E}, order=2).splitlines()[-1] == "  judge(table, order=2, step='dt')"
     for function, name in [(cs.assert_order, "assert_order"), (convergence.assert_order, "convergence.assert_order")]:
         assert f"\n  {name}(table, order=2, dim=1)  # along an edge" in refusal({"n": N, "L2": E}, function=function, order=2)
 
@@ -106,7 +111,16 @@ def test_step_columns_names_floor_and_tolerance_mean_what_they_mean_for_rates():
     found = cs.judge(table, order=2, step="b", columns=["c"])
     assert list(found) == ["c"] and found["c"].to_dict()["steps"] == table["b"] and str(found["c"]).split()[0] == "b"
     assert list(cs.judge(table, order=2, step=2, columns="c")) == ["c"]
-    assert list(cs.judge(table, order={"L2": 2}, step="dt", names=["x", "dt", "L2", "H1"])) == ["L2"]
+    # What is not judged stands in the result, and does not decide.
+    assert found["c"].left_out == {"a": "no order is claimed", "d": "no order is claimed"} == found["c"].to_dict()["left_out"]
+    cs.assert_order(table, order=2, step="b", columns=["c"])
+    with pytest.raises(AssertionError, match="^d: fail: 1.000, claimed 2"):
+        cs.assert_order(table, order=2, step="b", columns=["c", "d"])
+    assert set(cs.judge(table, step="b", columns=["a", "c"])) == {"a", "c"}
+    renamed = cs.judge(table, order={"L2": 2}, step="dt", names=["x", "dt", "L2", "H1"])
+    assert list(renamed) == ["L2"] and renamed["L2"].verdict == "pass" and renamed["L2"].to_dict()["steps"] == table["b"]
+    assert set(renamed["L2"].left_out) == {"x", "H1"}
+    assert refusal(table, order=2, step="b", names=["a", "b"]) == "h: expected names=...: 4 names, found 2"
     # The last level is round-off.
     steps, errors = [0.8, *STEPS], [0.64, *SQUARES[:-1], 0.009]
     assert cs.judge(steps, errors, order=2).verdict != "pass"
@@ -133,7 +147,7 @@ def test_step_columns_names_floor_and_tolerance_mean_what_they_mean_for_rates():
         (dict(h=H, errors=E, step="h"), "step: expected only with a table in place of h and errors, found 'h'"),
         (dict(h={"h": H, "L2": E}, ratio=1), "ratio: expected a finite number > 1, found 1"),
         (dict(h={"h": H, "L2": E}, columns=[1.5]), "columns: expected names of columns, found [1.5]"),
-        (dict(h={"h": H, "L2": E}, step="k"), "h: expected a column for step=...: h, L2, found `k`"),
+        (dict(h={"h": H, "L2": E}, step="k"), "h: expected step=k, the name or number of a column, found h, L2"),
         (dict(h=H, errors=E, floor=-1), "floor"),
         (dict(h=H, errors=E, tolerance="x"), "tolerance: expected a number, found 'x'"),
         (dict(function=cs.rates, path_or_text="h e\n1 1", dim=0), "dim: expected a finite number > 0, found 0"),
@@ -293,10 +307,17 @@ def test_rates_returns_what_the_program_prints(tmp_path):
     assert cs.rates(counts, order=2, dim=1)["verdict"] == "inconclusive"
     assert cs.rates("level L2\n0 0.16\n1 0.04\n2 0.01\n", ratio=2)["step"] == "2^(-level)"
     path.write_text(counts)
+    repeated = "text:1:1: expected steps that fall or rise from row to row; other tables by lines=A-B, found `h`"
     assert f"\n  rates({str(path)!r}, order=2, dim=2)  #" in refusal(path, function=cs.rates, order=2)
-    assert refusal("h L2\n0.2 4\n0.1 1\n0.1 1\n", function=cs.rates, order=2).endswith("found `h` = 0.1 in lines 3 and 4")
+    assert refusal("h L2\n0.2 4\n0.1 1\n0.1 1\n", function=cs.rates, order=2).startswith(repeated)
     found = refusal("h L2\n0.2 4\n0.1 1\n", function=cs.rates, order={"L3": ">=2"})
     assert found == "order={'L3': '>=2'}: expected a column of errors: L2; found `L3`, did you mean `L2`?"
+    # The table is in lines 3 to 6.
+    lines = "h L2\n0.2 4\nh L2\n0.2 4\n0.1 1\n0.05 0.25\n"
+    for given in ["3-6", ["3-6"]]:
+        told = cs.rates(lines, order=2, lines=given)
+        assert told["verdict"] == "pass" and len(told["rates"][0]["levels"]) == 3
+    assert refusal(lines, function=cs.rates, lines="6-3") == "lines: expected the first and the last line, from 1, as in 3-9; found \"6-3\""
     # A name may have a comma.
     named = cs.rates("0.2 4\n0.1 1\n", names=["h", "e, max"], columns=["e, max"], order={"e, max": 2})
     assert [rate["norm"] for rate in named["rates"]] == ["e, max"]
@@ -323,10 +344,15 @@ def test_a_name_or_a_step_that_is_given_twice_is_refused():
 def test_no_column_of_a_table_is_left_out_in_silence():
     h, errors = [0.2, 0.1, 0.05, 0.025, 0.0125], [2.8e-2, 7e-3, 1.75e-3, 4.375e-4, 1.09375e-4]
     cs.assert_order({"h": h, "L2": errors, "note": list("abcde"), "converged": [True] * 5, "iterations": [3, 3, 4, 4, 5]}, order=2)
+    counted = cs.judge({"h": h, "L2": errors, "H1": h, "iterations": [3, 3, 4, 4, 5]}, order={"L2": 2})["L2"]
+    because = "whole numbers that do not fall, under a name of a count, level or cost"
+    assert counted.left_out == {"iterations": because, "H1": "no order is claimed"}
+    for again in [pickle.loads(pickle.dumps(counted)), copy.deepcopy(counted)]:
+        assert again.left_out == counted.left_out
     lost = [[0.3 * x for x in h], [4.7e-3 + x * x for x in h], errors[:-1] + [float("nan")], errors[:-1] + [None], errors[:-1] + ["diverged"]]
     columns = [(name, numbers) for name in ["k", "n", "nodes", "time", "cond", "ref", "exact", "order", "residual"] for numbers in lost]
     for name, cells in [*columns, ("converged", [True] * 4 + [False]), ("status", ["ok"] * 4 + ["diverged"])]:
         with pytest.raises((AssertionError, ValueError)):
             cs.assert_order({"h": h, "L2": errors, name: cells}, order=2)
-    with pytest.raises(ValueError, match="both vary: `N`, `dt`"):
+    with pytest.raises(ValueError, match="one of the steps, in space or in time, found `N`, `dt`"):
         cs.judge({"N": [16, 32, 64, 128, 256], "dt": h, "L2": errors}, order=2)

@@ -115,7 +115,7 @@ def test_an_error_that_may_change_its_sign_is_named():
         (dict(h=H, errors=SECOND, order=math.nan), "order: expected a number > 0"),
         (dict(h=H, errors=SECOND, tolerance=0.7), "tolerance = 0.7: the tolerance is too wide"),
         (dict(h=H), "errors: expected the errors at the steps h"),
-        (dict(h={"h": H, "L2": [1]}), "L2: expected 5 numbers"),
+        (dict(h={"h": H, "L2": [1]}), "h: expected 5 cells in each column, found 1 in `L2`"),
     ],
 )
 def test_what_is_no_table_is_refused_by_name(arguments, told):

@@ -145,15 +145,16 @@ def rates(
     names: Names = None,
     dim: float | None = None,
     ratio: float | None = None,
+    lines: Iterable[str] | str | None = None,
 ) -> dict[str, Any]:
     """What the program prints: the object of `convergence-study rates --format json`, as a dict.
 
     path_or_text: a file, or a text of several lines with a table, a log, a list or JSON. values: the columns of values that tend to an unknown
-    limit. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
+    limit. lines: where the table is, such as "3-9", or several of them. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
     """
     source, is_text = _source(path_or_text)
     order = dict(order) if isinstance(order, Mapping) else order
-    chosen = _chosen(step, columns, names, dim, ratio, values)
+    chosen = _chosen(step, columns, names, dim, ratio, values, lines)
     return json.loads(_native.rates(source, is_text, order, number("tolerance", tolerance), number("floor", floor), chosen))
 
 
@@ -257,7 +258,7 @@ def number(name, value, above=None):
     return found
 
 
-def _chosen(step, columns, names, dim, ratio, values=None):
+def _chosen(step, columns, names, dim, ratio, values=None, lines=None):
     """How a table is read."""
     return {
         "step": None if step is None else str(step),
@@ -266,6 +267,7 @@ def _chosen(step, columns, names, dim, ratio, values=None):
         "names": _names("names", names),
         "dim": None if dim is None else number("dim", dim, above=0),
         "ratio": None if ratio is None else number("ratio", ratio, above=1),
+        "lines": None if lines is None else [lines] if isinstance(lines, str) else [str(one) for one in lines],
     }
 
 

@@ -7,7 +7,15 @@ __version__: str
 @final
 class Judgement:
     def __new__(
-        cls, name: str, step: str, h: Any, errors: Any, order: Any = None, tolerance: float = 0.25, floor: float = 0.0
+        cls,
+        name: str,
+        step: str,
+        h: Any,
+        errors: Any,
+        order: Any = None,
+        tolerance: float = 0.25,
+        floor: float = 0.0,
+        left_out: Mapping[str, str] = ...,
     ) -> Judgement: ...
     @property
     def name(self) -> str: ...

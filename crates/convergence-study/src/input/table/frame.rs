@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Style};
 use super::grid::{Cells, Grid};
-use super::{Choice, RateTable, Refused, table_of_columns};
+use super::{Choice, RateTable, Refused, names_given, table_of_columns};
 use crate::input::InputError;
 use crate::text::number::counted;
 
@@ -78,8 +78,12 @@ fn frame(columns: &[FrameColumn], choice: &Choice) -> Result<RateTable, Refused>
             "fewer",
         ));
     }
+    let names = match names_given(choice, columns.len())? {
+        Some(names) => names.to_vec(),
+        None => columns.iter().map(|column| column.name.clone()).collect(),
+    };
     let grid = Grid {
-        names: columns.iter().map(|column| column.name.clone()).collect(),
+        names,
         rows: vec![vec![String::new(); columns.len()]; rows],
         ..Grid::default()
     };
@@ -87,7 +91,8 @@ fn frame(columns: &[FrameColumn], choice: &Choice) -> Result<RateTable, Refused>
     let cells = |column: &FrameColumn| column.cells.iter().map(FrameCell::cell).collect();
     let columns: Vec<Cells> = columns
         .iter()
-        .map(|column| Cells::new(&column.name, cells(column)))
+        .zip(&grid.names)
+        .map(|(column, name)| Cells::new(name, cells(column)))
         .collect();
     let mut tables = table_of_columns(&grid, &columns, choice)?;
     match &tables[..] {

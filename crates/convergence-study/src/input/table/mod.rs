@@ -430,15 +430,24 @@ fn tables(text: &str, file: &str, choice: &Choice) -> Result<Vec<NamedTable>, Re
     Ok(tables)
 }
 
+/// The names that the caller gives to all columns, if any.
+///
+/// # Errors
+/// As many names as columns are expected.
+fn names_given(choice: &Choice, columns: usize) -> Result<Option<&[String]>, Refused> {
+    match &choice.names {
+        Some(names) if names.len() != columns => {
+            let expected = Argument::Names.alone() + format!(": {}", counted(columns, "name"));
+            Err(Refused::new(expected, names.len().to_string()))
+        }
+        names => Ok(names.as_deref()),
+    }
+}
+
 /// The tables of a grid: one for each ladder.
 fn table_of(grid: &Grid, choice: &Choice) -> Result<Vec<NamedTable>, Refused> {
-    let names = match &choice.names {
-        Some(names) if names.len() == grid.rows[0].len() => names.clone(),
-        Some(names) => {
-            let expected =
-                Argument::Names.alone() + format!(": {}", counted(grid.rows[0].len(), "name"));
-            return Err(Refused::new(expected, names.len().to_string()));
-        }
+    let names = match names_given(choice, grid.rows[0].len())? {
+        Some(names) => names.to_vec(),
         None => unnamed::names(grid, choice.dim)?,
     };
     let has_step = |name: &&String| {

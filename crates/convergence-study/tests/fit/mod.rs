@@ -245,3 +245,12 @@ fn the_range_never_drops_a_plateau_above_the_floor() {
     assert_eq!(asymptotic_range(&data, 1.0).end, 0);
     assert_eq!(asymptotic_range(&[], 0.0), 0..0);
 }
+
+/// The quotient of two negative errors is positive, and would look like a rate.
+#[test]
+fn negative_errors_have_no_rate() {
+    let levels = [(0.4, -0.16), (0.2, -0.04), (0.1, 0.01)]
+        .map(|(step, error)| convergence_judge::Level { step, error });
+    let rates = convergence_judge::pairwise_rates(&levels);
+    assert!(rates.iter().all(|rate| rate.is_nan()), "{rates:?}");
+}

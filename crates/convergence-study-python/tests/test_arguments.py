@@ -315,8 +315,8 @@ def test_rates_returns_what_the_program_prints(tmp_path):
     # The table is in lines 3 to 6.
     lines = "h L2\n0.2 4\nh L2\n0.2 4\n0.1 1\n0.05 0.25\n"
     for given in ["3-6", ["3-6"]]:
-        told = cs.rates(lines, order=2, lines=given)
-        assert told["verdict"] == "pass" and len(told["rates"][0]["levels"]) == 3
+        result = cs.rates(lines, order=2, lines=given)
+        assert result["verdict"] == "pass" and len(result["rates"][0]["levels"]) == 3
     assert refusal(lines, function=cs.rates, lines="6-3") == "lines: expected the first and the last line, from 1, as in 3-9; found \"6-3\""
     # A name may have a comma.
     named = cs.rates("0.2 4\n0.1 1\n", names=["h", "e, max"], columns=["e, max"], order={"e, max": 2})

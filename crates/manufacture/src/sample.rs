@@ -211,7 +211,9 @@ impl<'m> Sampler<'m> {
         points
     }
 
-    /// Points of the domain in a box, so many if it has them.
+    /// Points of the domain in a box.
+    ///
+    /// * `wanted`: their number, if the box has as many.
     pub(crate) fn within(&mut self, sides: &[[f64; 2]], wanted: usize) -> Vec<Vec<f64>> {
         let mut points = vec![];
         for _ in 0..FEW_TRIES * wanted {

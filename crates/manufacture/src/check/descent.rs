@@ -4,7 +4,7 @@ use super::margin::Margin;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::sample::{Random, Sampler};
 
-/// So many pairs of points with different signs are looked between, so many minima are looked for.
+/// Most pairs of points with different signs that are bisected, and most minima that are followed.
 const MOST: usize = 4;
 
 /// A margin below this share of the largest one goes to zero.

@@ -30,7 +30,7 @@ pub(super) struct Accounts<'t> {
     pub(super) step: &'t Step,
     pub(super) choice: &'t Choice,
     /// The columns that the caller names as errors, and as values.
-    asked: Vec<usize>,
+    named_errors: Vec<usize>,
     values: Vec<usize>,
 }
 
@@ -54,18 +54,18 @@ impl<'t> Accounts<'t> {
                 })
             }
         };
-        let asked = choice.columns.iter().flatten().map(find(Argument::Columns));
+        let named_errors = choice.columns.iter().flatten().map(find(Argument::Columns));
         let values = choice.values.iter().map(find(Argument::Values));
-        let asked: Vec<usize> = asked.collect::<Result<_, _>>()?;
+        let named_errors: Vec<usize> = named_errors.collect::<Result<_, _>>()?;
         let values: Vec<usize> = values.collect::<Result<_, _>>()?;
-        if let Some(twice) = values.iter().find(|k| asked.contains(k)) {
+        if let Some(twice) = values.iter().find(|k| named_errors.contains(k)) {
             let expected = Text::from("each column of ") + Argument::Columns.alone() + " and ";
             let expected = expected + Argument::Values.alone() + " once";
             let found = format!("`{}` twice", columns[*twice].name);
             return Err(Refused::new(expected, found));
         }
         Ok(Self {
-            asked,
+            named_errors,
             values,
             columns,
             step,
@@ -75,8 +75,8 @@ impl<'t> Accounts<'t> {
 
     /// Whether a column is judged where an order is claimed for all.
     pub(super) fn is_chosen(&self, column: usize) -> bool {
-        let none = self.asked.is_empty() && self.values.is_empty();
-        none || self.asked.contains(&column) || self.values.contains(&column)
+        let none = self.named_errors.is_empty() && self.values.is_empty();
+        none || self.named_errors.contains(&column) || self.values.contains(&column)
     }
 
     /// Accounts for each column.
@@ -89,7 +89,8 @@ impl<'t> Accounts<'t> {
             ..Account::default()
         };
         for (k, column) in self.columns.iter().enumerate() {
-            let is_claimed = self.asked.contains(&k) || self.choice.claimed.contains(&column.name);
+            let is_claimed =
+                self.named_errors.contains(&k) || self.choice.claimed.contains(&column.name);
             let is_empty =
                 column.name.is_empty() && column.cells.iter().all(|cell| cell.text.is_empty());
             if Some(k) == self.step.column || self.values.contains(&k) || is_empty {
@@ -267,7 +268,7 @@ impl<'t> Accounts<'t> {
     fn set_rates_aside(&self, account: &mut Account) {
         let errors = account.errors.clone();
         let is_asked = |k: &usize| {
-            self.asked.contains(k) || self.choice.claimed.contains(&self.columns[*k].name)
+            self.named_errors.contains(k) || self.choice.claimed.contains(&self.columns[*k].name)
         };
         for k in errors.iter().copied().filter(|k| !is_asked(k)) {
             let column = &self.columns[k];
@@ -285,24 +286,23 @@ impl<'t> Accounts<'t> {
             let mut judged = near
                 .map(|error| &self.columns[error])
                 .filter(|error| !error.is_named_rates() && error.family().is_none());
-            let because = judged.find_map(|error| {
+            let fitted = judged.find_map(|error| {
                 let what = match fit(column, error, &self.step.steps)? {
                     Printed::Rates => "rates",
                     Printed::Factors => "factors",
                 };
                 Some(format!("the {what} of `{}`", error.name))
             });
-            let Some(because) = because.or_else(|| is_named.then(|| "named like rates".to_owned()))
-            else {
+            if fitted.is_none() && !is_named {
                 continue;
-            };
-            if is_named && because == "named like rates" && self.is_chosen(k) {
-                let because = "is named like rates, and fits no error over the step".to_owned();
+            }
+            if fitted.is_none() && self.is_chosen(k) {
                 account.doubts.push(Doubt::Column {
                     column: column.name.clone(),
-                    because,
+                    because: "is named like rates, and fits no error over the step".to_owned(),
                 });
             }
+            let because = fitted.unwrap_or_else(|| "named like rates".to_owned());
             account.errors.retain(|error| *error != k);
             account.set_aside(column, because);
         }

@@ -20,24 +20,24 @@
 
 mod account;
 mod cell;
+mod choice;
 mod digits;
+mod doubt;
 mod fits;
 mod forms;
 mod frame;
 mod grid;
 mod ladders;
 pub(crate) mod names;
+mod refused;
 mod step;
 mod unnamed;
 
-use std::fmt::{self, Display, Formatter};
 use std::io;
 use std::path::Path;
 
-use serde::Deserialize;
-
-use crate::input::advice::{Argument, ArgumentValue, Setting, Surface, Text};
-use crate::input::{self, Complaint, InputError, Place};
+use crate::input::advice::{Argument, Text};
+use crate::input::{self, InputError};
 use crate::judge::fit::Level;
 use crate::text::number::counted;
 use crate::text::visible::visible;
@@ -45,9 +45,12 @@ use account::{Account, Accounts};
 use cell::is_number;
 use grid::{Cells, Grid, Sense, moves};
 use ladders::{Ladder, ladders};
+use refused::Refused;
 use step::Step;
 
+pub use choice::{Choice, LineRange, Offer};
 pub use digits::Column;
+pub use doubt::Doubt;
 pub use frame::{FrameCell, FrameColumn};
 
 /// A table of errors that was read.
@@ -92,210 +95,10 @@ pub struct LeftOut {
     pub because: String,
 }
 
-/// What speaks against a table that was read: nothing of it should pass.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Doubt {
-    /// A line of the text says that the run has failed.
-    FailedRun {
-        /// Its number, from 1.
-        line: usize,
-        /// Its words.
-        words: String,
-    },
-    /// Lines outside the tables look like rows, or name a column.
-    Outside {
-        /// The number of the first, from 1; 0 without lines.
-        line: usize,
-        /// Its words.
-        words: String,
-        /// How many there are.
-        count: usize,
-        /// The choice of the lines of the tables.
-        offer: Option<Offer>,
-    },
-    /// Another table of the text cannot be read.
-    Unread(Box<InputError>),
-    /// A column that may hide an error.
-    Column {
-        /// Its name.
-        column: String,
-        /// What is wrong with it.
-        because: String,
-    },
-}
-
-impl Doubt {
-    /// The choice that removes it, if there is one.
-    pub fn offer(&self) -> Option<&Offer> {
-        match self {
-            Self::Outside { offer, .. } => offer.as_ref(),
-            _ => None,
-        }
-    }
-}
-
-impl Display for Doubt {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::FailedRun { line, words } => {
-                write!(f, "the run has failed: line {line} is `{}`", visible(words))
-            }
-            Self::Outside {
-                line, words, count, ..
-            } => {
-                let place = if *line == 0 {
-                    String::new()
-                } else {
-                    format!("line {line}, ")
-                };
-                let more = crate::text::lists::and_more(*count, 1);
-                write!(f, "outside the tables: {place}`{}`{more}", visible(words))
-            }
-            Self::Unread(error) => write!(f, "a table is not read: {error}"),
-            Self::Column { column, because } => write!(f, "`{}` {because}", visible(column)),
-        }
-    }
-}
-
-/// Lines of a text, from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-pub struct LineRange {
-    first: usize,
-    last: usize,
-}
-
-impl LineRange {
-    fn has(self, line: usize) -> bool {
-        (self.first..=self.last).contains(&line)
-    }
-}
-
-impl std::str::FromStr for LineRange {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let ends = text.split_once('-').unwrap_or((text, text));
-        match (ends.0.trim().parse(), ends.1.trim().parse()) {
-            (Ok(first), Ok(last)) if 0 < first && first <= last => Ok(Self { first, last }),
-            _ => Err("expected the first and the last line, from 1, as in 3-9".to_owned()),
-        }
-    }
-}
-
-impl TryFrom<String> for LineRange {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl Display for LineRange {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}-{}", self.first, self.last)
-    }
-}
-
-/// Which columns of a table to use; by default their names decide, and arithmetic.
-///
-/// A column is named as in the table, with or without its unit, or by its number from 1.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
-#[serde(default)]
-pub struct Choice {
-    /// The column of the step, or of the count or level that gives it.
-    pub step: Option<String>,
-    /// The columns of errors.
-    pub columns: Option<Vec<String>>,
-    /// Columns of values, which tend to a limit that is not zero.
-    pub values: Vec<String>,
-    /// Names for all columns, instead of those in the table.
-    pub names: Option<Vec<String>>,
-    /// The lines of the tables; all without one.
-    pub lines: Vec<LineRange>,
-    /// Columns with an order claimed by name: none of them can be the step, or be set aside.
-    #[serde(skip)]
-    pub claimed: Vec<String>,
-    /// Dimension D > 0 of what a count counts: h = count^(-1/D).
-    pub dim: Option<f64>,
-    /// Ratio R > 1 of the steps of consecutive levels: h = R^(-level).
-    pub ratio: Option<f64>,
-}
-
-/// A choice that reads a table which was refused.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Offer {
-    /// The choice that was made, changed.
-    pub choice: Choice,
-    /// What tells it from other offers, or when it is right; may be empty.
-    pub comment: &'static str,
-}
-
 /// A table with what tells it from others of a text.
 struct NamedTable {
     name: String,
     table: RateTable,
-}
-
-/// Why a table is not read.
-#[derive(Debug, Clone)]
-struct Refused {
-    line: usize,
-    expected: Text,
-    found: String,
-    offers: Vec<Offer>,
-}
-
-impl Refused {
-    fn new(expected: impl Into<Text>, found: impl Into<String>) -> Self {
-        Self {
-            line: 0,
-            expected: expected.into(),
-            found: found.into(),
-            offers: vec![],
-        }
-    }
-
-    /// At this line, unless its own is known.
-    fn at(mut self, line: usize) -> Self {
-        self.line = if self.line == 0 { line } else { self.line };
-        self
-    }
-
-    fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
-        self.offers.extend(offers);
-        self
-    }
-
-    /// The same with those offers alone that read the table, without a column in doubt.
-    fn trying(mut self, read: impl Fn(&Choice) -> Result<Vec<RateTable>, Self>) -> Self {
-        /// Most offers that are tried.
-        const TRIED: usize = 6;
-        self.offers.truncate(TRIED);
-        self.offers.retain(|offer| {
-            let tables = read(&offer.choice).unwrap_or_default();
-            let mut doubts = tables.iter().flat_map(|table| &table.doubts);
-            !tables.is_empty() && !doubts.any(|doubt| matches!(doubt, Doubt::Column { .. }))
-        });
-        self
-    }
-
-    fn error(self, file: &str) -> InputError {
-        InputError {
-            file: file.to_owned(),
-            place: (self.line > 0).then_some(Place {
-                line: self.line,
-                column: 1,
-            }),
-            field: None,
-            complaint: Box::new(Complaint::Table {
-                expected: self.expected,
-                found: self.found,
-            }),
-            offers: self.offers,
-        }
-    }
 }
 
 impl RateTable {
@@ -596,51 +399,4 @@ fn text_and_name(path: &Path) -> Result<(String, String), InputError> {
         return Ok((text, STANDARD_INPUT.to_owned()));
     }
     Ok((input::read_text(path)?, path.display().to_string()))
-}
-
-impl Choice {
-    /// This choice, changed.
-    ///
-    /// * `comment`: when it is right; may be empty.
-    fn offer(&self, comment: &'static str, change: impl FnOnce(&mut Self)) -> Offer {
-        let mut choice = self.clone();
-        change(&mut choice);
-        Offer { choice, comment }
-    }
-
-    /// What is chosen about the reading.
-    pub fn settings(&self) -> Vec<Setting> {
-        let lines: Vec<String> = self.lines.iter().map(LineRange::to_string).collect();
-        let values = [
-            (
-                Argument::Names,
-                self.names.as_deref().and_then(ArgumentValue::names),
-            ),
-            (Argument::Step, self.step.clone().map(ArgumentValue::Name)),
-            (Argument::Dim, self.dim.map(ArgumentValue::Number)),
-            (Argument::Ratio, self.ratio.map(ArgumentValue::Number)),
-            (
-                Argument::Columns,
-                self.columns.as_deref().and_then(ArgumentValue::names),
-            ),
-            (Argument::Values, ArgumentValue::names(&self.values)),
-            (Argument::Lines, ArgumentValue::names(&lines)),
-        ];
-        let mut settings = vec![];
-        for (argument, value) in values {
-            settings.extend(value.map(|value| Setting { argument, value }));
-        }
-        settings
-    }
-}
-
-impl Offer {
-    /// The line of a message with the call and the comment; `None` if the surface has no such call.
-    pub(crate) fn line(&self, surface: &dyn Surface) -> Option<String> {
-        let call = surface.call(&self.choice.settings())?;
-        Some(match self.comment {
-            "" => format!("\n  {call}"),
-            comment => format!("\n  {call}  # {comment}"),
-        })
-    }
 }

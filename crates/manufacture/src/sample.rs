@@ -217,10 +217,13 @@ impl<'m> Sampler<'m> {
     pub(crate) fn within(&mut self, sides: &[[f64; 2]], wanted: usize) -> Vec<Vec<f64>> {
         let mut points = vec![];
         for _ in 0..FEW_TRIES * wanted {
+            if points.len() == wanted {
+                break;
+            }
             let sides = sides.iter();
             let along = sides.map(|[low, high]| low + self.random.share() * (high - low));
             let point: Vec<f64> = along.collect();
-            if points.len() < wanted && self.is_inside(&point, None) {
+            if self.is_inside(&point, None) {
                 points.push(point);
             }
         }

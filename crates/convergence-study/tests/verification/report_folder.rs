@@ -12,6 +12,13 @@ fn set(files: &[(&str, &str)]) -> ReportSet {
     set
 }
 
+/// A report with two figures.
+const WITH_TWO_FIGURES: [(&str, &str); 3] = [
+    ("README.md", "one"),
+    ("figures/a.svg", "a"),
+    ("figures/b.svg", "b"),
+];
+
 fn reports(folder: &Path) -> ReportFolder {
     ReportFolder {
         folder: folder.join("reports"),
@@ -50,13 +57,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn a_new_report_replaces_the_old_one_with_its_figures_and_leaves_other_files() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
-    reports
-        .publish(&set(&[
-            ("README.md", "one"),
-            ("figures/a.svg", "a"),
-            ("figures/b.svg", "b"),
-        ]))
-        .unwrap();
+    reports.publish(&set(&WITH_TWO_FIGURES)).unwrap();
     fs::write(reports.folder.join("notes.txt"), "mine").unwrap();
     fs::write(reports.folder.join("local/times.json"), "mine").unwrap();
     reports
@@ -97,13 +98,7 @@ fn a_new_report_replaces_the_old_one_with_its_figures_and_leaves_other_files() {
 fn unchanged_files_are_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let reports = reports(folder.path());
-    reports
-        .publish(&set(&[
-            ("README.md", "one"),
-            ("figures/a.svg", "a"),
-            ("figures/b.svg", "b"),
-        ]))
-        .unwrap();
+    reports.publish(&set(&WITH_TWO_FIGURES)).unwrap();
     let long_ago = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000_000);
     let written = |path: &str| {
         fs::metadata(reports.folder.join(path))
@@ -119,13 +114,7 @@ fn unchanged_files_are_not_written() {
             .set_modified(long_ago)
             .unwrap();
     }
-    reports
-        .publish(&set(&[
-            ("README.md", "one"),
-            ("figures/a.svg", "a"),
-            ("figures/b.svg", "b"),
-        ]))
-        .unwrap();
+    reports.publish(&set(&WITH_TWO_FIGURES)).unwrap();
     assert_eq!(written("README.md"), long_ago, "the same set again");
     reports
         .publish(&set(&[

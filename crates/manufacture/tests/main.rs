@@ -12,6 +12,7 @@ mod fuzz;
 mod mistakes;
 mod orders;
 mod pages;
+mod poles;
 mod properties;
 mod public;
 mod random;

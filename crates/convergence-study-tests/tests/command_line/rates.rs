@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use serde_json::{Value, json};
+
 use super::{run, workspace};
 
 /// Errors of second and of first order, and a column without a claim that would fail.
@@ -45,7 +47,7 @@ fn rates_come_in_words_and_as_an_object() {
         "{out}"
     );
     let (_, out, _) = with(&["--format", "json"]);
-    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let object: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (&object["schema"], &object["verdict"]),
         (&2.into(), &"pass".into())
@@ -169,4 +171,57 @@ fn rates_write_figure_markdown_and_junit() {
         .0,
         Some(2)
     );
+}
+
+#[test]
+fn a_refusal_is_an_object_for_programs() {
+    let root = workspace(false);
+    fs::write(root.path().join("t"), "n L2\n10 0.16\n20 0.04\n40 0.01\n").unwrap();
+    let (_, silent, words) = run(&root, &["rates", "t", "--order", "2"]);
+    let (status, out, err) = run(&root, &["rates", "t", "--order", "2", "--format", "json"]);
+    assert_eq!((status, silent.as_str()), (Some(2), ""));
+    assert_eq!(err, words);
+    let object: Value = serde_json::from_str(&out).unwrap();
+    let refused = &object["refused"];
+    assert_eq!(
+        err,
+        format!("error: {}\n", refused["message"].as_str().unwrap())
+    );
+    assert_eq!(
+        (&refused["file"], &refused["line"]),
+        (&json!("t"), &json!(1))
+    );
+    let parts = json!([
+        {"argument": "dim", "value": "D"},
+        " for h = n^(-1/D), or ",
+        {"argument": "step", "value": "COLUMN"},
+    ]);
+    assert_eq!(refused["expected"], parts);
+    assert_eq!(refused["found"], "the count `n` and no step");
+    let offers = refused["offers"].as_array().unwrap();
+    let comments = ["along an edge", "all, in the plane", "all, in space"];
+    assert_eq!(offers.len(), comments.len());
+    for ((offer, comment), dim) in offers.iter().zip(comments).zip(1..) {
+        assert_eq!(offer["comment"], comment);
+        assert_eq!(offer["settings"], json!({"dim": f64::from(dim)}));
+        let call = offer["call"].as_str().unwrap();
+        assert!(
+            call.ends_with(&format!(" rates t --order 2 --dim {dim}")),
+            "{call}"
+        );
+    }
+    // A claim has no table and no offer.
+    let (status, out, err) = run(
+        &root,
+        &[
+            "rates", "t", "--dim", "1", "--order", "L3=2", "--format", "json",
+        ],
+    );
+    let object: Value = serde_json::from_str(&out).unwrap();
+    let words = "--order L3=2: expected a column of errors: L2; found `L3`, did you mean `L2`?";
+    assert_eq!(
+        (status, &object["refused"]),
+        (Some(2), &json!({"message": words}))
+    );
+    assert_eq!(err, format!("error: {words}\n"));
 }

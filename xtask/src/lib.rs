@@ -15,11 +15,12 @@ use convergence_study::{
     internal::cli::{command_line, ended},
 };
 use thermobeam_cli::{GROUPS, PAGES, project};
-use thermobeam_study::kinds::KINDS;
+use thermobeam_study::{kinds::KINDS, studies::STUDIES};
 
 /// The beam under this command, and the calibration of the rule.
 pub const PROJECT: Project = Project {
     kinds: &WITH_CALIBRATION,
+    studies: &STUDIES,
     ..project("cargo xtask")
 };
 

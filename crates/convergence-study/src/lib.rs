@@ -64,7 +64,7 @@
 //     TOML -- StudyFile::read --> Study -- run::run --> Finished -- baseline, record, junit, report --> verify
 //             input               cases     threads      Outcome
 //
-// A study is data. A project writes its `Kind`, which says what its cases compute and how their
+// A study is data, or a page of code (`Runs`). A project writes its `Kind`, which says what its cases compute and how their
 // results are judged; all findings are an `Outcome`. A `Project` names its kinds, `verify` runs,
 // judges, compares with the baseline and writes the report, and `cli` is the command line for all
 // of it. The rule knows neither norm nor scheme, only steps and errors: crate `convergence-judge`.
@@ -125,12 +125,13 @@ pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
 pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
-        Axis, Case, CaseFailure, Check, Coverage, ErrorsOverLevels, Figure, Header, IntoErrors,
-        Kind, LevelErrors, Must, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Refinement,
-        Sort, Study, Subject, Table, Tier, Untested, boxed_study,
+        About, Axis, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorsOverLevels,
+        Figure, Findings, Header, InCode, IntoErrors, Kind, LevelErrors, Measured, Must, NamedRate,
+        Origin, Outcome, Quantity, Ran, Reading, Recorded, Refinement, Runs, Sheet, Shown, Sort,
+        Study, Subject, Table, Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
-        levels,
+        levels, measured, unnoticed,
     },
 };
 

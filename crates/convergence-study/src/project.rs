@@ -1,7 +1,7 @@
 //! A project's description of itself for the harness.
 
 use crate::input::Keys;
-use crate::study::KindRow;
+use crate::study::{CodeStudy, KindRow};
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +14,8 @@ pub struct Project {
     pub about: &'static str,
     /// The kinds of study that it has.
     pub kinds: &'static [KindRow],
+    /// The studies that it has in code, beside those of files.
+    pub studies: &'static [CodeStudy],
     /// The groups that studies may name, in the order of reports: the property claimed, such as
     /// `space`.
     pub groups: &'static [&'static str],
@@ -42,6 +44,7 @@ impl Project {
             command,
             about,
             kinds: &[],
+            studies: &[],
             groups: &[],
             terms: &[],
             tables: &[],

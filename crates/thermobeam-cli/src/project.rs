@@ -12,6 +12,7 @@ pub const fn project(command: &'static str) -> Project {
         command,
         about: "Simulate the beam between its obstacles, and verify the scheme that does",
         kinds: &KINDS,
+        studies: &[],
         groups: &[
             "space",
             "time",

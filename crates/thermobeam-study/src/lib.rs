@@ -8,8 +8,8 @@
 //!                          cases            threads            Outcome
 //! ```
 //!
-//! Studies are data, and so are [`scene`]s, whose functions are [`expression`]s. Each of the
-//! [`kinds`] of study defines what its cases compute and how their results are judged; [`run`]
+//! Studies are data, or code if theirs is the only one of its kind: [`studies`]. [`scene`]s are
+//! data, whose functions are [`expression`]s. Each of the [`kinds`] of study defines what its cases compute and how their results are judged; [`run`]
 //! steps problems, [`mod@error`] measures errors against exact solutions and finer runs,
 //! [`accuracy`] refines until a wanted error is reached. The harness, [`convergence_study`],
 //! provides threads, rates, verdicts, baseline, records and reports.
@@ -43,6 +43,7 @@ pub mod figures;
 pub mod kinds;
 pub mod run;
 pub mod scene;
+pub mod studies;
 pub mod sweep;
 
 pub use thermobeam_exact as exact;

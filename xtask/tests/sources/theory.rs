@@ -65,7 +65,12 @@ fn known() -> BTreeSet<String> {
         let line = text.lines().find(|line| line.starts_with("id = "))?;
         line.split('"').nth(1).map(str::to_owned)
     };
-    tests.chain(studies.iter().filter_map(id)).collect()
+    let in_code = xtask::PROJECT.studies.iter();
+    let in_code = in_code.map(|code| (code.study)().header().id.clone());
+    tests
+        .chain(studies.iter().filter_map(id))
+        .chain(in_code)
+        .collect()
 }
 
 /// Names that are neither tests nor studies.

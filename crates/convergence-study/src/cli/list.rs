@@ -10,13 +10,14 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};
 use crate::text::columns::Columns;
+use crate::text::visible::visible;
 
 /// List the studies: tier, last verdict, cost, claim
 ///
 /// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or
 /// that of a selection in reports/local/. The work is the study's own estimate, in millions of the
 /// units of cost that its kind counts in. Seconds are those of all threads in the last `verify` on
-/// this machine. On a terminal claims are cut to its width; elsewhere they are whole.
+/// this machine. The home is the file that the study is in, of data or of code. On a terminal claims are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Only the studies that `verify --tier` would run; full includes quick
@@ -40,6 +41,8 @@ struct ListedStudy {
     /// Estimated, in millions of its kind's units of cost.
     work: f64,
     seconds: Option<f64>,
+    /// The file that it is in: of data, or of code.
+    home: String,
     claim: String,
 }
 
@@ -56,12 +59,15 @@ impl ListedStudy {
             last: last.map(Verdict::name),
             work: 1e-6 * cost,
             seconds,
+            home: file.path.display().to_string(),
             claim: header.claim.clone(),
         }
     }
 }
 
-const HEAD: [&str; 7] = ["study", "tier", "kind", "last", "work", "seconds", "claim"];
+const HEAD: [&str; 8] = [
+    "study", "tier", "kind", "last", "work", "seconds", "home", "claim",
+];
 
 /// Prints a row for each study.
 ///
@@ -128,6 +134,7 @@ fn row(study: &ListedStudy) -> Vec<String> {
         last,
         work,
         seconds,
+        home,
         claim,
     } = study;
     let last = last.unwrap_or("never run").to_owned();
@@ -139,13 +146,14 @@ fn row(study: &ListedStudy) -> Vec<String> {
         last,
         format!("{work:.2}"),
         seconds,
+        visible(home),
         claim.clone(),
     ]
 }
 
 /// Leaves out columns to make room for the claim.
 fn make_room(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
-    for dispensable in ["kind", "work", "tier"] {
+    for dispensable in ["home", "kind", "work", "tier"] {
         let column = head.iter().position(|name| *name == dispensable);
         if let Some(column) = column.filter(|_| room(head, rows, width) < screen::LEAST) {
             head.remove(column);
@@ -178,6 +186,7 @@ mod tests {
             "inconclusive",
             "100.00",
             "1.00",
+            "studies/self-convergence.toml",
             claim,
         ]
         .map(str::to_owned)
@@ -194,7 +203,7 @@ mod tests {
     #[test]
     fn rows_fit_on_the_screen_and_short_claims_stay_whole() {
         let long = "é".repeat(200);
-        for (width, columns) in [(80, 4), (120, HEAD.len())] {
+        for (width, columns) in [(80, 4), (160, HEAD.len())] {
             let mut rows = [row("work-precision-manufactured", &long), row("x", "short")];
             let (table, head) = fitted(&mut rows, width);
             assert_eq!(

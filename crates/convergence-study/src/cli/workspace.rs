@@ -15,7 +15,7 @@ use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::store;
 use crate::store::{Provenance, Record};
-use crate::study::{Header, StudyFile, Tier};
+use crate::study::{CodeStudy, Header, StudyFile, Tier};
 use crate::text::names::by_distance;
 use crate::text::visible;
 
@@ -35,14 +35,29 @@ pub fn root() -> Result<PathBuf, Unusable> {
     })
 }
 
-/// All studies of the workspace, by id.
+/// All studies of the workspace, those of files and those in code, by id.
 ///
 /// # Errors
-/// A folder that cannot be listed, and the first file that is not a study.
+/// A folder that cannot be listed, the first file that is not a study, and a study in code with the
+/// id of another one.
 pub fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusable> {
     let folder = root.join("studies");
     let paths = toml_files(&folder).map_err(|error| Unusable::file(&folder, &error))?;
     let mut files = StudyFile::read_all(project.kinds, &paths)?;
+    for CodeStudy { home, study } in project.studies {
+        let study = study();
+        let id = &study.header().id;
+        if let Some(other) = files.iter().find(|file| file.study.header().id == *id) {
+            return Err(Unusable::because(&format!(
+                "{home}: expected an id that no other study has, found \"{id}\", which {} has too",
+                visible::path(&other.path)
+            )));
+        }
+        files.push(StudyFile {
+            path: PathBuf::from(home),
+            study,
+        });
+    }
     files.sort_by(|a, b| a.study.header().id.cmp(&b.study.header().id));
     Ok(files)
 }

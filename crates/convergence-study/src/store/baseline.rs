@@ -20,6 +20,7 @@
 //! ```
 //!
 //! A line has a number, the relative change tolerated, and what the study claims of the number.
+//! `claims` has what a study in code claims of other numbers, by their names.
 //! `settings` is the hash of every value of the study's file, and of the labels of its cases;
 //! `guard` the tolerance that the file asks for; `test` the test that the study belongs to.
 //!
@@ -85,6 +86,9 @@ struct Blessed {
     test: Option<String>,
     /// Sorted by name.
     numbers: BTreeMap<String, Guarded>,
+    /// What it claims of numbers that are not guarded, by their names.
+    #[serde(default)]
+    claims: BTreeMap<String, Must>,
 }
 
 /// A guarded number.
@@ -185,6 +189,7 @@ impl Baseline {
         {
             changes.extend(self.changed_settings(header));
             changes.extend(self.changed_numbers(header, &outcome.quantities));
+            changes.extend(self.changed_claims(&header.id, outcome.claims()));
         }
         let others = known
             .unwrap_or_default()
@@ -239,6 +244,24 @@ impl Baseline {
             if !names.contains(name) {
                 let movement = Movement::Vanished { value: *value };
                 changes.push(GuardedChange::new(id, name, movement));
+            }
+        }
+        changes
+    }
+
+    /// Claims of one study about numbers that are not guarded, where they have changed.
+    fn changed_claims(&self, id: &str, found: Vec<(String, Must)>) -> Vec<GuardedChange> {
+        // Those of a new study are new with it.
+        let Some(Blessed { claims, .. }) = self.studies.get(id) else {
+            return vec![];
+        };
+        let found: BTreeMap<String, Must> = found.into_iter().collect();
+        let names: BTreeSet<&String> = claims.keys().chain(found.keys()).collect();
+        let mut changes = vec![];
+        for name in names {
+            let [from, to] = [claims, &found].map(|claims| claims.get(name).copied());
+            if from != to {
+                changes.push(GuardedChange::new(id, name, Movement::Claim { from, to }));
             }
         }
         changes
@@ -318,6 +341,7 @@ impl Baseline {
             guard: *guard,
             test: test.map(|(_, test)| test.clone()),
             numbers,
+            claims: outcome.claims().into_iter().collect(),
         };
         self.studies.insert(id.clone(), blessed);
     }

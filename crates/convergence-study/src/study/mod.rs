@@ -1,6 +1,6 @@
 //! A study: what it claims, its cases, and what it found.
 //!
-//! A study is a TOML file: data. Its [`Kind`] says what its cases are (pure computations, run on
+//! A study is a TOML file, data, or a page of code ([`Runs`]). Its [`Kind`] says what its cases are (pure computations, run on
 //! any thread in any order) and how their results become an [`Outcome`]: checks with verdicts,
 //! rates, tables, figures, and the numbers that the baseline guards. Only the runner uses threads,
 //! and only the report writes Markdown.
@@ -12,7 +12,9 @@ mod errors_over_levels;
 mod file;
 pub(crate) mod grid;
 pub(crate) mod header;
+mod in_code;
 pub(crate) mod kind;
+mod measured;
 mod must;
 pub(crate) mod outcome;
 pub(crate) mod over_levels;
@@ -20,6 +22,7 @@ pub(crate) mod readings;
 pub(crate) mod subject;
 pub(crate) mod until_decided;
 pub(crate) mod variants;
+mod views;
 
 pub use coverage::Coverage;
 pub(crate) use erased::Plan;
@@ -31,7 +34,9 @@ pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
 pub use file::{FromFile, KindRow, StudyFile, allow_only, read_claim, read_study};
 pub use header::{Header, Tier};
+pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
+pub use measured::{Measured, Recorded, Sheet, Shown, measured};
 pub use must::Must;
 pub use outcome::{Check, Figure, LevelErrors, NamedRate, Origin, Outcome, Quantity, Table};
 pub(crate) use over_levels::Claim;

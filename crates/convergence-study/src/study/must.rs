@@ -26,6 +26,10 @@ pub enum Must {
     AtMost(f64),
     /// At least this: `>= 2`.
     AtLeast(f64),
+    /// More than this: `> 0`.
+    Above(f64),
+    /// So many: `= 3`.
+    Count(usize),
     /// This answer, within a distance: `2 ± 0.002`.
     Near {
         /// The answer.
@@ -36,6 +40,30 @@ pub enum Must {
 }
 
 impl Must {
+    /// Whether a number is what it must be. NaN and infinity are not, and no number is where a
+    /// bound is not finite.
+    pub fn holds(self, value: f64) -> bool {
+        let [low, high] = self.ends();
+        let is_bounded = low.is_finite() || high.is_finite();
+        // The distance to an answer is compared as it is: its ends are rounded.
+        let holds = match self {
+            Self::Near { answer, within } => (value - answer).abs() <= within,
+            _ => low <= value && value <= high,
+        };
+        is_bounded && value.is_finite() && holds
+    }
+
+    /// A number just beyond it.
+    pub(super) fn past(self) -> f64 {
+        match self {
+            Self::AtMost(bound) => bound.next_up(),
+            Self::AtLeast(bound) => bound.next_down(),
+            Self::Above(bound) => bound,
+            Self::Count(count) => count as f64 + 1.0,
+            Self::Near { answer, within } => (answer + 1.001 * within).next_up(),
+        }
+    }
+
     /// Whether it allows a number that the other one does not.
     pub fn is_looser_than(self, other: Self) -> bool {
         let [own, others] = [self, other].map(Self::ends);
@@ -48,6 +76,8 @@ impl Must {
         match self {
             Self::AtMost(bound) => [f64::NEG_INFINITY, bound],
             Self::AtLeast(bound) => [bound, f64::INFINITY],
+            Self::Above(bound) => [bound.next_up(), f64::INFINITY],
+            Self::Count(count) => [count as f64; 2],
             Self::Near { answer, within } => [answer - within, answer + within],
         }
     }
@@ -87,6 +117,8 @@ impl fmt::Display for Must {
         match *self {
             Self::AtMost(bound) => write!(f, "<= {}", exact(bound)),
             Self::AtLeast(bound) => write!(f, ">= {}", exact(bound)),
+            Self::Above(bound) => write!(f, "> {}", exact(bound)),
+            Self::Count(count) => write!(f, "= {count}"),
             Self::Near { answer, within } => write!(f, "{} ± {}", exact(answer), exact(within)),
         }
     }
@@ -107,6 +139,10 @@ impl TryFrom<String> for Must {
             finite(bound).map(Self::AtMost)
         } else if let Some(bound) = text.strip_prefix(">= ") {
             finite(bound).map(Self::AtLeast)
+        } else if let Some(bound) = text.strip_prefix("> ") {
+            finite(bound).map(Self::Above)
+        } else if let Some(count) = text.strip_prefix("= ") {
+            count.parse().ok().map(Self::Count)
         } else {
             text.split_once(" ± ").and_then(|(answer, within)| {
                 let within = finite(within).filter(|within| *within >= 0.0)?;
@@ -130,6 +166,8 @@ mod tests {
             (Must::AtMost(1e-6), "<= 1e-6"),
             (Must::AtMost(0.1 + 0.2), "<= 0.30000000000000004"),
             (Must::AtLeast(-2.5e9), ">= -2.5e9"),
+            (Must::Above(0.0), "> 0"),
+            (Must::Count(3), "= 3"),
             (
                 Must::Near {
                     answer: 2.0,
@@ -143,6 +181,7 @@ mod tests {
         }
         for text in [
             "", "2", "< 2", "<= NaN", ">= inf", "2 ± -1", "2 ± NaN", "inf ± 1", "2±1", "<= 2 ",
+            "> NaN", "= -1", "= 1.5",
         ] {
             let refused = Must::try_from(text.to_owned()).unwrap_err();
             assert!(refused.ends_with(&format!("found `{text}`")), "{refused}");
@@ -160,6 +199,8 @@ mod tests {
             (near(2.0, 0.1), near(2.05, 0.1)),
             (near(2.0, 0.1), Must::AtLeast(1.9)),
             (Must::AtMost(1.0), Must::AtLeast(1.0)),
+            (Must::Above(0.0), Must::AtLeast(0.0)),
+            (Must::Count(1), Must::Count(2)),
             (near(2.0, 0.1), near(f64::NAN, 0.1)),
             (near(2.0, f64::NAN), near(2.0, 0.1)),
         ] {
@@ -170,8 +211,37 @@ mod tests {
             (near(2.0, 0.1), near(2.0, 0.05)),
             (Must::AtLeast(1.9), near(2.0, 0.1)),
             (near(2.0, 0.1), near(2.0, 0.1)),
+            (Must::AtLeast(0.0), Must::Above(0.0)),
         ] {
             assert!(!to.is_looser_than(from), "{from}, {to}");
+        }
+    }
+
+    #[test]
+    fn a_claim_holds_up_to_its_bound_and_never_for_what_is_not_finite() {
+        let near = Must::Near {
+            answer: 2.0,
+            within: 0.1,
+        };
+        for (must, meets) in [
+            (Must::AtMost(1.0), 1.0),
+            (Must::AtLeast(1.0), 1.0),
+            (Must::Above(1.0), 1.0_f64.next_up()),
+            (Must::Count(3), 3.0),
+            (near, 2.05),
+        ] {
+            assert!(must.holds(meets) && !must.holds(must.past()), "{must}");
+            for broken in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(!must.holds(broken), "{must}: {broken}");
+            }
+        }
+        for bound in [f64::NAN, f64::INFINITY] {
+            assert!(!Must::AtMost(bound).holds(0.0) && !Must::AtLeast(-bound).holds(0.0));
+            let near = Must::Near {
+                answer: 0.0,
+                within: bound,
+            };
+            assert!(!near.holds(0.0));
         }
     }
 }

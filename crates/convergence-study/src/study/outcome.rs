@@ -10,6 +10,7 @@ mod settle;
 mod table;
 
 use super::coverage::{self, Coverage};
+use super::measured::Sheet;
 use super::must::Must;
 use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
@@ -45,6 +46,9 @@ pub struct Outcome {
     /// How many items of each sort were judged, and why not the others; empty in older records.
     #[serde(default)]
     pub coverage: Vec<Coverage>,
+    /// The numbers of a study in code, of which its checks, tables and guarded numbers are views.
+    #[serde(skip)]
+    pub sheets: Vec<Sheet>,
     /// Tables of the report.
     #[serde(default)]
     pub tables: Vec<Table>,
@@ -194,6 +198,7 @@ impl Outcome {
             rates,
             checks,
             coverage: vec![],
+            sheets: vec![],
             tables: vec![],
             figures: vec![],
             quantities: vec![],
@@ -237,6 +242,7 @@ impl Outcome {
         self.rates.extend(part.rates);
         self.checks.extend(part.checks);
         coverage::merge(&mut self.coverage, part.coverage);
+        self.sheets.extend(part.sheets);
         self.tables.extend(part.tables);
         self.figures.extend(part.figures);
         self.quantities.extend(part.quantities);

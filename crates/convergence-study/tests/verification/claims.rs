@@ -5,14 +5,14 @@ use std::fs;
 use std::path::Path;
 
 use convergence_study::{
-    Blessing, Finished, Header, Must, Project, Scope, SourcePlace, Study, Tier, Verdict,
+    Blessing, Finished, Header, Must, Project, Scope, Sheet, SourcePlace, Study, Tier, Verdict,
     Verification, VerifyRequest,
     internal::{
         report::{blessing, sentence},
         run::listed,
         store::{Baseline, GuardedChange, diagnosis::diagnose, junit},
     },
-    verify,
+    measured, verify,
 };
 
 use super::fake::{Does, Fake, PROJECT, fake, finished, request};
@@ -107,6 +107,53 @@ fn a_study_with_another_value_in_its_file_or_another_case_is_named() {
     assert_eq!(baseline.compare(&[], Some(&[fewer.clone()])), []);
     fewer.cases.pop();
     one_of_settings(&baseline.compare(&[], Some(&[fewer])), "a");
+}
+
+/// Such as a constant in code that somebody loosens a thousandfold.
+#[test]
+fn a_claim_of_a_number_that_is_not_guarded_stands_in_the_baseline_by_its_name() {
+    let claiming = |bounds: [Option<f64>; 2]| {
+        let mut ran = ran(&[header("a", &SETTINGS)]);
+        let change = |(case, bound): (&str, Option<f64>)| {
+            measured(case, "change", 1e-4).must_be(bound.map(Must::AtMost))
+        };
+        let numbers = ["t = 1", "t = 2"].into_iter().zip(bounds).map(change);
+        ran[0].outcome.sheets = vec![Sheet::new("Changes", "time", numbers)];
+        ran
+    };
+    let same = claiming([Some(1e-3); 2]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("baseline.json");
+    blessed(&same).write(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("\"claims\": {\n        \"change\": \"<= 0.001\"\n      }"));
+    let baseline = Baseline::read(&path).unwrap();
+    assert_eq!(baseline.compare(&same, None), []);
+    for (bounds, messages) in [
+        (
+            [Some(1.0); 2],
+            &["change has a looser claim: was <= 0.001, is <= 1"][..],
+        ),
+        (
+            [None; 2],
+            &["change has a looser claim: was <= 0.001, is none"],
+        ),
+        (
+            [Some(1e-3), Some(1.0)],
+            &[
+                "change has a looser claim: was <= 0.001, is none",
+                "t = 1: change has a tighter claim: was none, is <= 0.001",
+                "t = 2: change has a tighter claim: was none, is <= 1",
+            ],
+        ),
+    ] {
+        let ran = claiming(bounds);
+        let found = words(&baseline.compare(&ran, None));
+        let expected: Vec<String> = messages.iter().map(|text| format!("a: {text}")).collect();
+        assert_eq!(found, expected);
+        assert!(baseline.clone().bless(&ran, None, false).is_err());
+        assert!(baseline.clone().bless(&ran, None, true).is_ok());
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@
 pub mod detects;
 mod interval;
 pub mod orders;
-mod prelude;
+pub(crate) mod prelude;
 pub mod runs;
 pub mod settings;
 pub mod solvers;
@@ -31,7 +31,7 @@ use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 19] = [
+pub const KINDS: [KindRow; 17] = [
     Convergence::ROW,
     AnyOrder::ROW,
     detects::ROW,
@@ -47,8 +47,6 @@ pub const KINDS: [KindRow; 19] = [
     runs::equilibrium::ROW,
     runs::bifurcation::ROW,
     runs::rigid::ROW,
-    runs::solutions::ROW,
-    runs::dependence::ROW,
     work_precision::ROW,
     program::ROW,
 ];

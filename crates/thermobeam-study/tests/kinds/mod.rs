@@ -20,6 +20,7 @@ mod scenes;
 mod self_convergence;
 mod solutions;
 mod solvers;
+mod studies;
 mod typed;
 mod untested;
 mod variants;

@@ -26,6 +26,7 @@ fn of_study(blessed: &Blessed) -> io::Result<String> {
         guard,
         test,
         numbers,
+        claims,
     } = blessed;
     let mut text = String::new();
     for (key, value) in [("settings", settings), ("test", test)] {
@@ -49,7 +50,19 @@ fn of_study(blessed: &Blessed) -> io::Result<String> {
         separator = ",\n";
     }
     let end = if numbers.is_empty() { "" } else { "\n      " };
-    Ok(text + end + "}\n")
+    text = text + end + "}";
+    let mut separator = ",\n      \"claims\": {\n";
+    for (name, claim) in claims {
+        let line = serde_json::to_string(claim)?;
+        let _ = write!(text, "{separator}        {}: {line}", quoted(name)?);
+        separator = ",\n";
+    }
+    let end = if claims.is_empty() {
+        "\n"
+    } else {
+        "\n      }\n"
+    };
+    Ok(text + end)
 }
 
 fn quoted(text: &str) -> io::Result<String> {

@@ -82,6 +82,9 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
         "the count of",
         outcome.coverage.iter().map(|coverage| &coverage.items),
     ));
+    let numbers = outcome.sheets.iter().flat_map(|sheet| &sheet.measured);
+    let names: Vec<String> = numbers.map(|one| one.in_case(&one.name)).collect();
+    defects.extend(repetitions("the number", names.iter()));
     for coverage in &outcome.coverage {
         if !coverage.adds_up() {
             defects.push(format!("the counts of `{}` do not add up", coverage.items));

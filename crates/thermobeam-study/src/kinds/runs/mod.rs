@@ -7,7 +7,6 @@
 pub mod bifurcation;
 pub mod cases;
 pub mod checks;
-pub mod dependence;
 pub mod energy;
 pub mod equilibrium;
 pub mod exact_experiments;
@@ -15,7 +14,6 @@ pub mod experiment;
 pub mod rigid;
 pub mod scenes;
 pub(crate) mod side_by_side;
-pub mod solutions;
 pub(crate) mod steady;
 pub(crate) mod watch;
 

@@ -14,19 +14,12 @@
 //!   `F² ‖r_x‖²` is g² times its derivative: f is convex between two poles, where it has two roots
 //!   or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
 
-use super::{
-    Findings, Results, RunStudy, Runs,
-    checks::{Condition, all, at_most},
+use super::prelude::*;
+use crate::exact::{
+    assembly::{coupling, mass, stiffness},
+    dense::{Eigenpair, eigenpairs, solve},
 };
-use crate::kinds::prelude::*;
-use crate::{
-    exact::{
-        assembly::{coupling, mass, stiffness},
-        dense::{Eigenpair, eigenpairs, solve},
-    },
-    kinds::settings::{ActiveTerms, CONTACT, Exercise, Integration},
-    scene::{Coefficients, tables},
-};
+use crate::kinds::runs::checks::largest_difference;
 use nalgebra::DMatrix;
 use thermobeam::{
     bracket::bisect,
@@ -35,38 +28,41 @@ use thermobeam::{
     parameters::{Beam, Obstacles},
 };
 
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "runs/solutions",
-    keys: Solutions::KEYS,
-    read: read_study::<RunStudy<Solutions>>,
-    why: "Remark 3.3 of the paper allows any step. The linear step has one solution where λ = B (ζ + dt/2) + m dt/2 >= 0, and \
-          the nonlinear one several beyond.",
-    judged: "All solutions of a step from rest are found, for each dt, and their tips compared with answers of another program. Where \
-             λ >= 0 there must be one.",
-    failure: "The matrices of the step are wrong, or a solution was missed.",
+/// What the study says about itself.
+pub const ABOUT: About = About {
+    id: "solutions-of-a-step",
+    claim: "Remark 3.3: a step has one solution where lambda >= 0, and three when it is long enough",
+    tier: Tier::Quick,
+    group: "contact",
+    headline: COUNT,
+    home: file!(),
 };
 
+/// Steps from rest, and u(1) of each solution, ascending, by a program in Python. Up to dt = 0.755
+/// theory allows one solution (λ >= 0); beyond, the beam may also jump to either obstacle.
+const STEPS: [(f64, &[f64]); 5] = [
+    (0.5, &[0.0]),
+    (0.755, &[0.0]),
+    (1.5, &[0.0]),
+    (2.0, &[-0.010000148780031, 0.0, 0.100000610685519]),
+    (5.0, &[-0.010001325521308, 0.0, 0.100010934440796]),
+];
+/// Distance of a tip to its answer.
+const WITHIN: f64 = 1e-9;
 /// Relative change of a number that the baseline tolerates: that of round-off in dense matrices.
 const GUARDED: f64 = 1e-9;
 
-/// Steps from rest.
+const COUNT: &str = "solutions";
+
+/// A beam compressed beyond buckling, at rest and straight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solutions {
-    beam: Beam,
-    obstacles: Obstacles,
-    mesh: Mesh,
-    steps: Vec<ExpectedStep>,
-    /// Distance of tips to the answers.
-    within: f64,
-}
-
-/// A step, and the answers.
-#[derive(Debug, Clone, PartialEq)]
-struct ExpectedStep {
-    dt: f64,
-    /// u(1) of each solution, ascending.
-    tips: Vec<f64>,
+    /// Its coefficients; θ_A = 0, so that a beam at rest stays there.
+    pub beam: Beam,
+    /// Its obstacles, g1 < 0 < g2.
+    pub obstacles: Obstacles,
+    /// Elements of its uniform mesh.
+    pub elements: usize,
 }
 
 /// The solutions of a step.
@@ -78,158 +74,80 @@ pub struct StepSolutions {
     pub tips: Vec<f64>,
 }
 
-const KEYS: [Key; 5] = [
-    tables::BEAM,
-    tables::OBSTACLES,
-    Key::new(
-        "elements",
-        Form::Count(2),
-        "the elements of the uniform mesh",
-    ),
-    Key::new(
-        "within",
-        Form::Positive,
-        "distance allowed of a tip to its answer",
-    ),
-    Key::new(
-        "step",
-        Form::List(&Form::Table(&[&[&[
-            Key::new("dt", Form::Positive, "length of the step"),
-            Key::new(
-                "tips",
-                Form::List(&Form::Number),
-                "u(1) of each solution, ascending",
-            ),
-        ]]])),
-        "the steps",
-    ),
-];
-
-/// Largest number of elements: the matrices are dense.
-const ELEMENTS: usize = 60;
+/// The study.
+pub fn study() -> Described<InCode<Solutions>> {
+    ABOUT.study(Solutions {
+        beam: Beam {
+            beta: -0.9,
+            rho: 1.0,
+            zeta: 0.1,
+            a: 0.017,
+            theta_a: 0.0,
+        },
+        obstacles: Obstacles {
+            epsilon: 1e-3,
+            g1: -0.01,
+            g2: 0.1,
+        },
+        elements: 20,
+    })
+}
 
 impl Runs for Solutions {
-    const KEYS: &'static [Keys] = &[&[&KEYS]];
-
-    /// The place of the step.
-    type Run = usize;
+    /// dt, and the tips known.
+    type Run = (f64, &'static [f64]);
     type Shown = StepSolutions;
 
-    fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let Coefficients { beam, obstacles } = Coefficients::read(root)?;
-        let Some(obstacles) =
-            obstacles.filter(|obstacles| obstacles.g1 < 0.0 && obstacles.g2 > 0.0)
-        else {
-            return Err(root.refuse("obstacles", "none, or one at 0", "g1 < 0 < g2"));
-        };
-        if beam.theta_a != 0.0 || beam.rho == 0.0 {
-            let allowed = "theta_a = 0, so that a beam at rest stays there, and rho > 0";
-            return Err(root.refuse("beam", "a heated or a linear beam", allowed));
-        }
-        let elements = root.require("elements", "a number of elements")?;
-        let steps = root.tables("step", " with dt and tips", |section| {
-            let allowed = "a list of numbers, ascending";
-            Ok(ExpectedStep {
-                dt: section.positive("dt")?,
-                tips: section.list("tips", allowed, |tip| tip.number(), increases)?,
-            })
-        })?;
-        Ok(Self {
-            beam,
-            obstacles,
-            mesh: tables::checked_mesh(Mesh::uniform(elements.count(2..=ELEMENTS)?), &elements)?,
-            steps,
-            within: root.positive("within")?,
-        })
+    fn runs(&self) -> Vec<Case<Self::Run>> {
+        let cost = 100.0 * (self.elements as f64).powi(3);
+        STEPS
+            .map(|step| Case::new(case(step.0), cost, step))
+            .to_vec()
     }
 
-    fn exercise(&self, _case: Option<&str>) -> Exercise {
-        let terms = ActiveTerms::of(&self.beam, Some(&self.obstacles));
-        Exercise::new(CONTACT, Integration::PAPER, terms)
-    }
-
-    fn runs(&self) -> Vec<Case<usize>> {
-        let cost = 100.0 * (self.mesh.elements() as f64).powi(3);
-        let steps = self.steps.iter().enumerate();
-        steps
-            .map(|(place, step)| Case::new(format!("dt = {}", step.dt), cost, place))
-            .collect()
-    }
-
-    fn run(&self, &place: &usize) -> Result<StepSolutions, CaseFailure> {
-        let step = StepFromRest::new(self, self.steps[place].dt)?;
+    fn run(&self, (dt, _): &Self::Run) -> Result<StepSolutions, CaseFailure> {
+        let step = StepFromRest::new(self, *dt)?;
         Ok(StepSolutions {
             lambda: step.lambda(self.beam.beta),
             tips: step.tips()?,
         })
     }
 
-    fn numbers(&self, &place: &usize, found: &StepSolutions) -> Vec<Reading> {
-        let case = format!("dt = {}", self.steps[place].dt);
-        let guarded = |name: &str, key: &str, value| {
-            Reading::new(name, value).guarded_in(&case, key, GUARDED)
-        };
-        vec![
-            guarded("λ", "lambda", Some(found.lambda)),
-            Reading::text("solutions", found.tips.len().to_string()),
-            guarded("least u(1)", "least_tip", found.tips.first().copied()),
-            guarded("largest u(1)", "largest_tip", found.tips.last().copied()),
-        ]
-    }
-
-    fn table(&self) -> Option<[&str; 2]> {
-        Some(["Solutions of a step from rest", "step"])
-    }
-
-    fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let checks: Vec<Check> = results
-            .all()
-            .flat_map(|(&place, found)| self.checks(&self.steps[place], found))
-            .collect();
-        let counts = results.all().map(|(&place, found)| {
-            format!("{} at dt = {}", found.tips.len(), self.steps[place].dt)
-        });
-        let summary = format!(
-            "solutions of a step from rest, β = {}: {}",
-            self.beam.beta,
-            counts.collect::<Vec<_>>().join(", ")
-        );
-        Findings {
-            headline: summary.clone(),
-            summary,
-            checks,
-            ..Findings::default()
+    fn judge(&self, shown: &[(&Self::Run, &StepSolutions)]) -> Findings {
+        let mut found = vec![];
+        for ((dt, known), StepSolutions { lambda, tips }) in shown {
+            let case = case(*dt);
+            let count = tips.len() as f64;
+            found.extend([
+                measured(&case, "λ", *lambda).recorded("lambda", GUARDED),
+                measured(&case, COUNT, count)
+                    .fixed(0)
+                    .must_be(Must::Count(known.len())),
+                measured(&case, "least u(1)", tips.first().copied())
+                    .scientific(6)
+                    .recorded("least_tip", GUARDED),
+                measured(&case, "largest u(1)", tips.last().copied())
+                    .scientific(6)
+                    .recorded("largest_tip", GUARDED),
+                measured(
+                    &case,
+                    "distance to the answers",
+                    largest_difference(tips, known),
+                )
+                .scientific(1)
+                .must_be(Must::AtMost(WITHIN)),
+            ]);
+            if !(*lambda < 0.0) {
+                let unique = measured(&case, "solutions where λ >= 0", count);
+                found.push(unique.fixed(0).must_be(Must::Count(1)));
+            }
         }
+        Sheet::new("Solutions of a step from rest", "step", found).into()
     }
 }
 
-impl Solutions {
-    fn checks(&self, step: &ExpectedStep, found: &StepSolutions) -> [Check; 2] {
-        let case = format!("dt = {}", step.dt);
-        let expected = step.tips.len();
-        let distance = super::checks::largest_difference(&found.tips, &step.tips);
-        let count = found.tips.len();
-        let evidence = format!("{count} solutions, largest distance {distance:.1e}");
-        let lambda = found.lambda;
-        [
-            all(
-                format!(
-                    "the step has {expected} solutions, with the tips known within {:e}",
-                    self.within
-                ),
-                Subject::of("solutions").in_case(&case),
-                [at_most(distance, self.within, evidence)],
-            ),
-            all(
-                "one solution where λ >= 0",
-                Subject::of("uniqueness").in_case(case),
-                [Condition::that(
-                    lambda < 0.0 || count == 1,
-                    format!("λ = {lambda:.4}, {count} solutions"),
-                )],
-            ),
-        ]
-    }
+fn case(dt: f64) -> String {
+    format!("dt = {dt}")
 }
 
 /// A step from rest.
@@ -254,14 +172,15 @@ impl<'a> StepFromRest<'a> {
     /// # Errors
     /// [`CaseFailure`] if W and Θ cannot be eliminated.
     fn new(study: &'a Solutions, dt: f64) -> Result<Self, CaseFailure> {
-        let n = study.mesh.elements();
-        let matrix = dense(study, dt);
+        let mesh = Mesh::uniform(study.elements)?;
+        let n = mesh.elements();
+        let matrix = dense(study, &mesh, dt);
         let others = matrix.nrows() - n;
         let part = |at, shape| matrix.view(at, shape).into_owned();
         let of_u = part((n, 0), (others, n));
         let eliminated = solve(part((n, n), (others, others)), &of_u)
             .ok_or_else(|| CaseFailure::new("the equations of φ and θ are singular"))?;
-        let k = stiffness(&study.mesh);
+        let k = stiffness(&mesh);
         Ok(Self {
             study,
             dt,
@@ -277,7 +196,7 @@ impl<'a> StepFromRest<'a> {
 
     /// The answer for the mean axial force m; NaN if the matrix is singular to the last bit.
     fn answer(&self, m: f64) -> UnitLoadResponse {
-        let n = self.study.mesh.elements();
+        let n = self.study.elements;
         let matrix = &self.matrix + &self.stiffness * (0.5 * m * self.dt);
         let mut load = DMatrix::zeros(n, 1);
         load[n - 1] = self.dt;
@@ -336,7 +255,7 @@ impl<'a> StepFromRest<'a> {
         let Obstacles {
             g1, g2, epsilon, ..
         } = self.study.obstacles;
-        let n = self.study.mesh.elements();
+        let n = self.study.elements;
         let mut held = self.matrix.clone();
         held[(n - 1, n - 1)] += self.dt / epsilon;
         let modes = self.modes(&held)?;
@@ -427,14 +346,10 @@ fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 /// The matrix of V, W and Θ of (3.7) without axial force: u and φ at nodes 1 to n, θ at 1 to n - 1.
-fn dense(study: &Solutions, dt: f64) -> DMatrix<f64> {
-    let n = study.mesh.elements();
+fn dense(study: &Solutions, mesh: &Mesh, dt: f64) -> DMatrix<f64> {
+    let n = mesh.elements();
     let Beam { zeta, a, .. } = study.beam;
-    let (m, k, c) = (
-        mass(&study.mesh),
-        stiffness(&study.mesh),
-        coupling(&study.mesh),
-    );
+    let (m, k, c) = (mass(mesh), stiffness(mesh), coupling(mesh));
     let (inertia, sigma) = (1.0 / dt, zeta + 0.5 * dt);
     let mut matrix = DMatrix::zeros(3 * n - 1, 3 * n - 1);
     for i in 1..=n {

@@ -1,0 +1,132 @@
+//! What a study says of its numbers: checks, tables, entries of the baseline, headline.
+
+use super::measured::{Measured, Recorded, Sheet, Shown};
+use super::must::Must;
+use super::outcome::{Check, Outcome, Quantity, Table};
+use super::subject::Subject;
+use crate::text::lists::{distinct, grouped};
+
+impl Measured {
+    fn subject(&self, quantity: &str) -> Subject {
+        let case = (!self.case.is_empty()).then(|| self.case.clone());
+        Subject {
+            case,
+            ..Subject::of(quantity)
+        }
+    }
+
+    /// Fails where a claim does not hold, or a number is not finite; `None` if nothing is claimed.
+    fn check(&self) -> Option<Check> {
+        let words = match self.claim {
+            Some(claim @ Must::Near { .. }) => format!("{} is {claim}", self.name),
+            Some(claim) => format!("{} {claim}", self.name),
+            None if self.is_broken() => format!("{} is a finite number", self.name),
+            None => return None,
+        };
+        let holds = self.holds().unwrap_or(false);
+        Some(Check::that(holds, words, self.text()).about(self.subject(&self.name)))
+    }
+
+    fn quantity(&self) -> Option<Quantity> {
+        let Recorded { name, tolerance } = self.record.as_ref()?;
+        let value = self.value.unwrap_or(f64::NAN);
+        let quantity = Quantity::new(self.in_case(name), value, *tolerance);
+        Some(quantity.about(self.subject(name)).claimed(self.claim))
+    }
+}
+
+impl Sheet {
+    /// `None` if none of its numbers is shown.
+    fn table(&self) -> Option<Table> {
+        let is_shown = |one: &&Measured| one.shown != Shown::Hidden;
+        let shown: Vec<&Measured> = self.measured.iter().filter(is_shown).collect();
+        let names = distinct(shown.iter().map(|one| one.name.as_str()));
+        let cases = distinct(shown.iter().map(|one| one.case.as_str()));
+        let rows = cases.iter().map(|case| {
+            let cell = |name: &&str| {
+                let mut all = shown.iter();
+                let one = all.find(|one| one.case == *case && one.name == *name);
+                one.map_or_else(|| "-".to_owned(), |one| one.text())
+            };
+            let cells = names.iter().map(cell);
+            [(*case).to_owned()].into_iter().chain(cells).collect()
+        });
+        let head = [self.first.as_str()].into_iter();
+        let head = head.chain(names.iter().copied());
+        (!shown.is_empty()).then(|| Table::new(self.title.clone(), head, rows))
+    }
+}
+
+impl Outcome {
+    /// The outcome of a study whose numbers are these; it fails if none of them has a claim.
+    ///
+    /// * `completion`: the check that every case has run.
+    /// * `headline`: the name of the numbers to read first.
+    pub fn of_sheets(completion: Check, sheets: Vec<Sheet>, headline: &str) -> Self {
+        let all: Vec<&Measured> = sheets.iter().flat_map(|sheet| &sheet.measured).collect();
+        let mut checks = vec![completion];
+        checks.extend(all.iter().filter_map(|one| one.check()));
+        if all.iter().all(|one| one.claim.is_none()) {
+            let check = Check::that(false, "the study claims something", "no number has a claim");
+            checks.push(check.about(Subject::of("claims")));
+        }
+        let headline = in_short(&all, headline);
+        let quantities = all.iter().filter_map(|one| one.quantity()).collect();
+        Self {
+            tables: sheets.iter().filter_map(Sheet::table).collect(),
+            quantities,
+            headline: headline.as_str().into(),
+            sheets,
+            ..Self::new(headline, vec![], checks)
+        }
+    }
+
+    /// What numbers must be that the baseline does not guard, each by its name: for a name whose
+    /// cases have the same claim one line, otherwise one for each case.
+    pub(crate) fn claims(&self) -> Vec<(String, Must)> {
+        let all = self.sheets.iter().flat_map(|sheet| &sheet.measured);
+        let others = all.filter(|one| one.record.is_none());
+        let claimed = others.filter_map(|one| Some((one.name.as_str(), (one, one.claim?))));
+        let mut lines = vec![];
+        for (name, claimed) in grouped(claimed) {
+            let (_, first) = claimed[0];
+            if claimed.iter().all(|(_, claim)| *claim == first) {
+                lines.push((name.to_owned(), first));
+            } else {
+                let each = claimed.iter();
+                lines.extend(each.map(|(one, claim)| (one.in_case(name), *claim)));
+            }
+        }
+        lines
+    }
+}
+
+/// The numbers of a name in a few words: the extreme one where all have a bound on one side.
+fn in_short(all: &[&Measured], name: &str) -> String {
+    let named: Vec<&&Measured> = all.iter().filter(|one| one.name == name).collect();
+    let has = |claim: fn(&Must) -> bool| {
+        let mut named = named.iter();
+        named.all(|one| one.claim.as_ref().is_some_and(claim))
+    };
+    let by_value = |a: &&&&Measured, b: &&&&Measured| {
+        let [a, b] = [a, b].map(|one| one.value.unwrap_or(f64::NAN));
+        a.total_cmp(&b)
+    };
+    let (word, extreme) = if has(|claim| matches!(claim, Must::AtMost(_))) {
+        ("at most", named.iter().max_by(by_value))
+    } else if has(|claim| matches!(claim, Must::AtLeast(_) | Must::Above(_))) {
+        ("at least", named.iter().min_by(by_value))
+    } else {
+        ("", None)
+    };
+    match extreme {
+        Some(one) => format!("{name} {word} {}", one.text()),
+        None => {
+            let each = named.iter().map(|one| match one.case.as_str() {
+                "" => one.text(),
+                case => format!("{} at {case}", one.text()),
+            });
+            format!("{name}: {}", each.collect::<Vec<_>>().join(", "))
+        }
+    }
+}

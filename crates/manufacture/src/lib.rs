@@ -10,7 +10,7 @@
 //! | `model.rs`, `sample.rs`, `fit.rs` | a file as one graph and as jets; points of domains and faces; least squares |
 //! | `check/`, `against/` | what is right, wrong, or not noticed; foreign sources and their causes |
 //! | `variants/` | other solutions, each of which switches off a part of a program |
-//! | `emit/`, `at.rs` | printers by a row of texts for each language, `emit/languages/`, and templates; values at points as JSON |
+//! | `emit/`, `at.rs` | a module as plain data, `emit/module.rs`, which templates print; operators by a row for each language; values at points as JSON |
 //!
 //! Jets walk the tree and share no rule of derivatives with the graph. Named terms are summed in
 //! alphabetical order, so that the emitted bytes do not depend on the order of keys.

@@ -41,6 +41,16 @@ impl Model {
     pub(crate) fn new(problem: Problem) -> Result<Self, InputError> {
         let parameters = problem.parameter_values(&[])?;
         let graph = Graph::new(problem.intervals.clone(), parameters);
+        Self::derived(problem, graph)
+    }
+
+    /// The same file, where exact fields and their derivatives are nodes of their own.
+    pub(crate) fn keeping_fields(&self) -> Result<Self, InputError> {
+        let graph = Graph::new(self.graph.intervals.clone(), self.graph.parameters.clone());
+        Self::derived(self.problem.clone(), graph.keeping_fields())
+    }
+
+    fn derived(problem: Problem, graph: Graph) -> Result<Self, InputError> {
         let mut elaborator = Elaborator::new(&problem, graph);
         let mut parts = vec![];
         for part in Part::all(&problem) {

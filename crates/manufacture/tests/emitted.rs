@@ -418,3 +418,73 @@ fn an_integrand_is_weighted_as_a_whole() {
         assert!(failures.is_empty(), "{failures:#?}");
     }
 }
+
+/// Over arrays each branch of a choice is evaluated only where it is taken: elsewhere it may have
+/// no value, about which NumPy warns.
+#[test]
+fn python_evaluates_each_branch_where_it_is_taken() {
+    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
+        return;
+    }
+    let text = crate::files::plane(
+        "u = \"where(abs(x - 0.5) > 0.05, sin(x - 0.5)/(x - 0.5), 1) + where(y < 0.6, sqrt(0.7 - y), y)\"",
+        "",
+        "a = \"u + d(u, x) + integral(where(y > 0.5, ln(x), x), x)\"",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let manufacture = read(&text);
+    for file in manufacture.emit(Language::Python) {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    let program = "import numpy, test\n\
+        x = numpy.array([[0.5, 0.5, 0.2, 0.9, 0.0], [0.9, 0.1, 0.5, 0.31, 0.2]])\n\
+        for points in x, x.reshape(2, 5, 1), x[:, 0]:\n    \
+        values = test.source_a(points)\n    \
+        assert values.shape == points.shape[1:] and numpy.all(numpy.isfinite(values))\n";
+    let output = std::process::Command::new("python3")
+        .args(["-B", "-W", "error", "-c", program])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let library = &manufacture.emit(Language::Python)[0].text;
+    // A branch that has a value everywhere stays in its line.
+    assert!(
+        library.contains("choose(")
+            && !read(HEAT).emit(Language::Python)[0]
+                .text
+                .contains("choose(")
+    );
+    assert!(findings(&text, Language::Python).is_empty());
+}
+
+/// What variants have in common is there once: their number changes the fields alone.
+#[test]
+fn a_module_with_variants_has_each_source_once() {
+    let manufacture = read(HEAT);
+    let variants = manufacture.variants(&sampling()).unwrap();
+    assert!(variants.usable.len() > 6);
+    for (language, function) in [
+        (
+            Language::C,
+            "double heat_source_heat(const double x[], double t)\n{",
+        ),
+        (Language::Python, "def source_heat(x, t):"),
+        (
+            Language::Fortran,
+            "pure function source_heat(x, t) result(out)",
+        ),
+    ] {
+        let library = &variants.emit(language)[0].text;
+        let (_, source) = library.split_once(function).unwrap();
+        let end = source
+            .find("source_heat")
+            .or(source.find("\n\n\n"))
+            .or(source.find("\n}\n"));
+        let source = &source[..end.unwrap()];
+        for choice in ["switch", "_NUMBER", "select case"] {
+            assert!(!source.contains(choice), "{language:?}: {source}");
+        }
+        assert!(source.contains("field_T_x_x("), "{source}");
+    }
+}

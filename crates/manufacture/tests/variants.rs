@@ -185,7 +185,7 @@ fn each_language_has_the_values_of_each_variant() {
     }
 }
 
-/// What is found in a module after a text in one branch of one function has been replaced.
+/// What is found in a module after a text in one branch of a field has been replaced.
 fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) -> Vec<String> {
     let manufacture = read(STILL);
     let variants = manufacture.variants(&few()).unwrap();
@@ -201,22 +201,29 @@ fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) ->
     findings.map(|finding| finding.text).collect()
 }
 
-/// A slip in one branch of one function is found, and named with its variant: `flat_x_max`, the
+/// A slip in one branch of a field is found, and named with its variant: `flat_x_max`, the
 /// third.
 #[test]
 fn a_slip_in_a_variant_is_found() {
     if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::NUMPY]) {
         return;
     }
-    let c = ["double still_exact_u(", "case 3: {", "return "];
-    let python = ["def exact_u(", "_NUMBER in [3]:", "out[0] = "];
+    let c = [
+        "double still_field_u(const double x[])\n{",
+        "case 3: {",
+        "return ",
+    ];
+    let python = ["def field_u(", "_NUMBER in [3]:", "out[0] = "];
     for texts in [
         found_after(Language::C, "still.c", c, "return 1.001*"),
         found_after(Language::Python, "still.py", python, "out[0] = 1.001*"),
     ] {
-        assert_eq!(texts.len(), 1, "{texts:?}");
+        let mut of_variant = texts
+            .iter()
+            .filter_map(|text| text.strip_prefix("flat_x_max: "));
+        assert_eq!(of_variant.clone().count(), texts.len(), "{texts:?}");
         assert!(
-            texts[0].starts_with("flat_x_max: exact_u differs by"),
+            of_variant.any(|text| text.starts_with("exact_u differs by")),
             "{texts:?}"
         );
     }
@@ -228,11 +235,13 @@ fn a_module_that_fails_with_a_variant_fails_with_no_other() {
     if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
         return;
     }
-    let places = ["def exact_u(", "_NUMBER in [3]:", "out[0] = "];
+    let places = ["def field_u(", "_NUMBER in [3]:", "out[0] = "];
     let texts = found_after(Language::Python, "still.py", places, "out[0] = missing*");
-    assert_eq!(texts.len(), 1, "{texts:?}");
     let expected = "flat_x_max: python3: ended without an answer";
-    assert_eq!(texts[0], expected);
+    assert!(
+        !texts.is_empty() && texts.iter().all(|text| text == expected),
+        "{texts:?}"
+    );
 }
 
 const NAMES: &str = "constant_x flat_x_min flat_x_max flat_x";

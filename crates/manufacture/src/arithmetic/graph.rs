@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::ops::Deref;
 
 use super::Algebra;
-use super::node::{Node, NodeId, Nodes, apply, operate};
+use super::node::{FieldDerivative, Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
 use super::tape::Tape;
 use crate::language::names::Function;
@@ -33,6 +33,8 @@ pub(crate) struct Graph {
     derived: Vec<(NodeId, usize)>,
     /// A bit for each variable that a node depends on, and [`PARAMETERS`].
     depends: Vec<u8>,
+    /// Exact fields are nodes of their own.
+    keeps_fields: bool,
 }
 
 impl Deref for Graph {
@@ -53,6 +55,14 @@ impl Graph {
         Self {
             nodes,
             ..Self::default()
+        }
+    }
+
+    /// The same graph, where exact fields and their derivatives are nodes of their own.
+    pub(crate) fn keeping_fields(self) -> Self {
+        Self {
+            keeps_fields: true,
+            ..self
         }
     }
 
@@ -87,6 +97,8 @@ impl Graph {
         let depends = match node {
             Node::Variable(index) => 1 << index,
             Node::Parameter(_) => PARAMETERS,
+            // Of any variable: whether one solution is constant is not seen.
+            Node::Field(..) => PARAMETERS | ((1 << self.intervals.len()) - 1),
             Node::Integral { body, variable, .. } => {
                 self.depends[body.0 as usize] & !(1 << variable)
             }
@@ -170,6 +182,11 @@ impl Graph {
                 self.opposite(slope)
             }
             Node::Binary(operator, operands) => self.derive_binary(of, operator, operands, by),
+            Node::Field(value, mut derivative) => {
+                derivative.times[by] += 1;
+                let slope = self.derivative(&value, by);
+                self.store(Node::Field(slope, derivative))
+            }
             Node::Call(function, argument) => {
                 let outer = self.slope(of, function, argument);
                 let inner = self.derivative(&argument, by);
@@ -391,6 +408,18 @@ impl Algebra for Graph {
             0 => *number,
             _ => self.store(Node::Held(*number)),
         }
+    }
+
+    fn field(&mut self, value: &NodeId, field: usize, component: usize) -> NodeId {
+        if !self.keeps_fields {
+            return *value;
+        }
+        let derivative = FieldDerivative {
+            field: field as u16,
+            component: component as u16,
+            times: [0; 4],
+        };
+        self.store(Node::Field(*value, derivative))
     }
 
     fn nodes(&self) -> usize {

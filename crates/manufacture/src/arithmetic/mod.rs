@@ -13,7 +13,7 @@ use crate::language::tree::{Binary, Relation};
 
 pub(crate) use depth::Depth;
 pub(crate) use graph::Graph;
-pub(crate) use node::{Node, NodeId, apply, operate};
+pub(crate) use node::{FieldDerivative, Node, NodeId, apply, operate};
 
 /// Values that should be equal may differ by this times their size: derivatives of high order lose
 /// digits by rounding.
@@ -68,6 +68,10 @@ pub(crate) trait Algebra {
     /// the number itself.
     fn held(&mut self, number: &Self::Number) -> Self::Number {
         number.clone()
+    }
+    /// The value of a component of an exact field, by its place among the fields.
+    fn field(&mut self, value: &Self::Number, _field: usize, _component: usize) -> Self::Number {
+        value.clone()
     }
     /// The number of nodes that exist; 0 in an arithmetic without.
     fn nodes(&self) -> usize {

@@ -27,15 +27,29 @@ pub(crate) enum Node {
     },
     /// A value that derivatives take for a constant: the search for mistakes makes it.
     Held(NodeId),
+    /// A derivative of an exact field, behind which nothing is simplified: solutions that take each
+    /// other's place have the same expressions in their fields.
+    Field(NodeId, FieldDerivative),
+}
+
+/// Which derivative of which field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct FieldDerivative {
+    /// The place among the exact fields.
+    pub(crate) field: u16,
+    pub(crate) component: u16,
+    /// How often by each variable.
+    pub(crate) times: [u8; 4],
 }
 
 impl Node {
     /// The nodes that its value is made of at the same point.
     pub(crate) fn operands(&self) -> &[NodeId] {
         match self {
-            Node::Negate(operand) | Node::Call(_, operand) | Node::Held(operand) => {
-                std::slice::from_ref(operand)
-            }
+            Node::Negate(operand)
+            | Node::Call(_, operand)
+            | Node::Held(operand)
+            | Node::Field(operand, _) => std::slice::from_ref(operand),
             Node::Binary(_, operands) => operands,
             Node::Choose(_, operands) => operands,
             _ => &[],

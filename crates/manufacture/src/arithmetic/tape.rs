@@ -149,7 +149,7 @@ impl<'g> Tape<'g> {
                 Node::Number(bits) => exactly(f64::from_bits(*bits)),
                 Node::Variable(index) => exactly(point[*index]),
                 Node::Parameter(index) => exactly(parameters[*index]),
-                Node::Held(operand) => of(operand),
+                Node::Held(operand) | Node::Field(operand, _) => of(operand),
                 Node::Negate(operand) => SizedValue {
                     value: -of(operand).value,
                     ..of(operand)

@@ -154,7 +154,10 @@ impl<'m> Region<'_, 'm> {
         let tape = Tape::new(graph, &roots);
         let mut samples: Vec<Vec<AtPoint<'_>>> = vec![vec![]; margins.len()];
         let mut regular = vec![];
-        for point in &points {
+        if margins.is_empty() {
+            regular.clone_from(&points);
+        }
+        for point in points.iter().filter(|_| !margins.is_empty()) {
             let needed = tape.needed(point);
             let mut is_regular = true;
             for (margin, sample) in margins.iter().zip(&mut samples) {

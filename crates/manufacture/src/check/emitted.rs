@@ -22,6 +22,10 @@ use crate::problem::{InputError, ParameterValue, mentions};
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
 
+/// Points at which the values of a variant are compared, whose statements are those of the file but
+/// for the solution.
+const POINTS_OF_VARIANTS: usize = 200;
+
 /// An emitted program that takes longer is wrong.
 const LIMIT: Duration = Duration::from_secs(600);
 
@@ -51,7 +55,7 @@ pub(crate) fn emitted(
             ..finding("emitted", name, format!("not run: {reason}"), None)
         }]
     };
-    let Some(tools) = &language.texts().tools else {
+    let Some(tools) = &language.row().tools else {
         return Ok(not_run(
             "values need fenics-ufl and basix, which are not run here; Python has the same statements",
         ));
@@ -78,11 +82,11 @@ pub(crate) fn run(
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     let name = language.name();
-    let Some(tools) = &language.texts().tools else {
+    let Some(tools) = &language.row().tools else {
         return Ok(vec![]);
     };
     let file = &model.problem.name;
-    for build in tools.builds {
+    if let Some(build) = tools.build {
         let build = language.command(build, file, folder);
         let output = Command::new(&build[0]).args(&build[1..]).output();
         let output =
@@ -109,6 +113,14 @@ pub(crate) fn run(
         let mut answer = AnswerProgram {
             program: &mut program,
             variant,
+        };
+        let points = match variant.is_empty() {
+            true => sampling.points,
+            false => sampling.points.min(POINTS_OF_VARIANTS),
+        };
+        let sampling = &Sampling {
+            points,
+            ..*sampling
         };
         let mut of_model = values(model, language, &mut answer, sampling)?;
         // All models read parameters by the same statements; these differ where a value does.

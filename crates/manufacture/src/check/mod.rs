@@ -26,6 +26,12 @@ use crate::sample::Sampler;
 /// A condition may be missed by this times the size.
 const CONDITION: f64 = 1e-12;
 
+/// Points of each part of the domain where values are computed a second way.
+const SECOND_WAY: usize = 200;
+
+/// Those of a variant, which has the operators of its file.
+const SECOND_WAY_OF_VARIANTS: usize = 40;
+
 /// Something that the check found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
@@ -123,6 +129,66 @@ pub(crate) fn is_same(a: &SizedValue, b: &SizedValue) -> bool {
     (a.value - b.value).abs() <= SAME * a.size.max(b.size)
 }
 
+/// A model at its points, and what makes it wrong.
+struct Judged<'m> {
+    sampler: Sampler<'m>,
+    /// The parts whose values are finite.
+    regular: Vec<Sampled<'m>>,
+    findings: Vec<Finding>,
+    domain_points: usize,
+}
+
+/// What is wrong with a variant at so many points of each part: failures, and notes on its domain.
+///
+/// # Errors
+/// A pole, and a part without points.
+pub(crate) fn failures(
+    model: &Model,
+    seed: u64,
+    points: usize,
+) -> Result<Vec<Finding>, InputError> {
+    Ok(judged(model, seed, points, SECOND_WAY_OF_VARIANTS)?.findings)
+}
+
+/// * `second`: points of each part where values are computed a second way.
+fn judged(
+    model: &Model,
+    seed: u64,
+    points: usize,
+    second: usize,
+) -> Result<Judged<'_>, InputError> {
+    let mut sampler = Sampler::new(model, seed);
+    let domain::Examined {
+        mut findings,
+        points: domain_points,
+    } = domain::examine(model, seed)?;
+    let mut regular = vec![];
+    for (part, quantities) in &model.parts {
+        // Data that depend on nothing need no more points than others: one rule for all.
+        let sampled = Sampled::new(model, *part, sampler.points(*part, points)?);
+        debug_assert_eq!(sampled.quantities.len(), quantities.len());
+        let singular = singular(model, &sampled);
+        if singular.is_empty() {
+            findings.extend(second_way::compare(model, &sampled, second)?);
+            findings.extend(conditions(model, &sampled));
+            if *part == Part::Interior {
+                findings.extend(required(model, &sampler, &sampled));
+            }
+            regular.push(sampled);
+        } else {
+            let is_new = |new: &Finding| !findings.iter().any(|known| known.is_like(new));
+            let new: Vec<Finding> = singular.into_iter().filter(is_new).collect();
+            findings.extend(new);
+        }
+    }
+    Ok(Judged {
+        sampler,
+        regular,
+        findings,
+        domain_points,
+    })
+}
+
 /// Checks a model at so many points of each part.
 pub(crate) fn check(
     model: &Model,
@@ -130,34 +196,22 @@ pub(crate) fn check(
     points: usize,
     is_strict: bool,
 ) -> Result<Check, InputError> {
-    let mut sampler = Sampler::new(model, seed);
-    let domain::Examined {
+    let Judged {
+        mut sampler,
+        regular,
         mut findings,
-        points: domain_points,
-    } = domain::examine(model, seed)?;
+        domain_points,
+    } = judged(model, seed, points, SECOND_WAY)?;
     let mut shares = vec![];
-    for (part, quantities) in &model.parts {
-        // Data that depend on nothing need no more points than others: one rule for all.
-        let sampled = Sampled::new(model, *part, sampler.points(*part, points)?);
-        debug_assert_eq!(sampled.quantities.len(), quantities.len());
-        let singular = singular(model, &sampled);
-        let is_regular = singular.is_empty();
-        let is_new = |new: &Finding| !findings.iter().any(|known| known.is_like(new));
-        let new: Vec<Finding> = singular.into_iter().filter(is_new).collect();
-        findings.extend(new);
-        if is_regular {
-            findings.extend(second_way::compare(model, &sampled)?);
-            findings.extend(conditions(model, &sampled));
-            if *part == Part::Interior {
-                findings.extend(required(model, &sampler, &sampled));
-                findings.extend(blindness::interior(model, &sampled));
-                findings.extend(symmetry::symmetric(model, &sampled));
-                let terms = terms::of_equations(model, &sampled);
-                findings.extend(terms.findings);
-                shares = terms.shares;
-            } else {
-                findings.extend(blindness::data(&sampled));
-            }
+    for sampled in &regular {
+        if sampled.part == Part::Interior {
+            findings.extend(blindness::interior(model, sampled));
+            findings.extend(symmetry::symmetric(model, sampled));
+            let terms = terms::of_equations(model, sampled);
+            findings.extend(terms.findings);
+            shares = terms.shares;
+        } else {
+            findings.extend(blindness::data(sampled));
         }
     }
     findings.extend(blindness::switches(model, &mut sampler));

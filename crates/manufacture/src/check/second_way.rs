@@ -7,14 +7,16 @@ use crate::derive::components;
 use crate::model::Model;
 use crate::problem::InputError;
 
-/// Points of a part where the two ways are compared. A rule that is wrong is wrong almost
-/// everywhere.
-const MOST_POINTS: usize = 200;
-
-pub(super) fn compare(model: &Model, sampled: &Sampled<'_>) -> Result<Vec<Finding>, InputError> {
+/// * `most`: points of the part where the two ways are compared. A rule that is wrong is wrong
+///   almost everywhere.
+pub(super) fn compare(
+    model: &Model,
+    sampled: &Sampled<'_>,
+    most: usize,
+) -> Result<Vec<Finding>, InputError> {
     let jets = model.jets();
     let mut findings: Vec<Finding> = vec![];
-    for (point, values) in sampled.points.iter().zip(&sampled.values).take(MOST_POINTS) {
+    for (point, values) in sampled.points.iter().zip(&sampled.values).take(most) {
         let second = jets.at(sampled.part, point)?;
         for ((first, second), quantity) in values.iter().zip(&second).zip(sampled.quantities) {
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);

@@ -195,13 +195,27 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         self.open.push(name.to_owned());
         let definition = self.problem.definitions.get(name);
         let value = if definition.is_some_and(|definition| definition.is_exact) {
-            self.exact(name, value)?
+            self.kept(name, value)?
         } else {
             self.value(value)?
         };
         self.open.pop();
         self.known.insert(name.to_owned(), value.clone());
         Ok(value)
+    }
+
+    /// The value of an exact field, as a node of its own where the arithmetic keeps fields.
+    fn kept(&mut self, name: &str, value: &TensorValue) -> Elaborated<A> {
+        let mut tensor = self.exact(name, value)?;
+        let mut fields = self.problem.exact_fields();
+        if let Some(place) = fields.position(|field| field == name)
+            && !self.is_plain
+        {
+            for (component, part) in tensor.parts.iter_mut().enumerate() {
+                *part = self.algebra.field(part, place, component);
+            }
+        }
+        Ok(tensor)
     }
 
     fn identity(&mut self) -> Tensor<A::Number> {

@@ -2,9 +2,12 @@
 
 use super::Language;
 use crate::arithmetic::NodeId;
-use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
+use crate::derive::{DerivedQuantity, Part, Role, Tensor, components, quantity};
 use crate::language::is_of_name;
 use crate::model::Model;
+
+/// The argument that asks the answering program for [`others`]; no face has this name.
+pub(crate) const OTHERS: &str = ":others";
 
 /// A function of the coordinates and time.
 #[derive(Debug, Clone)]
@@ -25,45 +28,78 @@ pub(crate) struct EmittedFunction {
 
 /// All functions of a model, in a fixed order.
 pub(crate) fn functions(model: &Model, language: Language) -> Vec<EmittedFunction> {
-    let mut functions: Vec<EmittedFunction> = vec![];
+    let mut all = vec![];
     for (part, quantities) in &model.parts {
-        for quantity in quantities {
-            let Some(mut function) = function(model, *part, quantity) else {
-                continue;
-            };
-            let names: Vec<&str> = functions.iter().map(|f| f.name.as_str()).collect();
-            function.name = language.distinct(function.name, &names);
-            functions.push(function);
-        }
+        all.extend(quantities.iter().filter_map(|quantity| {
+            let name = name(model, *part, quantity)?;
+            Some(function(model, *part, quantity.role, name, quantity))
+        }));
     }
-    for mut function in parts_of_sources(model) {
-        let names: Vec<&str> = functions.iter().map(|f| f.name.as_str()).collect();
-        function.name = language.distinct(function.name, &names);
+    all.extend(parts_of_sources(model));
+    let mut functions: Vec<EmittedFunction> = vec![];
+    for mut function in all {
+        let names = functions.iter().map(|known| &known.name);
+        function.name = language.distinct(function.name, names);
+        // Sources and data are asked for by the names of their quantities, the others together.
+        let is_asked_for = matches!(function.role, Role::Source | Role::Datum);
+        let name = if is_asked_for {
+            &function.quantity
+        } else {
+            &function.name
+        };
+        function.components = components(&model.problem, name, &function.shape);
         functions.push(function);
-    }
-    for function in &mut functions {
-        // The answers of the others are asked for together.
-        if !matches!(function.role, Role::Source | Role::Datum) {
-            function.components = components(&model.problem, &function.name, &function.shape);
-        }
     }
     functions.sort_by_key(|function| place(function.role));
     functions
 }
 
+fn function(
+    model: &Model,
+    part: Part,
+    role: Role,
+    name: String,
+    quantity: &DerivedQuantity<NodeId>,
+) -> EmittedFunction {
+    EmittedFunction {
+        name,
+        role,
+        quantity: quantity.name.clone(),
+        part,
+        shape: quantity.tensor.shape.clone(),
+        roots: quantity.tensor.parts.clone(),
+        components: vec![],
+        has_time: model.problem.time.is_some() && role != Role::Initial,
+    }
+}
+
+fn name(model: &Model, part: Part, quantity: &DerivedQuantity<NodeId>) -> Option<String> {
+    let name = &quantity.name;
+    Some(match (quantity.role, part) {
+        (Role::Exact, _) => format!("exact_{name}"),
+        (Role::Gradient, _) => format!("gradient_{name}"),
+        (Role::Source, _) => format!("source_{name}"),
+        (Role::Normal, _) => format!("normal_{name}"),
+        (Role::Datum, Part::Face(face)) => {
+            format!("boundary_{}_{name}", model.problem.faces[face].name)
+        }
+        (Role::Initial, _) => format!("initial_{name}"),
+        _ => return None,
+    })
+}
+
 /// Of what sources are made: definitions and terms; and all sources of several equations in one
 /// function, which shares their work.
 fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
-    let mut functions: Vec<EmittedFunction> = vec![];
-    for definition in &model.definitions {
+    let part_of_source = |role: Role, name: String, tensor: &Tensor<NodeId>| {
+        let quantity = quantity(role, &name, "", tensor.clone());
+        function(model, Part::Interior, role, name, &quantity)
+    };
+    let definitions = model.definitions.iter().map(|definition| {
         let name = format!("define_{}", definition.name);
-        functions.push(part_of_source(
-            model,
-            Role::Definition,
-            name,
-            &definition.tensor,
-        ));
-    }
+        part_of_source(Role::Definition, name, &definition.tensor)
+    });
+    let mut functions: Vec<EmittedFunction> = definitions.collect();
     let sources: Vec<_> = model.of_role(Role::Source).collect();
     for source in &sources {
         for (number, (label, tensor)) in source.terms.iter().enumerate() {
@@ -72,7 +108,7 @@ fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
             // A term of a text has no name: its place in the text stands for one.
             let label = if is_name { label } else { &number };
             let name = format!("term_{}_{label}", source.name);
-            functions.push(part_of_source(model, Role::Term, name, tensor));
+            functions.push(part_of_source(Role::Term, name, tensor));
         }
     }
     // Terms of a table are in the order of the file, on which no byte depends.
@@ -80,32 +116,9 @@ fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
     if sources.len() > 1 {
         let roots = sources.iter().flat_map(|source| &source.tensor.parts);
         let all = Tensor::vector(roots.copied().collect());
-        functions.push(part_of_source(
-            model,
-            Role::Sources,
-            "sources".to_owned(),
-            &all,
-        ));
+        functions.push(part_of_source(Role::Sources, "sources".to_owned(), &all));
     }
     functions
-}
-
-fn part_of_source(
-    model: &Model,
-    role: Role,
-    name: String,
-    tensor: &Tensor<NodeId>,
-) -> EmittedFunction {
-    EmittedFunction {
-        quantity: name.clone(),
-        name,
-        role,
-        part: Part::Interior,
-        shape: tensor.shape.clone(),
-        roots: tensor.parts.clone(),
-        components: vec![],
-        has_time: model.problem.time.is_some(),
-    }
 }
 
 /// The functions that the answering programs evaluate together, besides sources and data.
@@ -117,8 +130,8 @@ pub(crate) fn others(functions: &[EmittedFunction]) -> Vec<&EmittedFunction> {
         Role::Term,
         Role::Sources,
     ];
+    let functions = functions.iter();
     functions
-        .iter()
         .filter(|function| OTHERS.contains(&function.role))
         .collect()
 }
@@ -136,33 +149,4 @@ fn place(role: Role) -> usize {
         Role::Datum => 7,
         _ => 8,
     }
-}
-
-fn function(
-    model: &Model,
-    part: Part,
-    quantity: &DerivedQuantity<NodeId>,
-) -> Option<EmittedFunction> {
-    let name = &quantity.name;
-    let name = match (quantity.role, part) {
-        (Role::Exact, _) => format!("exact_{name}"),
-        (Role::Gradient, _) => format!("gradient_{name}"),
-        (Role::Source, _) => format!("source_{name}"),
-        (Role::Normal, _) => format!("normal_{name}"),
-        (Role::Datum, Part::Face(face)) => {
-            format!("boundary_{}_{name}", model.problem.faces[face].name)
-        }
-        (Role::Initial, _) => format!("initial_{name}"),
-        _ => return None,
-    };
-    Some(EmittedFunction {
-        name,
-        role: quantity.role,
-        quantity: quantity.name.clone(),
-        part,
-        shape: quantity.tensor.shape.clone(),
-        roots: quantity.tensor.parts.clone(),
-        components: components(&model.problem, &quantity.name, &quantity.tensor.shape),
-        has_time: model.problem.time.is_some() && quantity.role != Role::Initial,
-    })
 }

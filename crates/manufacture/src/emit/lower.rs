@@ -1,12 +1,16 @@
 //! From nodes of the graph to statements: a subexpression that is used twice, or is long, becomes a
-//! constant.
+//! constant; some nodes become calls of functions of their own.
 
 use std::collections::{HashMap, HashSet};
 
+use serde::Serialize;
+
 use super::Language;
+use super::languages::Row;
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Graph, Node, NodeId};
-use crate::language::tree::Binary;
+use crate::language::names::{Callee, Function};
+use crate::language::tree::{Binary, callee_name};
 
 /// A longer subexpression becomes a constant, so that no line has more than 100 columns.
 const LONGEST: usize = 34;
@@ -30,11 +34,12 @@ struct LoweredText {
 }
 
 impl LoweredText {
+    fn new(text: String, binding: Binding) -> Self {
+        Self { text, binding }
+    }
+
     fn atom(text: String) -> Self {
-        Self {
-            text,
-            binding: Binding::Atom,
-        }
+        Self::new(text, Binding::Atom)
     }
 
     /// In brackets unless it binds at least as tightly.
@@ -47,180 +52,254 @@ impl LoweredText {
     }
 }
 
-/// What names stand for in a function.
+/// What stands for coordinates, time and parameters in a function.
 pub(super) struct LoweringNames<'n> {
     pub(super) language: Language,
-    /// The array of the coordinates.
+    /// The array of the coordinates; empty where there is no point.
     pub(super) array: &'n str,
     pub(super) coordinates: usize,
-    /// Time, or its value.
-    pub(super) time: &'n str,
+    /// Time, or its value; none in a file without.
+    pub(super) time: Option<&'n str>,
     pub(super) parameters: &'n [String],
-    /// The call of the helper for each integral.
-    pub(super) integrals: &'n dyn Fn(NodeId) -> String,
 }
 
-/// Constants in the order of evaluation, and the values of the roots.
-pub(super) struct Lowered {
+/// Statements: constants in the order of evaluation, and the values of the roots.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Body {
     pub(super) constants: Vec<[String; 2]>,
-    pub(super) roots: Vec<String>,
+    pub(super) values: Vec<String>,
+    /// Whether coordinates and time occur.
+    #[serde(skip)]
+    pub(super) uses: [bool; 2],
 }
 
-pub(super) fn lower(graph: &Graph, roots: &[NodeId], names: &LoweringNames<'_>) -> Lowered {
-    let order = nodes_below(graph, roots);
-    let is_constant = constants(graph, roots, &order);
-    let mut texts: HashMap<NodeId, LoweredText> = HashMap::new();
-    let mut constants: Vec<[String; 2]> = vec![];
-    for id in order {
-        let text = text(graph, id, &texts, names);
-        let is_leaf = matches!(
-            graph.node(id),
-            Node::Number(_) | Node::Variable(_) | Node::Parameter(_)
-        );
-        let text = if !is_leaf && (is_constant.contains(&id) || text.text.len() > LONGEST) {
-            let name = format!("c{}", constants.len() + 1);
-            constants.push([name.clone(), text.text]);
-            LoweredText::atom(name)
-        } else {
-            text
-        };
-        texts.insert(id, text);
-    }
-    Lowered {
-        constants,
-        roots: roots.iter().map(|root| texts[root].text.clone()).collect(),
-    }
+/// * `helper`: the name of the function whose value is that of a node.
+pub(super) fn lower(
+    graph: &Graph,
+    roots: &[NodeId],
+    names: &LoweringNames<'_>,
+    helper: &mut dyn FnMut(NodeId) -> String,
+) -> Body {
+    let mut lowering = Lowering {
+        graph,
+        row: names.language.row(),
+        names,
+        helper,
+        texts: HashMap::new(),
+        body: Body {
+            constants: vec![],
+            values: vec![],
+            uses: [false; 2],
+        },
+    };
+    lowering.lower(roots);
+    lowering.body
 }
 
-/// Nodes that become constants whatever their length: those used twice, bases of products, operands
-/// of choices.
-fn constants(graph: &Graph, roots: &[NodeId], order: &[NodeId]) -> HashSet<NodeId> {
-    let mut used: HashSet<NodeId> = HashSet::new();
-    let mut constants = HashSet::new();
-    for id in order {
-        let node = graph.node(*id);
-        for operand in node.operands().iter() {
-            if !used.insert(*operand) || matches!(node, Node::Choose(..)) {
-                constants.insert(*operand);
+struct Lowering<'l> {
+    graph: &'l Graph,
+    row: &'static Row,
+    names: &'l LoweringNames<'l>,
+    helper: &'l mut dyn FnMut(NodeId) -> String,
+    texts: HashMap<NodeId, LoweredText>,
+    body: Body,
+}
+
+impl Lowering<'_> {
+    fn lower(&mut self, roots: &[NodeId]) {
+        let order = self.order(roots);
+        let is_constant = self.constants(roots, &order);
+        for id in order {
+            let mut text = self.text(id);
+            let is_leaf = matches!(
+                self.graph.node(id),
+                Node::Number(_) | Node::Variable(_) | Node::Parameter(_)
+            );
+            // A root has a line of its own.
+            let is_long = text.text.len() > LONGEST && !roots.contains(&id);
+            if !is_leaf && (is_constant.contains(&id) || is_long) {
+                let name = format!("c{}", self.body.constants.len() + 1);
+                self.body.constants.push([name.clone(), text.text]);
+                text = LoweredText::atom(name);
+            }
+            self.texts.insert(id, text);
+        }
+        let values = roots.iter().map(|root| self.texts[root].text.clone());
+        self.body.values = values.collect();
+    }
+
+    /// The operands whose values a node needs here: helpers compute those that they need.
+    fn operands(&self, id: NodeId) -> &[NodeId] {
+        match self.graph.node(id) {
+            Node::Field(..) => &[],
+            Node::Choose(_, operands) if self.has_helpers(operands) => &operands[..2],
+            node => node.operands(),
+        }
+    }
+
+    /// Whether the branches of a choice are functions of their own: over arrays each is evaluated
+    /// only where it is taken, if it may not be defined elsewhere.
+    fn has_helpers(&self, operands: &[NodeId; 4]) -> bool {
+        let below = || nodes_below(self.graph, &operands[2..]);
+        let has_arrays = self.row.has_arrays && !self.names.array.is_empty();
+        has_arrays && below().iter().any(|id| self.is_partial(*id))
+    }
+
+    /// Whether an operation has no value, or none that is finite, for some operands.
+    fn is_partial(&self, id: NodeId) -> bool {
+        let constant = |id: &NodeId| self.graph.constant(*id);
+        match self.graph.node(id) {
+            Node::Binary(Binary::Divide, [_, divisor]) => constant(divisor).is_none(),
+            Node::Binary(Binary::Power, [_, exponent]) => !constant(exponent)
+                .is_some_and(|exponent| exponent.fract() == 0.0 && exponent > 0.0),
+            Node::Call(function, _) => !matches!(
+                function,
+                Function::Sin | Function::Cos | Function::Tan | Function::Atan | Function::Tanh
+            ),
+            Node::Integral { .. } => true,
+            _ => false,
+        }
+    }
+
+    /// The nodes that the roots need, in the order of evaluation.
+    fn order(&self, roots: &[NodeId]) -> Vec<NodeId> {
+        let mut open = roots.to_vec();
+        let mut found: HashSet<NodeId> = open.iter().copied().collect();
+        while let Some(id) = open.pop() {
+            let operands = self.operands(id).iter();
+            open.extend(operands.filter(|operand| found.insert(**operand)));
+        }
+        let mut order: Vec<NodeId> = found.into_iter().collect();
+        order.sort();
+        order
+    }
+
+    /// Nodes that become constants whatever their length: those used twice, bases of products,
+    /// operands of choices.
+    fn constants(&self, roots: &[NodeId], order: &[NodeId]) -> HashSet<NodeId> {
+        let mut used: HashSet<NodeId> = HashSet::new();
+        let mut constants = HashSet::new();
+        for id in order {
+            let node = self.graph.node(*id);
+            for operand in self.operands(*id) {
+                if !used.insert(*operand) || matches!(node, Node::Choose(..)) {
+                    constants.insert(*operand);
+                }
+            }
+            if let Node::Binary(Binary::Power, [base, exponent]) = node
+                && self.graph.constant(*exponent).is_some_and(is_product)
+            {
+                constants.insert(*base);
             }
         }
-        if let Node::Binary(Binary::Power, [base, exponent]) = node
-            && graph.constant(*exponent).is_some_and(is_product)
-        {
-            constants.insert(*base);
+        constants.extend(roots.iter().filter(|root| !used.insert(**root)));
+        constants
+    }
+
+    fn text(&mut self, id: NodeId) -> LoweredText {
+        let operators = &self.row.operators;
+        match *self.graph.node(id) {
+            Node::Number(bits) => {
+                let value = f64::from_bits(bits);
+                let binding = if value < 0.0 {
+                    Binding::Sum
+                } else {
+                    Binding::Atom
+                };
+                LoweredText::new(self.names.language.number(value), binding)
+            }
+            Node::Variable(index) if index == self.names.coordinates => {
+                self.body.uses[1] = true;
+                LoweredText::atom(self.names.time.unwrap_or("t").to_owned())
+            }
+            Node::Variable(index) => {
+                self.body.uses[0] = true;
+                LoweredText::atom((operators.coordinate)(self.names.array, index))
+            }
+            Node::Parameter(index) => LoweredText::atom(self.names.parameters[index].clone()),
+            Node::Negate(operand) => LoweredText::new(
+                format!("-{}", self.texts[&operand].within(Binding::Product)),
+                Binding::Sum,
+            ),
+            Node::Binary(operator, operands) => self.binary(operator, operands),
+            Node::Call(function, argument) => {
+                let name = (operators.function)(callee_name(Callee::Function(function)));
+                LoweredText::atom(format!("{name}({})", self.texts[&argument].text))
+            }
+            Node::Choose(relation, operands) => {
+                let atom = |id: &NodeId| self.texts[id].within(Binding::Atom);
+                if !self.has_helpers(&operands) {
+                    let texts = operands.each_ref().map(atom);
+                    let texts = texts.each_ref().map(String::as_str);
+                    return LoweredText::atom((operators.choose)(relation, texts));
+                }
+                let [left, right] = [atom(&operands[0]), atom(&operands[1])];
+                let symbol = relation.symbol();
+                let [then, otherwise] = [operands[2], operands[3]].map(&mut *self.helper);
+                let point = self.point();
+                LoweredText::atom(format!(
+                    "choose({left} {symbol} {right}, {then}, {otherwise}, {point})"
+                ))
+            }
+            Node::Integral { .. } | Node::Field(..) => {
+                let name = (self.helper)(id);
+                LoweredText::atom(format!("{name}({})", self.point()))
+            }
+            // No file has one.
+            Node::Held(operand) => LoweredText::atom(self.texts[&operand].within(Binding::Atom)),
         }
     }
-    for root in roots {
-        if !used.insert(*root) {
-            constants.insert(*root);
-        }
+
+    /// Coordinates and time as arguments.
+    fn point(&mut self) -> String {
+        self.body.uses = [true; 2];
+        let time = self.names.time.map(|time| format!(", {time}"));
+        self.names.array.to_owned() + &time.unwrap_or_default()
     }
-    constants
+
+    fn binary(&self, operator: Binary, operands: [NodeId; 2]) -> LoweredText {
+        let operators = &self.row.operators;
+        let [left, right] = operands.map(|operand| &self.texts[&operand]);
+        let symbol = match operator {
+            // A sum on the right keeps its brackets: they say in which order it is added.
+            Binary::Add | Binary::Subtract => {
+                let symbol = if operator == Binary::Add { "+" } else { "-" };
+                let right = right.within(Binding::Product);
+                let text = format!("{} {symbol} {right}", left.text);
+                return LoweredText::new(text, Binding::Sum);
+            }
+            Binary::Power => {
+                let exponent = self.graph.constant(operands[1]);
+                return match exponent.filter(|exponent| is_product(*exponent)) {
+                    Some(exponent) => self.product(left, exponent),
+                    None => LoweredText::atom((operators.power)(&left.text, &right.text)),
+                };
+            }
+            Binary::Multiply => operators.times,
+            Binary::Divide => operators.over,
+        };
+        let [left, right] = [left.within(Binding::Product), right.within(Binding::Atom)];
+        LoweredText::new(format!("{left}{symbol}{right}"), Binding::Product)
+    }
+
+    /// A small whole power as a product.
+    fn product(&self, base: &LoweredText, exponent: f64) -> LoweredText {
+        let operators = &self.row.operators;
+        let base = base.within(Binding::Atom);
+        let factors = vec![base.as_str(); exponent.abs() as usize].join(operators.times);
+        let text = if exponent > 0.0 {
+            factors
+        } else {
+            let one = self.names.language.number(1.0);
+            let is_one = exponent == -1.0;
+            let [open, close] = if is_one { ["", ""] } else { ["(", ")"] };
+            format!("{one}{}{open}{factors}{close}", operators.over)
+        };
+        LoweredText::new(text, Binding::Product)
+    }
 }
 
 /// Whether a power with that exponent is written as a product.
 fn is_product(exponent: f64) -> bool {
     exponent.fract() == 0.0 && exponent != 0.0 && exponent.abs() <= LARGEST_PRODUCT
-}
-
-fn text(
-    graph: &Graph,
-    id: NodeId,
-    texts: &HashMap<NodeId, LoweredText>,
-    names: &LoweringNames<'_>,
-) -> LoweredText {
-    let language = names.language;
-    match graph.node(id) {
-        Node::Number(bits) => {
-            let value = f64::from_bits(*bits);
-            let text = language.number(value);
-            let binding = if value < 0.0 {
-                Binding::Sum
-            } else {
-                Binding::Atom
-            };
-            LoweredText { text, binding }
-        }
-        Node::Variable(index) if *index == names.coordinates => {
-            LoweredText::atom(names.time.to_owned())
-        }
-        Node::Variable(index) => LoweredText::atom(language.coordinate(names.array, *index)),
-        Node::Parameter(index) => LoweredText::atom(names.parameters[*index].clone()),
-        Node::Negate(operand) => LoweredText {
-            text: format!("-{}", texts[operand].within(Binding::Product)),
-            binding: Binding::Sum,
-        },
-        Node::Binary(operator, [left, right]) => {
-            if let (Binary::Power, Some(exponent)) = (operator, graph.constant(*right))
-                && is_product(exponent)
-            {
-                return product(&texts[left], exponent, language);
-            }
-            binary(*operator, &texts[left], &texts[right], language)
-        }
-        Node::Call(function, argument) => {
-            LoweredText::atom(language.call(*function, &texts[argument].text))
-        }
-        Node::Choose(comparison, operands) => {
-            let operands = operands.map(|operand| texts[&operand].within(Binding::Atom));
-            LoweredText::atom(language.choose(*comparison, operands.each_ref().map(String::as_str)))
-        }
-        Node::Integral { .. } => LoweredText::atom((names.integrals)(id)),
-        // No file has one.
-        Node::Held(operand) => LoweredText::atom(texts[operand].within(Binding::Atom)),
-    }
-}
-
-fn binary(
-    operator: Binary,
-    left: &LoweredText,
-    right: &LoweredText,
-    language: Language,
-) -> LoweredText {
-    let symbol = match operator {
-        Binary::Add => return sum(left, "+", right),
-        Binary::Subtract => return sum(left, "-", right),
-        Binary::Multiply => language.texts().arithmetic.times,
-        Binary::Divide => language.texts().arithmetic.over,
-        Binary::Power => return LoweredText::atom(language.power(&left.text, &right.text)),
-    };
-    LoweredText {
-        text: format!(
-            "{}{symbol}{}",
-            left.within(Binding::Product),
-            right.within(Binding::Atom)
-        ),
-        binding: Binding::Product,
-    }
-}
-
-fn sum(left: &LoweredText, symbol: &str, right: &LoweredText) -> LoweredText {
-    // A sum on the right keeps its brackets: they say in which order it is added.
-    LoweredText {
-        text: format!("{} {symbol} {}", left.text, right.within(Binding::Product)),
-        binding: Binding::Sum,
-    }
-}
-
-/// A small whole power as a product.
-fn product(base: &LoweredText, exponent: f64, language: Language) -> LoweredText {
-    let base = base.within(Binding::Atom);
-    let factors =
-        vec![base.as_str(); exponent.abs() as usize].join(language.texts().arithmetic.times);
-    if exponent > 0.0 {
-        return LoweredText {
-            text: factors,
-            binding: Binding::Product,
-        };
-    }
-    let one = language.number(1.0);
-    let below = if exponent == -1.0 {
-        factors
-    } else {
-        format!("({factors})")
-    };
-    LoweredText {
-        text: format!("{one}{}{below}", language.texts().arithmetic.over),
-        binding: Binding::Product,
-    }
 }

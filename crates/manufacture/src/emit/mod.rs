@@ -1,70 +1,24 @@
-//! Functions in the user's language.
+//! Functions in the user's language: a module as plain data, printed by the templates of the
+//! language.
 
-mod answer;
-mod choice;
-mod dialect;
 mod functions;
 mod languages;
 mod lower;
+mod module;
 mod parameters;
-mod reserved;
-mod runtime;
 mod study;
-mod texts;
-mod write;
-mod writer;
 
-use std::path::Path;
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::Serde;
+use minijinja::{Environment, UndefinedBehavior, Value};
 
-use crate::language::names::name_in;
 use crate::model::Model;
 use crate::problem::InputError;
 
-pub(crate) use answer::OTHERS;
-pub(crate) use functions::{EmittedFunction, functions, others};
-pub(crate) use texts::Answering;
-pub(crate) use writer::Alternative;
-
-/// A language that functions are emitted in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Language {
-    /// C99, which C++ reads, too.
-    C,
-    /// Fortran 2008.
-    Fortran,
-    /// Python with NumPy.
-    Python,
-    /// The form language of FEniCSx and Firedrake.
-    Ufl,
-    /// Octave and MATLAB.
-    Octave,
-    /// Rust.
-    Rust,
-}
-
-impl Language {
-    /// The languages by name.
-    pub const ALL: [(&'static str, Language); 6] = [
-        ("c", Language::C),
-        ("fortran", Language::Fortran),
-        ("python", Language::Python),
-        ("ufl", Language::Ufl),
-        ("octave", Language::Octave),
-        ("rust", Language::Rust),
-    ];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        name_in(&Self::ALL, &self)
-    }
-
-    /// The words of a command of its tools, for a file in a folder.
-    pub(crate) fn command(self, words: &str, name: &str, folder: &Path) -> Vec<String> {
-        let folder = folder.join("").display().to_string();
-        let values = [("IN", folder.as_str()), ("NAME", name)];
-        words.split(' ').map(|word| fill(word, &values)).collect()
-    }
-}
+pub(crate) use functions::{EmittedFunction, OTHERS, functions, others};
+pub(crate) use languages::Answering;
+pub use languages::Language;
+use module::Module;
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,6 +29,25 @@ pub struct EmittedFile {
     pub text: String,
 }
 
+/// A model whose functions take the place of those of another where its name is chosen.
+#[derive(Debug, Clone)]
+pub(crate) struct Alternative<'m> {
+    pub(crate) name: String,
+    pub(crate) model: &'m Model,
+}
+
+/// Templates that others include.
+const SHARED: [(&str, &str); 2] = [
+    ("python_setter", include_str!("templates/python_setter.j2")),
+    (
+        "python_variants",
+        include_str!("templates/python_variants.j2"),
+    ),
+];
+
+/// Columns of a line of the first comment.
+const WIDTH: usize = 100;
+
 /// The files of a model in a language, whose functions are those of the alternative that the
 /// environment variable `MANUFACTURE_VARIANT` names.
 pub(crate) fn emit(
@@ -82,31 +55,101 @@ pub(crate) fn emit(
     alternatives: &[Alternative<'_>],
     language: Language,
 ) -> Vec<EmittedFile> {
-    let functions = functions(model, language);
-    let mut files = write::library(model, alternatives, language, &functions);
-    let has_alternatives = !alternatives.is_empty();
-    files.extend(answer::program(
+    if alternatives.is_empty() {
+        return printed(&Module::new(model, &[], language), language);
+    }
+    // Expressions in the fields are those of all models.
+    let kept: Result<Vec<Model>, InputError> = std::iter::once(model)
+        .chain(alternatives.iter().map(|alternative| alternative.model))
+        .map(Model::keeping_fields)
+        .collect();
+    let Ok(kept) = kept else {
+        return printed(&Module::new(model, alternatives, language), language);
+    };
+    let names = alternatives.iter().map(|alternative| &alternative.name);
+    let models = names.zip(&kept[1..]).map(|(name, model)| Alternative {
+        name: name.clone(),
         model,
-        has_alternatives,
-        language,
-        &functions,
-    ));
-    files
+    });
+    let models: Vec<Alternative<'_>> = models.collect();
+    printed(&Module::new(&kept[0], &models, language), language)
 }
 
-/// Refuses a model whose name a language cannot have.
+fn printed(module: &Module<'_>, language: Language) -> Vec<EmittedFile> {
+    let environment = environment();
+    let values = Value::from(Serde(module));
+    let templates = language.row().templates.iter();
+    templates
+        .map(|template| EmittedFile {
+            name: format!("{}{}", module.name, template.ending),
+            // The templates are part of the program.
+            text: environment
+                .render_str(template.text, values.clone())
+                .unwrap_or_else(|error| panic!("{}: {error:#}", template.ending)),
+        })
+        .collect()
+}
+
+/// Lines of tags alone leave no trace.
+fn environment() -> Environment<'static> {
+    let mut environment = Environment::new();
+    let syntax = SyntaxConfig::builder()
+        .trim_blocks(true)
+        .lstrip_blocks(true)
+        .keep_trailing_newline(true)
+        .build();
+    environment.set_syntax(syntax.unwrap_or_default());
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.add_filter("comment", comment);
+    for (name, text) in SHARED {
+        environment
+            .add_template(name, text)
+            .unwrap_or_else(|error| panic!("{name}: {error:#}"));
+    }
+    environment
+}
+
+/// Lines as a comment, cut at blanks.
+fn comment(lines: Vec<String>, sign: &str) -> String {
+    let mut text = String::new();
+    for line in lines {
+        let mut part = sign.to_owned();
+        for word in line.split(' ') {
+            if part.len() > sign.len() && part.len() + 1 + word.len() > WIDTH {
+                text += &part;
+                part = format!("\n{sign}    ");
+            }
+            part += " ";
+            part += word;
+        }
+        text += &part;
+        text += "\n";
+    }
+    text.trim_end().to_owned()
+}
+
+/// Refuses the name of a model that a language cannot use for a module.
 pub(crate) fn accept(model: &Model, language: Language) -> Result<(), InputError> {
-    reserved::refuse(model, language, &functions(model, language))
+    let name = &model.problem.name;
+    let row = language.row();
+    let is_same = |word: &str| language.is_same(word, name);
+    let mut groups = row.taken.iter();
+    let group = groups.find(|group| group.names.split_whitespace().any(is_same));
+    let mut functions = functions(model, language).into_iter();
+    let is_function = row.has_one_space && functions.any(|function| is_same(&function.name));
+    let by = match group {
+        Some(group) => group.by,
+        None if is_function => "a function of the emitted module",
+        None => return Ok(()),
+    };
+    let words = format!(
+        "found the name `{name}`, which {} cannot have: it is {by}; expected another name",
+        language.name()
+    );
+    Err(model.problem.name_place.error(words))
 }
 
 /// The study file, if the file has `[study]`.
 pub(crate) fn study(model: &Model) -> Option<EmittedFile> {
     study::study(model)
-}
-
-/// A text with `@KEY@` replaced.
-fn fill(template: &str, values: &[(&str, &str)]) -> String {
-    let replace =
-        |text: String, (key, value): &(&str, &str)| text.replace(&format!("@{key}@"), value);
-    values.iter().fold(template.to_owned(), replace)
 }

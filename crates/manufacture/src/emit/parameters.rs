@@ -1,14 +1,37 @@
 //! Parameters that are set at run time: their values in the file are defaults, and those that
 //! depend on one that is set follow.
 
-use std::fmt::Write;
+use serde::Serialize;
 
-use super::lower::Lowered;
-use super::texts::Parameters;
-use super::writer::{Emitted, Writer};
-use super::{choice, fill};
+use super::lower::Body;
+use super::module::{Writer, declared};
 use crate::model::Model;
 use crate::problem::mentions;
+
+#[derive(Serialize)]
+pub(super) struct ModuleParameter {
+    /// In the module.
+    name: String,
+    /// In the file.
+    plain: String,
+    value: String,
+    /// The value by its bits, and in digits without a suffix.
+    bits: String,
+    digits: String,
+    /// What follows.
+    steps: Vec<Step>,
+    /// The names of all constants of the steps.
+    declared: Vec<String>,
+}
+
+/// A parameter that gets the value of its expression.
+#[derive(Serialize)]
+struct Step {
+    name: String,
+    body: Body,
+    /// The variant in which it is zero.
+    zero_in: Option<usize>,
+}
 
 /// The parameters that depend on one, each after those that it depends on.
 fn followers(model: &Model, index: usize) -> Vec<usize> {
@@ -36,137 +59,32 @@ fn followers(model: &Model, index: usize) -> Vec<usize> {
     changed.split_off(1)
 }
 
-/// The definitions of all parameters.
-pub(super) fn definitions(writer: &Writer<'_>) -> String {
-    let texts = &writer.texts().parameters;
-    let values = writer.model.graph.parameters.iter();
-    let mut lines = String::new();
-    for (name, value) in writer.parameters.iter().zip(values) {
-        lines += &fill(
-            texts.definition,
-            &[
-                ("NAME", name),
-                ("VALUE", &writer.language.number(*value)),
-                ("BITS", &format!("{:#x}", value.to_bits())),
-                ("DIGITS", &format!("{value:?}")),
-            ],
-        );
-    }
-    if lines.is_empty() {
-        return lines;
-    }
-    let ready = if writer.changes_parameters() {
-        choice::ready(writer)
-    } else {
-        String::new()
-    };
-    fill(
-        texts.definitions,
-        &[
-            ("LINES", &lines),
-            ("CHANGES", &choice::changes(writer)),
-            ("READY", &ready),
-        ],
-    )
-}
-
-/// The statements that set a parameter, and those that follow it.
-struct SetterBranch<'w> {
-    name: &'w str,
-    statements: Vec<String>,
-    constants: Vec<[String; 2]>,
-}
-
-fn branch<'w>(writer: &'w Writer<'_>, emitted: &Emitted<'_>, index: usize) -> SetterBranch<'w> {
-    let language = writer.language;
-    let texts = &writer.texts().parameters;
-    let mut statements = vec![assignment(texts, &writer.parameters[index], "value")];
-    let mut all = vec![];
-    for follower in followers(emitted.model, index) {
-        let node = emitted.model.parameters[follower];
-        let Lowered { constants, roots } = writer.statements(emitted, &[node], "x", "t");
-        // One after the other: constants are numbered anew for each, in C in a block of their own.
-        let block = language.texts().statements.block;
-        let block = block.filter(|_| !constants.is_empty());
-        statements.extend(block.map(|[opening, _]| opening.to_owned()));
-        for [name, value] in constants {
-            statements.push(language.assign(&name, &value));
-            if !all.contains(&[name.clone(), String::new()]) {
-                all.push([name, String::new()]);
-            }
+pub(super) fn parameters(writer: &mut Writer<'_>) -> Vec<ModuleParameter> {
+    let model = writer.models[0];
+    let mut parameters = vec![];
+    for (index, parameter) in model.problem.parameters.iter().enumerate() {
+        let mut steps = vec![];
+        for follower in followers(model, index) {
+            let expression =
+                |model: &Model| model.problem.parameters[follower].expression.text.clone();
+            let of_file = expression(model);
+            let mut models = writer.models.iter();
+            steps.push(Step {
+                name: writer.parameters[follower].clone(),
+                zero_in: models.position(|model| expression(model) != of_file),
+                body: writer.body(0, &[model.parameters[follower]], "", None),
+            });
         }
-        let name = &writer.parameters[follower];
-        statements.push(assignment(texts, name, &roots[0]));
-        statements.extend(block.map(|[_, closing]| closing.to_owned()));
+        let value = model.graph.parameters[index];
+        parameters.push(ModuleParameter {
+            name: writer.parameters[index].clone(),
+            plain: parameter.name.clone(),
+            value: writer.language.number(value),
+            bits: format!("{:#x}", value.to_bits()),
+            digits: format!("{value:?}"),
+            declared: declared(steps.iter().map(|step| &step.body)),
+            steps,
+        });
     }
-    SetterBranch {
-        name: &writer.model.problem.parameters[index].name,
-        statements,
-        constants: all,
-    }
-}
-
-fn assignment(texts: &Parameters, name: &str, value: &str) -> String {
-    fill(texts.assign, &[("NAME", name), ("VALUE", value)])
-}
-
-/// The functions that set and return a parameter; empty without parameters.
-pub(super) fn functions(writer: &Writer<'_>) -> String {
-    if writer.parameters.is_empty() {
-        return String::new();
-    }
-    let texts = &writer.texts().parameters;
-    let mut bodies = vec![];
-    let mut longest = vec![];
-    for emitted in &writer.models {
-        let mut cases = String::new();
-        for index in 0..writer.parameters.len() {
-            let SetterBranch {
-                name,
-                statements,
-                constants,
-            } = branch(writer, emitted, index);
-            cases += &fill(texts.case, &[("EL", choice::el(index)), ("NAME", name)]);
-            for statement in statements {
-                let _ = writeln!(cases, "{}{statement}", texts.indent);
-            }
-            cases += texts.close;
-            if constants.len() > longest.len() {
-                longest = constants;
-            }
-        }
-        bodies.push(fill(texts.body, &[("CASES", &cases)]));
-    }
-    let globals: String = writer
-        .parameters
-        .iter()
-        .map(|name| fill(texts.global, &[("NAME", name)]))
-        .collect();
-    let setter = fill(
-        texts.setter,
-        &[
-            ("GLOBALS", &globals),
-            ("DECLARED", &writer.declared(&longest)),
-            ("READY", &choice::ready(writer)),
-            ("BODY", &choice::body(writer, &bodies)),
-            ("P", &writer.prefix),
-        ],
-    );
-    setter + &getter(writer)
-}
-
-fn getter(writer: &Writer<'_>) -> String {
-    let texts = &writer.texts().parameters;
-    let parameters = &writer.model.problem.parameters;
-    let cases = writer.parameters.iter().zip(parameters);
-    let cases: String = cases
-        .map(|(name, parameter)| {
-            let value = writer.reading(name);
-            fill(
-                texts.getter_case,
-                &[("NAME", &parameter.name), ("VALUE", &value)],
-            )
-        })
-        .collect();
-    fill(texts.getter, &[("CASES", &cases), ("P", &writer.prefix)])
+    parameters
 }

@@ -183,6 +183,12 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
+    /// The names of `[exact]`.
+    pub(crate) fn exact_fields(&self) -> impl Iterator<Item = &str> {
+        let exact = self.definitions.iter().filter(|entry| entry.1.is_exact);
+        exact.map(|entry| entry.0.as_str())
+    }
+
     /// The names of the components of a vector.
     pub(crate) fn axes(&self) -> Vec<String> {
         let mut axes = self.coordinates.clone();

@@ -17,7 +17,6 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::check::Check;
 use crate::derive::{Part, Role};
 use crate::emit::{self, Alternative, EmittedFile, Language};
 use crate::model::{Model, TensorRows};
@@ -242,8 +241,8 @@ fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant,
             Err(error) => return Err(error.to_string()),
         };
         // A pole is refused as bad input; here it is a reason.
-        let findings = match check::check(&model, seed, points, false) {
-            Ok(Check { findings, .. }) => findings,
+        let findings = match check::failures(&model, seed, points) {
+            Ok(findings) => findings,
             Err(error) => {
                 if why.is_empty() {
                     why = error.problem;

@@ -1,5 +1,0 @@
-double @P@get_parameter(const char *name)
-{
-@CASES@    return NAN;
-}
-

@@ -1,6 +1,0 @@
-pub fn get_parameter(name: &str) -> Option<f64> {
-    match name {
-@CASES@        _ => None,
-    }
-}
-

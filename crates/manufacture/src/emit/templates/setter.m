@@ -1,3 +1,0 @@
-function set_parameter(name, value)
-@BODY@end
-

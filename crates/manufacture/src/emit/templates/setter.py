@@ -1,3 +1,0 @@
-def set_parameter(name, value):
-@GLOBALS@@BODY@
-

@@ -15,6 +15,7 @@ pub mod judge {
     pub mod random;
     pub mod richardson;
     pub mod shown;
+    pub mod taylor;
     mod three_values;
     pub mod verdict;
 }

@@ -12,6 +12,7 @@ mod results;
 mod session;
 mod studied;
 mod table;
+mod taylor;
 mod values;
 
 use std::ffi::OsString;
@@ -60,6 +61,8 @@ mod _native {
     use super::studied::{Study, study, study_of};
     #[pymodule_export]
     use super::table::judge_table;
+    #[pymodule_export]
+    use super::taylor::taylor;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -97,6 +97,7 @@ mod run;
 #[cfg(feature = "reports")]
 mod store;
 mod study;
+mod taylor;
 #[cfg(feature = "reports")]
 mod verify;
 #[cfg(feature = "tables")]
@@ -133,7 +134,10 @@ pub use crate::{
         kind::completion_check,
         levels, measured, unnoticed,
     },
+    taylor::{DirectionFindings, TaylorFindings, TaylorTest},
 };
+#[doc(inline)]
+pub use convergence_judge::judge::taylor::{Derivative, Finding, Judged};
 
 /// Variants of a study's solution, by which `--where` names the part that has lost the order.
 pub mod variants {
@@ -170,6 +174,7 @@ pub use crate::cli::run_command_line;
 #[cfg(all(doctest, feature = "command-line"))]
 #[doc = include_str!("../README.md")]
 #[doc = include_str!("../book/src/rust.md")]
+#[doc = include_str!("../book/src/gradients.md")]
 #[doc = include_str!("../book/src/kinds.md")]
 #[doc = include_str!("../book/src/values.md")]
 struct Pages;

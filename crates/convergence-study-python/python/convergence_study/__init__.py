@@ -6,10 +6,24 @@
 'pass'
 
 `judge` and `assert_order` take existing errors, `study` a function that computes them, `limit` values without an exact solution, `rates` a file
-or a text. All of them call the Rust crate `convergence-study`; there is no rule in Python.
+or a text; `taylor` tests gradients and Hessians, `adjoint` an operator and its adjoint. All of them call the Rust crate `convergence-study`; there is no rule in Python.
 """
 
 from ._judging import assert_order, judge, limit, rates, study
 from ._native import Judgement, Limit, Study, __version__
+from ._taylor import Taylor, adjoint, taylor
 
-__all__ = ["Judgement", "Limit", "Study", "__version__", "assert_order", "judge", "limit", "rates", "study"]
+__all__ = [
+    "Judgement",
+    "Limit",
+    "Study",
+    "Taylor",
+    "__version__",
+    "adjoint",
+    "assert_order",
+    "judge",
+    "limit",
+    "rates",
+    "study",
+    "taylor",
+]

@@ -92,4 +92,10 @@ def finish(studies: list[Study], request: Mapping[str, Any]) -> tuple[list[str],
 def rates(
     source: str, is_text: bool, order: Any, tolerance: float, floor: float, chosen: Mapping[str, Any]
 ) -> str: ...
+def taylor(
+    value: Callable[[list[float]], float],
+    slope: Callable[[list[float]], float],
+    curvature: Optional[Callable[[list[float]], float]],
+    options: Mapping[str, Any],
+) -> tuple[str, str, str]: ...
 def run_program(executable: str, arguments: list[str]) -> int: ...

@@ -1,0 +1,229 @@
+"""Tests of derivatives: they make lists of numbers of what the user's functions take and return, and the Rust crate judges."""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Union
+
+from . import _native
+from ._judging import number
+
+
+class Taylor:
+    """What a Taylor test has found.
+
+    verdict: "pass", "fail" or "inconclusive"; directions: for each direction the derivatives with what was found, as JSON has them;
+    notes: what the test could not do; assert_passes(): AssertionError unless it passes. It has no truth value.
+    """
+
+    def __init__(self, verdict: str, text: str, found: str, notes: list[str]) -> None:
+        self.verdict = verdict
+        self.notes = notes
+        self.directions: list[dict[str, Any]] = json.loads(found)["directions"]
+        self._text = "\n".join([text, *(f"  note: {note}" for note in notes)])
+
+    def __repr__(self) -> str:
+        return self._text
+
+    def __bool__(self) -> bool:
+        raise TypeError("a Taylor test has no truth value: use assert_passes(), or verdict == 'pass'")
+
+    def assert_passes(self) -> None:
+        """Does nothing if the derivatives are right; raises AssertionError with what was found otherwise."""
+        __tracebackhide__ = True
+        if self.verdict != "pass":
+            raise AssertionError(self._text)
+
+
+def taylor(
+    J: Callable[[Any], Any],
+    gradient: Any = None,
+    at: Any = None,
+    *,
+    derivative: Union[Callable[[Any], Any], float, None] = None,
+    hessian: Union[Callable[[Any], Any], None] = None,
+    directions: Union[int, Iterable[Any]] = 3,
+    seed: int = 1,
+    scales: Any = None,
+    inner: Union[Callable[[Any, Any], Any], None] = None,
+    to: float = 1e-6,
+) -> Taylor:
+    """Tests derivatives of J at a point by Taylor remainders: their order, down to the noise of J, and the size of the derivative.
+
+    J: a function of m; a number, or an array whose components are weighted at random. at: m, a number, a list, an array, or a dict of these.
+    gradient: a function of m, or its value at m, of the shape of m. derivative: in its place a function of a direction d that returns dJ·d,
+    for J of several components too; or that number, for one given direction. hessian: a function of d that returns the second derivative
+    along d: H d in the shape of m, or the number d'Hd.
+
+    directions: how many are drawn by seed, or a list of directions in the shape of m. scales: the sizes of the components of m, if they
+    differ. inner: the inner product to which a gradient belongs, inner(gradient, d), if it is not the dot product. to: the part by which a
+    derivative may be off, 0 < to < 1.
+
+    Returns a Taylor. Raises ValueError or TypeError, which names the argument, and exceptions of the functions.
+    """
+    point = _flat("at", at)
+    if (gradient is None) == (derivative is None):
+        raise ValueError("gradient: expected either gradient or derivative, found " + ("both" if derivative is not None else "neither"))
+    to = number("to", to, above=0)
+    if to >= 1:
+        raise ValueError(f"to: expected a number between 0 and 1, found {to!r}")
+    if isinstance(directions, bool) or isinstance(directions, int) and directions < 1:
+        raise ValueError(f"directions: expected a whole number > 0, or a list of directions, found {directions!r}")
+    drawn = isinstance(directions, int)
+    along = None if drawn else [_like("directions", direction, point) for direction in directions]
+    if along is not None and (not along or not all(any(direction) for direction in along)):
+        raise ValueError("directions: expected at least one direction, and none that is zero")
+    if not (callable(derivative) or derivative is None) and (along is None or len(along) != 1):
+        raise ValueError("derivative: expected a function of the direction; a number belongs to one direction, directions=[d]")
+    weights = _Weights(seed)
+    slope, notes = _slope(point, gradient, derivative, inner, weights, at, along)
+    options = {
+        "at": point,
+        "scales": None if scales is None else [abs(scale) for scale in _like("scales", scales, point)],
+        "along": along,
+        "drawn": directions if drawn else 0,
+        "seed": seed,
+        "to": to,
+    }
+    curvature = None if hessian is None else lambda d: _curvature(hessian, d, inner, weights, at, point)
+    return Taylor(*_native.taylor(lambda m: weights.of("J", J(_shaped(m, at))), slope, curvature, options), notes)
+
+
+def adjoint(
+    A: Any, At: Any, v: Any, w: Any, *, inner: Union[Callable[[Any, Any], Any], None] = None, trials: int = 3, seed: int = 1, to: float = 1e-10
+) -> None:
+    """Does nothing if <w, A v> = <At w, v> for random v and w; raises AssertionError with the two numbers otherwise.
+
+    A, At: functions, or matrices with `@`. v, w: an argument of each, whose shapes are taken. inner: the inner product of both spaces, if it
+    is not the dot product. to: the part of the sum of the absolute values of the products by which they may differ.
+    """
+    __tracebackhide__ = True
+    to, draw = number("to", to, above=0), random.Random(seed)
+    shape_v, shape_w = _flat("v", v), _flat("w", w)
+    if isinstance(trials, bool) or not isinstance(trials, int) or trials < 1:
+        raise ValueError(f"trials: expected a whole number > 0, found {trials!r}")
+    for trial in range(trials):
+        one = _shaped([draw.gauss(0, 1) for _ in shape_v], v)
+        other = _shaped([draw.gauss(0, 1) for _ in shape_w], w)
+        forward, backward = _applied(A, one), _applied(At, other)
+        left, left_size = _product("A", other, forward, inner)
+        right, right_size = _product("At", backward, one, inner)
+        # NaN is a difference.
+        if not abs(left - right) <= to * max(left_size, right_size) or left_size == 0:
+            problem = "A v is zero: nothing is tested" if left_size == 0 else f"they differ by {abs(left - right):.2e}"
+            raise AssertionError(f"adjoint, trial {trial + 1}: <w, A v> = {left!r}, <At w, v> = {right!r}: {problem}, allowed {to:g} of {left_size:.3g}")
+
+
+class _Weights:
+    """Random weights by which several components become one number: the same at every call."""
+
+    def __init__(self, seed):
+        self._random, self._weights = random.Random(seed), None
+
+    def of(self, name, value):
+        parts = _flat(name, value, finite=False)
+        if len(parts) == 1:
+            return parts[0]
+        if self._weights is None:
+            self._weights = [self._random.gauss(0, 1) for _ in parts]
+        if len(parts) != len(self._weights):
+            raise ValueError(f"{name}: expected {len(self._weights)} numbers as J has, found {len(parts)}")
+        return sum(weight * part for weight, part in zip(self._weights, parts))
+
+
+def _slope(point, gradient, derivative, inner, weights, at, along):
+    """dJ·d as a function of a list of numbers, and notes."""
+    if callable(derivative):
+        return (lambda d: weights.of("derivative", derivative(_shaped(d, at)))), []
+    if derivative is not None:
+        return (lambda d: number("derivative", derivative)), []
+    value = gradient(_shaped(point, at)) if callable(gradient) else gradient
+    if inner is not None:
+        return (lambda d: number("inner", inner(value, _shaped(d, at)))), []
+    parts = _like("gradient", value, point, finite=False)
+    notes = ["a direction is the gradient itself: errors at right angles to it are not tested"] if any(
+        _is_parallel(parts, direction) for direction in along or []
+    ) and len(point) > 1 else []
+    return (lambda d: _dot(parts, d)), notes
+
+
+def _curvature(hessian, d, inner, weights, at, point):
+    direction = _shaped(d, at)
+    value = hessian(direction)
+    parts = _flat("hessian", value, finite=False)
+    if len(parts) == 1 and (len(point) > 1 or not hasattr(value, "__len__")):
+        # In one dimension H d is a number as d'Hd is: it is H d.
+        return parts[0] * d[0] if len(point) == 1 else parts[0]
+    if inner is not None:
+        return number("inner", inner(value, direction))
+    return _dot(_like("hessian", value, point, finite=False), d)
+
+
+def _dot(one, other):
+    return sum(a * b for a, b in zip(one, other))
+
+
+def _is_parallel(one, other):
+    product, sizes = _dot(one, other), _dot(one, one) * _dot(other, other)
+    return sizes > 0 and product * product >= sizes * (1 - 1e-12)
+
+
+def _applied(operator, value):
+    return operator(value) if callable(operator) else operator @ value
+
+
+def _product(name, one, other, inner):
+    """An inner product, and the sum of the absolute values of its terms."""
+    if inner is not None:
+        product = number("inner", inner(one, other))
+        return product, abs(product)
+    one, other = _flat(name, one, finite=False), _flat(name, other, finite=False)
+    if len(one) != len(other):
+        raise ValueError(f"{name}: expected {len(other)} numbers, found {len(one)}")
+    return _dot(one, other), sum(abs(a * b) for a, b in zip(one, other))
+
+
+def _flat(name, value, finite=True):
+    """All numbers of a number, a list, an array or a dict of these, in order."""
+    if value is None or isinstance(value, (str, bytes, bool)):
+        raise TypeError(f"{name}: expected numbers, found {value!r}")
+    if isinstance(value, Mapping):
+        return [part for key in value for part in _flat(f"{name}[{key!r}]", value[key], finite)]
+    if hasattr(value, "reshape") and hasattr(value, "tolist"):
+        value = value.reshape(-1).tolist()
+    if isinstance(value, (list, tuple)):
+        return [part for place, item in enumerate(value) for part in _flat(f"{name}[{place}]", item, finite)]
+    if hasattr(value, "tolist"):
+        return _flat(name, value.tolist(), finite)
+    if isinstance(value, complex):
+        raise TypeError(f"{name}: expected real numbers, found {value!r}")
+    part = number(name, value)
+    if finite and not float("-inf") < part < float("inf"):
+        raise ValueError(f"{name}: expected finite numbers, found {part!r}")
+    return [part]
+
+
+def _like(name, value, point, finite=True):
+    parts = _flat(name, value, finite)
+    if len(parts) != len(point):
+        raise ValueError(f"{name}: expected {len(point)} numbers as `at` has, found {len(parts)}")
+    return parts
+
+
+def _shaped(parts, like):
+    """The numbers in the shape of a value."""
+    return _taken(iter(parts), like)
+
+
+def _taken(parts, like):
+    if isinstance(like, Mapping):
+        return {key: _taken(parts, like[key]) for key in like}
+    if isinstance(like, (list, tuple)):
+        return type(like)(_taken(parts, item) for item in like)
+    if hasattr(like, "reshape") and hasattr(like, "astype") and getattr(like, "shape", ()) != ():
+        shaped = like.astype(float)
+        shaped.reshape(-1)[:] = [next(parts) for _ in range(shaped.size)]
+        return shaped
+    return next(parts)

@@ -1,0 +1,52 @@
+//! Taylor tests of derivatives that Python computes.
+
+use convergence_study::{TaylorFindings, TaylorTest};
+use pyo3::prelude::*;
+
+use crate::values::refuse;
+
+/// Where and how a derivative is tested.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
+    at: Vec<f64>,
+    scales: Option<Vec<f64>>,
+    along: Option<Vec<Vec<f64>>>,
+    drawn: usize,
+    seed: u64,
+    to: f64,
+}
+
+/// What a Taylor test has found: its verdict, it in words, and it in JSON.
+///
+/// * `value`: J of a list of numbers; `slope`: dJ·d of a list of numbers, `curvature` d'Hd.
+#[pyfunction]
+pub(crate) fn taylor(
+    value: &Bound<'_, PyAny>,
+    slope: &Bound<'_, PyAny>,
+    curvature: Option<&Bound<'_, PyAny>>,
+    options: Options,
+) -> PyResult<(&'static str, String, String)> {
+    let mut test = TaylorTest::at(&options.at).to(options.to);
+    if let Some(scales) = &options.scales {
+        test = test.scales(scales);
+    }
+    test = match &options.along {
+        Some(along) => test.along(&along.iter().map(Vec::as_slice).collect::<Vec<_>>()),
+        None => test.drawn(options.drawn, options.seed),
+    };
+    let called = |function: &Bound<'_, PyAny>, parts: &[f64]| -> PyResult<f64> {
+        function.call1((parts.to_vec(),))?.extract()
+    };
+    let mut second = |direction: &[f64]| match curvature {
+        Some(curvature) => called(curvature, direction),
+        None => Ok(f64::NAN),
+    };
+    let found: TaylorFindings = test.try_run(
+        |m| called(value, m),
+        |direction| called(slope, direction),
+        if curvature.is_some() { Some(&mut second) } else { None },
+    )?;
+    let json = serde_json::to_string(&found).map_err(refuse)?;
+    Ok((found.verdict().name(), found.to_string(), json))
+}

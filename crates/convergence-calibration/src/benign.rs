@@ -1,7 +1,7 @@
 //! What a user of smooth problems gets: a power with small pollution, and finite differences of
 //! random smooth problems.
 //!
-//! Nothing was tuned on them.
+//! Seen twice, when the last two constants of the rule were chosen, and not fitted.
 
 use convergence_judge::judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
 use convergence_study::Verdict;

@@ -15,7 +15,7 @@
 //! * *levels*: the same at the default tolerance with steps halved, by number of levels. A claim is
 //!   *visibly off* if it differs from the p that the coarse levels show. Also how often the
 //!   interval holds the order, and how often a table passes only without its coarsest level.
-//! * *held-out*: the same under [ten laws](held_out) with which nothing was tuned.
+//! * *held-out*: the same under [ten laws](held_out) that were seen twice, and not fitted.
 //! * *benign*: the same under a smooth power with small pollution; *differences*: finite
 //!   differences of random smooth problems; see [`benign`].
 //! * *noisy*: a lower order of a tenth of the finest error under noise; see [`noisy`].

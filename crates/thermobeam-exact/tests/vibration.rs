@@ -311,3 +311,55 @@ fn the_first_eight_discrete_frequencies_converge_at_second_order_from_above() {
         }
     }
 }
+
+/// `∫₀^∞ T''² dt` of a mode that starts from 0 with velocity 1.
+fn acceleration_squared(omega: f64, zeta: f64) -> f64 {
+    let factor = TimeFactor::new(omega, zeta, 0.0, 1.0).expect("a mode");
+    let square = omega.powi(2);
+    // Every exponential has decayed to e^-15 at the end; early times have more nodes.
+    let end = 15.0 / (0.5 * zeta * square).min(1.0 / zeta);
+    integral(|s| {
+        let t = end * s * s;
+        let acceleration = -square * (zeta * factor.slope(t) + factor.value(t));
+        acceleration.powi(2) * 2.0 * end * s
+    })
+}
+
+#[test]
+fn the_acceleration_of_a_mode_has_the_square_of_its_frequency() {
+    for (index, zeta) in [(0, 0.1), (0, 1.0), (1, 0.3), (6, 0.1), (30, 0.1)] {
+        let omega = Mode::new(index).omega();
+        let expected = 0.5 * (zeta * omega.powi(2) + 1.0 / zeta);
+        let found = acceleration_squared(omega, zeta);
+        close(found / expected, 1.0, 1e-5);
+    }
+}
+
+/// `∫₀^∞ ‖u_tt‖² + ‖φ_tt‖² dt` of the beam that starts straight with this velocity of u, by its
+/// lowest modes.
+fn acceleration_by_modes(velocity: impl Fn(f64) -> f64, zeta: f64, modes: usize) -> f64 {
+    let share = |mode: Mode| {
+        let norm = integral(|x| mode.u(x).powi(2) + mode.phi(x).powi(2));
+        let product = integral(|x| velocity(x) * mode.u(x));
+        product.powi(2) / norm * 0.5 * (zeta * mode.omega().powi(2) + 1.0 / zeta)
+    };
+    (0..modes).map(Mode::new).map(share).sum()
+}
+
+/// Proposition 2.7 needs (3.11): a velocity that does not vanish at the clamped end is in L², as
+/// (2.7) asks, and its acceleration is not square integrable, as (2.4) asks.
+#[test]
+fn the_acceleration_is_square_integrable_if_the_velocity_has_a_slope() {
+    let zeta = 0.1;
+    // The paper's velocity (5.3), whose squares are in closed form.
+    let (slope, value) = (400.0 * 2.0 / 15.0, 400.0 / 105.0);
+    let expected = 0.5 * (zeta * slope + value / zeta);
+    let of_paper = |modes| acceleration_by_modes(|x| 20.0 * x * (x - 1.0).powi(2), zeta, modes);
+    close(of_paper(40), expected, 1e-3 * expected);
+
+    let of_one = |modes| acceleration_by_modes(|_| 1.0, 1.0, modes);
+    let [twenty, forty, eighty] = [20, 40, 80].map(of_one);
+    close((eighty - forty) / (forty - twenty), 2.0, 0.02);
+    // Each pair of modes adds ζ, half of ζω² times 2/ω²: there is no limit.
+    close((eighty - forty) / 20.0, 1.0, 0.01);
+}

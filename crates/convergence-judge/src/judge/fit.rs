@@ -62,8 +62,8 @@ static STUDENT: LazyLock<[f64; MOST_DEGREES]> = LazyLock::new(|| {
     })
 });
 
-/// `t` such that a Student variable with `dof` degrees of freedom lies in [-t, t] at 95 %
-/// confidence; infinite if `dof` is 0.
+/// `t` such that a Student variable with `dof` degrees of freedom lies in [-t, t] with
+/// probability 0.95; infinite if `dof` is 0.
 ///
 /// Above 30 degrees of freedom it returns the value for 30, which is larger and therefore safe.
 pub fn student_t(dof: usize) -> f64 {

@@ -47,7 +47,7 @@
 //! `C_h h^p + C_t dt^q` fitted to all errors has intervals that are too narrow. m n errors that
 //! obey (a) are m + n - 1 numbers, so there are fewer than m n - 4 degrees of freedom; and
 //! residuals of smooth data bend, they do not scatter. For 202 smooth grids of 3 × 3 to 5 × 5
-//! errors with a, b in [-0.8, 2], such intervals of 95 % held p 59 times and q 32 times.
+//! errors with a, b in [-0.8, 2], Student's intervals of 95 % held p 59 times and q 32 times.
 //!
 //! # Three steps beyond the rule
 //!

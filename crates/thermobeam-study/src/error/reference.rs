@@ -30,13 +30,13 @@ pub fn fine_mesh(scene: &Scene, finest: usize) -> Result<Mesh, MeshError> {
     resampled(&scene.mesh, FINER * finest)
 }
 
-/// A run at equidistant times, stored as its values at the nodes of a mesh.
+/// A run at some times, stored as its values at the nodes of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
     /// The mesh; if it is finer than the mesh of a run of any order, its linear functions represent
     /// the polynomials.
     pub mesh: Mesh,
-    /// At `t_end k / samples`, k = 1 ..., without the contact force.
+    /// At these times, without the contact force.
     pub levels: Vec<Level>,
     /// Energies (3.9) at the same times; for a run of any order those of the polynomials.
     pub energies: Vec<f64>,
@@ -60,9 +60,14 @@ impl Traced {
         let times: Vec<f64> = (1..=samples)
             .map(|k| equidistant_time(scene.t_end, k, samples))
             .collect();
+        Self::at(scene, mesh, &times)
+    }
+
+    /// The same with steps that end at these times, which increase, the last one `t_end`.
+    pub(crate) fn at(scene: &Scene, mesh: Mesh, times: &[f64]) -> Result<Self, CaseFailure> {
         let mut levels = vec![];
         let mut energies = vec![];
-        let run = Simulator::new(scene)?.read_at(Recording::Summary, &times, |motion| {
+        let run = Simulator::new(scene)?.read_at(Recording::Summary, times, |motion| {
             levels.push(motion.snapshot().on(&mesh));
             energies.push(motion.sample().energy);
         })?;

@@ -5,6 +5,7 @@ mod scenes;
 
 mod agreement;
 mod balance;
+mod bounds;
 mod contraction;
 mod dense;
 mod dense_iteration;

@@ -7,8 +7,8 @@
 use super::{Level, Logarithms, student_t};
 use crate::interval::Interval;
 
-/// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they guard
-/// against overconfidence.
+/// Exponents r of the polluted lines. 1/3 and 2/3 are singularities and boundary layers; they keep
+/// intervals from being too narrow.
 pub const POLLUTION_EXPONENTS: [f64; 5] = [1.0 / 3.0, 2.0 / 3.0, 1.0, 2.0, 3.0];
 
 /// A polluted line replaces the straight one if this many times its sum of squares is less.
@@ -42,7 +42,8 @@ pub struct RateInterval {
     pub pollution: Option<f64>,
     /// `rate` ± its half-width.
     pub interval: Interval,
-    /// How far log e of the finest level may lie from its line, at the confidence of the interval.
+    /// How far log e of the finest level may lie from its line: Student's quantile
+    /// times the standard deviation of the residuals.
     pub scatter: f64,
 }
 

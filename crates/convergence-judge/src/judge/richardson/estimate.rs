@@ -349,7 +349,7 @@ fn observed_rate(values: &[StepValue], judged: &RateVerdict) -> Result<ObservedR
 
 /// The bar of the finest value.
 ///
-/// * `scatter`: of the logarithm of the last difference, at the confidence of the interval.
+/// * `scatter`: of the logarithm of the last difference, as in [`RateInterval`](crate::judge::fit::RateInterval).
 /// * `round_off`: of a value.
 fn bar(
     values: &[StepValue],

@@ -121,6 +121,30 @@ impl Sweep {
         })
     }
 
+    /// A list in code: case i has number i of each key.
+    ///
+    /// * `scene`: the base scene, as text.
+    /// * `keys`: dotted names with as many numbers each.
+    pub(crate) fn of_list(name: &str, scene: &str, keys: Vec<(&'static str, Vec<f64>)>) -> Self {
+        let axis = |(path, values)| Axis {
+            path,
+            values,
+            stride: 1,
+        };
+        let axes: Vec<Axis> = keys.into_iter().map(axis).collect();
+        Self {
+            name: name.to_owned(),
+            cases: axes.iter().map(|axis| axis.values.len()).min().unwrap_or(0),
+            hash: content_hash(scene.as_bytes()),
+            axes,
+            base: Base {
+                file: name.to_owned(),
+                text: scene.to_owned(),
+                set: String::new(),
+            },
+        }
+    }
+
     /// The scene of a case.
     ///
     /// # Errors

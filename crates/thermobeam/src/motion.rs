@@ -114,8 +114,8 @@ pub struct StepReport {
     /// Fixed point: ratio of the last two increments, `None` after a single iteration. Newton and
     /// dG: `None`.
     pub contraction: Option<f64>,
-    /// Whether the free end touched an obstacle: at the end of a step of a one-step scheme,
-    /// throughout a step of dG.
+    /// Whether the free end was in contact: for a one-step scheme, whether the contact force of the
+    /// step is not zero; for dG, throughout the step.
     pub in_contact: bool,
     /// dG: the contact event at the end of the step, if any.
     pub event: Option<ContactEvent>,

@@ -92,8 +92,8 @@ pub struct Report {
     pub iterations: usize,
     /// Ratio of the last two increments, if the method has measured it.
     pub contraction: Option<f64>,
-    /// Whether the free end touched an obstacle: at the end of a one-step scheme's step, throughout
-    /// a step of dG.
+    /// Whether the free end was in contact: for a one-step scheme, whether the contact force of the
+    /// step is not zero; for dG, throughout the step.
     pub in_contact: bool,
     /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at
     /// it.

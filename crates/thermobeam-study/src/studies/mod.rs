@@ -4,11 +4,12 @@
 pub mod dependence;
 mod prelude;
 pub mod solutions;
+pub mod written;
 
 use convergence_study::CodeStudy;
 
 /// All of them.
-pub const STUDIES: [CodeStudy; 2] = [
+pub const STUDIES: [CodeStudy; 3] = [
     CodeStudy {
         home: dependence::ABOUT.home,
         study: || Box::new(dependence::study()),
@@ -16,5 +17,9 @@ pub const STUDIES: [CodeStudy; 2] = [
     CodeStudy {
         home: solutions::ABOUT.home,
         study: || Box::new(solutions::study()),
+    },
+    CodeStudy {
+        home: written::ABOUT.home,
+        study: || Box::new(written::study()),
     },
 ];

@@ -26,6 +26,7 @@ mod untested;
 mod variants;
 mod vibration;
 mod work_precision;
+mod written;
 
 use std::path::{Path, PathBuf};
 

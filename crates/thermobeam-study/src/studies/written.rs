@@ -1,0 +1,594 @@
+//! What a run writes is what was computed: the files of `run --out` and the lines of `sweep`, held
+//! against levels that the library has stepped.
+//!
+//! * Every column of `history.csv`, at each of its times, and the last time; the contact force by
+//!   the formula of the scheme from the tips of two levels.
+//! * The balance of the energy (3.9) from the columns alone: the terms of each row add up to zero,
+//!   and their changes to the change of the energy.
+//! * The phases of contact against the tips; the counts and the end of `run.json`, and of each line
+//!   of a sweep whose scenes run together.
+//!
+//! The scenes have contact and heat. One has more levels than rows, and the stride from row to row
+//! does not divide their number. In another one a step crosses both obstacles.
+
+use super::prelude::*;
+use crate::exact::formulas::SchemeFormulas;
+use crate::run::history::RunHistory;
+use crate::run::object::Object;
+use crate::run::simulate::{Recording, Run, Simulator, problem};
+use crate::scene::{Method, Scene};
+use crate::sweep::{self, CaseLine, Sweep};
+use serde_json::Value;
+use std::sync::Mutex;
+use thermobeam::dg::{Dg, DgStepping};
+use thermobeam::energy::Balance;
+use thermobeam::motion::Motion;
+use thermobeam::one_step::{OneStep, Stepping};
+use thermobeam::parameters::Obstacles;
+
+/// What the study says about itself.
+pub const ABOUT: About = About {
+    id: "written-files",
+    claim: "What a run and a sweep write is what was computed: every column, the last time, the balance, phases, counts",
+    tier: Tier::Quick,
+    group: "the harness",
+    headline: COLUMN,
+    home: file!(),
+};
+
+const COLUMN: &str = "largest difference of a column";
+
+/// The beam of (5.1) with a hot end, bent down and thrown upwards, between its obstacles.
+const BEAM: &str = "beam = { zeta = 0.1, a = 0.5, rho = 1.0, beta = -0.3, theta_a = 2.0 }
+initial = { u = \"0.01*x*(x-2)\", u_t = \"20*x*(x-1)^2\", theta = \"2*(1-x) + sin(pi*x)\" }
+";
+const OBSTACLES: &str = "obstacles = { epsilon = 1e-3, g1 = -0.01, g2 = 0.1 }\n";
+/// A swing through soft obstacles that are close to each other: a step crosses both.
+const ACROSS: &str = "beam = { zeta = 1e-3, a = 0.5, rho = 1.0, beta = 0.0, theta_a = 2.0 }
+initial = { u_t = \"3*x\", theta = \"2*(1-x)\" }
+obstacles = { epsilon = 0.5, g1 = -2e-3, g2 = 1e-3 }
+";
+
+/// Meshes and steps of the scenes, by their names.
+const METHODS: [(&str, &str, &str); 4] = [
+    (
+        "more levels than rows",
+        OBSTACLES,
+        "mesh = { elements = 3 }\ntime = { dt = 1e-5, t_end = 2.00001, tolerance = 1e-13 }",
+    ),
+    (
+        "the midpoint rule",
+        OBSTACLES,
+        "mesh = { elements = 12 }\ntime = { scheme = \"midpoint\", dt = 1e-3, t_end = 1.5, tolerance = 1e-13 }",
+    ),
+    (
+        "any order",
+        OBSTACLES,
+        "mesh = { elements = 1, degree = 8 }\ntime = { scheme = \"dg\", degree = 2, dt = 0.01, restart_dt = 1e-3, growth = 1.5, t_end = 1.5 }",
+    ),
+    (
+        "a step across both obstacles",
+        "",
+        "mesh = { elements = 8 }\ntime = { scheme = \"midpoint\", dt = 0.02, t_end = 6.0, tolerance = 1e-13 }",
+    ),
+];
+
+/// Scenes that run together: as many steps of other lengths.
+const SWEPT: [(&str, [f64; 4]); 3] = [
+    ("time.dt", [1e-3, 2e-3, 1.5e-3, 1e-3]),
+    ("time.t_end", [0.5, 1.0, 0.75, 0.5]),
+    ("beam.beta", [-0.3, 5.0, -0.8, 0.0]),
+];
+const SWEPT_SCENE: &str =
+    "mesh = { elements = 12 }\ntime = { dt = 1e-3, t_end = 0.5, tolerance = 1e-13 }";
+
+/// The most rows after the first of a one-step scheme, and the rows of dG.
+const ROWS: usize = 200_000;
+const DG_ROWS: usize = 4000;
+/// Difference allowed of a number that is computed twice from the same levels, and defect of the
+/// balance, relative to the largest number of its sort.
+const SAME: f64 = 1e-12;
+/// The columns of `history.csv`.
+const COLUMNS: [&str; 14] = [
+    "t",
+    "u_tip",
+    "phi_tip",
+    "u_t_tip",
+    "phi_t_tip",
+    "theta_mid",
+    "contact_force",
+    "energy",
+    "energy_change",
+    "viscous",
+    "thermal",
+    "inertial",
+    "contact_gap",
+    "residual",
+];
+const ENERGY: usize = 7;
+const CHANGE: usize = 8;
+const GAP: usize = 12;
+
+/// A row of `history.csv`, in the order of [`COLUMNS`].
+pub type Row = [f64; COLUMNS.len()];
+
+/// What belongs to a run, as it was written and as it was computed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Told {
+    /// The rows of the history; of a line of a sweep the last one.
+    pub rows: Vec<Row>,
+    /// Times in contact.
+    pub phases: Vec<[f64; 2]>,
+    /// Steps, steps in contact, iterations, most iterations of a step.
+    pub counts: [f64; 4],
+    /// Smallest and largest u(1).
+    pub range: [f64; 2],
+    /// Steps that cross both obstacles.
+    pub across: usize,
+}
+
+/// The study.
+pub fn study() -> Described<InCode<Written>> {
+    ABOUT.study(Written)
+}
+
+/// Runs and a sweep, and what they write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Written;
+
+/// What is written, and what was computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The name of the scene.
+    pub name: String,
+    /// By the files.
+    pub written: Told,
+    /// By levels that are stepped here.
+    pub stepped: Told,
+    /// The final time that the scene asks for.
+    pub t_end: f64,
+}
+
+impl Runs for Written {
+    /// The place of a scene; after these, the sweep.
+    type Run = usize;
+    type Shown = Vec<Pair>;
+
+    fn runs(&self) -> Vec<Case<usize>> {
+        let runs = METHODS.iter().map(|(name, ..)| *name).chain(["a sweep"]);
+        runs.enumerate()
+            .map(|(place, name)| Case::new(name, 1e6, place))
+            .collect()
+    }
+
+    fn run(&self, &place: &usize) -> Result<Vec<Pair>, CaseFailure> {
+        match METHODS.get(place) {
+            Some((name, obstacles, method)) => Ok(vec![of_run(name, obstacles, method)?]),
+            None => of_sweep(),
+        }
+    }
+
+    fn judge(&self, shown: &[(&usize, &Vec<Pair>)]) -> Findings {
+        let pairs: Vec<&Pair> = shown.iter().flat_map(|(_, pairs)| *pairs).collect();
+        let histories = pairs.iter().filter(|pair| !pair.is_line());
+        Findings {
+            sheets: vec![
+                Sheet::new(
+                    "Files of runs",
+                    "scene",
+                    histories.flat_map(|pair| pair.history()),
+                ),
+                Sheet::new(
+                    "Runs in numbers",
+                    "run",
+                    pairs.iter().flat_map(|pair| pair.summary()),
+                ),
+            ],
+            ..Findings::default()
+        }
+    }
+}
+
+impl Pair {
+    /// A line of a sweep, which has no history.
+    fn is_line(&self) -> bool {
+        self.written.rows.len() == 1
+    }
+
+    /// The numbers of a history.
+    fn history(&self) -> Vec<Measured> {
+        let Self {
+            name,
+            written,
+            stepped,
+            ..
+        } = self;
+        let count = |what: &str, written: usize, stepped: usize| {
+            measured(name, what, written as f64)
+                .fixed(0)
+                .must_be(Must::Count(stepped))
+        };
+        let ends = |told: &Told| told.phases.concat();
+        let mut found = vec![
+            count("rows", written.rows.len(), stepped.rows.len()),
+            measured(name, COLUMN, largest(&written.rows, &stepped.rows))
+                .must_be(Must::AtMost(SAME)),
+            measured(name, "defect of the balance", defect(&written.rows))
+                .must_be(Must::AtMost(SAME)),
+            measured(name, "changes against the energy", lost(&written.rows))
+                .must_be(Must::AtMost(10.0 * SAME)),
+            count(
+                "phases of contact",
+                written.phases.len(),
+                stepped.phases.len(),
+            ),
+            measured(
+                name,
+                "times of contact",
+                distance(&ends(written), &ends(stepped)),
+            )
+            .must_be(Must::AtMost(self.located())),
+        ];
+        if name == METHODS[3].0 {
+            let across = measured(name, "steps across both obstacles", stepped.across as f64);
+            found.push(across.fixed(0).must_be(Must::AtLeast(1.0)));
+        }
+        found
+    }
+
+    /// How far an end of contact may be from what the tips say: dG locates it between two rows.
+    fn located(&self) -> f64 {
+        if self.name == METHODS[2].0 {
+            self.t_end / DG_ROWS as f64
+        } else {
+            SAME
+        }
+    }
+
+    /// The end, the range and the counts.
+    fn summary(&self) -> Vec<Measured> {
+        let Self {
+            name,
+            written,
+            stepped,
+            t_end,
+        } = self;
+        let last = |told: &Told| {
+            told.rows
+                .last()
+                .map_or(vec![], |row| row[..=ENERGY].to_vec())
+        };
+        let [end, own] = [last(written), last(stepped)];
+        let time = Must::Near {
+            answer: *t_end,
+            within: SAME * t_end,
+        };
+        let mut found = vec![
+            measured(name, "last time", end.first().copied())
+                .fixed(5)
+                .must_be(time),
+            measured(name, "difference of the end", distance(&end, &own))
+                .must_be(Must::AtMost(SAME)),
+            measured(
+                name,
+                "difference of the range",
+                distance(&written.range, &stepped.range),
+            )
+            .must_be(Must::AtMost(SAME)),
+        ];
+        let names = ["steps", "steps in contact", "iterations", "most iterations"];
+        for (k, what) in names.into_iter().enumerate() {
+            let count = measured(name, what, written.counts[k]).fixed(0);
+            found.push(count.must_be(Must::Count(stepped.counts[k] as usize)));
+        }
+        found
+    }
+}
+
+/// The largest difference of two lists; NaN if one is longer.
+fn distance(one: &[f64], other: &[f64]) -> f64 {
+    if one.len() != other.len() {
+        return f64::NAN;
+    }
+    let differences = one.iter().zip(other).map(|(a, b)| (a - b).abs());
+    largest_of(differences).unwrap_or(0.0)
+}
+
+fn column(rows: &[Row], k: usize) -> Vec<f64> {
+    rows.iter().map(|row| row[k]).collect()
+}
+
+/// The largest difference of a column, relative to its largest number; of the residual, which is
+/// round-off, and of the gap relative to that of the change.
+fn largest(written: &[Row], stepped: &[Row]) -> Option<f64> {
+    let size = |k: usize| largest_of(column(stepped, k).into_iter().map(f64::abs)).unwrap_or(0.0);
+    let of_column = |k: usize| {
+        let scale = if k > CHANGE {
+            size(k).max(size(CHANGE))
+        } else {
+            size(k)
+        };
+        distance(&column(written, k), &column(stepped, k)) / scale.max(f64::MIN_POSITIVE)
+    };
+    largest_of((0..COLUMNS.len()).map(of_column))
+}
+
+/// The largest sum of the terms of a row, relative to the largest energy.
+fn defect(rows: &[Row]) -> Option<f64> {
+    let sums = rows.iter().map(|row| row[CHANGE..=GAP].iter().sum::<f64>());
+    let energy = largest_of(column(rows, ENERGY).into_iter().map(f64::abs))?;
+    Some(largest_of(sums.map(f64::abs))? / energy)
+}
+
+/// How far the changes of all rows are from the change of the energy, relative to that.
+fn lost(rows: &[Row]) -> Option<f64> {
+    let [first, last] = [rows.first()?, rows.last()?];
+    let change = last[ENERGY] - first[ENERGY];
+    Some(((column(rows, CHANGE).iter().sum::<f64>() - change) / change).abs())
+}
+
+/// A run by its files, and stepped here.
+fn of_run(name: &str, obstacles: &str, method: &str) -> Result<Pair, CaseFailure> {
+    let beam = if obstacles.is_empty() { ACROSS } else { BEAM };
+    let scene = Scene::parse(&format!("{beam}{obstacles}{method}\n"), name)?;
+    let run = Simulator::new(&scene)?.run(Recording::History, &mut |_, _| ());
+    Ok(Pair {
+        name: name.to_owned(),
+        written: written(&scene, &run)?,
+        stepped: stepped(&scene)?,
+        t_end: scene.t_end,
+    })
+}
+
+/// What the files of a run say.
+fn written(scene: &Scene, run: &Run) -> Result<Told, CaseFailure> {
+    let text = run.history.as_ref().map(RunHistory::csv);
+    let text = text.ok_or_else(|| CaseFailure::new("the run has no history"))?;
+    let object = serde_json::to_value(Object::reproducible(scene, run))?;
+    let phases = run.contact_phases();
+    Ok(Told {
+        rows: rows(&text)?,
+        phases: phases.into_iter().map(<[f64; 2]>::from).collect(),
+        ..summary(&object)
+    })
+}
+
+/// The rows of a file, by the names of its columns.
+fn rows(text: &str) -> Result<Vec<Row>, CaseFailure> {
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    if head != COLUMNS {
+        return Err(CaseFailure::new(format!("found the columns {head:?}")));
+    }
+    let row = |line: &str| {
+        let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
+        let row = numbers.ok().and_then(|row| row.try_into().ok());
+        row.ok_or_else(|| CaseFailure::new(format!("found the row {line}")))
+    };
+    lines.map(row).collect()
+}
+
+/// The counts and the range in the object of a run, and its end as the only row; NaN for what it
+/// lacks.
+fn summary(object: &Value) -> Told {
+    let number = |path: &str| {
+        object
+            .pointer(path)
+            .and_then(Value::as_f64)
+            .unwrap_or(f64::NAN)
+    };
+    let mut end = [0.0; COLUMNS.len()];
+    for (k, name) in COLUMNS.into_iter().enumerate().take(ENERGY + 1) {
+        end[k] = number(&format!("/final/{name}"));
+    }
+    // The object has no contact force.
+    end[6] = 0.0;
+    let counts = [
+        "/steps",
+        "/contact_steps",
+        "/iterations/total",
+        "/iterations/max",
+    ];
+    let range = ["/extremes/u_tip_min", "/extremes/u_tip_max"];
+    Told {
+        rows: vec![end],
+        counts: counts.map(number),
+        range: range.map(number),
+        ..Told::default()
+    }
+}
+
+/// The lines of a sweep, and its scenes stepped here.
+fn of_sweep() -> Result<Vec<Pair>, CaseFailure> {
+    let scene = format!("{BEAM}{OBSTACLES}{SWEPT_SCENE}\n");
+    let keys = SWEPT.map(|(path, values)| (path, values.to_vec()));
+    let sweep = Sweep::of_list("a sweep", &scene, keys.to_vec());
+    let cases: Vec<usize> = (0..sweep.cases).collect();
+    let lines: Mutex<Vec<CaseLine>> = Mutex::default();
+    sweep::run(&sweep, &cases, 1, None, |line| {
+        lines.lock().map_or(Ok(()), |mut lines| {
+            lines.push(line);
+            Ok(())
+        })
+    })?;
+    let mut pairs = vec![];
+    for CaseLine { case, json, .. } in lines.into_inner().unwrap_or_default() {
+        let line: Value = serde_json::from_str(&json)?;
+        let scene = sweep.scene(case)?;
+        let mut stepped = stepped(&scene)?;
+        stepped.rows = stepped.rows.pop().into_iter().collect();
+        stepped.rows.iter_mut().for_each(|row| row[6] = 0.0);
+        pairs.push(Pair {
+            name: format!("case {case} of a sweep"),
+            written: summary(&line["result"]),
+            stepped,
+            t_end: SWEPT[1].1[case],
+        });
+    }
+    pairs.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(pairs)
+}
+
+fn stepped(scene: &Scene) -> Result<Told, CaseFailure> {
+    match scene.method {
+        Method::OneStep(stepping) => by_levels(scene, stepping),
+        Method::Dg(stepping) => by_dg(scene, stepping),
+    }
+}
+
+/// The columns of the balance.
+fn terms(sum: &Balance) -> [f64; 6] {
+    [
+        sum.change,
+        sum.viscous,
+        sum.thermal,
+        sum.inertial,
+        sum.contact,
+        sum.residual,
+    ]
+}
+
+impl Told {
+    /// Adds a step.
+    fn count(&mut self, in_contact: bool, iterations: usize, [low, high]: [f64; 2]) {
+        let [steps, contact, total, most] = &mut self.counts;
+        *steps += 1.0;
+        *contact += f64::from(u8::from(in_contact));
+        *total += iterations as f64;
+        *most = most.max(iterations as f64);
+        self.range = [self.range[0].min(low), self.range[1].max(high)];
+    }
+
+    /// The phases of contact, by whether each row is in contact.
+    fn set_phases(&mut self, in_contact: impl Fn(&Row) -> bool) {
+        let mut was_in_contact = false;
+        for row in &self.rows {
+            let is_in_contact = in_contact(row);
+            match self.phases.last_mut() {
+                Some(phase) if is_in_contact && was_in_contact => phase[1] = row[0],
+                _ if is_in_contact => self.phases.push([row[0]; 2]),
+                _ => {}
+            }
+            was_in_contact = is_in_contact;
+        }
+    }
+}
+
+/// A scene by a one-step scheme, level by level.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the loop is what is held against it"
+)]
+fn by_levels(scene: &Scene, stepping: Stepping) -> Result<Told, CaseFailure> {
+    let unknown = || CaseFailure::new("expected a scheme of this project and obstacles");
+    let formulas = SchemeFormulas::of(stepping.scheme.name).ok_or_else(unknown)?;
+    let obstacles = scene.obstacles.ok_or_else(unknown)?;
+    let mut motion = OneStep::new(problem(scene), stepping)?;
+    let mut old = motion.level();
+    let tip = old.u.len() - 1;
+    let middle = scene.mesh.elements() as f64 / 2.0;
+    let state = |motion: &OneStep, level: &thermobeam::solve::Level, force: f64| {
+        let ends = [middle.floor(), middle.ceil()].map(|node| level.theta[node as usize]);
+        let theta = 0.5 * (ends[0] + ends[1]) + 0.5 * scene.beam.theta_a;
+        let [u, phi, v, w] = [&level.u, &level.phi, &level.v, &level.w].map(|field| field[tip]);
+        let energy = motion.energy(level).total();
+        [motion.t(), u, phi, v, w, theta, force, energy]
+    };
+    let mut told = Told {
+        range: [old.u[tip]; 2],
+        ..Told::default()
+    };
+    let start = state(
+        &motion,
+        &old,
+        formulas.contact_force(&obstacles, old.u[tip], old.u[tip]),
+    );
+    told.rows.push(row(start, &Balance::default()));
+    let steps = (scene.t_end / stepping.dt).round() as usize;
+    let stride = steps.div_ceil(ROWS);
+    let mut sum = Balance::default();
+    for step in 1..=steps {
+        let report = motion.step_once()?;
+        let new = motion.level();
+        let [u0, u] = [old.u[tip], new.u[tip]];
+        let force = formulas.contact_force(&obstacles, u, u0);
+        sum += motion.balance(&old, &new);
+        told.across += usize::from(is_across(&obstacles, u0, u));
+        told.count(force != 0.0, report.iterations, [u; 2]);
+        if step % stride == 0 || step == steps {
+            told.rows
+                .push(row(state(&motion, &new, force), &std::mem::take(&mut sum)));
+        }
+        old = new;
+    }
+    told.set_phases(|row| row[6] != 0.0);
+    Ok(told)
+}
+
+fn row(state: [f64; 8], sum: &Balance) -> Row {
+    let mut row = [0.0; COLUMNS.len()];
+    row[..8].copy_from_slice(&state);
+    row[8..].copy_from_slice(&terms(sum));
+    row
+}
+
+fn is_beyond(obstacles: &Obstacles, u: f64) -> bool {
+    u > obstacles.g2 || u < obstacles.g1
+}
+
+/// Whether a step begins beyond one obstacle and ends beyond the other.
+fn is_across(Obstacles { g1, g2, .. }: &Obstacles, u0: f64, u: f64) -> bool {
+    u0 < *g1 && u > *g2 || u0 > *g2 && u < *g1
+}
+
+/// A scene by dG: the state at equal parts of the time, also within a step.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the loop is what is held against it"
+)]
+fn by_dg(scene: &Scene, stepping: DgStepping) -> Result<Told, CaseFailure> {
+    let obstacles = scene.obstacles;
+    let obstacles = obstacles.ok_or_else(|| CaseFailure::new("expected obstacles"))?;
+    let mut motion = Dg::new(scene.dg_problem(), stepping)?;
+    let mut level = motion.level().clone();
+    let mut state = |motion: &Dg, t: f64| {
+        motion.level_into(t, &mut level);
+        let at = |x: f64| {
+            level
+                .values_and_slopes(motion.space(), x)
+                .map(|(value, _)| value)
+        };
+        let [u, phi, v, w, _] = at(1.0);
+        let theta = at(0.5)[4] + 0.5 * scene.beam.theta_a;
+        let force = SchemeFormulas::EulerCrankNicolson.contact_force(&obstacles, u, u);
+        [t, u, phi, v, w, theta, force, motion.energy(&level).total()]
+    };
+    let start = state(&motion, 0.0);
+    let mut told = Told {
+        rows: vec![row(start, &Balance::default())],
+        range: [start[1]; 2],
+        ..Told::default()
+    };
+    let mut part = 1;
+    let mut sum = Balance::default();
+    while let Some(report) = motion.step(scene.t_end)? {
+        sum += motion.balance();
+        let range = motion.tip_range();
+        told.count(
+            report.in_contact,
+            report.iterations,
+            [range.low, range.high],
+        );
+        let time = |part: usize| match part {
+            DG_ROWS => scene.t_end,
+            _ => scene.t_end * part as f64 / DG_ROWS as f64,
+        };
+        while part <= DG_ROWS && time(part) <= motion.t() {
+            let state = state(&motion, time(part));
+            told.rows.push(row(state, &std::mem::take(&mut sum)));
+            part += 1;
+        }
+    }
+    told.set_phases(|row| is_beyond(&obstacles, row[1]));
+    Ok(told)
+}

@@ -30,22 +30,16 @@ fi
 # With any other status nothing was written.
 if [ "$status" -le 1 ]; then
     copy=$(mktemp -d "$RUNNER_TEMP/thermobeam-report-XXXXXX")
-    for file in README.md errors.csv index.html junit.xml results.json summary.md; do
+    for file in README.md index.html junit.xml results.json summary.md; do
         cp "$report/$file" "$copy"
     done
-    # Figures that the record lists; those that only the page shows are in a folder of their own.
+    # Figures that the record lists, and that of all rates; those that only the page shows are in a folder of their own.
     mkdir -p "$copy/figures/page"
-    { grep --only-matching '"file": "[^"]*\.svg"' "$report/results.json" || true; } | cut -d '"' -f 4 | while read -r figure; do
+    { grep --only-matching '"file": "[^"]*\.svg"' "$report/results.json" || true; echo '"file": "rates.svg"'; } | cut -d '"' -f 4 | while read -r figure; do
         for file in "figures/$figure" "figures/page/$figure"; do
             [ ! -f "$report/$file" ] || cp "$report/$file" "$copy/$file"
         done
     done
-    # Figures that the Markdown shows: that of all rates, and in the report on the full tier those of the quick one. In the copy
-    # they are its own.
-    { grep --only-matching '](\(\.\./\)\?figures/[^)]*' "$copy/README.md" || true; } | sort --unique | while read -r figure; do
-        cp "$report/${figure#](}" "$copy/figures"
-    done
-    sed -i 's|](\.\./figures/|](figures/|g' "$copy/README.md"
     cp reports/local/provenance.json "$copy"
     echo "report=$copy" >>"$GITHUB_OUTPUT"
 fi

@@ -86,7 +86,6 @@ mod tests {
             "index.html",
             "results.json",
             "junit.xml",
-            "errors.csv",
             "figures/heat-equation-errors.svg",
         ];
         assert!(files.iter().all(|file| reports.join(file).is_file()));

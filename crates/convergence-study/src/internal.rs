@@ -82,8 +82,8 @@ pub mod rates {
 #[cfg(feature = "reports")]
 pub mod report {
     pub use crate::report::{
-        Findings, LONGEST, NEWEST, blessing, markdown, sentence, tables, text_of_diagnosis,
-        text_of_failures,
+        Findings, LONGEST, NEWEST, SeeAlso, blessing, junit, markdown, sentence, tables,
+        text_of_diagnosis, text_of_failures,
     };
 }
 pub mod run {
@@ -95,7 +95,7 @@ pub mod run {
 pub mod store {
     pub use crate::store::{
         Baseline, GuardedChange, Movement, Record, ReportFolder, ReportSet, Works, content_hash,
-        json, junit, lock,
+        json, lock,
     };
     pub mod atomic {
         pub use crate::store::atomic::{

@@ -289,7 +289,7 @@ fn run_and_write(
             write_json(&works_file(request), &works)?;
         }
     }
-    destination.publish(files, reports).map_err(unwritable)?;
+    destination.publish(&files).map_err(unwritable)?;
     atomic::write(&reports.provenance(), provenance).map_err(unwritable)?;
     Ok(Verification {
         record,

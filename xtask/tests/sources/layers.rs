@@ -65,7 +65,7 @@ const LIBRARIES: [(&str, &[&str]); 11] = [
     ("nix", &["program"]),
     ("toml", &["input"]),
     ("plotters", &["plots"]),
-    ("pulldown_cmark", &["report"]),
+    ("minijinja", &["report"]),
     ("rayon", &["run"]),
 ];
 

@@ -24,7 +24,6 @@ fn a_report_is_made_anew_from_its_record() {
             "index.html",
             "summary.md",
             "junit.xml",
-            "errors.csv",
             "results.json",
         ];
         let figures = ["figures/one-errors.svg", "figures/rates.svg"];

@@ -230,10 +230,10 @@ fn the_page_links_to_what_is_there_of_the_full_tier() {
     assert_eq!(same, committed);
 }
 
-/// The report on the full tier is made anew from its record with the figures that it shares with
-/// the one on the quick tier.
+/// The report on the full tier leaves the studies of the quick one to its neighbour, and its page
+/// has them with their figures.
 #[test]
-fn the_full_report_is_made_anew_with_the_figures_of_the_quick_one() {
+fn the_full_report_is_made_anew_and_its_page_has_the_quick_studies() {
     let root = workspace(false);
     run(&root, &["verify", "--bless"]);
     assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
@@ -242,10 +242,11 @@ fn the_full_report_is_made_anew_with_the_figures_of_the_quick_one() {
         || ["README.md", "index.html"].map(|name| fs::read_to_string(full.join(name)).unwrap());
     let before = read();
     assert!(
-        before[0].contains("](../figures/one-errors.svg)"),
+        before[0].contains("[its report](../README.md)") && !before[0].contains("one-errors"),
         "{}",
         before[0]
     );
+    assert!(before[1].contains("<details class=\"study\" id=\"one\""));
     fs::remove_file(full.join("index.html")).unwrap();
     let (status, out, err) = run(&root, &["report", "reports/full/results.json"]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");

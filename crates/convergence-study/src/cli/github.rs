@@ -17,7 +17,10 @@ use super::screen::{self, Format};
 /// * `format`: if standard output is one JSON object, the annotations go to standard error; GitHub
 ///   reads both.
 pub(super) fn announce(findings: &Findings<'_>, format: Format) {
-    summarise(&findings.digest());
+    match findings.digest() {
+        Ok(digest) => summarise(&digest),
+        Err(error) => screen::complain(&error.to_string()),
+    }
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
         let annotations = annotations(findings);
         // If a stream is closed, annotations cannot be shown.

@@ -17,7 +17,8 @@ use crate::rates::{
     self, Claimed, Judgement, Refusal, Request, Rule, Tables, cases, claimed, figure, markdown,
     verdict_in_markdown,
 };
-use crate::store::{JudgedSuite, atomic, junit_of};
+use crate::report::{Suite, TestCase, junit_of};
+use crate::store::atomic;
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
@@ -209,19 +210,22 @@ fn write(
     }
     pages.extend(verdict_in_markdown(findings, verdict));
     atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
-    let suite = |judgement: &Judgement<'_>| JudgedSuite {
-        name: judgement.name().to_owned(),
-        cases: cases(judgement),
-        skipped: judgement.left_out(),
-    };
-    let suites: Vec<JudgedSuite> = findings.iter().map(suite).collect();
-    let junit = junit_of(project.name, &suites);
+    let suites: Vec<Suite<'_>> = findings.iter().map(suite).collect();
+    let junit = junit_of(project.name, &suites)?;
     atomic::write(&folder.join("junit.xml"), junit)?;
     // A picture would need an address on the web.
     for judgement in findings {
         github::summarise(&markdown(judgement, ""));
     }
     Ok(())
+}
+
+fn suite<'j>(judgement: &'j Judgement<'_>) -> Suite<'j> {
+    let left_out = judgement.left_out().into_iter();
+    let skipped = left_out.map(|(column, why)| TestCase::skipped(column, why));
+    let cases = cases(judgement).into_iter();
+    let cases = cases.map(|(name, verdict, why)| TestCase::new(name, verdict, why));
+    Suite::new(judgement.name(), cases.chain(skipped).collect())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
 use super::screen;
 use crate::project::Project;
-use crate::report::{sentence, shared};
+use crate::report::{picture, sentence};
 use crate::store::{FIGURES, Provenance, Record};
 use crate::text::visible;
 use crate::verify::{Reports, folder_of_figures, is_report, rebuild};
@@ -79,7 +79,7 @@ fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusa
             let is_name = Path::new(&figure.file)
                 .file_name()
                 .is_some_and(|name| *name == *figure.file);
-            let path = shared::picture(beside, &figure.file)?;
+            let path = picture(beside, &figure.file);
             match fs::read_to_string(&path) {
                 Ok(svg) if is_name => {
                     figure.svg = svg;

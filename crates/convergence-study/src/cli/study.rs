@@ -179,7 +179,7 @@ fn text(finished: &Finished) -> String {
         visible(&header.claim),
         visible(&summary(outcome))
     );
-    for table in tables(finished, false) {
+    for table in tables(finished) {
         let head: Vec<&str> = table.head.iter().map(String::as_str).collect();
         text += &format!(
             "\n{}\n{}",

@@ -1,13 +1,9 @@
-//! What did not pass, and why: the first thing to read, on the page, in Markdown and on the
-//! terminal; and the known facts about the cause.
+//! What did not pass, and why, on the terminal; and the known facts about the cause.
 
-use super::html::{badge, escape, phrase};
-use super::markdown::{anchor, cell, text};
-use super::section::folded;
 use crate::input::visible;
 use crate::rates::REASONS;
 use crate::run::{Finished, Item, NotPassed, not_passed};
-use crate::store::{Record, diagnosis::Diagnosis};
+use crate::store::diagnosis::Diagnosis;
 
 /// Most items listed of one study; its section has all of them.
 const MOST_ITEMS: usize = 8;
@@ -30,105 +26,12 @@ fn lines(study: &NotPassed<'_>) -> Vec<String> {
     lines
 }
 
-/// The studies that did not pass, the clearest first.
-struct ClearestFirst<'f> {
-    /// Those to show.
-    first: Vec<NotPassed<'f>>,
-    /// Those to fold.
-    rest: Vec<NotPassed<'f>>,
-}
-
-impl<'f> ClearestFirst<'f> {
-    fn of(record: &'f Record) -> Self {
-        let mut first = not_passed(&record.studies);
-        let mut rest = vec![];
-        if let Some(Diagnosis { clearest, .. }) = &record.diagnosis {
-            first.sort_by_key(|study| place(clearest, study).unwrap_or(usize::MAX));
-            rest = first.split_off(clearest.len().min(first.len()));
-        }
-        Self { first, rest }
-    }
-}
-
 /// The place of a study among the clearest.
 fn place(clearest: &[String], study: &NotPassed<'_>) -> Option<usize> {
     clearest.iter().position(|id| id == study.id())
 }
 
-/// The same in Markdown, under a heading; empty if everything passed.
-///
-/// * `linked`: whether each id is a link to the section of its study.
-pub(super) fn markdown(record: &Record, linked: bool) -> String {
-    let ClearestFirst { first, rest } = ClearestFirst::of(record);
-    if first.is_empty() {
-        return String::new();
-    }
-    let title = "## What did not pass";
-    let first = list_in_markdown(&first, linked);
-    if rest.is_empty() {
-        return format!("{title}\n\n{first}\n");
-    }
-    let summary = format!("{} more", rest.len());
-    let folded = folded(&summary, &list_in_markdown(&rest, linked), false);
-    format!("{title}\n\n{first}\n{folded}\n")
-}
-
-fn list_in_markdown(studies: &[NotPassed<'_>], linked: bool) -> String {
-    studies
-        .iter()
-        .map(|study| in_markdown(study, linked))
-        .collect()
-}
-
-fn in_markdown(study: &NotPassed<'_>, linked: bool) -> String {
-    let id = cell(study.id());
-    let name = if linked {
-        format!("[{id}](#{})", anchor(study.id()))
-    } else {
-        id
-    };
-    let lines: String = lines(study)
-        .iter()
-        .map(|line| format!("  - {}\n", text(line)))
-        .collect();
-    format!("- {name}: **{}**\n{lines}", study.verdict())
-}
-
-/// The same for the page, each id a link to the section of its study.
-pub(super) fn html(record: &Record) -> String {
-    let ClearestFirst { first, rest } = ClearestFirst::of(record);
-    if first.is_empty() {
-        return String::new();
-    }
-    let first = format!("<h2>What did not pass</h2>\n{}", list_in_html(&first));
-    if rest.is_empty() {
-        return first;
-    }
-    format!(
-        "{first}<details>\n<summary>{} more</summary>\n{}</details>\n",
-        rest.len(),
-        list_in_html(&rest)
-    )
-}
-
-fn list_in_html(studies: &[NotPassed<'_>]) -> String {
-    let items: String = studies.iter().map(in_html).collect();
-    format!("<ul>\n{items}</ul>\n")
-}
-
-fn in_html(study: &NotPassed<'_>) -> String {
-    let lines: String = lines(study)
-        .iter()
-        .map(|line| format!("<li>{}</li>\n", phrase(line)))
-        .collect();
-    let id = escape(study.id());
-    format!(
-        "<li><a href=\"#{id}\">{id}</a> {}\n<ul>\n{lines}</ul></li>\n",
-        badge(study.verdict())
-    )
-}
-
-/// The same in plain text; empty if everything passed.
+/// What did not pass; empty if everything passed.
 ///
 /// * `clearest`: the studies to show, with their first items; `None` for all studies with all of
 ///   them.
@@ -194,16 +97,4 @@ pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
         lines += &format!("  {word:<10} {}\n", visible(&text));
     }
     lines
-}
-
-/// The same in Markdown; empty if nothing fails.
-pub(super) fn diagnosis_in_markdown(diagnosis: Option<&Diagnosis>) -> String {
-    let Some(diagnosis) = diagnosis else {
-        return String::new();
-    };
-    let mut lines = format!("## {TITLE}\n\n");
-    for (word, words) in diagnosis.lines() {
-        lines += &format!("- **{word}**: {}\n", text(&words));
-    }
-    lines + "\n"
 }

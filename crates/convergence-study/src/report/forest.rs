@@ -2,17 +2,15 @@
 
 use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
 use crate::plots::{ForestAxis, ForestRow, forest};
-use crate::project::Project;
 use crate::run::Finished;
 use crate::study::{Figure, NamedRate};
-use crate::text::lists;
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
 
 /// The name of its file.
 ///
 /// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's
 /// figure.
-pub(super) const FILE: &str = "rates.svg";
+const FILE: &str = "rates.svg";
 
 /// Most rates in the picture.
 const MOST: usize = 10;
@@ -99,24 +97,4 @@ fn row(StudyRate { study, name, rate }: StudyRate<'_>) -> ForestRow {
 /// A value in units of its claim's tolerance; NaN without a claim, which no picture shows.
 fn relative(rate: &RateVerdict, value: f64) -> f64 {
     rate.claimed.map_or(f64::NAN, |band| band.distance(value))
-}
-
-/// Studies by the property they claim, in the project's order of groups; those of unknown groups
-/// last.
-pub(super) fn grouped<'f>(
-    project: &Project,
-    finished: &'f [Finished],
-) -> Vec<(&'f str, Vec<&'f Finished>)> {
-    let mut groups = lists::grouped(
-        finished
-            .iter()
-            .map(|study| (study.header.group.as_str(), study)),
-    );
-    groups.sort_by_key(|(label, _)| {
-        let mut labels = project.groups.iter();
-        labels
-            .position(|other| other == label)
-            .unwrap_or(usize::MAX)
-    });
-    groups
 }

@@ -11,23 +11,20 @@ use crate::text::number::{
 };
 
 /// Title of the table of checks.
-pub(super) const CHECKS: &str = "Checks";
+const CHECKS: &str = "Checks";
 
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is
 /// empty.
-///
-/// * `judged`: whether to leave out errors whose rate was not judged.
 pub fn tables(
     Finished {
         outcome,
         failed_cases,
         ..
     }: &Finished,
-    judged: bool,
 ) -> Vec<Table> {
     let common = [rates(outcome), checks(&outcome.checks)]
         .into_iter()
-        .chain(errors(outcome, judged));
+        .chain(errors(outcome));
     let own = outcome.tables.iter().cloned();
     let all = common.chain(own).chain([failures(failed_cases)]);
     all.filter(|table| !table.head.is_empty() && !table.rows.is_empty())
@@ -57,7 +54,7 @@ fn rates(outcome: &Outcome) -> Table {
 }
 
 /// The row of a rate; the last cell is its reason.
-fn rate_row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
+pub(super) fn rate_row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
     let places = rate.interval.map_or(RATE_PLACES - 1, |interval| {
         interval_places(interval, RATE_PLACES)
     });
@@ -181,19 +178,13 @@ fn rate_cell(rate: f64) -> String {
 
 /// As many tables as needed to cut none: a row for each level, and for each error its rates if it
 /// was judged.
-///
-/// * `judged`: only errors whose rate was judged, unless none was.
-fn errors(outcome: &Outcome, judged: bool) -> Vec<Table> {
+fn errors(outcome: &Outcome) -> Vec<Table> {
     let levels = &outcome.levels;
-    let mut names = distinct(
+    let names = distinct(
         levels
             .iter()
             .flat_map(|level| level.errors.iter().map(|error| &error.name)),
     );
-    let is_judged = |name: &&String| outcome.rate(name).is_some();
-    if judged && names.iter().any(is_judged) {
-        names.retain(is_judged);
-    }
     let parameters = distinct(
         levels
             .iter()

@@ -1,4 +1,4 @@
-//! What a run compares with and leaves behind: baseline, records, JUnit, provenance, and the files
+//! What a run compares with and leaves behind: baseline, records, provenance, and the files
 //! of a report.
 //!
 //! Files that the harness itself has written are read only if they are regular files: a pipe or a
@@ -7,7 +7,6 @@
 pub(crate) mod atomic;
 mod baseline;
 pub(crate) mod diagnosis;
-mod junit;
 mod provenance;
 mod record;
 mod report_folder;
@@ -15,12 +14,10 @@ mod works;
 
 pub use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
-pub use junit::junit;
-pub(crate) use junit::{JudgedSuite, junit_of};
 pub(crate) use provenance::Provenance;
 pub use record::Record;
 pub(crate) use record::{FIGURES, SCHEMA};
-pub(crate) use report_folder::{ONLY_ON_PAGE, README};
+pub(crate) use report_folder::README;
 pub use report_folder::{ReportFolder, ReportSet, lock};
 pub use works::Works;
 

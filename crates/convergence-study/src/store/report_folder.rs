@@ -17,10 +17,6 @@ use crate::store::{self, FIGURES, atomic, if_there};
 /// The report in Markdown, whose links lead to the other files.
 pub(crate) const README: &str = "README.md";
 
-/// The figures that only the page shows, next to the others in [`FIGURES`]; they need not be
-/// committed.
-pub(crate) const ONLY_ON_PAGE: &str = "page";
-
 /// The files of a report by their path relative to its folder, with `/` between folders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ReportSet {
@@ -59,16 +55,6 @@ impl ReportSet {
     /// The bytes of a file.
     pub(crate) fn get(&self, path: &str) -> Option<&Vec<u8>> {
         self.files.get(path)
-    }
-
-    /// The text of a file; `None` also if it is none.
-    pub(crate) fn text(&self, path: &str) -> Option<String> {
-        String::from_utf8(self.get(path)?.clone()).ok()
-    }
-
-    /// Takes a file out.
-    pub(crate) fn remove(&mut self, path: &str) {
-        self.files.remove(path);
     }
 
     /// Gives a file other content.
@@ -121,7 +107,7 @@ impl ReportFolder {
     pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = atomic::begin_write();
         self.renew(set)?;
-        for folder in [FIGURES.to_owned(), format!("{FIGURES}/{ONLY_ON_PAGE}")] {
+        for folder in [FIGURES.to_owned(), format!("{FIGURES}/page")] {
             for path in self.pictures(&folder)? {
                 if set.get(&path).is_none() {
                     self.remove(&path)?;
@@ -191,22 +177,6 @@ impl ReportFolder {
     /// The error of the operating system.
     pub(crate) fn clear(&self) -> io::Result<()> {
         remove_if_there(&self.folder)
-    }
-
-    /// The bytes of a file; `None` if it does not exist.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
-    pub(crate) fn read(&self, path: &str) -> io::Result<Option<Vec<u8>>> {
-        if_there(store::read(&self.folder.join(path)))
-    }
-
-    /// The text of a file; `None` if it does not exist.
-    ///
-    /// # Errors
-    /// A file that cannot be read or is no text.
-    pub(crate) fn text(&self, path: &str) -> io::Result<Option<String>> {
-        if_there(store::read_to_string(&self.folder.join(path)))
     }
 
     /// Whether one of these files exists.

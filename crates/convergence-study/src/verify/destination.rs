@@ -4,9 +4,10 @@
 use std::io;
 use std::path::Path;
 
+use super::reports::FULL_FOLDER;
 use super::{Reports, Scope};
-use crate::report::{FULL, NEWEST, newest, shared};
-use crate::store::{Record, ReportFolder, ReportSet};
+use crate::report::{NEWEST, SeeAlso, newest};
+use crate::store::{README, Record, ReportFolder, ReportSet};
 use crate::study::Tier;
 
 /// Where the files of a report go.
@@ -45,29 +46,38 @@ impl Destination {
         }
     }
 
-    /// The report on the full tier, next to that on the quick one. Its page is not committed: a
-    /// fresh checkout has only its Markdown. A report elsewhere has no neighbour.
-    pub(super) fn see_also(&self, record: &Record) -> Option<&'static str> {
+    /// The report on the other tier, if it is there. A report elsewhere has no neighbour.
+    pub(super) fn see_also(&self, record: &Record) -> Option<SeeAlso> {
         let Self::One { target, .. } = self else {
             return None;
         };
-        let has = |file: &&str| target.folder.join(file).is_file();
-        if record.scope == Tier::Quick.name() && has(&FULL) {
-            ["full/index.html", FULL].into_iter().find(has)
-        } else {
-            None
-        }
+        let (folder, other, place) = match record.scope.as_str() {
+            scope if scope == Tier::Quick.name() => {
+                (FULL_FOLDER, Tier::Full, target.folder.join(FULL_FOLDER))
+            }
+            // The folder of the full tier may not yet exist.
+            scope if scope == Tier::Full.name() => {
+                ("..", Tier::Quick, target.folder.parent()?.to_owned())
+            }
+            _ => return None,
+        };
+        let has = |file: &str| place.join(file).is_file();
+        has(README).then(|| SeeAlso {
+            tier: other.name(),
+            folder,
+            has_page: has("index.html"),
+        })
     }
 
-    pub(super) fn publish(&self, files: ReportSet, reports: &Reports) -> io::Result<()> {
+    pub(super) fn publish(&self, files: &ReportSet) -> io::Result<()> {
         match self {
             Self::One { target, failing } => {
-                shared::publish(target, files, &reports.tiers())?;
+                target.publish(files)?;
                 failing.as_ref().map_or(Ok(()), ReportFolder::clear)
             }
             Self::Apart { failing, committed } => {
-                let newest = newest(&files);
-                shared::publish(failing, files, &reports.tiers())?;
+                let newest = newest(files);
+                failing.publish(files)?;
                 committed.renew(&newest)
             }
         }

@@ -105,7 +105,7 @@ pub(crate) fn rebuild(
     };
     findings
         .files()
-        .and_then(|files| destination.publish(files, &reports))
+        .and_then(|files| destination.publish(&files))
         .map_err(|error| reports.unwritable(&error))?;
     Ok(destination.folder().to_owned())
 }

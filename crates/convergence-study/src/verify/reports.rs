@@ -10,7 +10,7 @@ use crate::study::Tier;
 use crate::text::visible;
 
 /// The folder of the report on the full tier, in that of the report on the quick tier.
-const FULL_FOLDER: &str = "full";
+pub(super) const FULL_FOLDER: &str = "full";
 
 /// The folder of all reports of a project. Its lock keeps two runs apart; what belongs to one
 /// machine is in `local/`, which git ignores.
@@ -63,11 +63,6 @@ impl Reports {
     /// The report in any folder that shares the lock.
     pub(super) fn elsewhere(&self, folder: &Path) -> ReportFolder {
         self.prepared_in(folder.to_owned(), "rebuilt")
-    }
-
-    /// The folders of the reports on both tiers, the quick one first.
-    pub(super) fn tiers(&self) -> [ReportFolder; 2] {
-        [Tier::Quick, Tier::Full].map(|tier| self.report(&Scope::Tier(tier, vec![])))
     }
 
     /// Waits for other processes that write here, and then blocks them until the file is dropped.

@@ -3,9 +3,8 @@
 use convergence_study::{
     Finished, NamedRate, Prose, Verdict,
     internal::{
-        report::{tables, text_of_failures},
+        report::{junit, tables, text_of_failures},
         run::{Item, NotPassed, not_passed},
-        store::junit,
         study::over_levels,
     },
     judge_pairs,
@@ -13,13 +12,15 @@ use convergence_study::{
 use roxmltree::Document;
 
 use super::fake::{Does, PROJECT, finished, study};
-use super::report::{compared, several, with};
+use super::report::{compared, file, readme, several, with};
 use super::tables_of_errors::judged;
 
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = with(&studies, |findings| junit(PROJECT.name, findings.record));
+    let text = with(&studies, |findings| {
+        junit(PROJECT.name, findings.record).unwrap()
+    });
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document
         .root_element()
@@ -31,6 +32,7 @@ fn junit_has_a_failure_for_everything_that_does_not_pass() {
         .map(|suite| suite.attribute("failures").unwrap())
         .collect();
     assert_eq!(failures, ["0", "1", "1", "1", "1", "9"]);
+    assert_eq!(document.root_element().attribute("failures"), Some("13"));
     let types: Vec<&str> = document
         .descendants()
         .filter(|node| node.has_tag_name("failure"))
@@ -56,7 +58,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".into();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
     let text = compared(&studies, None, |findings| {
-        junit(PROJECT.name, findings.record)
+        junit(PROJECT.name, findings.record).unwrap()
     });
     let document = Document::parse(&text).unwrap();
     let message = document
@@ -64,7 +66,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
         .filter_map(|node| node.attribute("message"))
         .find(|text| text.contains("a < b"));
     assert!(message.is_some(), "{text}");
-    let page = with(&studies, |findings| findings.readme());
+    let page = with(&studies, readme);
     assert!(
         page.contains("a < b & \"c\"  \\[31m \\| \\]\\]> next"),
         "{page}"
@@ -79,18 +81,14 @@ fn a_reason_is_given_where_a_rate_does_not_hold() {
     ]);
     let heads: Vec<bool> = studies
         .iter()
-        .map(|finished| {
-            tables(finished, false)[0]
-                .head
-                .contains(&"reason".to_owned())
-        })
+        .map(|finished| tables(finished)[0].head.contains(&"reason".to_owned()))
         .collect();
     assert_eq!(heads, [false, true]);
     assert_eq!(
-        tables(&studies[1], false)[0].rows[0].last().unwrap(),
+        tables(&studies[1])[0].rows[0].last().unwrap(),
         "the error does not fall on the finest refinement"
     );
-    let rates = &tables(&studies[0], false)[0];
+    let rates = &tables(&studies[0])[0];
     assert_eq!(rates.head.len(), rates.rows[0].len());
     assert_eq!(rates.rows[0][1..3], ["1 ± 0.1", "1.0000"]);
     assert_eq!(rates.rows[0][5], "1-5 of 5");
@@ -99,7 +97,7 @@ fn a_reason_is_given_where_a_rate_does_not_hold() {
 #[test]
 fn where_a_study_fails_the_report_says_that_nothing_is_blessed() {
     let studies = finished(vec![study("a", Does::Stay)]);
-    let page = with(&studies, |findings| findings.readme());
+    let page = with(&studies, readme);
     let said = "\n\n`--bless` refuses until the studies that did not pass are mended.\n\n";
     assert!(
         page.contains(said) && !page.contains("If it is meant"),
@@ -147,8 +145,9 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
     finished.outcome.after_rates = Some(Prose::default());
     let studies = [finished];
     let together = "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
-    let page = with(&studies, |findings| findings.readme());
-    assert!(page.contains(&format!("**fail**: {together}\n")), "{page}");
+    let page = with(&studies, |findings| file(findings, "index.html"));
+    assert!(page.contains(&format!("<p>{together}</p>")), "{page}");
+    let page = with(&studies, readme);
     assert!(
         page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low (too-low)\n"),
         "{page}"
@@ -243,10 +242,10 @@ fn every_output_has_every_item_that_did_not_pass() {
             ("terminal", text_of_failures(&record.studies, None)),
             (
                 "Markdown",
-                between(&findings.readme(), TITLE, "\n## ").to_owned(),
+                between(&readme(findings), TITLE, "\n## ").to_owned(),
             ),
-            ("page", text_of(&page_list(&findings.page()))),
-            ("JUnit", text_of(&junit(PROJECT.name, record))),
+            ("page", text_of(&page_list(&file(findings, "index.html")))),
+            ("JUnit", text_of(&junit(PROJECT.name, record).unwrap())),
             ("JSON", serde_json::to_string(record).unwrap()),
         ]
         .map(|(name, text)| (name, letters(&text)))

@@ -12,6 +12,5 @@ mod record;
 mod report;
 mod report_folder;
 mod runner;
-mod shared;
 mod tables_of_errors;
 mod whole;

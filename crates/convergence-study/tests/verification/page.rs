@@ -1,19 +1,24 @@
 use std::collections::BTreeSet;
 
 use convergence_study::{
-    Figure, Finished, Front, Project, Statement, Verdict,
+    Figure, Finished, Front, Project, Statement, Tier, Verdict,
     internal::{
         plots::{ErrorSeries, convergence, xy::Xy},
-        report::Findings,
+        report::{Findings, SeeAlso},
         store::Record,
     },
 };
 use roxmltree::{Document, Node};
 
 use super::fake::{Does, PROJECT, finished, study};
+use super::report::{file, readme};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
-    let see_also = Some("full/index.html");
+    let see_also = Some(SeeAlso {
+        tier: "full",
+        folder: "full",
+        has_page: true,
+    });
     let record = Record::new(
         "quick",
         "cargo xtask verify",
@@ -21,13 +26,13 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
         Some(&[]),
         finished.to_vec(),
     );
-    Findings {
+    let findings = Findings {
         project: &PROJECT,
         record: &record,
         see_also,
         provenance: None,
-    }
-    .page()
+    };
+    file(&findings, "index.html")
 }
 
 /// One study that passes and one that fails, each with a picture of two curves.
@@ -239,13 +244,12 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
     let page = |does: Does, verdict: Verdict| {
         let studies = finished(vec![study("a", does)]);
         let record = Record::new("quick", "verify", verdict, None, studies);
-        Findings {
+        readme(&Findings {
             project: &project,
             record: &record,
             see_also: None,
             provenance: None,
-        }
-        .readme()
+        })
     };
     let passing = page(Does::Converge, Verdict::Pass);
     let place = |text: &str| {
@@ -257,19 +261,65 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
         "![A rod.](figures/a-errors.svg)",
         "It is not as printed.",
         "**First order",
-        "**[a](#a)**",
-        "![errors | h](figures/a-errors.svg)",
+        "![errors \\| h](figures/a-errors.svg)",
         "Errors fall.",
         "## All studies",
     ];
     let places = parts.map(place);
     assert!(places.is_sorted(), "{places:?}");
     assert!(
-        passing.contains(": rate 1.0000 ± 0.00005, claimed 1 ± 0.1 ([a](#a))")
+        passing.contains(": rate 1.0000 ± 0.00005, claimed 1 ± 0.1 (a)")
             && !passing.contains("Elsewhere"),
         "{passing}"
     );
     assert!(!page(Does::Stay, Verdict::Fail).contains("What is verified"));
+}
+
+#[test]
+fn the_only_study_of_a_run_is_unfolded() {
+    let studies = finished(vec![study("a", Does::Converge)]);
+    parsed(&page_of(&studies), |document| {
+        let mut studies = with_class(document, "study");
+        assert!(studies.next().unwrap().has_attribute("open"));
+    });
+}
+
+/// What the report on the quick tier has is not repeated in that on the full one.
+#[test]
+fn the_full_tier_lists_its_own_studies_and_those_that_do_not_pass() {
+    let mut studies = finished(vec![
+        study("quick", Does::Converge),
+        study("broken", Does::Stay),
+        study("full", Does::Converge),
+    ]);
+    studies[2].header.tier = Tier::Full;
+    let text = |has_quick: bool| {
+        let record = Record::new("full", "verify", Verdict::Fail, None, studies.clone());
+        let quick = SeeAlso {
+            tier: "quick",
+            folder: "..",
+            has_page: false,
+        };
+        readme(&Findings {
+            project: &PROJECT,
+            record: &record,
+            see_also: has_quick.then_some(quick),
+            provenance: None,
+        })
+    };
+    let lists = |text: &str| {
+        ["quick", "broken", "full"].map(|id| {
+            let line = text.contains(&format!("** {id}: "));
+            assert_eq!(line, text.contains(&format!("\n|{id}|")), "{id}");
+            line
+        })
+    };
+    let rest = text(true);
+    assert_eq!(lists(&rest), [false, true, true]);
+    assert!(rest.contains("are in [its report](../README.md)"), "{rest}");
+    let alone = text(false);
+    assert_eq!(lists(&alone), [true, true, true]);
+    assert!(!alone.contains("../README.md"), "{alone}");
 }
 
 #[test]

@@ -40,7 +40,7 @@ pub(super) fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool
 }
 
 fn errors_of(finished: &Finished) -> Vec<Table> {
-    tables(finished, false)
+    tables(finished)
         .into_iter()
         .filter(|table| table.title.starts_with("Errors"))
         .collect()

@@ -280,8 +280,8 @@ fn two_runs_leave_the_same_bytes_for_any_number_of_threads() {
     let mut request = request(root.path(), &["a", "b", "c"]);
     run(studies(), &request);
     let first = committed(&reports);
-    // Five files of the report, the picture of all rates, one figure for each study.
-    assert_eq!(first.len(), 5 + 1 + 3);
+    // Four files of the report, the picture of all rates, one figure for each study.
+    assert_eq!(first.len(), 4 + 1 + 3);
     for count in [1, 4] {
         request.effort = jobs(count).into();
         run(studies(), &request);

@@ -311,9 +311,6 @@ fn diagnosed(
     let name = request.scope.name();
     let mut record = Record::new(name, &command, verdict, Some(changes), finished);
     record.diagnosis = diagnose(project, studies, &record.studies, changes);
-    if let Some(diagnosis) = &mut record.diagnosis {
-        diagnosis.add_repetition(project, changes);
-    }
     record
 }
 

@@ -69,8 +69,10 @@ fn conclusions(findings: &Findings<'_>) -> String {
 fn all_found(findings: &Findings<'_>) -> String {
     let studies: Vec<String> = findings.record.studies.iter().map(text).collect();
     let diagnosis = findings.record.diagnosis.as_ref();
-    let cause = diagnosis.map(|diagnosis| format!("\n{}", text_of_diagnosis(diagnosis)));
-    studies.join("\n") + &cause.unwrap_or_default()
+    let cause = diagnosis.map(text_of_diagnosis).unwrap_or_default();
+    let parts = studies.into_iter().chain([cause]);
+    let parts: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
+    parts.join("\n")
 }
 
 /// Runs the studies of files and prints what they found.

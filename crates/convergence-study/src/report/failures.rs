@@ -12,7 +12,7 @@ const MOST_ITEMS: usize = 8;
 /// failures.
 const MOST_ON_TERMINAL: usize = 2;
 
-const TITLE: &str = "what fails and what does not";
+const TITLE: &str = "what the failures share";
 
 /// What did not pass of a study, and what that means, line by line.
 fn lines(study: &NotPassed<'_>) -> Vec<String> {
@@ -90,11 +90,15 @@ fn first_items(study: &NotPassed<'_>) -> Vec<String> {
     lines
 }
 
-/// The known facts about the cause, line by line under a title.
+/// The known facts about the cause, line by line under a title; empty without any.
 pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
+    let facts = diagnosis.lines();
+    if facts.is_empty() {
+        return String::new();
+    }
     let mut lines = format!("{TITLE}\n");
-    for (word, text) in diagnosis.lines() {
-        lines += &format!("  {word:<10} {}\n", visible(&text));
+    for (word, text) in facts {
+        lines += &format!("  {word:<8} {}\n", visible(&text));
     }
     lines
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::templates::render;
 use crate::judge::verdict::Verdict;
 use crate::run::{FailedCase, Finished, Item, items};
-use crate::store::{GuardedChange, Record, without_baseline};
+use crate::store::{GuardedChange, Record, diagnosis::Diagnosis, without_baseline};
 
 /// Test cases about one subject.
 #[derive(Debug, Serialize)]
@@ -100,10 +100,11 @@ pub fn junit(name: &str, record: &Record) -> io::Result<String> {
     if let Some(changes) = &record.changes {
         suites.push(Suite::new("baseline", baseline(&record.studies, changes)));
     }
-    if let Some(diagnosis) = &record.diagnosis {
+    let cause = record.diagnosis.as_ref().map_or(vec![], Diagnosis::lines);
+    if !cause.is_empty() {
         suites.push(Suite {
-            properties: diagnosis.lines(),
-            ..Suite::new("what fails and what does not", vec![])
+            properties: cause,
+            ..Suite::new("what the failures share", vec![])
         });
     }
     junit_of(name, &suites)

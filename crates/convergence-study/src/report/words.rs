@@ -87,9 +87,10 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
             Movement::New { .. } => new_numbers += 1,
             Movement::NewStudy => new_studies += 1,
             Movement::VanishedStudy { .. } => deleted += 1,
-            Movement::Moved { .. } | Movement::Tolerance { .. } | Movement::Vanished { .. } => {
-                values += 1;
-            }
+            Movement::Moved { .. }
+            | Movement::Tolerance { .. }
+            | Movement::Vanished { .. }
+            | Movement::DeletedLine => values += 1,
         }
     }
     let mut parts = vec![];

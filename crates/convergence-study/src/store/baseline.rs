@@ -21,7 +21,8 @@
 //!
 //! A line has a number, the relative change tolerated, and what the study claims of the number.
 //! `claims` has what a study in code claims of other numbers, by their names.
-//! `settings` is the hash of every value of the study's file, and of the labels of its cases;
+//! `settings` is the hash of every value of the study's file, of the labels of its cases, of the
+//! names of its numbers, and of which have a claim: what somebody deletes is missed.
 //! `guard` the tolerance that the file asks for; `test` the test that the study belongs to.
 //!
 //! What is loosened, changed in its settings or taken away is blessed only on demand: a blessing
@@ -48,7 +49,6 @@ use crate::study::{Header, Must, Quantity};
 use crate::text::json;
 
 use change::meets;
-pub(crate) use change::signed_percent;
 pub(crate) use change::without_baseline;
 pub use change::{GuardedChange, Movement};
 
@@ -187,15 +187,26 @@ impl Baseline {
             header, outcome, ..
         } in finished
         {
-            changes.extend(self.changed_settings(header));
-            changes.extend(self.changed_numbers(header, &outcome.quantities));
-            changes.extend(self.changed_claims(&header.id, outcome.claims()));
+            let claims = outcome.claims();
+            let lines = self.lines(header, &names(&outcome.quantities, &claims));
+            let mut of_study = self.changed_settings(header, lines);
+            of_study.extend(self.changed_numbers(header, &outcome.quantities));
+            of_study.extend(self.changed_claims(&header.id, claims));
+            if lines == Lines::Deleted {
+                of_study
+                    .iter_mut()
+                    .for_each(|change| change.movement.name_deletion());
+            }
+            changes.append(&mut of_study);
         }
         let others = known
             .unwrap_or_default()
             .iter()
             .filter(|header| find(finished, &header.id).is_none());
-        changes.extend(others.flat_map(|header| self.changed_settings(header)));
+        changes.extend(others.flat_map(|header| {
+            let lines = self.lines(header, &Names::new());
+            self.changed_settings(header, lines)
+        }));
         for id in self.vanished(known) {
             let numbers = self.guards(&id);
             let movement = Movement::VanishedStudy { numbers };
@@ -204,23 +215,41 @@ impl Baseline {
         changes
     }
 
+    /// What the hash of a study says of it.
+    ///
+    /// * `found`: the names that it has now, if it was run.
+    fn lines(&self, header: &Header, found: &Names) -> Lines {
+        let Some(blessed) = self.studies.get(&header.id) else {
+            return Lines::Whole;
+        };
+        let is_hash_with = |names: &Names| blessed.settings.as_ref() == Some(&hash(header, names));
+        let mut names = blessed.names();
+        if is_hash_with(&names) {
+            return Lines::Whole;
+        }
+        names.extend(found.clone());
+        if is_hash_with(&names) {
+            Lines::Deleted
+        } else {
+            Lines::Others
+        }
+    }
+
     /// Settings and guard of a study that differ, or a study that is new.
-    fn changed_settings(&self, header: &Header) -> Vec<GuardedChange> {
+    fn changed_settings(&self, header: &Header, lines: Lines) -> Vec<GuardedChange> {
         let change = |name, movement| GuardedChange::new(&header.id, name, movement);
-        let Some(Blessed {
-            settings, guard, ..
-        }) = self.studies.get(&header.id)
-        else {
+        let Some(blessed) = self.studies.get(&header.id) else {
             return vec![change(change::STUDY, Movement::NewStudy)];
         };
+        let guard = blessed.guard;
         let mut changes = vec![];
-        let to = settings_of(header);
-        if settings.as_ref() != Some(&to) {
-            let from = settings.clone();
+        if lines == Lines::Others {
+            let from = blessed.settings.clone();
+            let to = hash(header, &blessed.names());
             changes.push(change(change::SETTINGS, Movement::Settings { from, to }));
         }
-        if *guard != header.guard {
-            let [from, to] = [*guard, header.guard];
+        if guard != header.guard {
+            let [from, to] = [guard, header.guard];
             changes.push(change(change::GUARD, Movement::Guard { from, to }));
         }
         changes
@@ -336,13 +365,14 @@ impl Baseline {
             numbers.insert(quantity.name.clone(), number);
         }
         let test = settings.iter().find(|(path, _)| path == TEST);
-        let blessed = Blessed {
-            settings: Some(settings_of(header)),
+        let mut blessed = Blessed {
+            settings: None,
             guard: *guard,
             test: test.map(|(_, test)| test.clone()),
             numbers,
             claims: outcome.claims().into_iter().collect(),
         };
+        blessed.settings = Some(hash(header, &blessed.names()));
         self.studies.insert(id.clone(), blessed);
     }
 
@@ -369,11 +399,42 @@ fn find<'f>(finished: &'f [Finished], id: &str) -> Option<&'f Finished> {
     finished.iter().find(|finished| finished.header.id == *id)
 }
 
-/// The hash of every value of a study's file, and of the labels of its cases.
-fn settings_of(
+/// What the hash of a study says of its lines in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Lines {
+    /// They are those that were blessed, with these settings.
+    Whole,
+    /// With the numbers of the run that the file lacks they would be: somebody has deleted them.
+    Deleted,
+    /// The settings are others, or the lines.
+    Others,
+}
+
+/// The names of numbers, and whether each has a claim.
+type Names = BTreeMap<String, bool>;
+
+fn names(numbers: &[Quantity], claims: &[(String, Must)]) -> Names {
+    let numbers = numbers.iter();
+    let numbers = numbers.map(|quantity| (quantity.name.clone(), quantity.claim.is_some()));
+    let claims = claims.iter().map(|(name, _)| (name.clone(), true));
+    numbers.chain(claims).collect()
+}
+
+impl Blessed {
+    fn names(&self) -> Names {
+        let numbers = self.numbers.iter();
+        let numbers = numbers.map(|(name, number)| (name.clone(), number.claim.is_some()));
+        let claims = self.claims.keys().map(|name| (name.clone(), true));
+        numbers.chain(claims).collect()
+    }
+}
+
+/// The hash of every value of a study's file, of the labels of its cases, and of its names.
+fn hash(
     Header {
         settings, cases, ..
     }: &Header,
+    names: &Names,
 ) -> String {
     let mut lines: Vec<String> = settings
         .iter()
@@ -381,6 +442,8 @@ fn settings_of(
         .collect();
     lines.sort_unstable();
     lines.extend(cases.iter().map(|label| format!("case {label}\n")));
+    let names = names.iter();
+    lines.extend(names.map(|(name, claimed)| format!("number {name}, claimed: {claimed}\n")));
     format!("{:016x}", content_hash(lines.concat().as_bytes()))
 }
 

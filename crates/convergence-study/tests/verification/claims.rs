@@ -360,10 +360,14 @@ fn an_attack_on_the_file_is_named() {
         (
             ", \"<= 0.01\"",
             "",
-            "a: finest error has a tighter claim: was none, is <= 0.01",
+            "a: finest error was deleted from the baseline, which has it in its hash",
         ),
-        (line, "", "a: finest error is new: 0.00234375"),
-        ("finest", "coarsest", "a: finest error is new: 0.00234375"),
+        (
+            line,
+            "",
+            "a: finest error was deleted from the baseline, which has it in its hash",
+        ),
+        ("finest", "coarsest", "a: settings have changed"),
         ("\"a\"", "\"b\"", "a: study is new"),
         (
             settings,
@@ -401,44 +405,75 @@ fn an_attack_on_the_file_is_named() {
     );
 }
 
+/// A number that was guarded does not come back as a new one.
+#[test]
+fn a_line_that_was_deleted_is_blessed_on_demand_and_a_new_number_as_ever() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("baseline.json");
+    let ran = claiming(Some(Must::AtMost(0.01)));
+    blessed(&ran).write(&file).unwrap();
+    let text = fs::read_to_string(&file).unwrap();
+    let line = "\n        \"finest error\": [0.00234375, 0.001, \"<= 0.01\"]\n      ";
+    for deleted in [line, ", \"<= 0.01\""] {
+        fs::write(&file, text.replace(deleted, "")).unwrap();
+        let mut baseline = Baseline::read(&file).unwrap();
+        let refused = baseline.bless(&ran, None, false).unwrap_err().to_string();
+        assert!(
+            refused.contains("finest error was deleted from the baseline"),
+            "{refused}"
+        );
+        assert_eq!(baseline.bless(&ran, None, true).unwrap().len(), 1);
+        assert_eq!(baseline.compare(&ran, None), []);
+    }
+    let mut more = ran.clone();
+    let mut quantity = ran[0].outcome.quantities[0].clone();
+    quantity.name = "another".to_owned();
+    more[0].outcome.quantities.push(quantity);
+    let mut baseline = blessed(&ran);
+    assert_eq!(
+        words(&baseline.compare(&more, None)),
+        ["a: another is new: 0.00234375"]
+    );
+    assert_eq!(baseline.bless(&more, None, false), Ok(vec![]));
+}
+
 #[test]
 fn a_diagnosis_names_claims_that_changed_and_no_solver() {
-    let baseline = blessed(&ran(&[header("a", &SETTINGS), header("b", &SETTINGS)]));
+    let headers = ["a", "b"].map(|id| header(id, &SETTINGS));
+    let baseline = blessed(&ran(&headers));
     let loose = with("expect[0].tolerance", Some("0.49"));
-    let failing = Fake {
-        header: loose.clone(),
-        ..fake("", Does::Stay)
-    }
-    .erased();
     let project = Project {
         places: &[SourcePlace {
-            word: "finest error",
+            word: "field velocity",
             place: "force.rs",
         }],
         ..PROJECT
     };
-    let diagnosed = |study: Box<dyn Study>| {
-        let ran = finished(vec![study]);
+    let diagnosed = |headers: [&Header; 2], does: Does| {
+        let studies = headers.map(|header| {
+            let header = header.clone();
+            Fake {
+                header,
+                ..fake("", does)
+            }
+            .erased()
+        });
+        let ran = finished(studies.into());
         diagnose(&project, &[], &ran, &baseline.compare(&ran, None))
     };
     let changed = one_of_settings(
         &baseline.compare(&ran(std::slice::from_ref(&loose)), None),
         "a",
     );
-    let found = diagnosed(failing).expect("a study fails");
+    let found = diagnosed([&loose, &headers[1]], Does::Stay).expect("a study fails");
     assert_eq!(found.claims, [changed.as_str()]);
     let lines = found.lines();
     assert_eq!(lines[0], ("claims", format!("changed: {changed}")));
     assert!(!format!("{lines:?}").contains("force"), "{lines:?}");
     // Where nothing fails and no number moved, the list of changed claims says it all.
-    assert_eq!(diagnosed(study(&loose)), None);
+    assert_eq!(diagnosed([&loose, &headers[1]], Does::Converge), None);
     // Without a changed claim a place is named.
-    let same = Fake {
-        header: header("b", &SETTINGS),
-        ..fake("", Does::Stay)
-    }
-    .erased();
-    let found = diagnosed(same).expect("a study fails");
+    let found = diagnosed([&headers[0], &headers[1]], Does::Stay).expect("a study fails");
     assert!(
         found.claims.is_empty() && found.look_at == ["force.rs"],
         "{found:?}"

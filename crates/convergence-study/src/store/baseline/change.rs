@@ -70,6 +70,8 @@ pub enum Movement {
         #[serde(deserialize_with = "json::nan")]
         value: f64,
     },
+    /// The baseline lacks it, or a claim about it, but has it in its hash: somebody has deleted it.
+    DeletedLine,
     /// The run lacks it.
     Vanished {
         /// The baseline's value.
@@ -114,8 +116,16 @@ impl Movement {
             Self::Claim { .. }
                 | Self::Guard { .. }
                 | Self::Settings { .. }
+                | Self::DeletedLine
                 | Self::VanishedStudy { .. }
         )
+    }
+
+    /// What is new to a study whose lines somebody has deleted is what was deleted.
+    pub(super) fn name_deletion(&mut self) {
+        if matches!(self, Self::New { .. } | Self::Claim { from: None, .. }) {
+            *self = Self::DeletedLine;
+        }
     }
 
     /// Whether less is guarded or claimed than before, so that a blessing must be asked for it: a
@@ -130,7 +140,10 @@ impl Movement {
             // A tolerance that is NaN is no tighter one.
             Self::Tolerance { from, to } => to > from || to.is_nan(),
             Self::Guard { from, to } => to.unwrap_or(0.0) > from.unwrap_or(0.0),
-            Self::Vanished { .. } | Self::Settings { .. } | Self::VanishedStudy { .. } => true,
+            Self::DeletedLine
+            | Self::Vanished { .. }
+            | Self::Settings { .. }
+            | Self::VanishedStudy { .. } => true,
             Self::Moved { .. } | Self::New { .. } | Self::NewStudy => false,
         }
     }
@@ -258,6 +271,10 @@ impl fmt::Display for Movement {
                 write!(f, "has another tolerance: was {from:e}, is {to:e}")
             }
             Self::New { value } => write!(f, "is new: {}", plain_text(*value)),
+            Self::DeletedLine => write!(
+                f,
+                "was deleted from the baseline, which has it in its hash; restore the line"
+            ),
             Self::Vanished { value } => write!(f, "has vanished: was {}", plain_text(*value)),
             Self::Claim { from, to } => {
                 let [from, to] =
@@ -312,7 +329,7 @@ fn moved(f: &mut fmt::Formatter<'_>, from: f64, to: f64, tolerance: f64) -> fmt:
 }
 
 /// The same with its sign.
-pub(crate) fn signed_percent(share: f64) -> String {
+fn signed_percent(share: f64) -> String {
     let sign = if share > 0.0 { "+" } else { "" };
     format!("{sign}{}", percent(share))
 }
@@ -387,6 +404,7 @@ mod tests {
             tolerance(1e-6, 1e-5),
             tolerance(1e-6, f64::NAN),
             Movement::Vanished { value: 1.0 },
+            Movement::DeletedLine,
             Movement::VanishedStudy { numbers: 0 },
         ] {
             assert!(loosened.is_loosened(), "{loosened:?}");

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use convergence_study::{
-    Finished, NamedNumber, NamedRate, Outcome, Verdict,
+    Finished, NamedNumber, NamedRate, Verdict,
     internal::{
         program,
         study::{STEPS, first_repeated, until_decided::Next},
-        where_lost::{self, Located},
+        where_lost::{self, Located, Search},
     },
     write_report,
 };
@@ -125,18 +125,19 @@ impl Study {
     fn _located(&self, variants: &str, run: &Bound<'_, PyAny>) -> PyResult<Study> {
         let variants = serde_json::from_str(variants)
             .map_err(|error| refuse(format!("variants: VARIANTS of the module: {error}")))?;
-        let base = &self.finished.outcome;
-        let probe = where_lost::probe(&variants);
-        let mut ran: Vec<Option<Bound<'_, Study>>> = vec![None; variants.usable.len()];
-        // A function that ignores variants is refused after one.
-        for is_probe in [true, false] {
-            for (place, (variant, slot)) in variants.usable.iter().zip(&mut ran).enumerate() {
-                if (probe == Some(place)) == is_probe {
-                    *slot = Some(run.call1((&variant.name,))?.cast_into()?);
-                }
+        let mut search = Search::new(&self.finished.outcome, &variants, None);
+        loop {
+            let requests = search.next();
+            if requests.is_empty() {
+                break;
             }
-            let outcomes = outcomes(&ran);
-            if where_lost::is_unnoticed(base, &outcomes) {
+            for request in requests {
+                let name = &variants.usable[request.place].name;
+                let ran = run.call1((name,))?.cast_into::<Study>()?;
+                search.add(request, ran.get().finished.outcome.clone());
+            }
+            // A function that ignores variants is refused after one.
+            if search.is_unnoticed() {
                 return Err(refuse(
                     "variants: the errors do not change with the variant: solve does not use it. \
                      Likely reasons: it takes its data from another module; it keeps values that \
@@ -145,7 +146,7 @@ impl Study {
                 ));
             }
         }
-        let located = where_lost::located(base, &variants, &outcomes(&ran));
+        let located = search.located();
         Ok(Study::judged(self.results.clone()).with_place(located))
     }
 
@@ -284,11 +285,6 @@ impl Study {
             &pictures,
         )
     }
-}
-
-fn outcomes<'s>(ran: &'s [Option<Bound<'_, Study>>]) -> Vec<&'s Outcome> {
-    let ran = ran.iter().flatten();
-    ran.map(|study| &study.get().finished.outcome).collect()
 }
 
 /// Judged errors of one table as a study, for reports and baselines.

@@ -143,5 +143,5 @@ pub mod verify {
 #[cfg(feature = "tables")]
 pub mod where_lost {
     pub use crate::run::Located;
-    pub use crate::where_lost::{figure, is_unnoticed, located, lost, probe, text_of_located};
+    pub use crate::where_lost::{Request, Search, figure, located, lost, text_of_located};
 }

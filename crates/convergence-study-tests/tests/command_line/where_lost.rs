@@ -180,8 +180,8 @@ fn other_parts_are_named_by_their_variants_and_none_without_one() {
             "the order is lost at the faces x_min and x_max",
         ),
         (
-            ["flat_x_max", "flat_x_min"],
-            "no single one explains that the order comes back in flat_x_min and flat_x_max",
+            ["constant_x", "constant_t"],
+            "no single one explains that the order comes back in constant_x and constant_t",
         ),
         (["-", "-"], "the order is lost in every variant: everywhere"),
     ] {
@@ -218,7 +218,7 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     // One variant was run, not all.
     let log = fs::read_to_string(log).unwrap();
     let variants: BTreeSet<&str> = log.lines().collect();
-    assert_eq!(variants, BTreeSet::from(["", "flat_x"]));
+    assert_eq!(variants, BTreeSet::from(["", "flat_everywhere"]));
     let written = fs::read_dir(root.path().join("report")).map_or(0, Iterator::count);
     assert_eq!(written, 0);
 }
@@ -229,11 +229,14 @@ fn a_variant_that_does_not_run_is_refused_with_its_last_words() {
         return;
     }
     let failing = format!(
-        "if [ \"$MANUFACTURE_VARIANT\" = flat_x ]; then echo 'unknown variant' >&2; exit 3; fi\n{PROGRAM}"
+        "if [ \"$MANUFACTURE_VARIANT\" = flat_everywhere ]; then echo 'unknown variant' >&2; exit 3; fi\n{PROGRAM}"
     );
     let (status, out, err) = located(&failing, &[]);
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
-    for part in ["the variant flat_x does not run", "unknown variant"] {
+    for part in [
+        "the variant flat_everywhere does not run",
+        "unknown variant",
+    ] {
         assert!(err.contains(part), "{err}");
     }
 }
@@ -327,5 +330,49 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     }
     fs::write(root.path().join("study.toml"), study("-")).unwrap();
     let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+}
+
+/// The page can be followed: its files, its commands, what they print, and how the mistake is mended.
+#[test]
+fn the_page_can_be_followed() {
+    const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
+    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
+        return;
+    }
+    let block = |opening: &str, number: usize| {
+        let block = PAGE.split(opening).nth(number + 1).unwrap();
+        block.split("```").next().unwrap()
+    };
+    let root = TempDir::new().unwrap();
+    let write = |name: &str, text: &str| fs::write(root.path().join(name), text).unwrap();
+    write("rod.toml", block("```toml\n", 0));
+    write("rod-study.toml", block("```toml\n", 1));
+    let solver = block("```python\n", 0);
+    write("rod_solver.py", solver);
+    let words = [
+        "manufacture",
+        "rod.toml",
+        "--variants",
+        "--language",
+        "python",
+    ];
+    let (status, out, err) = run(&root, &words);
+    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    let (status, out, err) = run(&root, &["study", "rod-study.toml", "--where"]);
+    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+    assert!(out.contains(block("```text\n", 0)), "{out}");
+    let [first, second, flux] = block("```python\n", 1).lines().collect::<Vec<_>>()[..] else {
+        panic!("{PAGE}");
+    };
+    let mended = solver
+        .replace("A[0, 0] -= k[0]\n", &format!("{first}\n{second}\n"))
+        .replace(
+            "    out[0] += k[0]*rod.boundary_x_min_value([0.0], t)",
+            flux,
+        );
+    assert!(mended.contains(flux) && mended.contains(second), "{mended}");
+    write("rod_solver.py", &mended);
+    let (status, out, err) = run(&root, &["study", "rod-study.toml", "--where"]);
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }

@@ -10,7 +10,7 @@ use crate::input::read_text;
 use crate::run::{self, Effort, Finished};
 use crate::study::variants::Variants;
 use crate::study::{Outcome, Study};
-use crate::where_lost::{figure, is_unnoticed, located, lost, probe};
+use crate::where_lost::{Request, Search, figure, lost};
 
 /// A study whose order is lost.
 struct LostOrder<'s> {
@@ -56,24 +56,19 @@ pub(super) fn locate(
     effort: Effort,
     quiet: bool,
 ) -> Result<(), Unusable> {
-    let searches = searches(studies, finished)?;
-    let empty = |search: &LostOrder<'_>| vec![None; search.variants.usable.len()];
-    let mut ran: Vec<Vec<Option<Finished>>> = searches.iter().map(empty).collect();
-    // A program that ignores the variable is refused after one variant.
-    for is_probe in [true, false] {
-        run_variants(&searches, is_probe, &mut ran, effort, quiet)?;
-        for (search, ran) in searches.iter().zip(&ran) {
-            refuse(&finished[search.place], &search.variants, ran)?;
-        }
-    }
-    for (search, ran) in searches.iter().zip(ran) {
-        let LostOrder {
-            place, variants, ..
-        } = search;
-        let of_search: Vec<Finished> = ran.into_iter().flatten().collect();
-        let base = &mut finished[*place];
-        let outcomes: Vec<&Outcome> = of_search.iter().map(|ran| &ran.outcome).collect();
-        let located = located(&base.outcome, variants, &outcomes);
+    let lost_orders = lost_orders(studies, finished)?;
+    let outcomes = lost_orders
+        .iter()
+        .map(|one| finished[one.place].outcome.clone());
+    let outcomes: Vec<Outcome> = outcomes.collect();
+    let pairs = lost_orders.iter().zip(&outcomes);
+    let searches =
+        pairs.map(|(one, outcome)| Search::new(outcome, &one.variants, one.study.levels()));
+    let mut searches: Vec<Search<'_>> = searches.collect();
+    while run_next(&lost_orders, &mut searches, effort, quiet)? {}
+    for (lost_order, search) in lost_orders.iter().zip(searches) {
+        let base = &mut finished[lost_order.place];
+        let located = search.located();
         let figure = figure(&base.header, &base.outcome, &located);
         base.outcome.figures.extend(figure);
         base.located = Some(located);
@@ -81,47 +76,56 @@ pub(super) fn locate(
     Ok(())
 }
 
-/// Runs the probe of each search, or all other variants, in one pool.
-///
-/// * `ran`: for each search and each of its variants what it found, if it was run.
-fn run_variants(
-    searches: &[LostOrder<'_>],
-    is_probe: bool,
-    ran: &mut [Vec<Option<Finished>>],
+/// Runs what the searches request, in one pool; whether they have requested anything.
+fn run_next(
+    lost_orders: &[LostOrder<'_>],
+    searches: &mut [Search<'_>],
     effort: Effort,
     quiet: bool,
-) -> Result<(), Unusable> {
+) -> Result<bool, Unusable> {
     let mut runs = vec![];
-    let mut slots = vec![];
-    for (search, ran) in searches.iter().zip(ran) {
-        let probe = probe(&search.variants);
-        let variants = search.variants.usable.iter().zip(ran).enumerate();
-        for (place, (variant, slot)) in variants {
-            if (probe == Some(place)) == is_probe
-                && let Some(run) = search.study.with_variant(&variant.name)
-            {
+    let mut requests: Vec<(usize, Request)> = vec![];
+    for (number, (lost_order, search)) in lost_orders.iter().zip(searches.iter()).enumerate() {
+        for request in search.next() {
+            let name = &lost_order.variants.usable[request.place].name;
+            if let Some(run) = lost_order.study.with_variant(name, request.levels) {
                 runs.push(run);
-                slots.push(slot);
+                requests.push((number, request));
             }
         }
     }
     if runs.is_empty() {
-        return Ok(());
+        return Ok(false);
     }
     let finished = watched_with(&runs, quiet, false, |progress| {
         run::run(&runs, effort, progress)
     })?;
-    for (slot, finished) in slots.into_iter().zip(finished) {
-        *slot = Some(finished);
+    for ((number, request), finished) in requests.into_iter().zip(finished) {
+        let LostOrder {
+            study, variants, ..
+        } = &lost_orders[number];
+        let id = &study.header().id;
+        if let [failed, ..] = finished.failed_cases.as_slice() {
+            return Err(Unusable::because(&format!(
+                "{id}: --where: the variant {} does not run: {}: {}",
+                variants.usable[request.place].name, failed.label, failed.reason
+            )));
+        }
+        searches[number].add(request, finished.outcome);
     }
-    Ok(())
+    for (LostOrder { study, .. }, search) in lost_orders.iter().zip(searches) {
+        if search.is_unnoticed() {
+            return Err(unnoticed(&study.header().id));
+        }
+    }
+    Ok(true)
 }
 
-fn searches<'s>(
+fn lost_orders<'s>(
     studies: &'s [Box<dyn Study>],
     finished: &[Finished],
 ) -> Result<Vec<LostOrder<'s>>, Unusable> {
-    let mut searches = vec![];
+    let mut lost_orders = vec![];
     for (place, finished) in finished.iter().enumerate() {
         let mut studies = studies.iter();
         let study = studies.find(|study| study.header().id == finished.header.id);
@@ -135,38 +139,24 @@ fn searches<'s>(
             Some(file) => variants_of(file)?,
             None => study.variants(),
         };
-        searches.extend(variants.map(|variants| LostOrder {
+        lost_orders.extend(variants.map(|variants| LostOrder {
             study: study.as_ref(),
             place,
             variants,
         }));
     }
-    Ok(searches)
+    Ok(lost_orders)
 }
 
-/// Refuses variants that do not run, or that the program does not notice.
-fn refuse(base: &Finished, variants: &Variants, ran: &[Option<Finished>]) -> Result<(), Unusable> {
-    let id = &base.header.id;
-    for (variant, finished) in variants.usable.iter().zip(ran) {
-        let failed = finished.as_ref().map(|ran| ran.failed_cases.as_slice());
-        if let Some([failed, ..]) = failed {
-            return Err(Unusable::because(&format!(
-                "{id}: --where: the variant {} does not run: {}: {}",
-                variant.name, failed.label, failed.reason
-            )));
-        }
-    }
-    let outcomes: Vec<&Outcome> = ran.iter().flatten().map(|ran| &ran.outcome).collect();
-    if is_unnoticed(&base.outcome, &outcomes) {
-        return Err(Unusable::because(&format!(
-            "{id}: --where: the errors do not change with the variant: the program does not notice \
-             the variable MANUFACTURE_VARIANT of its environment. Likely reasons: its module was \
-             written without --variants; it uses or was compiled with an older module; it is \
-             started by something that does not pass the environment on, as MPI on other hosts \
-             (`mpirun -x MANUFACTURE_VARIANT`), a container or a queue"
-        )));
-    }
-    Ok(())
+/// A study whose program does not notice the variant.
+fn unnoticed(id: &str) -> Unusable {
+    Unusable::because(&format!(
+        "{id}: --where: the errors do not change with the variant: the program does not notice the \
+         variable MANUFACTURE_VARIANT of its environment. Likely reasons: its module was written \
+         without --variants; it uses or was compiled with an older module; it is started by \
+         something that does not pass the environment on, as MPI on other hosts (`mpirun -x \
+         MANUFACTURE_VARIANT`), a container or a queue"
+    ))
 }
 
 /// The variants of a file of `manufacture`, as its modules describe them to other programs.

@@ -135,7 +135,7 @@ pub(super) fn read(
         refine,
         expect,
         manufactured: manufactured(&section, folder)?,
-        is_variant: false,
+        most_levels: None,
     })
 }
 

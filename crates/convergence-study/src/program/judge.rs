@@ -88,25 +88,20 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
 
 /// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
 pub(super) fn next(study: &Program, ran: &[CaseRun]) -> Option<Next> {
-    let of_variant = study.is_variant && study.refine.can_add();
-    let budget = study
-        .refine
-        .budget
-        .or(of_variant.then_some(refine::BUDGET))?;
+    let budget = match study.most_levels {
+        Some(_) => study.refine.budget.unwrap_or(refine::BUDGET),
+        None => study.refine.budget?,
+    };
     let seconds: Vec<f64> = ran
         .iter()
         .map(|ran| Some(ran.ok()?.seconds))
         .collect::<Option<_>>()?;
+    if let Some(most) = study.most_levels {
+        let is_next = ran.len() < most && until_decided::fits(&seconds, budget);
+        return Some(if is_next { Next::Another } else { Next::Most });
+    }
     let now = rates(study, ran);
-    let looks = if study.refine.budget.is_some() {
-        Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]))
-    } else {
-        // Levels that are listed decide by what they show.
-        Looks {
-            now: &now,
-            before: now.clone(),
-        }
-    };
+    let looks = Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]));
     Some(until_decided::next_by_time(&looks, &seconds, budget))
 }
 
@@ -145,9 +140,12 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         quantities,
         ..Outcome::new(summary, rates, checks).summed_up_by_rates(values.summary)
     };
+    let is_open = study.most_levels.is_none();
     match next(study, ran).zip(study.refine.budget) {
-        Some((next, budget)) => until_decided::conclude(outcome, next, levels, budget, "s"),
-        None => outcome,
+        Some((next, budget)) if is_open => {
+            until_decided::conclude(outcome, next, levels, budget, "s")
+        }
+        _ => outcome,
     }
 }
 

@@ -103,8 +103,8 @@ pub(crate) struct Program {
     expect: Vec<Expectation>,
     /// The file of `manufacture` whose module the program uses, as an absolute path.
     manufactured: Option<PathBuf>,
-    /// Whether levels are added to those listed while nothing is decided.
-    is_variant: bool,
+    /// The number of levels, in place of that of the list.
+    most_levels: Option<usize>,
 }
 
 /// The environment variable by which the module of `manufacture` chooses its solution.
@@ -189,7 +189,8 @@ impl Kind for Program {
 
     fn cases(&self) -> Vec<Case<RefinedCase>> {
         let case = |data: RefinedCase| Case::new(data.label.clone(), data.cost(), data);
-        self.refine.resolutions().into_iter().map(case).collect()
+        let cases = self.refine.resolutions().into_iter().map(case);
+        cases.take(self.most_levels.unwrap_or(usize::MAX)).collect()
     }
 
     fn more(&self, ran: &[CaseRun]) -> Option<Case<RefinedCase>> {
@@ -227,7 +228,19 @@ impl Kind for Program {
         study
             .variables
             .push((VARIANT.to_owned(), variant.to_owned()));
-        study.is_variant = true;
         Some(study)
+    }
+
+    fn levels(&self) -> Option<usize> {
+        let listed = self.refine.resolutions().len();
+        self.refine.can_add().then_some(listed)
+    }
+
+    fn with_levels(&self, count: usize) -> Option<Self> {
+        self.levels()?;
+        Some(Self {
+            most_levels: Some(count),
+            ..self.clone()
+        })
     }
 }

@@ -45,6 +45,9 @@ pub struct VariantRates {
     /// Why it cannot be used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_out: Option<String>,
+    /// Its next level, such as `n = 128`; none for a variant that was not run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next: Option<String>,
 }
 
 /// The rate of an error with a variant.

@@ -33,8 +33,14 @@ pub trait Study: Send + Sync {
         None
     }
 
-    /// As [`Kind::with_variant`]; its id ends with the variant.
-    fn with_variant(&self, _variant: &str) -> Option<Box<dyn Study + '_>> {
+    /// As [`Kind::levels`].
+    fn levels(&self) -> Option<usize> {
+        None
+    }
+
+    /// As [`Kind::with_variant`], with so many levels if their number is not fixed; its id ends with
+    /// the variant.
+    fn with_variant(&self, _variant: &str, _levels: Option<usize>) -> Option<Box<dyn Study + '_>> {
         None
     }
 }
@@ -116,12 +122,18 @@ impl<K: Kind> Study for Described<K> {
         self.kind.variants()
     }
 
-    fn with_variant(&self, variant: &str) -> Option<Box<dyn Study + '_>> {
+    fn levels(&self) -> Option<usize> {
+        self.kind.levels()
+    }
+
+    fn with_variant(&self, variant: &str, levels: Option<usize>) -> Option<Box<dyn Study + '_>> {
         let header = Header {
             id: format!("{} {variant}", self.header.id),
             ..self.header.clone()
         };
-        Some(boxed_study(header, self.kind.with_variant(variant)?))
+        let study = self.kind.with_variant(variant)?;
+        let with_levels = levels.and_then(|count| study.with_levels(count));
+        Some(boxed_study(header, with_levels.unwrap_or(study)))
     }
 }
 

@@ -217,6 +217,20 @@ pub trait Kind: Send + Sync {
         None
     }
 
+    /// The number of levels, if there can be fewer or more.
+    fn levels(&self) -> Option<usize> {
+        None
+    }
+
+    /// The same study with so many levels, the coarsest ones and finer ones that are added, as far
+    /// as time permits. `None` where their number is fixed.
+    fn with_levels(&self, _count: usize) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+
     /// What a passing study fails to test, found by trial; only `study` requests it, because it may
     /// take longer than the study.
     fn untested(&self) -> Vec<Untested> {

@@ -125,21 +125,29 @@ pub fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64
     Next::Another
 }
 
-/// The same with time as cost: the next level takes longer by the same factor as the last one did,
-/// and by at least two.
+/// The same with time as cost.
 ///
 /// * `seconds`: time of each level; at least two.
 pub fn next_by_time(looks: &Looks<'_>, seconds: &[f64], budget: f64) -> Next {
+    match seconds_of_next(seconds) {
+        Some(cost) => next(looks, seconds.len(), cost, seconds.iter().sum(), budget),
+        None => Next::Another,
+    }
+}
+
+/// The time of the next level: it takes longer by the same factor as the last one did, and by at
+/// least two. `None` with fewer than two levels.
+fn seconds_of_next(seconds: &[f64]) -> Option<f64> {
     let [.., before, last] = seconds else {
-        return Next::Another;
+        return None;
     };
-    next(
-        looks,
-        seconds.len(),
-        last * (last / before).max(2.0),
-        seconds.iter().sum(),
-        budget,
-    )
+    Some(last * (last / before).max(2.0))
+}
+
+/// Whether another level fits the budget, in seconds.
+pub(crate) fn fits(seconds: &[f64], budget: f64) -> bool {
+    let spent: f64 = seconds.iter().sum();
+    seconds_of_next(seconds).is_none_or(|cost| spent + cost <= budget)
 }
 
 /// The outcome of a study that adds levels. It says how the study ended. It guards only the first

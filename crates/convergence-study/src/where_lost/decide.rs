@@ -1,19 +1,20 @@
-//! Which part of a program the variants name: a function of what became of the order in each.
+//! Which part of a program the variants name: a table of variants and one rule.
 //!
-//! **The argument.** Let the order come back in a variant: then every mistake is invisible in it,
-//! so each is in a part that the variant switches off. Let it stay lost: then at least one mistake
-//! acts on it, in a part that the variant leaves on. So
+//! **The table.** A variant switches off some parts: a face, the first time, a coordinate, a term.
+//! A mistake acts in a part, or in several together (where two faces meet; at a face, in time); it
+//! is hidden where one of these is switched off.
 //!
-//! - back where the solution is flat at one face: all mistakes are at this face;
-//! - lost where it is flat at all faces but one, back where it is flat at this one too: a mistake
-//!   is at that face;
-//! - lost where it is flat at all faces and at the first time: a mistake is inside the domain; if
-//!   the order is back where the solution does not change along y, that mistake acts along y.
+//! **The rule.** Let the order come back in a variant: then every mistake is hidden in it. Let it
+//! stay lost: then one mistake at least acts in none of the parts that it switches off. So
 //!
-//! Each name follows from such a pair. The further conditions guard against a variant in which the
-//! lost part is merely small, and so looks restored at the levels of a study: variants that switch
-//! off more must agree. What is not known is no evidence: a part is not named if a variant that its
-//! name rests on is missing or undecided.
+//! - lost goes down: to each variant that switches off less; back goes up: to each that switches
+//!   off more. Lost outweighs back, for where the lost part is merely small it seems to be gone;
+//! - back in a variant of one part: every mistake acts in this part, which explains all losses;
+//! - lost where some parts are off, back where one more is: a mistake acts in that one.
+//!
+//! One part that explains all is named before several that explain one each. What is named must
+//! agree with the whole table, and nothing is named while another variant of one part may explain
+//! as much.
 
 use crate::run::Fate;
 use crate::study::variants::SolverPart;
@@ -28,10 +29,12 @@ pub(super) struct Examined {
 /// What follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Conclusion {
-    /// Mistakes at these faces, and at no other place.
-    Faces(Vec<String>),
-    /// At one face, and only if the data change in time, which has this name.
-    FaceInTime { face: String, time: String },
+    /// Mistakes at these faces, and at no other place; with a name of time, only if the data change
+    /// in it.
+    Faces {
+        names: Vec<String>,
+        time: Option<String>,
+    },
     /// Where two faces meet.
     Corner([String; 2]),
     /// In the data at the first time.
@@ -41,7 +44,7 @@ pub(super) enum Conclusion {
     Inside(Vec<SolverPart>),
     /// Lost in each variant.
     Everywhere,
-    /// A variant would decide, and is missing or undecided: these are.
+    /// These variants would decide, and are missing or undecided.
     Open(Vec<SolverPart>),
     /// No single part explains what the variants show.
     Several,
@@ -51,12 +54,9 @@ impl Conclusion {
     /// The parts that are named.
     pub(super) fn named(&self) -> Vec<SolverPart> {
         match self {
-            Self::Faces(names) => names.iter().cloned().map(SolverPart::Face).collect(),
-            Self::FaceInTime { face, time } => {
-                vec![
-                    SolverPart::Face(face.clone()),
-                    SolverPart::Time(time.clone()),
-                ]
+            Self::Faces { names, time } => {
+                let faces = names.iter().cloned().map(SolverPart::Face);
+                faces.chain(time.clone().map(SolverPart::Time)).collect()
             }
             Self::Corner(names) => names.iter().cloned().map(SolverPart::Face).collect(),
             Self::Initial => vec![SolverPart::Initial],
@@ -66,292 +66,308 @@ impl Conclusion {
     }
 }
 
-/// What the variants of a file show, all of them: one that could not be used is unknown.
+/// What the variants of a file show, all of them: one that was not run is unknown.
 pub(super) fn decide(examined: &[Examined]) -> Conclusion {
-    let table = Fates(examined);
-    let of_faces = match table.single_faces_back().as_slice() {
-        [] => table.no_single_face(),
-        [face] => table.one_face(face),
-        [one, other] => table.corner(one, other),
-        _ => Deduction::Nothing,
+    let table = Table::new(examined);
+    let single = table.singles(Fate::Back);
+    let (flat, inside): (Vec<SolverPart>, Vec<SolverPart>) = single.into_iter().partition(is_flat);
+    let several = table.faces_by_pairs();
+    let conclusion = if !flat.is_empty() {
+        table.at_one_place(&flat, &inside)
+    } else if several.len() > 1 {
+        table.at_several_faces(several, &inside)
+    } else if !inside.is_empty() {
+        table.inside(inside)
+    } else {
+        None
     };
-    let found = [of_faces, table.initial(), table.inside()]
-        .into_iter()
-        .find(|found| matches!(found, Deduction::Conclusion(_)))
-        .unwrap_or(Deduction::Nothing);
-    match found {
-        Deduction::Conclusion(conclusion) => conclusion,
-        Deduction::Nothing if examined.iter().any(|one| one.fate == Fate::Unknown) => {
-            let unknown = examined.iter().filter(|one| one.fate == Fate::Unknown);
-            Conclusion::Open(unknown.map(|one| one.part.clone()).collect())
-        }
-        Deduction::Nothing if examined.iter().all(|one| one.fate == Fate::Lost) => {
-            Conclusion::Everywhere
-        }
-        Deduction::Nothing => Conclusion::Several,
+    conclusion.unwrap_or_else(|| table.nothing())
+}
+
+/// The parts of which alone it is not known whether they explain all losses, if no other does.
+pub(super) fn may_explain_all(examined: &[Examined]) -> Vec<SolverPart> {
+    let table = Table::new(examined);
+    match table.singles(Fate::Back).is_empty() {
+        true => table.singles(Fate::Unknown),
+        false => vec![],
     }
 }
 
-enum Deduction {
-    Conclusion(Conclusion),
-    Nothing,
+/// The parts that seem to explain all losses alone; and the widest variant, by which a part inside
+/// the domain is told from one at its boundary.
+pub(super) fn explaining(examined: &[Examined]) -> Vec<SolverPart> {
+    let table = Table::new(examined);
+    let mut parts = table.singles(Fate::Back);
+    if !parts.iter().all(is_flat) {
+        parts.extend(table.widest().map(|row| row.examined.part.clone()));
+    }
+    parts
 }
 
-impl Deduction {
-    /// The conclusion, if all that it rests on is there.
-    fn if_all(conditions: &[bool], conclusion: Conclusion) -> Self {
-        if conditions.iter().all(|holds| *holds) {
-            Self::Conclusion(conclusion)
-        } else {
-            Self::Nothing
-        }
+/// What has to be known of a part inside the domain that seems to explain all losses.
+pub(super) fn open_inside(examined: &[Examined]) -> Vec<SolverPart> {
+    match decide(examined) {
+        Conclusion::Open(parts) if !explaining(examined).iter().all(is_flat) => parts,
+        _ => vec![],
     }
 }
 
-struct Fates<'e>(&'e [Examined]);
+/// What the variants show, with what follows from it for each other.
+pub(super) fn completed(examined: &[Examined]) -> Vec<Examined> {
+    let rows = Table::new(examined).rows.into_iter();
+    rows.map(|row| row.examined).collect()
+}
 
-impl Fates<'_> {
-    fn fates(&self, is_wanted: impl Fn(&SolverPart) -> bool) -> Vec<Fate> {
-        let wanted = self.0.iter().filter(|one| is_wanted(&one.part));
-        wanted.map(|one| one.fate).collect()
+/// A variant, and the parts that it switches off.
+#[derive(Debug, Clone)]
+struct Row {
+    /// With what follows from others.
+    examined: Examined,
+    /// As it was run.
+    measured: Fate,
+    off: Vec<SolverPart>,
+}
+
+impl Row {
+    fn fate(&self) -> Fate {
+        self.examined.fate
     }
 
-    /// Whether the order is back in all such variants; true if the file has none.
-    fn are_back(&self, is_wanted: impl Fn(&SolverPart) -> bool) -> bool {
-        self.fates(is_wanted).iter().all(|fate| *fate == Fate::Back)
+    fn is_flat(&self) -> bool {
+        self.off.iter().all(is_flat)
     }
 
-    fn are_lost(&self, is_wanted: impl Fn(&SolverPart) -> bool) -> bool {
-        self.fates(is_wanted).iter().all(|fate| *fate == Fate::Lost)
+    fn hides(&self, mistake: &[SolverPart]) -> bool {
+        self.off.iter().any(|part| mistake.contains(part))
     }
 
-    fn are_not_lost(&self, is_wanted: impl Fn(&SolverPart) -> bool) -> bool {
-        !self.fates(is_wanted).contains(&Fate::Lost)
+    fn switches_off_less_than(&self, other: &Self) -> bool {
+        self.off.len() < other.off.len() && self.off.iter().all(|part| other.off.contains(part))
     }
+}
 
-    fn are_not_back(&self, is_wanted: impl Fn(&SolverPart) -> bool) -> bool {
-        let fates = self.fates(is_wanted);
-        !fates.contains(&Fate::Back) && !fates.contains(&Fate::RoundOff)
-    }
+struct Table {
+    rows: Vec<Row>,
+    /// The most parts that are off in a variant that seemed to be back, although the order is lost
+    /// where more is off.
+    contradicted: usize,
+}
 
-    /// The faces at each of which alone the solution may be flat, with its order back.
-    fn single_faces_back(&self) -> Vec<String> {
-        let names = self.0.iter().filter_map(|one| match &one.part {
-            SolverPart::Face(name) if matches!(one.fate, Fate::Back | Fate::RoundOff) => {
-                Some(name.clone())
-            }
-            _ => None,
-        });
-        names.collect()
-    }
-
-    fn one_face(&self, face: &str) -> Deduction {
-        let this = |part: &SolverPart| *part == SolverPart::Face(face.to_owned());
-        let other = |part: &SolverPart| matches!(part, SolverPart::Face(name) if name != face);
-        let conclusion = match self.time_back() {
-            Some(time) => Conclusion::FaceInTime {
-                face: face.to_owned(),
-                time,
-            },
-            None => Conclusion::Faces(vec![face.to_owned()]),
-        };
-        let conditions = [
-            self.are_back(this),
-            self.are_lost(other),
-            // Data at a face act little on a solution that is flat at the first time, and a variant
-            // in which the lost part may hide is undecided.
-            self.are_not_back(|part| *part == SolverPart::Initial),
-            self.agrees(face),
-        ];
-        Deduction::if_all(&conditions, conclusion)
-    }
-
-    /// The time's name, if the order is back where nothing changes in it.
-    fn time_back(&self) -> Option<String> {
-        self.0.iter().find_map(|one| match &one.part {
-            SolverPart::Time(name) if one.fate == Fate::Back => Some(name.clone()),
-            _ => None,
-        })
-    }
-
-    /// Whether variants that are flat at this face and at others agree that its data are at fault.
-    fn agrees(&self, face: &str) -> bool {
-        let of_others =
-            |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if !is_side(face, name));
-        let both =
-            |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if is_side(face, name));
-        let others =
-            |part: &SolverPart| matches!(part, SolverPart::AllFacesBut(name) if name != face);
-        let but_this = |part: &SolverPart| *part == SolverPart::AllFacesBut(face.to_owned());
-        self.are_back(both)
-            && self.are_not_back(of_others)
-            && self.are_back(|part| *part == SolverPart::AllFaces)
-            && self.are_not_lost(others)
-            && self.are_not_lost(|part| *part == SolverPart::AllFacesAndInitial)
-            && self.are_not_back(but_this)
-    }
-
-    fn corner(&self, one: &str, other: &str) -> Deduction {
-        let names = [one.to_owned(), other.to_owned()];
-        let is_of_the_two =
-            |part: &SolverPart| matches!(part, SolverPart::Face(name) if names.contains(name));
-        let is_another =
-            |part: &SolverPart| matches!(part, SolverPart::Face(name) if !names.contains(name));
-        let both = |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if is_side(one, name) || is_side(other, name));
-        let opposite = |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if is_side(one, name) && is_side(other, name));
-        let conditions = [
-            self.fates(opposite).is_empty(),
-            self.are_back(is_of_the_two),
-            self.are_lost(is_another),
-            self.are_lost(|part| *part == SolverPart::Initial),
-            self.are_back(both),
-            self.are_back(|part| *part == SolverPart::AllFaces),
-            self.are_not_lost(|part| matches!(part, SolverPart::AllFacesBut(_))),
-            self.are_not_lost(|part| *part == SolverPart::AllFacesAndInitial),
-        ];
-        Deduction::if_all(&conditions, Conclusion::Corner(names))
-    }
-
-    fn no_single_face(&self) -> Deduction {
-        match self.coordinates_with_both_back().as_slice() {
-            [] => self.faces_by_all_but_one(),
-            [coordinate] => self.both_faces(coordinate),
-            _ => Deduction::Nothing,
-        }
-    }
-
-    fn coordinates_with_both_back(&self) -> Vec<String> {
-        let names = self.0.iter().filter_map(|one| match &one.part {
-            SolverPart::BothFaces(name) if matches!(one.fate, Fate::Back | Fate::RoundOff) => {
-                Some(name.clone())
-            }
-            _ => None,
-        });
-        names.collect()
-    }
-
-    fn both_faces(&self, coordinate: &str) -> Deduction {
-        let faces = ["min", "max"].map(|end| format!("{coordinate}_{end}"));
-        let this =
-            |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if name == coordinate);
-        let other =
-            |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if name != coordinate);
-        let but_these = |part: &SolverPart| matches!(part, SolverPart::AllFacesBut(name) if faces.contains(name));
-        let but_others = |part: &SolverPart| matches!(part, SolverPart::AllFacesBut(name) if !faces.contains(name));
-        let conditions = [
-            self.are_back(this),
-            self.are_lost(is_single_face),
-            self.are_lost(other),
-            self.are_not_back(|part| *part == SolverPart::Initial),
-            self.are_not_back(but_these),
-            self.are_not_lost(but_others),
-            self.are_back(|part| *part == SolverPart::AllFaces),
-            self.are_not_lost(|part| *part == SolverPart::AllFacesAndInitial),
-        ];
-        Deduction::if_all(&conditions, Conclusion::Faces(faces.to_vec()))
-    }
-
-    /// Several faces, of unlike coordinates: each without which the order stays lost.
-    fn faces_by_all_but_one(&self) -> Deduction {
-        let faces = self.0.iter().filter_map(|one| match &one.part {
-            SolverPart::AllFacesBut(name) if one.fate == Fate::Lost => Some(name.clone()),
+impl Table {
+    fn new(examined: &[Examined]) -> Self {
+        let faces = examined.iter().filter_map(|one| match &one.part {
+            SolverPart::Face(name) => Some(name.clone()),
             _ => None,
         });
         let faces: Vec<String> = faces.collect();
-        let is_all = |part: &SolverPart| *part == SolverPart::AllFaces;
-        let all_but = |part: &SolverPart| matches!(part, SolverPart::AllFacesBut(_));
-        let is_known = |fate: &Fate| matches!(fate, Fate::Lost | Fate::Back);
-        // Both faces of one coordinate have a variant of their own.
-        let covers = |part: &SolverPart| matches!(part, SolverPart::BothFaces(name) if faces.iter().all(|face| is_side(face, name)));
-        let conditions = [
-            faces.len() >= 2,
-            self.fates(covers).is_empty(),
-            self.are_lost(|part| *part == SolverPart::Initial),
-            !self.fates(is_all).is_empty() && self.are_back(is_all),
-            self.fates(all_but).iter().all(is_known),
-            self.are_lost(is_single_face),
-            self.are_lost(|part| matches!(part, SolverPart::BothFaces(_))),
-            self.are_not_lost(|part| *part == SolverPart::AllFacesAndInitial),
-        ];
-        Deduction::if_all(&conditions, Conclusion::Faces(faces))
+        let measured = examined.iter().map(|one| Row {
+            measured: one.fate,
+            examined: one.clone(),
+            off: parts_off(&one.part, &faces),
+        });
+        let measured: Vec<Row> = measured.collect();
+        let mut rows = measured.clone();
+        let mut contradicted = 0;
+        for row in &mut rows {
+            let mut lost = measured.iter().filter(|other| other.fate() == Fate::Lost);
+            let mut back = measured.iter().filter(|other| other.fate() == Fate::Back);
+            if lost.any(|other| row.switches_off_less_than(other)) {
+                if row.fate() == Fate::Back {
+                    contradicted = row.off.len().max(contradicted);
+                }
+                row.examined.fate = Fate::Lost;
+            } else if row.fate() == Fate::Unknown
+                && back.any(|other| other.switches_off_less_than(row))
+            {
+                row.examined.fate = Fate::Back;
+            }
+        }
+        Self { rows, contradicted }
     }
 
-    fn initial(&self) -> Deduction {
-        let this = |part: &SolverPart| *part == SolverPart::Initial;
-        let faces = |part: &SolverPart| is_flat(part) && !this(part);
-        let conditions = [
-            !self.fates(this).is_empty() && self.are_back(this),
-            self.are_lost(|part| faces(part) && *part != SolverPart::AllFacesAndInitial),
-            self.are_back(|part| *part == SolverPart::AllFacesAndInitial),
-        ];
-        Deduction::if_all(&conditions, Conclusion::Initial)
+    /// The variant that switches off most of the boundary.
+    fn widest(&self) -> Option<&Row> {
+        let rows = self.rows.iter().filter(|row| row.is_flat());
+        rows.max_by_key(|row| row.off.len())
     }
 
-    /// What acts inside the domain. That it is lost where all is flat outweighs that it seems to be
-    /// back where less is: there the lost part may be small.
-    fn inside(&self) -> Deduction {
-        let back = self
-            .0
-            .iter()
-            .filter(|one| !is_flat(&one.part) && one.fate == Fate::Back);
-        let back: Vec<SolverPart> = back.map(|one| one.part.clone()).collect();
-        let is_along =
-            |part: &SolverPart| matches!(part, SolverPart::Coordinate(_) | SolverPart::Time(_));
-        let along = back.iter().filter(|part| is_along(part)).count();
-        // If it is lost in the last of these that the file has, it is in those before, too.
-        let of_all = [
-            SolverPart::Initial,
-            SolverPart::AllFaces,
-            SolverPart::AllFacesAndInitial,
-        ];
-        let strongest = of_all
-            .iter()
-            .rfind(|one| !self.fates(|part| part == *one).is_empty());
-        // Without one of these, both faces of the one coordinate are all faces.
-        let is_strong = |part: &SolverPart| match part {
-            SolverPart::BothFaces(_) => strongest.is_none(),
-            part => *part == SolverPart::AllFaces || Some(part) == strongest,
+    /// The parts whose own variants have this fate.
+    fn singles(&self, fate: Fate) -> Vec<SolverPart> {
+        let rows = self.rows.iter();
+        let rows = rows.filter(|row| row.off.len() == 1 && row.fate() == fate);
+        rows.map(|row| row.off[0].clone()).collect()
+    }
+
+    /// Whether the table is that of these mistakes, as far as it is known.
+    fn agrees(&self, mistakes: &[Vec<SolverPart>]) -> bool {
+        let mut rows = self.rows.iter();
+        rows.all(|row| {
+            let is_hidden = mistakes.iter().all(|mistake| row.hides(mistake));
+            match row.fate() {
+                Fate::Back => is_hidden,
+                Fate::Lost => !is_hidden,
+                Fate::RoundOff | Fate::Unknown => true,
+            }
+        })
+    }
+
+    /// Every mistake acts in these parts.
+    fn at_one_place(&self, flat: &[SolverPart], inside: &[SolverPart]) -> Option<Conclusion> {
+        let mistake = [flat, inside].concat();
+        // Some variant that is flat there and elsewhere must show it as well.
+        let wider = || {
+            let rows = self.rows.iter().filter(|row| row.is_flat());
+            rows.filter(|row| row.off.len() > 1 && flat.iter().all(|part| row.off.contains(part)))
         };
-        let both = |part: &SolverPart| match part {
-            SolverPart::BothFaces(name) => back.contains(&SolverPart::Coordinate(name.clone())),
-            _ => false,
-        };
-        let conditions = [
-            !back.is_empty(),
-            along <= 1,
-            !self.fates(is_along).contains(&Fate::Unknown),
-            !self.fates(is_along).contains(&Fate::RoundOff),
-            self.are_lost(is_strong),
-            self.are_lost(both),
-        ];
-        Deduction::if_all(&conditions, Conclusion::Inside(back))
+        let is_confirmed =
+            wider().next().is_none() || wider().any(|row| row.measured == Fate::Back);
+        if !self.agrees(&[mistake]) || !is_confirmed {
+            return None;
+        }
+        let open = self.singles(Fate::Unknown).into_iter();
+        let open: Vec<SolverPart> = open
+            .filter(|part| matches!(part, SolverPart::Face(_)))
+            .collect();
+        if !open.is_empty() {
+            return Some(Conclusion::Open(open));
+        }
+        match flat {
+            [SolverPart::Face(name)] => Some(Conclusion::Faces {
+                names: vec![name.clone()],
+                time: time_of(inside),
+            }),
+            [SolverPart::Face(one), SolverPart::Face(other)]
+                if coordinate(one) != coordinate(other) =>
+            {
+                Some(Conclusion::Corner([one.clone(), other.clone()]))
+            }
+            [SolverPart::Initial] => Some(Conclusion::Initial),
+            _ => None,
+        }
+    }
+
+    /// The faces in which a mistake acts: lost where some parts are off, back where this is, too.
+    fn faces_by_pairs(&self) -> Vec<String> {
+        let mut names = vec![];
+        let of = |fate: Fate| self.rows.iter().filter(move |row| row.fate() == fate);
+        for back in of(Fate::Back).filter(|row| row.is_flat()) {
+            for lost in of(Fate::Lost).filter(|lost| lost.switches_off_less_than(back)) {
+                let mut rest = back.off.iter().filter(|part| !lost.off.contains(part));
+                if let (Some(SolverPart::Face(name)), None) = (rest.next(), rest.next())
+                    && !names.contains(name)
+                {
+                    names.push(name.clone());
+                }
+            }
+        }
+        names.sort_by_key(|name| {
+            self.rows
+                .iter()
+                .position(|row| row.off == [SolverPart::Face(name.clone())])
+        });
+        names
+    }
+
+    /// A mistake at each of these faces; all of them in time, if it explains all losses.
+    fn at_several_faces(&self, names: Vec<String>, inside: &[SolverPart]) -> Option<Conclusion> {
+        let mistakes: Vec<Vec<SolverPart>> = names
+            .iter()
+            .map(|name| [&[SolverPart::Face(name.clone())], inside].concat())
+            .collect();
+        if self.contradicted > 0 || !self.agrees(&mistakes) {
+            return None;
+        }
+        let mut open = self.singles(Fate::Unknown);
+        // Each face must be one without which the order stays lost.
+        open.extend(self.rows.iter().filter_map(|row| match &row.examined.part {
+            SolverPart::AllFacesBut(_) if row.fate() == Fate::Unknown => {
+                Some(row.examined.part.clone())
+            }
+            _ => None,
+        }));
+        if !open.is_empty() {
+            return Some(Conclusion::Open(open));
+        }
+        Some(Conclusion::Faces {
+            names,
+            time: time_of(inside),
+        })
+    }
+
+    /// What acts inside the domain: the order is lost although the solution is flat at all faces
+    /// and at the first time.
+    fn inside(&self, parts: Vec<SolverPart>) -> Option<Conclusion> {
+        let widest = self.widest()?;
+        let along =
+            |part: &&SolverPart| matches!(part, SolverPart::Coordinate(_) | SolverPart::Time(_));
+        let unknown = self.singles(Fate::Unknown);
+        let mut open: Vec<SolverPart> = unknown.iter().filter(along).cloned().collect();
+        match widest.fate() {
+            Fate::Lost => (),
+            Fate::Unknown => open.push(widest.examined.part.clone()),
+            Fate::Back | Fate::RoundOff => return None,
+        }
+        let is_round_off = self.singles(Fate::RoundOff).iter().filter(along).count() > 0;
+        // At one face the lost part may be merely small.
+        let is_doubtful = is_round_off || self.contradicted > 1;
+        if parts.iter().filter(along).count() > 1 || is_doubtful {
+            return None;
+        }
+        Some(match open.is_empty() {
+            true => Conclusion::Inside(parts),
+            false => Conclusion::Open(open),
+        })
+    }
+
+    fn nothing(&self) -> Conclusion {
+        let unknown = self.rows.iter().filter(|row| row.fate() == Fate::Unknown);
+        let unknown: Vec<SolverPart> = unknown.map(|row| row.examined.part.clone()).collect();
+        let is_lost = self.rows.iter().all(|row| row.fate() == Fate::Lost);
+        if !unknown.is_empty() {
+            Conclusion::Open(unknown)
+        } else if is_lost && self.contradicted == 0 {
+            Conclusion::Everywhere
+        } else {
+            Conclusion::Several
+        }
     }
 }
 
-fn is_single_face(part: &SolverPart) -> bool {
-    matches!(part, SolverPart::Face(_))
-}
-
-/// Whether a variant switches off data.
-fn is_flat(part: &SolverPart) -> bool {
+/// The parts that a variant switches off, one by one.
+fn parts_off(part: &SolverPart, faces: &[String]) -> Vec<SolverPart> {
+    let flat = |is_off: &dyn Fn(&String) -> bool| -> Vec<SolverPart> {
+        let faces = faces.iter().filter(|face| is_off(face));
+        faces.cloned().map(SolverPart::Face).collect()
+    };
     match part {
-        SolverPart::Face(_)
-        | SolverPart::BothFaces(_)
-        | SolverPart::AllFaces
-        | SolverPart::AllFacesBut(_)
-        | SolverPart::Initial
-        | SolverPart::AllFacesAndInitial => true,
-        SolverPart::Coordinate(_)
-        | SolverPart::Time(_)
-        | SolverPart::Parameter(_)
-        | SolverPart::Field(_) => false,
+        SolverPart::BothFaces(name) => flat(&|face| coordinate(face) == name),
+        SolverPart::AllFaces => flat(&|_| true),
+        SolverPart::AllFacesBut(name) => flat(&|face| face != name),
+        SolverPart::AllFacesAndInitial => {
+            let mut all = flat(&|_| true);
+            all.push(SolverPart::Initial);
+            all
+        }
+        one => vec![one.clone()],
     }
 }
 
-/// Whether a face belongs to a coordinate.
-fn is_side(face: &str, coordinate: &str) -> bool {
-    let ending = face.strip_prefix(coordinate);
-    matches!(ending, Some("_min" | "_max"))
+/// The coordinate that is constant on a face.
+fn coordinate(face: &str) -> &str {
+    face.rsplit_once('_').map_or(face, |parts| parts.0)
+}
+
+/// The time's name, if it is among these parts.
+fn time_of(parts: &[SolverPart]) -> Option<String> {
+    parts.iter().find_map(|part| match part {
+        SolverPart::Time(name) => Some(name.clone()),
+        _ => None,
+    })
+}
+
+/// Whether a part is data, which a solution switches off that is flat there.
+fn is_flat(part: &SolverPart) -> bool {
+    matches!(part, SolverPart::Face(_) | SolverPart::Initial)
 }
 
 #[cfg(test)]

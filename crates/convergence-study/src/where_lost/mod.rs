@@ -3,7 +3,7 @@
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `decide.rs` | what follows from the variants in which the order comes back |
+//! | `decide.rs` | a table of variants and one rule: what follows from those in which the order comes back |
 //! | `fate.rs` | whether it does |
 //! | `words.rs` | the table of variants, the conclusion |
 //! | `figure.rs` | the rates by variant |
@@ -16,8 +16,9 @@ mod words;
 use crate::judge::verdict::Verdict;
 use crate::run::{Fate, Located, VariantRate, VariantRates};
 use crate::study::Outcome;
-use crate::study::variants::{LeftOutVariant, SolverPart, Variant, Variants};
-use decide::{Examined, decide};
+use crate::study::variants::{LeftOutVariant, SolverPart, Variants};
+use crate::text::number::plain_text;
+use decide::{Conclusion, Examined, completed, decide, explaining, may_explain_all, open_inside};
 use fate::{Sized, fate};
 
 pub use figure::figure;
@@ -37,81 +38,270 @@ pub fn lost(outcome: &Outcome) -> Vec<String> {
     lost.map(|rate| rate.name.clone()).collect()
 }
 
-/// The place of the variant that is run first, if there is one: its errors are not those of the
-/// study unless the solver ignores it, for with a bubble the solution is no polynomial of low
-/// degree, for which schemes are exact.
-pub fn probe(variants: &Variants) -> Option<usize> {
-    let has_bubble = |variant: &Variant| {
-        matches!(
-            variant.switches_off,
-            SolverPart::BothFaces(_) | SolverPart::AllFaces | SolverPart::AllFacesAndInitial
-        )
-    };
-    variants.usable.iter().position(has_bubble)
+/// Levels of a variant at first: the fewest of which a rate has an interval.
+const FIRST_LEVELS: usize = 3;
+
+/// Levels of a variant beyond those of the study, at most.
+const MORE_LEVELS: usize = 2;
+
+/// A variant that is to be run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Request {
+    /// Its place among the usable variants.
+    pub place: usize,
+    /// The number of levels; `None` for those of the study.
+    pub levels: Option<usize>,
 }
 
-/// Whether the errors are those of the study in every variant: the solver does not notice it.
-pub fn is_unnoticed(base: &Outcome, ran: &[&Outcome]) -> bool {
-    let is_same = |outcome: &&Outcome| {
-        let mut levels = base.levels.iter().zip(&outcome.levels);
-        levels.all(|(base, variant)| base.errors == variant.errors)
-    };
-    !ran.is_empty() && ran.iter().all(is_same)
+/// What a variant has shown.
+struct Shown {
+    outcome: Outcome,
+    /// The number of levels that were requested.
+    requested: Option<usize>,
 }
 
-/// Where the order of errors is lost.
+/// A search for the place where the order of errors is lost: it requests variants until they name a
+/// part, or nothing can. What follows from others is not run: where the order is lost, it is lost
+/// wherever less is switched off; where it is back, it is back wherever more is.
+pub struct Search<'s> {
+    base: &'s Outcome,
+    variants: &'s Variants,
+    errors: Vec<String>,
+    /// The number of levels of the study, if that of a variant can differ.
+    levels: Option<usize>,
+    /// Of each usable variant.
+    shown: Vec<Option<Shown>>,
+}
+
+impl<'s> Search<'s> {
+    /// * `base`: the study that has lost the order of the errors of [`lost`].
+    /// * `levels`: the number of its levels, if that of a variant can differ.
+    pub fn new(base: &'s Outcome, variants: &'s Variants, levels: Option<usize>) -> Self {
+        Self {
+            base,
+            variants,
+            errors: lost(base),
+            levels,
+            shown: variants.usable.iter().map(|_| None).collect(),
+        }
+    }
+
+    /// What to run next; nothing if no variant can change the conclusion.
+    pub fn next(&self) -> Vec<Request> {
+        let probe = self.probe();
+        if self.shown.iter().all(Option::is_none) && probe.is_some() {
+            return self.requests(|place| Some(place) == probe);
+        }
+        let examined = self.examined();
+        let completed = completed(&examined);
+        for rank in 0..=LAST_RANK {
+            let requests = self.requests(|place| {
+                let is_open = completed[place].fate == Fate::Unknown;
+                self.rank(place) == rank && is_open && self.shown[place].is_none()
+            });
+            // What explains all losses must be seen at the levels of the study.
+            let explaining = self.of_parts(&explaining(&examined), self.levels);
+            // Inside or at the boundary: that is one question, before all faces.
+            let open = self.of_parts(&open_inside(&examined), None);
+            for requests in [explaining, requests, open] {
+                if !requests.is_empty() {
+                    return requests;
+                }
+            }
+        }
+        let requests = self.of_parts(&may_explain_all(&examined), None);
+        if !requests.is_empty() {
+            return requests;
+        }
+        match decide(&examined) {
+            Conclusion::Open(parts) => self.of_parts(&parts, None),
+            _ => vec![],
+        }
+    }
+
+    /// Requests for the variants of these parts.
+    ///
+    /// * `least`: only for those with fewer levels.
+    fn of_parts(&self, parts: &[SolverPart], least: Option<usize>) -> Vec<Request> {
+        let is_short = |place: usize| {
+            let shown = self.shown[place].as_ref();
+            least.is_none() || shown.is_some_and(|shown| shown.requested < least)
+        };
+        self.requests(|place| {
+            parts.contains(&self.variants.usable[place].switches_off) && is_short(place)
+        })
+    }
+
+    /// Keeps what a variant has shown.
+    pub fn add(&mut self, request: Request, outcome: Outcome) {
+        self.shown[request.place] = Some(Shown {
+            outcome,
+            requested: request.levels,
+        });
+    }
+
+    /// Whether the errors are those of the study in every variant that was run: the solver does not
+    /// notice it.
+    pub fn is_unnoticed(&self) -> bool {
+        let is_same = |shown: &Shown| {
+            let mut levels = self.base.levels.iter().zip(&shown.outcome.levels);
+            levels.all(|(base, variant)| base.errors == variant.errors)
+        };
+        let mut shown = self.shown.iter().flatten().peekable();
+        shown.peek().is_some() && shown.all(is_same)
+    }
+
+    /// The variant that is run first: its errors are not those of the study unless the solver
+    /// ignores it, for with a bubble the solution is no polynomial of low degree, for which schemes
+    /// are exact. Of these the one that switches off most.
+    fn probe(&self) -> Option<usize> {
+        let mut ranked: Vec<usize> = (0..self.shown.len()).collect();
+        ranked.retain(|place| {
+            let part = &self.variants.usable[*place].switches_off;
+            matches!(
+                part,
+                SolverPart::BothFaces(_) | SolverPart::AllFaces | SolverPart::AllFacesAndInitial
+            )
+        });
+        ranked.into_iter().min_by_key(|place| self.rank(*place))
+    }
+
+    /// When a variant is run: those that exclude most others first.
+    fn rank(&self, place: usize) -> usize {
+        match self.variants.usable[place].switches_off {
+            SolverPart::Coordinate(_)
+            | SolverPart::Time(_)
+            | SolverPart::Parameter(_)
+            | SolverPart::Field(_)
+            | SolverPart::AllFacesAndInitial => 0,
+            SolverPart::AllFaces | SolverPart::Initial => 1,
+            SolverPart::BothFaces(_) => 2,
+            SolverPart::Face(_) => 3,
+            SolverPart::AllFacesBut(_) => LAST_RANK,
+        }
+    }
+
+    /// Requests for these variants, if they can be run with more levels than before.
+    fn requests(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<Request> {
+        let places = (0..self.shown.len()).filter(|place| is_wanted(*place));
+        let requests = places.filter_map(|place| {
+            let levels = match (&self.shown[place], self.levels) {
+                (None, levels) => levels.map(|listed| listed.min(FIRST_LEVELS)),
+                (Some(shown), Some(listed)) => {
+                    let requested = shown.requested?;
+                    // Fewer than requested: the next one takes too long.
+                    let is_last = shown.outcome.levels.len() < requested;
+                    (!is_last && requested < listed + MORE_LEVELS).then_some(())?;
+                    Some(requested + 1)
+                }
+                (Some(_), None) => return None,
+            };
+            Some(Request { place, levels })
+        });
+        requests.collect()
+    }
+
+    fn examined(&self) -> Vec<Examined> {
+        let base = Sized {
+            outcome: self.base,
+            size: self.variants.size,
+        };
+        let pairs = self.variants.usable.iter().zip(&self.shown);
+        let usable = pairs.map(|(variant, shown)| Examined {
+            part: variant.switches_off.clone(),
+            fate: shown.as_ref().map_or(Fate::Unknown, |shown| {
+                let outcome = &shown.outcome;
+                let size = variant.size;
+                fate(&self.errors, base, Sized { outcome, size })
+            }),
+        });
+        let left_out = self.variants.left_out.iter().map(|variant| Examined {
+            part: variant.switches_off.clone(),
+            fate: Fate::Unknown,
+        });
+        usable.chain(left_out).collect()
+    }
+
+    /// Where the order is lost.
+    pub fn located(&self) -> Located {
+        let examined = self.examined();
+        let conclusion = decide(&examined);
+        let mut fates = completed(&examined).into_iter().map(|one| one.fate);
+        let mut rows = vec![];
+        for (variant, shown) in self.variants.usable.iter().zip(&self.shown) {
+            let rate = |error: &String| {
+                Some(VariantRate {
+                    error: error.clone(),
+                    rate: shown.as_ref()?.outcome.rate(error)?.clone(),
+                })
+            };
+            rows.push(VariantRates {
+                name: variant.name.clone(),
+                switches_off: variant.switches_off.clone(),
+                order: fates.next().unwrap_or(Fate::Unknown),
+                rates: self.errors.iter().filter_map(rate).collect(),
+                left_out: None,
+                next: shown.as_ref().and_then(|shown| finer(&shown.outcome)),
+            });
+        }
+        for (
+            LeftOutVariant {
+                name,
+                switches_off,
+                why,
+            },
+            order,
+        ) in self.variants.left_out.iter().zip(fates)
+        {
+            rows.push(VariantRates {
+                name: name.clone(),
+                switches_off: switches_off.clone(),
+                order,
+                rates: vec![],
+                left_out: Some(why.clone()),
+                next: None,
+            });
+        }
+        let mut errors = self.errors.iter();
+        let tendency = errors.find_map(|error| self.base.rate(error)?.tendency);
+        Located {
+            named: conclusion.named(),
+            conclusion: words::sentence(&conclusion, &rows, tendency, self.variants),
+            variants: rows,
+        }
+    }
+}
+
+const LAST_RANK: usize = 4;
+
+/// The level after the last of an outcome, in words: parameters that grow are doubled.
+fn finer(outcome: &Outcome) -> Option<String> {
+    let [.., before, last] = outcome.levels.as_slice() else {
+        return None;
+    };
+    let growing = last.parameters.iter().filter(|parameter| {
+        let smaller = before.parameter(&parameter.name);
+        smaller.is_some_and(|smaller| smaller < parameter.value)
+    });
+    let doubled = growing.map(|parameter| {
+        let value = plain_text(2.0 * parameter.value);
+        format!("{} = {value}", parameter.name)
+    });
+    let doubled: Vec<String> = doubled.collect();
+    (!doubled.is_empty()).then(|| doubled.join(", "))
+}
+
+/// Where the order of errors is lost, by all variants at once.
 ///
-/// * `base`: the study that has lost it, in the errors of [`lost`].
 /// * `ran`: the study with each of the usable variants, in their order.
 pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located {
-    let errors = lost(base);
-    let of_base = Sized {
-        outcome: base,
-        size: variants.size,
-    };
-    let mut examined = vec![];
-    let mut rows = vec![];
-    for (variant, outcome) in variants.usable.iter().zip(ran) {
-        let size = variant.size;
-        let fate = fate(&errors, of_base, Sized { outcome, size });
-        let part = variant.switches_off.clone();
-        examined.push(Examined { part, fate });
-        let rates = errors.iter().filter_map(|error| {
-            Some(VariantRate {
-                error: error.clone(),
-                rate: outcome.rate(error)?.clone(),
-            })
-        });
-        rows.push(VariantRates {
-            name: variant.name.clone(),
-            switches_off: variant.switches_off.clone(),
-            order: fate,
-            rates: rates.collect(),
-            left_out: None,
-        });
+    let mut search = Search::new(base, variants, None);
+    for (place, outcome) in ran.iter().enumerate() {
+        let request = Request {
+            place,
+            levels: None,
+        };
+        search.add(request, (*outcome).clone());
     }
-    for LeftOutVariant {
-        name,
-        switches_off,
-        why,
-    } in &variants.left_out
-    {
-        let part = switches_off.clone();
-        let fate = Fate::Unknown;
-        examined.push(Examined { part, fate });
-        rows.push(VariantRates {
-            name: name.clone(),
-            switches_off: switches_off.clone(),
-            order: fate,
-            rates: vec![],
-            left_out: Some(why.clone()),
-        });
-    }
-    let conclusion = decide(&examined);
-    let tendency = errors.iter().find_map(|error| base.rate(error)?.tendency);
-    Located {
-        named: conclusion.named(),
-        conclusion: words::sentence(&conclusion, &rows, tendency, variants),
-        variants: rows,
-    }
+    search.located()
 }

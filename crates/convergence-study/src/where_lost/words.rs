@@ -46,7 +46,8 @@ pub(super) fn order(variant: &VariantRates) -> &'static str {
         Fate::Back => "back",
         Fate::RoundOff => "round-off",
         Fate::Lost => "lost",
-        Fate::Unknown if variant.rates.is_empty() => "left out",
+        Fate::Unknown if variant.left_out.is_some() => "left out",
+        Fate::Unknown if variant.rates.is_empty() => "not run",
         Fate::Unknown => "undecided",
     }
 }
@@ -123,15 +124,9 @@ pub(super) fn sentence(
     // Errors that tend to a constant are the subject: then `it` would be unclear.
     let it = if limit.is_some() { "the order" } else { "it" };
     let mut sentence = match conclusion {
-        Conclusion::Faces(names) => faces([&lost, it], names, rows, variants),
-        Conclusion::FaceInTime { face, time } => format!(
-            "{lost} at the face {face}, in time: {it} comes back where the solution is flat there ({}), \
-             and where it is constant in {time} ({}), and not where it is flat at any other face; \
-             look at the time at which {} is taken",
-            rate(rows, &SolverPart::Face(face.clone())),
-            rate(rows, &SolverPart::Time(time.clone())),
-            conditions(face, variants),
-        ),
+        Conclusion::Faces { names, time } => {
+            faces([&lost, it], names, time.as_deref(), rows, variants)
+        }
         Conclusion::Corner([one, other]) => format!(
             "{lost} where the faces {one} and {other} meet: {it} comes back where the solution is flat \
              at {one} ({}) and at {other} ({}) alike, and not where it is flat at any other face; \
@@ -149,10 +144,7 @@ pub(super) fn sentence(
             "{lost} in every variant: everywhere, as by a quadrature, a coefficient or a norm, or in \
              several parts at once; no part is named"
         ),
-        Conclusion::Open(parts) => format!(
-            "no part is named: what would decide is undecided or left out ({}); finer levels may help",
-            names(rows, |row| parts.contains(&row.switches_off)),
-        ),
+        Conclusion::Open(parts) => open(parts, rows),
         Conclusion::Several => format!(
             "no part is named: no single one explains that the order comes back {}",
             back(rows)
@@ -164,30 +156,77 @@ pub(super) fn sentence(
     sentence
 }
 
+/// What would decide, and at which sizes.
+fn open(parts: &[SolverPart], rows: &[VariantRates]) -> String {
+    let is_open = |row: &&VariantRates| parts.contains(&row.switches_off);
+    let (left_out, undecided): (Vec<&VariantRates>, Vec<_>) = rows
+        .iter()
+        .filter(is_open)
+        .partition(|row| row.left_out.is_some());
+    let mut reasons = vec![];
+    if !undecided.is_empty() {
+        let at = |row: &&VariantRates| match &row.next {
+            Some(level) => format!("{} at {level}", row.name),
+            None => row.name.clone(),
+        };
+        let variants = listed(undecided.iter().map(at).collect());
+        reasons.push(format!("undecided, finer levels may tell: {variants}"));
+    }
+    if !left_out.is_empty() {
+        let names = listed(left_out.iter().map(|row| row.name.clone()).collect());
+        reasons.push(format!("left out: {names}"));
+    }
+    format!(
+        "no part is named: what would decide is undecided or left out ({})",
+        reasons.join("; ")
+    )
+}
+
 /// * `lost`, `it`: how the sentence begins, and the order in it.
+/// * `time`: its name, if the order comes back where nothing changes in it.
 fn faces(
     [lost, it]: [&str; 2],
     names: &[String],
+    time: Option<&str>,
     rows: &[VariantRates],
     variants: &Variants,
 ) -> String {
-    if let [face] = names {
-        return format!(
-            "{lost} at the face {face}: {it} comes back where the solution is flat there ({}), and not \
-             where it is flat at any other face; look at {}",
-            rate(rows, &SolverPart::Face(face.clone())),
-            conditions(face, variants),
-        );
-    }
     let all: Vec<String> = names
         .iter()
         .map(|face| conditions(face, variants))
         .collect();
+    let all = listed(all);
+    let (place, back) = match names {
+        [face] => (
+            format!("the face {face}"),
+            format!(
+                "it comes back where the solution is flat there ({})",
+                rate(rows, &SolverPart::Face(face.clone()))
+            ),
+        ),
+        _ => (
+            format!("the faces {}", listed(names.to_vec())),
+            "it comes back where the solution is flat at these together".to_owned(),
+        ),
+    };
+    let back = back.replacen("it", it, 1);
+    let not = match names {
+        [_] => "not where it is flat at any other face",
+        _ => "not where one of them is left",
+    };
+    let Some(time) = time else {
+        let together = if names.len() > 1 {
+            ", and at what serves them all"
+        } else {
+            ""
+        };
+        return format!("{lost} at {place}: {back}, and {not}; look at {all}{together}");
+    };
+    let constant = rate(rows, &SolverPart::Time(time.to_owned()));
     format!(
-        "{lost} at the faces {}: {it} comes back where the solution is flat at these together, and not \
-         where one of them is left; look at {}, and at what serves them all",
-        listed(names.to_vec()),
-        listed(all),
+        "{lost} at {place}, in time: {back}, and where it is constant in {time} ({constant}), and {not}; \
+         look at the time at which {all} {} taken",
+        if names.len() > 1 { "are" } else { "is" }
     )
 }
 

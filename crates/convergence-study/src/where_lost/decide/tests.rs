@@ -73,7 +73,7 @@ impl Setting {
             let sides = self
                 .faces
                 .iter()
-                .filter(|face| is_side(face, &name))
+                .filter(|face| coordinate(face) == name)
                 .count();
             with_faces += usize::from(sides > 0);
             if sides == 2 {
@@ -172,7 +172,7 @@ impl Mistake {
         let at = |is_flat: &dyn Fn(&str) -> bool| self.faces.iter().any(|face| is_flat(face));
         match variant {
             SolverPart::Face(name) => at(&|face| face == name),
-            SolverPart::BothFaces(name) => at(&|face| is_side(face, name)),
+            SolverPart::BothFaces(name) => at(&|face| coordinate(face) == name),
             SolverPart::AllFaces => at(&|_| true),
             SolverPart::AllFacesBut(name) => at(&|face| face != name),
             SolverPart::Initial => self.is_initial,
@@ -330,9 +330,16 @@ struct Row {
     back: Vec<&'static str>,
 }
 
+fn at_faces(names: &[&str]) -> Conclusion {
+    Conclusion::Faces {
+        names: owned(names),
+        time: None,
+    }
+}
+
 fn rows() -> Vec<Row> {
     let faces = |names: &[&str], back: &[&'static str]| Row {
-        conclusion: Conclusion::Faces(owned(names)),
+        conclusion: at_faces(names),
         back: back.to_vec(),
     };
     let inside = |parts: Vec<SolverPart>, back: &[&'static str]| Row {
@@ -349,9 +356,9 @@ fn rows() -> Vec<Row> {
         faces(&["x_max"], &AT_X_MAX),
         faces(&["x_max"], &at_x_max("constant_x")),
         Row {
-            conclusion: Conclusion::FaceInTime {
-                face: "x_max".to_owned(),
-                time: "t".to_owned(),
+            conclusion: Conclusion::Faces {
+                names: owned(&["x_max"]),
+                time: Some("t".to_owned()),
             },
             back: at_x_max("constant_t"),
         },
@@ -378,6 +385,14 @@ fn rows() -> Vec<Row> {
             conclusion: Conclusion::Initial,
             back: vec!["flat_initial", "flat_everywhere"],
         },
+        // All data at the old time.
+        Row {
+            conclusion: Conclusion::Faces {
+                names: owned(&["x_min", "x_max", "y_min", "y_max"]),
+                time: Some("t".to_owned()),
+            },
+            back: with_pair(&["constant_t"]),
+        },
         Row {
             conclusion: Conclusion::Everywhere,
             back: vec![],
@@ -392,40 +407,41 @@ fn each_part_has_its_variants() {
     }
 }
 
+/// One variant that is mistaken takes names away; it gives none.
 #[test]
-fn each_variant_that_is_flat_must_agree() {
-    // Inside the domain three variants decide; in the others the lost part may be small.
-    let decide_y = ["flat_y", "flat_faces", "flat_everywhere"];
+fn a_variant_that_contradicts_others_names_nothing_else() {
+    let mut silent = 0;
     for row in rows() {
-        let is_inside = matches!(row.conclusion, Conclusion::Inside(_));
-        let first = if is_inside {
-            usize::from(row.back[0] == "constant_t")
-        } else {
-            0
-        };
-        let decides = |one: &&Examined| {
-            is_flat(&one.part)
-                && (!is_inside || decide_y[first..].contains(&name(&one.part).as_str()))
-        };
-        for examined in back(&row.back).iter().filter(decides) {
+        let named = row.conclusion.named();
+        for examined in back(&row.back).iter().filter(|one| {
+            let parts = parts_off(&one.part, &owned(settings()[0].faces));
+            parts.iter().all(is_flat)
+        }) {
             let opposite = if examined.fate == Fate::Back {
                 Fate::Lost
             } else {
                 Fate::Back
             };
             let variant = name(&examined.part);
-            let conclusion = decide(&with(back(&row.back), &variant, opposite));
-            assert_ne!(conclusion, row.conclusion, "{variant}");
+            let found = decide(&with(back(&row.back), &variant, opposite)).named();
+            silent += usize::from(found.is_empty());
+            // Of several mistakes one more may be among those.
+            if named.len() != 1 {
+                continue;
+            }
+            assert!(
+                found.iter().all(|part| named.contains(part)),
+                "{variant}: {found:?} for {named:?}"
+            );
         }
     }
+    assert!(silent > 40, "{silent}");
 }
 
 #[test]
 fn round_off_in_what_is_named_names_nothing() {
     for (row, variant) in [
         (0, "flat_x_max"),
-        (3, "flat_x"),
-        (4, "flat_faces"),
         (5, "flat_y_max"),
         (6, "constant_y"),
         (9, "flat_initial"),
@@ -451,27 +467,25 @@ fn a_contradiction_or_a_gap_names_nothing() {
         decide(&back(&["constant_y", "flat_everywhere"])),
         Conclusion::Several
     );
-    for (variant, fate) in [
-        ("flat_y_min", Fate::Unknown),
-        ("flat_faces", Fate::Unknown),
-        ("flat_x", Fate::Unknown),
-        ("flat_x_max", Fate::Unknown),
-    ] {
-        let conclusion = decide(&with(back(&AT_X_MAX), variant, fate));
-        assert!(
-            matches!(conclusion, Conclusion::Open(_)),
-            "{variant}: {conclusion:?}"
-        );
+    let unknown = |back_in: &[&'static str], variant: &str| {
+        decide(&with(back(back_in), variant, Fate::Unknown))
+    };
+    // What another variant implies is no gap.
+    for variant in ["flat_y_min", "flat_faces", "flat_x", "flat_initial"] {
+        assert_eq!(unknown(&AT_X_MAX, variant), at_faces(&["x_max"]));
     }
-    // All mistakes are where the solution is flat: what hides at the first time is there, too.
-    let hidden = with(back(&AT_X_MAX), "flat_initial", Fate::Unknown);
-    assert_eq!(decide(&hidden), Conclusion::Faces(vec!["x_max".to_owned()]));
-    for variant in ["flat_y", "flat_everywhere", "flat_faces", "constant_x"] {
-        let conclusion = decide(&with(back(&["constant_y"]), variant, Fate::Unknown));
-        assert!(
-            matches!(conclusion, Conclusion::Open(_)),
-            "{variant}: {conclusion:?}"
-        );
+    let along_y = Conclusion::Inside(vec![SolverPart::Coordinate("y".to_owned())]);
+    for variant in ["flat_y", "flat_faces", "flat_x_max"] {
+        assert_eq!(unknown(&["constant_y"], variant), along_y);
+    }
+    for conclusion in [
+        unknown(&AT_X_MAX, "flat_x_max"),
+        unknown(&["constant_y"], "flat_everywhere"),
+        unknown(&["constant_y"], "constant_x"),
+        // It may explain all that four faces explain together.
+        unknown(&["flat_faces", "flat_everywhere"], "constant_t"),
+    ] {
+        assert!(matches!(conclusion, Conclusion::Open(_)), "{conclusion:?}");
     }
 }
 

@@ -170,18 +170,18 @@ def test_a_function_that_ignores_the_variant_is_refused_after_one(folder):
     with pytest.raises(ValueError, match="variants: the errors do not change with the variant: solve does not use it. Likely reasons"):
         cs.study(solve, [8, 16, 32], order=2, variants=rod)
     # With it flat at both ends the solution has a bubble: it is no polynomial for which schemes are exact.
-    assert dict.fromkeys(called) == {"": None, "flat_x": None}
+    assert dict.fromkeys(called) == {"": None, "flat_everywhere": None}
 
 
 def test_a_variant_that_does_not_run_is_named(folder):
     import rod
 
     def solve(n):
-        if os.environ.get("MANUFACTURE_VARIANT") == "flat_x":
+        if os.environ.get("MANUFACTURE_VARIANT") == "flat_everywhere":
             raise ZeroDivisionError("of no use")
         return 1 / n
 
-    with pytest.raises(RuntimeError, match=r"variants: solve does not run with the variant flat_x: ZeroDivisionError\('of no use'\)"):
+    with pytest.raises(RuntimeError, match=r"variants: solve does not run with the variant flat_everywhere: ZeroDivisionError\('of no use'\)"):
         cs.study(solve, [8, 16, 32], order=2, variants=rod)
     assert "MANUFACTURE_VARIANT" not in os.environ and not rod._VARIANT
 
@@ -194,14 +194,14 @@ def test_steps_are_refined_while_a_variant_is_undecided(folder):
     def solve(h):
         variant = os.environ.get("MANUFACTURE_VARIANT", "")
         steps.append((variant, h))
-        # Undecided at three levels where it is flat at x_min.
-        hidden = 40 * h**4 if variant == "flat_x_min" else 0.3 * h
+        # Undecided at three levels where it is constant in x.
+        hidden = 40 * h**4 if variant == "constant_x" else 0.3 * h
         # Another solution has other errors.
         return (h**2 + hidden) * (1 + 0.01 * len(variant))
 
     cs.study(solve, h=[0.4, 0.2, 0.1], order=2, variants=rod)
     assert [h for variant, h in steps if variant == ""] == [0.4, 0.2, 0.1]
-    of_variant = [h for variant, h in steps if variant == "flat_x_min"]
+    of_variant = [h for variant, h in steps if variant == "constant_x"]
     assert of_variant[:4] == [0.4, 0.2, 0.1, 0.05]
 
 

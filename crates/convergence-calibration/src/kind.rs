@@ -21,12 +21,11 @@ use convergence_study::{
     Case, CaseFailure, Check, Figure, Form, FromFile, Header, InputError, Key, Keys, Kind, KindRow,
     Outcome, Quantity, Ran, Section, Subject, Table, completion_check,
     internal::{
-        plots::{self, xy::Xy},
+        chart::{Axis, Chart},
         study::header::{SettingWords, study},
     },
     read_study,
 };
-use plots::Axis;
 
 use crate::grids::of_grids;
 use crate::hidden::HIDDEN_SHARES;
@@ -319,19 +318,15 @@ fn figure(
     note: String,
     points: fn(&SheetRow) -> Vec<(f64, f64)>,
 ) -> Figure {
-    let mut curves = vec![];
-    for row in &sheet.rows {
-        curves.push(plots::Series::new(row.name.clone(), points(row)));
-    }
-    let figure = Xy {
-        title: Some(title.to_owned()),
-        x,
-        show_x: show_x.to_vec(),
-        show_y: vec![100.0],
+    let mut chart = Chart {
         notes: vec![note],
-        ..plots::history(y, &curves).marked()
+        ..Chart::empty(x.showing(show_x), y.showing([100.0])).titled(title)
     };
-    Figure::new(sheet.key, caption, figure.draw())
+    for row in &sheet.rows {
+        let curve = chart.curve(&row.name, points(row));
+        *curve = curve.clone().marked();
+    }
+    Figure::new(sheet.key, caption, chart.svg())
 }
 
 /// True claims that pass, and wrong ones, in per cent, at each tolerance.

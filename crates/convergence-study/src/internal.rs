@@ -38,33 +38,11 @@ pub mod input {
     }
 }
 #[cfg(feature = "tables")]
-pub mod plots {
-    pub use crate::plots::{
-        Axis, ColouredCells, ErrorSeries, ForestAxis, ForestRow, Guide, Phases, Scale, Series,
-        SpaceTime, convergence, forest, history, iterations, panels, space_time, surface,
-        work_precision,
+pub mod chart {
+    pub use crate::chart::{
+        Axis, Band, Cells, Chart, DOTTED, Dashes, Guide, Mark, Row, SHORT, SOLID, Series, Table,
+        VERDICTS, deviations, look, panels, rates_of, text_width, without_title,
     };
-    pub mod canvas {
-        pub use crate::plots::canvas::{Anchor, Canvas, Layer, Pen, Point, Rect, grid};
-    }
-    pub mod inset {
-        pub use crate::plots::inset::{Inset, InsetFrame};
-    }
-    pub mod look {
-        pub use crate::plots::look::{Look, Marker, Marks, look};
-    }
-    pub mod ruler {
-        pub use crate::plots::ruler::{Ruler, fixed, on_scale, power_of_ten};
-    }
-    pub mod style {
-        pub use crate::plots::style::{
-            DOTTED, GRID, INK, LABEL_SIZE, LONG, MINOR_GRID, MUTED, SHADE, SHORT, SOLID, THIN,
-            TICK_SIZE, TITLE_SIZE, WIDTH, elide, text_width,
-        };
-    }
-    pub mod xy {
-        pub use crate::plots::xy::{Curve, Xy};
-    }
 }
 #[cfg(feature = "reports")]
 pub mod program {

@@ -69,12 +69,14 @@
 // judges, compares with the baseline and writes the report, and `cli` is the command line for all
 // of it. The rule knows neither norm nor scheme, only steps and errors: crate `convergence-judge`.
 //
-// Each module uses only those before it: `input`, `plots`, `exchange`, `rates`, `study`, `run`,
+// Each module uses only those before it: `input`, `chart`, `exchange`, `rates`, `study`, `run`,
 // `where_lost`, `project`, `store`, `program`, `report`, `verify`, `cli`. Nothing is
 // public but what is named here and in `internal`, so that the compiler finds what nobody uses.
 // With fewer features some items serve no one: they are searched for with all.
 #![cfg_attr(not(feature = "command-line"), allow(dead_code, unused_imports))]
 
+#[cfg(feature = "tables")]
+mod chart;
 #[cfg(feature = "command-line")]
 mod cli;
 #[cfg(feature = "tables")]
@@ -83,8 +85,6 @@ mod exchange;
 mod input;
 #[doc(hidden)]
 pub mod internal;
-#[cfg(feature = "tables")]
-mod plots;
 #[cfg(feature = "reports")]
 mod program;
 #[cfg(feature = "reports")]

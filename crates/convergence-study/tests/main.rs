@@ -1,6 +1,8 @@
 //! The tests of the harness, of its program and of the pages that document both, in one program.
 
 mod asserted;
+#[cfg(feature = "reports")]
+mod chart;
 #[cfg(feature = "command-line")]
 mod ci;
 #[cfg(all(feature = "tables", feature = "reports"))]
@@ -10,8 +12,6 @@ mod examples;
 #[cfg(feature = "command-line")]
 mod fit;
 mod grid;
-#[cfg(feature = "reports")]
-mod plots;
 #[cfg(feature = "command-line")]
 mod readme;
 mod richardson;

@@ -1,7 +1,7 @@
 //! Writes one picture of each kind, from made-up data:
 //! `cargo run -p thermobeam-study --example gallery -- DIR`.
 
-#[path = "../tests/plots/figures/mod.rs"]
+#[path = "../tests/charts/figures/mod.rs"]
 mod figures;
 
 use std::path::PathBuf;

@@ -3,11 +3,11 @@
 #![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
 
 mod accuracy;
+mod charts;
 mod fuzz;
 mod input;
 mod kinds;
 mod manufactured;
-mod plots;
 mod simulate;
 mod sweep;
 

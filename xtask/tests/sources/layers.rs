@@ -37,7 +37,7 @@ const FOREIGN: [&str; 21] = [
 /// The modules of the harness from bottom to top: each may use itself and those before it.
 const ORDER: [&str; 13] = [
     "input",
-    "plots",
+    "chart",
     "exchange",
     "rates",
     "study",
@@ -64,7 +64,7 @@ const LIBRARIES: [(&str, &[&str]); 11] = [
     ("manufacture", &["cli"]),
     ("nix", &["program"]),
     ("toml", &["input"]),
-    ("plotters", &["plots"]),
+    ("plotters", &["chart"]),
     ("minijinja", &["report"]),
     ("rayon", &["run"]),
 ];
@@ -251,8 +251,8 @@ fn a_use_against_the_order_is_found() {
         ),
         (
             "input",
-            "pub(crate) use crate::{plots::axis, study, judge};",
-            "input uses plots::axis, input uses study",
+            "pub(crate) use crate::{chart::axis, study, judge};",
+            "input uses chart::axis, input uses study",
         ),
         (
             "report",

@@ -9,6 +9,7 @@ use super::exit::{CommandOutcome, Unusable};
 use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
+use crate::chart::without_title;
 use crate::input::advice::CommandLine;
 use crate::input::table::{Choice, LineRange};
 use crate::judge::verdict::{self, Verdict};
@@ -83,6 +84,9 @@ pub struct Arguments {
     /// Columns without a claim count, too: then nothing passes
     #[arg(long)]
     all: bool,
+    /// Leave the titles of the pictures out, for papers, whose captions take their place
+    #[arg(long)]
+    no_title: bool,
     #[command(flatten)]
     flags: Flags,
 }
@@ -121,7 +125,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let verdict = rates::verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
-        write(project, &findings, verdict, folder)?;
+        write(project, &findings, verdict, folder, arguments.no_title)?;
     }
     let words = match flags.format {
         Format::Csv => rates::csv(&findings),
@@ -195,6 +199,7 @@ fn write(
     findings: &[Judgement<'_>],
     verdict: Verdict,
     folder: &Path,
+    no_title: bool,
 ) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
     let mut pages = vec![];
@@ -204,7 +209,13 @@ fn write(
         } else {
             format!("rates-{}.svg", k + 1)
         };
-        atomic::write(&folder.join(&name), figure(judgement))?;
+        let picture = figure(judgement);
+        let picture = if no_title {
+            without_title(&picture)
+        } else {
+            picture
+        };
+        atomic::write(&folder.join(&name), picture)?;
         let picture = format!("![Errors over steps]({name})\n\n");
         pages.push(markdown(judgement, &picture));
     }

@@ -9,6 +9,7 @@ use serde_json::json;
 use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
 use super::screen;
+use crate::chart::without_title;
 use crate::project::Project;
 use crate::report::{picture, sentence};
 use crate::store::{FIGURES, Provenance, Record};
@@ -23,6 +24,9 @@ use crate::verify::{Reports, folder_of_figures, is_report, rebuild};
 pub struct Arguments {
     /// The record
     record: PathBuf,
+    /// Leave the titles of the pictures out, for papers, whose captions take their place
+    #[arg(long)]
+    no_title: bool,
     #[command(flatten)]
     flags: Flags,
 }
@@ -35,6 +39,7 @@ pub(super) fn run(
     project: &Project,
     Arguments {
         record: path,
+        no_title,
         flags,
     }: &Arguments,
 ) -> CommandOutcome {
@@ -50,6 +55,12 @@ pub(super) fn run(
     })?;
     let pictures = folder_of_figures(&record, beside);
     let missing = add_pictures(&mut record, &pictures)?;
+    if *no_title {
+        let outcomes = record.studies.iter_mut().map(|study| &mut study.outcome);
+        for figure in outcomes.flat_map(|outcome| &mut outcome.figures) {
+            figure.svg = without_title(&figure.svg);
+        }
+    }
     let times = Reports::around(beside).provenance();
     let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use super::answer::{Answer, Expectation};
 use super::{CaseRun, Program, refine, values};
+use crate::chart::{self, Chart, Series, Table};
 use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
-use crate::plots::{self, Series};
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
@@ -69,7 +69,7 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     };
     let mut outcome = grid.judge();
     outcome.extend(Outcome::new("", vec![], vec![completion_check(ran)]));
-    let mut figures = grid.figures(|name| format!("error {name}"));
+    let mut figures = grid.figures(&outcome.rates, |name| format!("error {name}"));
     figures.extend(work_precision(levels, ran));
     Outcome {
         // These errors are not judged over either step alone.
@@ -311,27 +311,25 @@ fn errors(levels: &Levels, ran: &[CaseRun]) -> Vec<LevelErrors> {
         .collect()
 }
 
+/// The column of the work, and its axis.
+const WORK: &str = "work, as the program counts it";
+
 /// Errors over the work that the program counts, if every answer contains it.
 fn work_precision(levels: &Levels, ran: &[CaseRun]) -> Option<Figure> {
     let work = |ran: &CaseRun| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
-    let series = |column: &ErrorColumn| {
-        let errors = column.errors.iter().map(|error| error.unwrap_or(f64::NAN));
-        let points = work
-            .iter()
-            .copied()
-            .zip(errors)
-            .filter(|(work, error)| !(work.is_nan() && error.is_nan()));
-        Series::new(column.name.clone(), points)
-    };
+    let mut table = Table::from(&levels.errors()[..]);
+    table.push(WORK, work);
     let claimed = levels
         .columns
         .iter()
         .filter(|column| column.claim.is_some());
-    let series: Vec<Series> = claimed.map(series).collect();
-    let drawn = plots::work_precision("work, as the program counts it", "error", &series)
-        .titled("Errors fall with work: lower and further left is better")
-        .draw();
+    let series = claimed.map(|column| Series::new(&column.name, WORK, &column.name).marked());
+    let chart = Chart {
+        series: series.collect(),
+        ..Chart::new(table, chart::Axis::log(WORK), chart::Axis::log("error"))
+    };
+    let drawn = chart.titled("Errors over the work that they cost").svg();
     Some(Figure::new(
         "work",
         "Errors over the work that they cost: the lower and the further left, the better.",

@@ -114,7 +114,8 @@ fn differences(
         study.refine.axis(),
         refinements[1..].to_vec(),
         estimates.iter().map(column),
-    );
+    )
+    .of_differences();
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
     // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::shown::{sentence, text};
 use super::{EqualColumns, JudgedColumn, Judgement};
+use crate::chart::{Axis, Chart, Guide, Series, Table};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
 use crate::input::table::{Doubt, LeftOut, RateTable};
@@ -12,8 +13,6 @@ use crate::judge::fit::Level;
 #[cfg(feature = "command-line")]
 use crate::judge::shown;
 use crate::judge::verdict::{Aside, SetAside, Verdict};
-use crate::plots::xy::Xy;
-use crate::plots::{ErrorSeries, Guide, convergence};
 use crate::text::visible::{self, visible};
 
 /// Most columns in the figure: more would repeat the colours.
@@ -152,21 +151,22 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
         .filter(|judged| judged.estimate.is_none())
         .collect();
     drawn.sort_by_key(|judged| !judged.decides);
-    let series = |judged: &&JudgedColumn<'_>| ErrorSeries {
-        label: judged.column.name.clone(),
-        points: judged
-            .column
-            .levels
-            .iter()
-            .map(|level| (level.step, level.error))
-            .collect(),
-        order: judged.rate.order(),
-        fit: judged.rate.power_law(),
-        interval: judged.rate.interval,
-        used: Some(judged.rate.used.clone()),
-        ..ErrorSeries::default()
-    };
-    let series: Vec<ErrorSeries> = drawn.iter().take(DRAWN).map(series).collect();
+    let mut table = Table::default();
+    let mut series = vec![];
+    for judged in drawn.iter().take(DRAWN) {
+        let name = &judged.column.name;
+        let [over, of] =
+            [&findings.source.table.step, name].map(|column| format!("{column}, {name}"));
+        let levels = judged.column.levels.iter();
+        table.push(&over, levels.clone().map(|level| level.step));
+        table.push(&of, levels.map(|level| level.error));
+        let errors = Series::errors(name, over, of);
+        let errors = match judged.rate.order() {
+            Some(order) => errors.claiming(order),
+            None => errors,
+        };
+        series.push(errors.judged(&judged.rate));
+    }
     let at_floor = |judged: &&JudgedColumn<'_>| {
         judged
             .rate
@@ -178,19 +178,15 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
         label: "floor".to_owned(),
         value: findings.floor.value(),
     });
-    let guides = floor.into_iter().collect();
-    convergence(
-        Xy {
-            title: Some(format!(
-                "Errors over {}, and the lines of their rates",
-                findings.source.table.step
-            )),
-            guides,
-            ..Xy::of_errors(&findings.source.table.step)
-        },
-        &series,
-        &[],
-    )
+    let step = &findings.source.table.step;
+    let chart = Chart {
+        series,
+        guides: floor.into_iter().collect(),
+        ..Chart::new(table, Axis::log(step), Axis::log("error"))
+    };
+    chart
+        .titled(format!("Errors over {step}, and the lines of their rates"))
+        .svg()
 }
 
 /// The printed result, as a page.

@@ -1,7 +1,7 @@
 //! The picture of the rates nearest to a failure at the head of a report.
 
+use crate::chart::{Row, deviations};
 use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
-use crate::plots::{ForestAxis, ForestRow, forest};
 use crate::run::Finished;
 use crate::study::{Figure, NamedRate};
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
@@ -54,11 +54,11 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
         "{which}: 0 is the order claimed, the shaded band its tolerance. A rate passes where its whole interval lies in \
          the band."
     );
-    let rows: Vec<ForestRow> = rates.into_iter().map(row).collect();
+    let rows: Vec<Row> = rates.into_iter().map(row).collect();
     Some(Figure {
         file: FILE.to_owned(),
         caption,
-        svg: forest(&title, &ForestAxis::in_tolerances(), &rows),
+        svg: deviations(rows).titled(title).svg(),
     })
 }
 
@@ -77,14 +77,14 @@ struct StudyRate<'f> {
     rate: &'f RateVerdict,
 }
 
-fn row(StudyRate { study, name, rate }: StudyRate<'_>) -> ForestRow {
+fn row(StudyRate { study, name, rate }: StudyRate<'_>) -> Row {
     let numbers = match (rate.interval, rate.fitted) {
         (Some(interval), _) => interval_text(interval, RATE_PLACES),
         (None, Some(fitted)) => rate_text(Some(fitted)),
         (None, None) => "no rate".to_owned(),
     };
-    ForestRow {
-        label: format!("{study}: {name}"),
+    Row {
+        name: format!("{study}: {name}"),
         numbers: against_claim(&numbers, &rate.claim()).replace('-', "\u{2212}"),
         value: rate.fitted.map(|value| relative(rate, value)),
         interval: rate

@@ -6,10 +6,10 @@ use super::outcome::Figure;
 use super::outcome::{Check, NamedRate, Outcome};
 use super::over_levels::{Claim, summary};
 use super::subject::Subject;
+#[cfg(feature = "reports")]
+use crate::chart::{Axis, Chart, Series, Table};
 use crate::judge::grid::{Adding, GridErrors, SpaceTime};
 use crate::judge::verdict::Verdict;
-#[cfg(feature = "reports")]
-use crate::plots::{self, ErrorSeries, xy::Xy};
 use crate::text::number::plain_text;
 #[cfg(feature = "reports")]
 use crate::text::number::{order_text, short_text};
@@ -189,11 +189,12 @@ impl Grid {
     /// Each error over the mesh width, with a line for each time step, as a picture
     /// `over-h-<name>.svg`.
     ///
+    /// * `rates`: what [`judge`](Self::judge) has found, which the titles say.
     /// * `label`: an error, by its name, as the vertical axis shows it.
-    pub fn figures(&self, label: impl Fn(&str) -> String) -> Vec<Figure> {
+    pub fn figures(&self, rates: &[NamedRate], label: impl Fn(&str) -> String) -> Vec<Figure> {
         self.columns
             .iter()
-            .map(|column| self.figure(column, label(&column.name)))
+            .map(|column| self.figure(column, rates, label(&column.name)))
             .collect()
     }
 
@@ -201,13 +202,15 @@ impl Grid {
     /// An error over the mesh width.
     ///
     /// * `label`: of the vertical axis.
-    fn figure(&self, column: &GridColumn, label: String) -> Figure {
-        let xy = Xy {
-            title: Some("Errors fall with h until the error of dt is left".to_owned()),
-            y: plots::Axis::log(label),
-            ..Xy::of_errors("mesh width h")
+    fn figure(&self, column: &GridColumn, rates: &[NamedRate], label: String) -> Figure {
+        let own = format!("{} in ", column.name);
+        let mut own = rates.iter().filter(|rate| rate.name.starts_with(&own));
+        let title = if own.all(|rate| rate.rate.verdict.is_pass()) {
+            "Errors fall with h until the error of dt is left"
+        } else {
+            "The orders in h and dt are not confirmed"
         };
-        let lines: Vec<ErrorSeries> = (0..self.times).map(|k| self.line(column, k)).collect();
+        let chart = self.chart(column, label).titled(title);
         let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
         let name = column.name.replace(|c: char| !is_plain(c), "-");
         let caption = format!(
@@ -216,20 +219,28 @@ impl Grid {
             column.name,
             order_text(column.space.order)
         );
-        let svg = plots::convergence(xy, &lines, &[column.space.order]);
-        Figure::new(&format!("over-h-{name}"), caption, svg)
+        Figure::new(&format!("over-h-{name}"), caption, chart.svg())
     }
 
-    /// The errors at the k-th time step of each mesh.
+    /// A line for each time step, drawn from the points of the grid.
     #[cfg(feature = "reports")]
-    fn line(&self, column: &GridColumn, k: usize) -> ErrorSeries {
-        let points = self.points.iter().zip(&column.errors);
-        let points = points.skip(k).step_by(self.times.max(1));
-        let dt = self.points.get(k).map_or(f64::NAN, |point| point.time);
-        ErrorSeries {
-            label: format!("dt = {}", short_text(dt)),
-            points: points.map(|(point, error)| (point.space, *error)).collect(),
-            ..ErrorSeries::default()
+    fn chart(&self, column: &GridColumn, label: String) -> Chart {
+        let mut table = Table::default();
+        let mut series = vec![];
+        for k in 0..self.times {
+            let dt = self.points.get(k).map_or(f64::NAN, |point| point.time);
+            let name = format!("dt = {}", short_text(dt));
+            let every = self.times.max(1);
+            let meshes = self.points.iter().skip(k).step_by(every);
+            let [over, of] = ["h", &column.name].map(|column| format!("{column}, {name}"));
+            table.push(&over, meshes.map(|point| point.space));
+            table.push(&of, column.errors.iter().copied().skip(k).step_by(every));
+            series.push(Series::errors(name, over, of));
+        }
+        Chart {
+            series,
+            slopes: vec![column.space.order],
+            ..Chart::new(table, Axis::log("mesh width h"), Axis::log(label))
         }
     }
 

@@ -75,7 +75,9 @@ pub struct ErrorColumn {
     pub errors: Vec<Option<f64>>,
     /// The claim about it, if there is one.
     pub claim: Option<Claim>,
-    /// Its look in figures, of `plots::look`: the same wherever this error is drawn.
+    /// Whether the claim is only drawn, for comparison: nobody makes it.
+    pub is_only_drawn: bool,
+    /// Its look in figures, of `chart::look`: the same wherever this error is drawn.
     pub look: usize,
 }
 
@@ -113,6 +115,7 @@ impl ErrorColumn {
             symbol: None,
             errors: errors.into_iter().collect(),
             claim: None,
+            is_only_drawn: false,
             look: 0,
         }
     }
@@ -195,6 +198,8 @@ pub struct Levels {
     /// Fine levels with errors up to this one are not used: a thousand times the round-off, where
     /// that is known.
     pub floor: Floor,
+    /// What is measured, in the titles and at the axes of figures.
+    measured: &'static str,
     /// Whether programs or functions have answered the errors, of which two with claims must not be
     /// equal: norms that a kind computes may be.
     are_answers: bool,
@@ -214,6 +219,7 @@ impl Levels {
             refinements,
             columns,
             floor: Floor::NONE,
+            measured: "error",
             are_answers: false,
         }
     }
@@ -222,6 +228,14 @@ impl Levels {
     pub(crate) fn of_answers(self) -> Self {
         Self {
             are_answers: true,
+            ..self
+        }
+    }
+
+    /// The same of differences between results, which figures do not call errors.
+    pub fn of_differences(self) -> Self {
+        Self {
+            measured: "difference",
             ..self
         }
     }

@@ -1,8 +1,8 @@
 //! The rates by variant, with their intervals, against the order that is claimed.
 
 use super::words::order;
+use crate::chart::{Row, rates_of};
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::plots::{ForestAxis, ForestRow, forest};
 use crate::run::{Fate, Located};
 use crate::study::{Figure, Header, Outcome};
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
@@ -27,17 +27,15 @@ pub fn figure(header: &Header, base: &Outcome, located: &Located) -> Option<Figu
             Fate::Lost => Verdict::Fail,
         };
         let mut row = row(&variant.name, &found.rate, verdict);
-        row.label += &format!(": {}", order(variant));
+        row.name += &format!(": {}", order(variant));
         rows.push(row);
     }
-    let rates = rows.iter().filter_map(|row| row.value);
-    let axis = ForestAxis::of_rates(rate.claimed?, rates, COLOURS);
     let title = format!("{}: rate of the error {error} by variant", header.id);
     let caption = format!(
         "Rates of the error {error} with variants of the solution: {}",
         located.conclusion
     );
-    let svg = forest(&title, &axis, &rows);
+    let svg = rates_of(rate.claimed?, COLOURS, rows).titled(title).svg();
     Some(Figure {
         file: format!("{}-where.svg", header.id),
         caption,
@@ -45,9 +43,9 @@ pub fn figure(header: &Header, base: &Outcome, located: &Located) -> Option<Figu
     })
 }
 
-fn row(label: &str, rate: &RateVerdict, verdict: Verdict) -> ForestRow {
-    ForestRow {
-        label: label.to_owned(),
+fn row(name: &str, rate: &RateVerdict, verdict: Verdict) -> Row {
+    Row {
+        name: name.to_owned(),
         numbers: rate.interval.map_or_else(
             || rate_text(rate.fitted),
             |interval| interval_text(interval, RATE_PLACES),

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use convergence_study::{
     Figure, Finished, Front, Project, Statement, Tier, Verdict,
     internal::{
-        plots::{ErrorSeries, convergence, xy::Xy},
+        chart::{Axis, Chart},
         report::{Findings, SeeAlso},
         store::Record,
     },
@@ -42,18 +42,13 @@ pub(crate) fn two() -> Vec<Finished> {
         study("bad", Does::Stay),
     ]);
     for finished in &mut both {
-        let series = |label: &str, order: i32| ErrorSeries {
-            label: label.to_owned(),
-            points: (3..8)
-                .map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k)))
-                .collect(),
-            ..ErrorSeries::default()
-        };
-        let svg = convergence(
-            Xy::of_errors("mesh width h"),
-            &[series("a<b", 1), series("c", 2)],
-            &[],
-        );
+        let mut chart = Chart::empty(Axis::log("mesh width h"), Axis::log("error"));
+        for (label, order) in [("a<b", 1), ("c", 2)] {
+            let errors = (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(order * k)));
+            let curve = chart.curve(label, errors);
+            *curve = curve.clone().marked();
+        }
+        let svg = chart.svg();
         let file = format!("{}-errors.svg", finished.header.id);
         finished.outcome.figures = vec![Figure {
             file,

@@ -1,15 +1,10 @@
-//! Figures of beams, drawn with the harness's canvas: plain data in, a self-contained SVG document
-//! out.
+//! Figures of beams, each a chart of the harness: plain data in, a self-contained SVG document out.
 
 mod pictures;
+mod space_time;
 
 use convergence_judge::text::lists::distinct;
-use convergence_study::internal::plots::{
-    Axis, Guide, Series,
-    look::{Look, Marker, Marks, look},
-    style,
-    xy::{Curve, Xy},
-};
+use convergence_study::internal::chart::{Axis, Band, Chart, Guide, Mark, SHORT, SOLID};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The experiments of the paper, in the order of its Section 5.
@@ -40,7 +35,7 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     ]
 }
 
-/// The [`look`](convergence_study::internal::plots::look::look) of each scene of a figure: an
+/// The [`look`](convergence_study::internal::chart::look) of each scene of a figure: an
 /// experiment of the paper has its own; any other scene gets, by its place in the figure, one that
 /// no experiment has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
@@ -55,7 +50,7 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
 /// The values of β in the paper's experiments.
 const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
 
-/// The [`look`](convergence_study::internal::plots::look::look) of a value of β, the same in all
+/// The [`look`](convergence_study::internal::chart::look) of a value of β, the same in all
 /// figures whose curves are its values; of other values the next one.
 pub(crate) fn look_of_beta(beta: f64) -> usize {
     BETAS
@@ -95,78 +90,57 @@ pub struct Bifurcation {
     pub branches: Vec<EquilibriumBranch>,
     /// A line for each obstacle.
     pub obstacles: Vec<Guide>,
-    /// Those in which simulations ended.
-    pub ends: Series,
+    /// `(parameter, tip displacement)` of those in which simulations ended.
+    pub ends: Vec<(f64, f64)>,
 }
+
+/// The k-th look of discs in ink: the first 60 are those of curves.
+const ENDS: usize = 61;
 
 /// Draws families of equilibria; open markers show those in which simulations ended.
 pub fn bifurcation(figure: &Bifurcation) -> String {
     let branches = &figure.branches;
     let labels = distinct(branches.iter().map(|branch| branch.label.as_str()));
-    let mut curves = vec![];
-    for branch in branches {
-        let family = labels.iter().position(|label| *label == branch.label);
-        curves.push(branch_curve(branch, look(family.unwrap_or(0))));
-    }
-    let ends_look = Look {
-        colour: style::INK,
-        ..look(labels.len())
-    };
-    curves.push(Curve {
-        look: ends_look,
-        width: 0.0,
-        marks: Marks::Open,
-        ..Curve::line(0, &figure.ends)
-    });
-    let parameters: Vec<f64> = curves
-        .iter()
-        .flat_map(|curve| &curve.points)
-        .map(|point| point.0)
-        .filter(|x| x.is_finite())
-        .collect();
-    let low = parameters.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = parameters.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let points = branches.iter().flat_map(|branch| &branch.points);
+    let parameters = points.chain(&figure.ends).map(|point| point.0);
+    let parameters = parameters.filter(|x| x.is_finite());
+    let low = parameters.clone().fold(f64::INFINITY, f64::min);
+    let high = parameters.fold(f64::NEG_INFINITY, f64::max);
     // Branches end at the limits of the parameter, so these must not coincide with the frame.
     let room = 0.03 * (high - low);
-    Xy {
-        title: Some(figure.title.clone()),
-        show_x: vec![low - room, high + room],
-        x: Axis::linear("axial force at rest β"),
-        y: Axis::linear("tip displacement u(1) (dimensionless)"),
-        curves,
+    let x = Axis::linear("axial force at rest β").showing([low - room, high + room]);
+    let y = Axis::linear("tip displacement u(1) (dimensionless)");
+    let mut chart = Chart {
         guides: figure.obstacles.clone(),
-        ..Xy::default()
+        ..Chart::empty(x, y).titled(&figure.title)
+    };
+    for branch in branches {
+        let family = labels.iter().position(|label| *label == branch.label);
+        // The colour shows the contact state, dashes show instability.
+        let (dashes, stability) = if branch.stable {
+            (SOLID, "stable")
+        } else {
+            (SHORT, "unstable")
+        };
+        let label = format!("{}, {stability}", branch.label);
+        let curve = chart.curve(label, branch.points.iter().copied());
+        curve.look = family;
+        curve.dashes = Some(dashes);
+        curve.width = 2.6;
     }
-    .draw()
+    let ends = chart.curve("end of a run", figure.ends.iter().copied());
+    *ends = ends.clone().scattered().looking(ENDS);
+    ends.mark = Mark::Open;
+    chart.svg()
 }
 
-fn branch_curve(branch: &EquilibriumBranch, look: Look) -> Curve {
-    // A single point would be invisible as a line.
-    let marks = match (branch.points.len(), branch.stable) {
-        (2.., _) => Marks::None,
-        (_, true) => Marks::Filled,
-        (_, false) => Marks::Open,
-    };
-    // The colour shows the contact state, dashes show instability.
-    let (dash, stability) = if branch.stable {
-        (style::SOLID, "stable")
-    } else {
-        (style::SHORT, "unstable")
-    };
-    let series = Series::new(
-        format!("{}, {stability}", branch.label),
-        branch.points.clone(),
-    );
-    Curve {
-        look: Look {
-            dash,
-            marker: Marker::Circle,
-            ..look
-        },
-        width: 2.6,
-        marks,
-        ..Curve::line(0, &series)
-    }
+/// Points with a name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NamedPoints {
+    /// In the legend.
+    pub label: String,
+    /// `(predicted, measured)`.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// Contraction factors over the predicted one.
@@ -176,93 +150,55 @@ pub struct ContractionFactors {
     pub title: String,
     /// What predicts them: the horizontal axis.
     pub predicted: String,
-    /// `(predicted, measured)`, one series for each kind of case.
-    pub measured: Vec<Series>,
-    /// `(predicted, estimated)`; not drawn if there are no points.
-    pub estimates: Series,
+    /// Those of one kind of case together.
+    pub measured: Vec<NamedPoints>,
+    /// Estimates of them; not drawn if there are no points.
+    pub estimates: NamedPoints,
 }
+
+/// The look of estimates: a plus, below the markers, which stay in view.
+const ESTIMATES: usize = 45;
+/// The look of the line of agreement.
+const IDENTITY: usize = 5;
 
 /// Draws measured over predicted contraction, log-log, with the identity and the region where the
 /// iteration diverges. Markers there are open.
 pub fn contraction(factors: &ContractionFactors) -> String {
     let measured = &factors.measured;
-    let mut xy = Xy {
-        title: Some(factors.title.clone()),
-        x: Axis::log(factors.predicted.clone()),
-        y: Axis::log("measured factor per iteration"),
-        curves: measured.iter().enumerate().flat_map(sides).collect(),
-        beyond: Some((1.0, "divergence".into())),
-        ..Xy::default()
+    let x = Axis::log(&factors.predicted).showing([1.0]);
+    let y = Axis::log("measured factor per iteration").showing([1.0]);
+    let mut chart = Chart::empty(x, y).titled(&factors.title);
+    chart.bands.push(Band {
+        label: "divergence".to_owned(),
+        intervals: vec![(1.0, f64::INFINITY)],
+    });
+    let all = measured.iter().flat_map(|series| &series.points);
+    let ends = |fold: fn(f64, f64) -> f64| {
+        let coordinates = all.clone().flat_map(|point| [point.0, point.1]);
+        coordinates
+            .filter(|value| *value > 0.0 && value.is_finite())
+            .fold(1.0, fold)
     };
-    if measured.iter().any(has_both_sides) {
-        xy.notes.push("open markers: divergence".to_owned());
-    }
-    // Up to 100, so that the text fits above its region.
-    xy.show_x = vec![1.0, 100.0];
-    xy.show_y = vec![1.0];
+    let identity = [ends(f64::min), ends(f64::max)].map(|end| (end, end));
+    let agreement = chart.curve("measured = predicted", identity);
+    *agreement = agreement.clone().looking(IDENTITY);
+    agreement.width = 1.6;
     if !factors.estimates.points.is_empty() {
-        xy.curves.insert(0, estimates(&factors.estimates));
+        let NamedPoints { label, points } = &factors.estimates;
+        let estimates = chart.curve(label, points.iter().copied());
+        *estimates = estimates.clone().scattered().looking(ESTIMATES);
     }
-    xy.curves.insert(0, identity(&xy));
-    xy.draw()
-}
-
-/// Grey strokes below the markers, which stay in view.
-fn estimates(series: &Series) -> Curve {
-    let line = Curve::line(ESTIMATES, series);
-    Curve {
-        look: Look {
-            colour: style::MUTED,
-            ..line.look
-        },
-        width: 0.0,
-        marks: Marks::Open,
-        ..line
-    }
-}
-
-/// The look whose marker is a plus.
-const ESTIMATES: usize = 6;
-
-/// Whether a series has points below 1, and points from 1 on.
-fn has_both_sides(series: &Series) -> bool {
-    let above = series.points.iter().filter(|point| point.0 >= 1.0).count();
-    0 < above && above < series.points.len()
-}
-
-/// A series on both sides of 1, under one legend entry, whose marker is open if all points are.
-fn sides((k, series): (usize, &Series)) -> Vec<Curve> {
-    let (below, above): (Vec<_>, Vec<_>) = series.points.iter().partition(|point| point.0 < 1.0);
-    let mut sides = vec![];
-    for (points, marks) in [(below, Marks::Filled), (above, Marks::Open)] {
-        if !points.is_empty() {
-            sides.push(Curve {
-                points,
-                marks,
-                width: 0.0,
-                ..Curve::line(k, series)
-            });
+    for (k, NamedPoints { label, points }) in measured.iter().enumerate() {
+        let (below, above): (Vec<_>, Vec<_>) = points.iter().partition(|point| point.0 < 1.0);
+        if !below.is_empty() && !above.is_empty() {
+            chart.notes = vec!["open markers: divergence".to_owned()];
         }
+        let converging = 0..below.len();
+        let series = chart.curve(label, [below, above].concat());
+        *series = series.clone().scattered().looking(k);
+        series.used = Some(converging);
     }
-    sides
-}
-
-/// The line on which prediction and measurement agree.
-fn identity(xy: &Xy) -> Curve {
-    let ruler = xy.x_ruler();
-    let points = [ruler.lo, ruler.hi].map(|v| (10f64.powf(v), 10f64.powf(v)));
-    let line = Curve::line(0, &Series::new("measured = predicted", points));
-    let look = Look {
-        colour: style::MUTED,
-        dash: style::LONG,
-        ..line.look
-    };
-    Curve {
-        look,
-        width: 1.6,
-        is_data: false,
-        ..line
-    }
+    chart.svg()
 }
 
 #[cfg(test)]

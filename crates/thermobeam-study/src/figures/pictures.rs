@@ -1,7 +1,8 @@
 //! The pictures of one run: its displacement over space and time, and its numbers over time.
 
-use convergence_study::internal::plots::{self, Axis, Guide, Phases, Series, SpaceTime, xy::Xy};
+use convergence_study::internal::chart::{Axis, Band, Chart, Guide};
 
+use super::space_time::SpaceTime;
 use super::{energy_at_rest, obstacle_lines};
 use crate::run::Sample;
 use crate::run::history::{Frames, RunHistory};
@@ -34,30 +35,31 @@ impl Run {
             label: "u(1, t)",
             value: |sample| sample.u_tip,
         };
-        Xy {
+        let chart = Chart {
             guides: obstacle_lines(scene.obstacles),
-            phases: Phases {
+            bands: vec![Band {
                 label: "in contact".into(),
                 intervals: self.contact_phases(),
-            },
+            }],
             ..curve.over_time(scene, history)
-        }
-        .draw()
+        };
+        chart.svg()
     }
 }
 
-fn title(scene: &Scene, what: &str) -> Option<String> {
-    Some(format!("{}: {what}", scene.name))
+fn title(scene: &Scene, what: &str) -> String {
+    format!("{}: {what}", scene.name)
 }
 
 fn space_time(scene: &Scene, frames: &Frames) -> String {
-    plots::space_time(&SpaceTime {
-        title: title(scene, "displacement over space and time"),
-        label: "displacement u (dimensionless)".into(),
-        times: frames.times.clone(),
-        nodes: frames.points.clone(),
-        frames: frames.u.clone(),
-    })
+    let field = SpaceTime {
+        label: "displacement u (dimensionless)",
+        times: &frames.times,
+        nodes: &frames.points,
+        frames: &frames.u,
+    };
+    let title = title(scene, "displacement over space and time");
+    field.chart().titled(title).svg()
 }
 
 /// A number of each step, and its words.
@@ -69,13 +71,11 @@ struct PlottedNumber {
 }
 
 impl PlottedNumber {
-    fn over_time(&self, scene: &Scene, history: &RunHistory) -> Xy {
-        let series = [Series::new(self.label, history.over_time(self.value))];
+    fn over_time(&self, scene: &Scene, history: &RunHistory) -> Chart {
         let axis = Axis::linear(format!("{} (dimensionless)", self.axis));
-        Xy {
-            title: title(scene, self.title),
-            ..plots::history(axis, &series)
-        }
+        let mut chart = Chart::empty(Axis::linear("time t"), axis);
+        chart.curve(self.label, history.over_time(self.value));
+        chart.titled(title(scene, self.title))
     }
 }
 
@@ -87,7 +87,7 @@ fn rotation(scene: &Scene, history: &RunHistory) -> String {
         value: |sample| sample.phi_tip,
     }
     .over_time(scene, history)
-    .draw()
+    .svg()
 }
 
 fn energy(scene: &Scene, history: &RunHistory) -> String {
@@ -101,9 +101,9 @@ fn energy(scene: &Scene, history: &RunHistory) -> String {
         label: "β²/(4ρ)".into(),
         value,
     });
-    Xy {
+    let chart = Chart {
         guides: at_rest.into_iter().collect(),
         ..curve.over_time(scene, history)
-    }
-    .draw()
+    };
+    chart.svg()
 }

@@ -1,10 +1,9 @@
-//! The figure of errors over levels.
-
-use std::ops::Range;
+//! The figure of errors over levels, drawn from the rows that the report lists.
 
 use super::{Axis, Levels, result_at};
-use crate::plots::{self, ErrorSeries, xy::Xy};
-use crate::study::outcome::{Figure, NamedRate};
+use crate::chart::{self, Chart, Series, Table};
+use crate::judge::verdict::Verdict;
+use crate::study::outcome::{Figure, LevelErrors, NamedRate};
 
 /// The explanation of the lines in a caption.
 pub(super) const LINES: &str =
@@ -47,69 +46,98 @@ impl Levels {
         caption: String,
         rates: &[NamedRate],
     ) -> Figure {
-        let claimed = self
-            .columns
-            .iter()
-            .filter_map(|column| column.claim.map(|claim| (column, claim)));
-        let series = claimed.map(|(column, claim)| {
-            let points = self.points(column);
-            let mut judged = rates.iter();
-            let rate = judged.find(|rate| rate.name == column.name);
-            let rate = rate.map(|rate| &rate.rate);
-            ErrorSeries {
-                label: column.symbol.clone().unwrap_or(column.name.clone()),
-                fit: rate.and_then(|rate| rate.power_law()),
-                interval: rate.and_then(|rate| rate.interval),
-                points: points
-                    .iter()
-                    .map(|level| (level.step, level.error))
-                    .collect(),
-                order: Some(claim.order),
-                used: rate.map(|rate| among_results(&rate.used, &self.has_result(column))),
-                look: Some(column.look),
-            }
-        });
-        let series: Vec<ErrorSeries> = series.collect();
-        let has_line = series.iter().any(|series| series.line().is_some());
-        let caption = if has_line { caption + LINES } else { caption };
+        let chart = self.chart(subject, rates);
+        let has_line = chart.series.iter().any(|series| series.law.is_some());
+        let lines = if has_line { LINES } else { "" };
         let without = self.without_result();
-        let notes: Vec<String> = without
-            .iter()
-            .map(|label| format!("{label}: no result"))
-            .collect();
         let missing = if without.is_empty() {
             String::new()
         } else {
             format!(" No result: {}.", without.join("; "))
         };
-        let step = self.axis.symbol();
+        Figure::new(what, caption + lines + &missing, chart.svg())
+    }
+
+    /// A series for each error with a claim.
+    fn chart(&self, subject: Option<String>, rates: &[NamedRate]) -> Chart {
+        let mut series = vec![];
+        let mut verdicts = vec![];
+        for column in &self.columns {
+            let Some(claim) = column.claim else { continue };
+            let mut label = column.symbol.as_ref().unwrap_or(&column.name).clone();
+            if column.is_only_drawn {
+                label += " (not claimed)";
+            }
+            let errors = Series::errors(label, STEP, &column.name).claiming(claim.order);
+            let errors = errors.looking(column.look);
+            let rate = rates.iter().find(|rate| rate.name == column.name);
+            if !column.is_only_drawn {
+                verdicts.extend(rate.map(|rate| rate.rate.verdict));
+            }
+            series.push(match rate {
+                Some(rate) => errors.judged(&rate.rate),
+                None => errors,
+            });
+        }
+        let has_triangle = series.iter().any(|series| series.order > Some(0.0));
         let title = match subject {
-            Some(subject) => format!("{subject}: errors fall with {step} as the triangles do"),
-            None => format!("Errors fall with {step} as the triangles do"),
+            _ if !has_triangle => String::new(),
+            Some(subject) => format!("{subject}: {}", self.seen(&verdicts)),
+            None => capitalized(&self.seen(&verdicts)),
         };
-        let has_triangle = series
-            .iter()
-            .any(|series| series.order.is_some_and(|order| order > 0.0));
-        let xy = Xy {
-            title: has_triangle.then_some(title),
-            notes,
-            ..Xy::of_errors(self.axis.label())
+        Chart {
+            title,
+            series,
+            ..Chart::new(
+                Table::from(&self.errors()[..]),
+                chart::Axis::log(self.axis.label()),
+                chart::Axis::log(self.measured),
+            )
+        }
+    }
+
+    /// What one sees, which the verdicts decide.
+    fn seen(&self, verdicts: &[Verdict]) -> String {
+        let step = self.axis.symbol();
+        let count = |verdict| verdicts.iter().filter(|own| **own == verdict).count();
+        let measured = self.measured;
+        let of = |part: usize| match verdicts.len() {
+            1 => format!("the {measured}"),
+            all => format!("{part} of {all} {measured}s"),
         };
-        Figure::new(
-            what,
-            caption + &missing,
-            plots::convergence(xy, &series, &[]),
-        )
+        match [Verdict::Fail, Verdict::Inconclusive].map(count) {
+            _ if verdicts.is_empty() => format!("{measured}s over {step}"),
+            [0, 0] if self.columns.iter().any(|column| column.is_only_drawn) => {
+                format!("those claimed fall with {step} as the triangles do")
+            }
+            [0, 0] => format!("{measured}s fall with {step} as the triangles do"),
+            [0, undecided] => format!("the order in {step} is undecided for {}", of(undecided)),
+            [failing, _] => format!("the order in {step} fails for {}", of(failing)),
+        }
     }
 }
 
-/// A range of levels, counted among those with a result.
-fn among_results(levels: &Range<usize>, has_result: &[bool]) -> Range<usize> {
-    count_results(levels.start, has_result)..count_results(levels.end, has_result)
+/// The column of the steps.
+const STEP: &str = "step";
+
+/// The rows that a report lists: a column for the steps, and one for each error.
+impl From<&[LevelErrors]> for Table {
+    fn from(levels: &[LevelErrors]) -> Self {
+        let steps = levels.iter().map(|level| level.step.unwrap_or(f64::NAN));
+        let mut table = Self::new([(STEP, steps.collect())]);
+        for error in levels.first().into_iter().flat_map(|level| &level.errors) {
+            table.push(
+                &error.name,
+                levels.iter().map(|level| level.error(&error.name)),
+            );
+        }
+        table
+    }
 }
 
-/// The number of levels with a result before a level.
-fn count_results(level: usize, has_result: &[bool]) -> usize {
-    let before = has_result.iter().take(level);
-    before.filter(|has_result| **has_result).count()
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }

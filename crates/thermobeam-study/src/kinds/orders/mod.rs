@@ -344,7 +344,7 @@ impl Series {
             )),
             Some(Picture::OnGrid(grid)) => outcome
                 .figures
-                .extend(grid.figures(|name| self.axis_of(name))),
+                .extend(grid.figures(self.rates(), |name| self.axis_of(name))),
         }
         outcome
     }

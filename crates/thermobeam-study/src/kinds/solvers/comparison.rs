@@ -2,7 +2,7 @@
 //! tolerance.
 
 use convergence_study::internal::{
-    plots::{self, Phases, Series, xy::Xy},
+    chart::{self, Band, Chart},
     study::readings,
 };
 
@@ -176,10 +176,6 @@ impl Agreement {
 }
 
 fn iterations(agreement: &Agreement) -> Figure {
-    let series = [
-        Series::new("fixed point", agreement.iterations.clone()),
-        Series::new("Newton's method", agreement.newton.clone()),
-    ];
     let (title, shaded) = if agreement.contact.is_empty() {
         ("Newton's method takes fewer iterations", "")
     } else {
@@ -188,15 +184,26 @@ fn iterations(agreement: &Agreement) -> Figure {
             "; shaded where the tip is in contact",
         )
     };
-    let xy = Xy {
-        phases: Phases {
-            label: "in contact".to_owned(),
-            intervals: agreement.contact.clone(),
-        },
-        ..plots::iterations(&series)
-    };
+    // With a shorter axis, ticks would lie between whole numbers.
+    let y = chart::Axis::linear("iterations per step").showing([0.0, 5.0]);
+    let mut chart = Chart::empty(chart::Axis::linear("time t"), y).titled(title);
+    chart.bands.push(Band {
+        label: "in contact".to_owned(),
+        intervals: agreement.contact.clone(),
+    });
+    chart.curve("fixed point", stairs(&agreement.iterations));
+    chart.curve("Newton's method", stairs(&agreement.newton));
     let caption = format!(
         "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
     );
-    Figure::new("iterations", caption, xy.titled(title).draw())
+    Figure::new("iterations", caption, chart.svg())
+}
+
+/// Every value held over its step, from the end of the previous one.
+fn stairs(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut held = points.get(..1).unwrap_or_default().to_vec();
+    for pair in points.windows(2) {
+        held.extend([(pair[0].0, pair[1].1), pair[1]]);
+    }
+    held
 }

@@ -2,10 +2,7 @@
 
 use std::fmt;
 
-use convergence_study::{
-    Coverage,
-    internal::{plots::Series, study::readings},
-};
+use convergence_study::{Coverage, internal::study::readings};
 
 use super::{
     SolverResult, SolverTask, positive_numbers, results,
@@ -413,10 +410,10 @@ fn figure(points: &[&Contraction]) -> Figure {
     let mut measured = vec![];
     for zeta in zetas {
         let series = points.iter().filter(|point| point.place.zeta == zeta);
-        measured.push(Series::new(
-            format!("ζ = {zeta}"),
-            series.map(|point| (point.radius, point.measured)),
-        ));
+        measured.push(figures::NamedPoints {
+            label: format!("ζ = {zeta}"),
+            points: series.map(|point| (point.radius, point.measured)).collect(),
+        });
     }
     // Elsewhere α lies under the marker of the measured factor.
     let off = points
@@ -427,7 +424,10 @@ fn figure(points: &[&Contraction]) -> Figure {
         title: "The fixed point contracts as its linearisation does".to_owned(),
         measured,
         predicted: "spectral radius of the linearised iteration".to_owned(),
-        estimates: Series::new("α, where over 10 % off", off),
+        estimates: figures::NamedPoints {
+            label: "α, where over 10 % off".to_owned(),
+            points: off.collect(),
+        },
     });
     let caption = "Contraction factor of the fixed point in contact: measured over the spectral radius of the linearised \
                    iteration, and the estimate α. From 1 on the iteration diverges.";

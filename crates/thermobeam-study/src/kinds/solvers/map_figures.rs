@@ -1,6 +1,6 @@
 //! The maps as figures: what each solver does at every point, and the boundaries.
 
-use convergence_study::internal::plots::{self, Axis, ColouredCells, Series};
+use convergence_study::internal::chart::{self, Cells, Chart, Mark};
 
 use super::{
     map::{MapParameter, MapPoint, NewtonSteps},
@@ -22,112 +22,145 @@ fn steps(point: &MapPoint, number: fn(&NewtonSteps) -> f64) -> Option<f64> {
     completes.then(|| point.newton.as_ref().map_or(f64::NAN, number))
 }
 
-/// What figures of Newton's method share.
-fn of_newton(z: Axis, boundaries: Vec<Series>) -> ColouredCells {
-    ColouredCells {
-        z,
-        marked_label: "operator not definite".to_owned(),
-        boundaries,
-        ..ColouredCells::default()
-    }
+/// What a figure of a map shows.
+struct Shown {
+    file: &'static str,
+    /// What one sees if the study passes.
+    title: &'static str,
+    caption: String,
+    /// What the colours measure, and what a hatched cell is.
+    colours: chart::Axis,
+    hatched: &'static str,
+    /// The value at a point; `None` where the solver fails, which is hatched.
+    value: fn(&MapPoint) -> Option<f64>,
+    boundaries: Vec<Boundary>,
 }
 
-impl MapResults<'_> {
-    /// What figures of the fixed point share.
-    fn of_fixed_point(&self, z: &str) -> ColouredCells {
-        ColouredCells {
-            z: Axis::log(z),
-            marked_label: "the fixed point fails".to_owned(),
-            boundaries: vec![self.predicted(), self.crossings()],
-            ..ColouredCells::default()
-        }
-    }
+/// A line between two regions, as `(dt, value)`.
+struct Boundary {
+    label: &'static str,
+    points: Vec<(f64, f64)>,
+}
 
+const FAILS: &str = "the fixed point fails";
+const INDEFINITE: &str = "operator not definite";
+/// A boundary with fewer points is drawn as points.
+const FEWEST_FOR_A_LINE: usize = 6;
+/// The look of the boundary predicted, in ink, and that of the one found.
+const LOOKS: [usize; 2] = [5, 1];
+
+impl MapResults<'_> {
     pub(super) fn figures(&self) -> Vec<Figure> {
         let over = self.map.over.name();
-        vec![
-            self.figure(
-                "contraction",
-                "The fixed point fails where α reaches 1",
-                format!("Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."),
-                self.of_fixed_point("contraction per iteration"),
-                |point| {
+        let shown = [
+            Shown {
+                file: "contraction",
+                title: "The fixed point fails where α reaches 1",
+                caption: format!(
+                    "Contraction factor of the fixed point over dt and {over}; it fails from alpha = 1 on."
+                ),
+                colours: chart::Axis::log("contraction per iteration"),
+                hatched: FAILS,
+                value: |point| {
                     let contraction = point.step.contraction.unwrap_or(f64::NAN);
-                    point.step.converged.then_some(max_or_nan(contraction, FASTEST))
+                    point
+                        .step
+                        .converged
+                        .then_some(max_or_nan(contraction, FASTEST))
                 },
-            ),
-            self.figure(
-                "iterations",
-                "The iterations of the fixed point grow towards α = 1",
-                format!("Iterations of the fixed point in a step over dt and {over}."),
-                self.of_fixed_point("iterations of the fixed point"),
-                |point| {
+                boundaries: vec![self.predicted(), self.crossings()],
+            },
+            Shown {
+                file: "iterations",
+                title: "The iterations of the fixed point grow towards α = 1",
+                caption: format!("Iterations of the fixed point in a step over dt and {over}."),
+                colours: chart::Axis::log("iterations of the fixed point"),
+                hatched: FAILS,
+                value: |point| {
                     let iterations = point.step.iterations.max(1) as f64;
                     point.step.converged.then_some(iterations)
                 },
-            ),
-            self.figure(
-                "newton",
-                "Newton's method needs few iterations at every step",
-                format!("Most iterations of Newton's method in a step over dt and {over}."),
-                of_newton(Axis::linear("most Newton iterations in a step"), self.definite()),
-                |point| steps(point, |steps| steps.iterations.max(1) as f64),
-            ),
-            self.figure(
-                "balance",
-                "The balance of the energy closes to round-off at every step",
-                format!("Largest residual of the energy balance in a step of Newton's method over dt and {over}."),
-                of_newton(Axis::log("largest residual / energy"), vec![self.predicted()]),
-                |point| steps(point, |steps| max_or_nan(steps.worst.residual, EXACT)),
-            ),
-        ]
+                boundaries: vec![self.predicted(), self.crossings()],
+            },
+            Shown {
+                file: "newton",
+                title: "Newton's method needs few iterations at every step",
+                caption: format!(
+                    "Most iterations of Newton's method in a step over dt and {over}."
+                ),
+                colours: chart::Axis::linear("most Newton iterations in a step"),
+                hatched: INDEFINITE,
+                value: |point| steps(point, |steps| steps.iterations.max(1) as f64),
+                boundaries: self.definite(),
+            },
+            Shown {
+                file: "balance",
+                title: "The balance of the energy closes to round-off at every step",
+                caption: format!(
+                    "Largest residual of the energy balance in a step of Newton's method over dt and {over}."
+                ),
+                colours: chart::Axis::log("largest residual / energy"),
+                hatched: INDEFINITE,
+                value: |point| steps(point, |steps| max_or_nan(steps.worst.residual, EXACT)),
+                boundaries: vec![self.predicted()],
+            },
+        ];
+        shown.into_iter().map(|shown| self.figure(shown)).collect()
     }
 
-    /// * `surface`: the axis of the values, the label of the hatched part, boundaries.
-    /// * `value`: shown at a point; `None` where the solver fails, which is hatched.
-    fn figure(
-        &self,
-        file: &str,
-        title: &str,
-        caption: String,
-        surface: ColouredCells,
-        value: fn(&MapPoint) -> Option<f64>,
-    ) -> Figure {
-        let rows = &self.rows;
-        let cells: Vec<Vec<_>> = rows
-            .iter()
-            .map(|row| row.points.iter().map(value).collect())
-            .collect();
-        let svg = plots::surface(&ColouredCells {
-            title: Some(title.to_owned()),
-            x: Axis::log("time step dt"),
-            y: self.second_axis(),
-            x_values: self.map.time_steps(),
-            y_values: rows.iter().map(|row| row.value).collect(),
-            values: cells
-                .iter()
-                .map(|row| row.iter().map(|cell| cell.unwrap_or(f64::NAN)).collect())
-                .collect(),
-            marked: cells
-                .iter()
-                .map(|row| row.iter().map(Option::is_none).collect())
-                .collect(),
-            ..surface
-        });
-        Figure::new(file, caption, svg)
+    /// A row of the table for each point of the map.
+    fn figure(&self, shown: Shown) -> Figure {
+        let [x, y] = [chart::Axis::log("time step dt"), self.second_axis()];
+        let mut columns = [vec![], vec![], vec![], vec![]];
+        for row in &self.rows {
+            for (dt, point) in self.map.time_steps().into_iter().zip(&row.points) {
+                let value = (shown.value)(point);
+                let fails = f64::from(u8::from(value.is_none()));
+                let cell = [dt, row.value, value.unwrap_or(f64::NAN), fails];
+                columns
+                    .iter_mut()
+                    .zip(cell)
+                    .for_each(|(column, value)| column.push(value));
+            }
+        }
+        let names = [&*x.label, &*y.label, &*shown.colours.label, shown.hatched].map(str::to_owned);
+        let [across, up, value, hatched] = names.clone();
+        let mut chart = Chart {
+            cells: Some(Cells {
+                x: across,
+                y: up,
+                value,
+                colours: shown.colours,
+                hatched: Some([hatched.clone(), hatched]),
+            }),
+            ..Chart::new(chart::Table::new(names.into_iter().zip(columns)), x, y)
+                .titled(shown.title)
+        };
+        for (Boundary { label, points }, look) in shown.boundaries.into_iter().zip(LOOKS) {
+            let is_sparse = points.len() < FEWEST_FOR_A_LINE;
+            let curve = chart.curve(label, points);
+            curve.look = Some(look);
+            curve.width = 3.0;
+            // A line between few points would suggest points that were not computed.
+            if is_sparse {
+                *curve = curve.clone().scattered();
+                curve.mark = Mark::Open;
+            }
+        }
+        Figure::new(shown.file, shown.caption, chart.svg())
     }
 
-    fn second_axis(&self) -> Axis {
+    fn second_axis(&self) -> chart::Axis {
         match self.map.over {
-            MapParameter::Epsilon => Axis::log("compliance ε (dimensionless)"),
-            MapParameter::Beta => Axis::linear("axial force at rest β (dimensionless)"),
-            MapParameter::Zeta => Axis::log("viscosity ζ (dimensionless)"),
-            MapParameter::Width => Axis::log("mesh width h (dimensionless)"),
+            MapParameter::Epsilon => chart::Axis::log("compliance ε (dimensionless)"),
+            MapParameter::Beta => chart::Axis::linear("axial force at rest β (dimensionless)"),
+            MapParameter::Zeta => chart::Axis::log("viscosity ζ (dimensionless)"),
+            MapParameter::Width => chart::Axis::log("mesh width h (dimensionless)"),
         }
     }
 
     /// The boundaries found, line by line.
-    fn crossings(&self) -> Series {
+    fn crossings(&self) -> Boundary {
         let mut points = vec![];
         for line in &self.lines {
             // A logarithmic axis has no place for 0.
@@ -135,13 +168,15 @@ impl MapResults<'_> {
                 points.extend(line.found.map(|step| (step.dt, line.value)));
             }
         }
-        let mut series = Series::new("found by bisection", points);
-        series.points.sort_by(|a, b| a.1.total_cmp(&b.1));
-        series
+        points.sort_by(|a, b| a.1.total_cmp(&b.1));
+        Boundary {
+            label: "found by bisection",
+            points,
+        }
     }
 
     /// α = 1, row by row between the two time steps on either side, on logarithmic scales.
-    fn predicted(&self) -> Series {
+    fn predicted(&self) -> Boundary {
         let mut points = vec![];
         for row in &self.rows {
             let finite: Vec<_> = row
@@ -158,23 +193,25 @@ impl MapResults<'_> {
                 points.push((below.dt * (above.dt / below.dt).powf(share), row.value));
             }
         }
-        Series::new("predicted: α = 1", points)
+        Boundary {
+            label: "predicted: α = 1",
+            points,
+        }
     }
 
     /// For β above this line the operator is definite.
-    fn definite(&self) -> Vec<Series> {
+    fn definite(&self) -> Vec<Boundary> {
         if self.map.over != MapParameter::Beta {
             return vec![];
         }
         let zeta = Beam::default().zeta;
         let SampledInterval { low, high, .. } = self.map.range;
-        let points = self
-            .map
-            .dt
-            .values(400)
-            .into_iter()
-            .map(|dt| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt)))
-            .filter(|(_, beta)| (low..high).contains(beta));
-        vec![Series::new("definite above: β = -B (1 + 2ζ/dt)", points)]
+        let steps = self.map.dt.values(400).into_iter();
+        let limit = steps.map(|dt| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt)));
+        let points = limit.filter(|(_, beta)| (low..high).contains(beta));
+        vec![Boundary {
+            label: "definite above: β = -B (1 + 2ζ/dt)",
+            points: points.collect(),
+        }]
     }
 }

@@ -4,7 +4,7 @@
 use convergence_judge::judge::fit::{Level as Point, fit_line};
 
 use super::method::METHODS;
-use convergence_study::internal::plots;
+use convergence_study::internal::chart::{Axis, Chart};
 
 /// A run with its cost: counted work, or seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,8 +61,7 @@ fn slope(front: &[(f64, f64)]) -> Option<f64> {
 /// * `title`: what one should see.
 /// * `cost`, `error`: labels of the axes.
 pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed], names: &[&str]) -> String {
-    let mut looks = vec![];
-    let mut series = vec![];
+    let mut chart = Chart::empty(Axis::log(cost), Axis::log(error)).titled(title);
     for (k, name) in names.iter().enumerate() {
         let own = runs.iter().filter(|run| run.method == *name);
         let points = front(
@@ -81,11 +80,8 @@ pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed], names: &[&s
             Some(power) => format!("{in_words}: cost^{power:.2}"),
             None => in_words.to_owned(),
         };
-        looks.push(k);
-        series.push(plots::Series::new(label, points));
+        let curve = chart.curve(label, points);
+        *curve = curve.clone().marked().looking(k);
     }
-    plots::work_precision(cost, error, &series)
-        .titled(title)
-        .with_looks(&looks)
-        .draw()
+    chart.svg()
 }

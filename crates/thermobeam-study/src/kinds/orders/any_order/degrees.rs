@@ -4,7 +4,7 @@ use super::{AnyOrder, AnyOrderRun, JudgedErrors, Runs, SourceResult};
 use crate::kinds::prelude::*;
 use convergence_study::{
     Sort,
-    internal::plots::{self, xy::Xy},
+    internal::chart::{self, Chart},
 };
 
 /// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
@@ -14,7 +14,8 @@ impl AnyOrder {
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the
     /// one that reaches round-off.
     pub(super) fn over_degrees(&self, runs: &Runs<Self>) -> SourceResult {
-        let mut curves = vec![];
+        let y = chart::Axis::log("L2 error of all fields (dimensionless)");
+        let mut chart = Chart::empty(chart::Axis::linear("degree p"), y);
         let mut checks = vec![];
         let mut quantities = vec![];
         let mut rows = vec![];
@@ -33,16 +34,12 @@ impl AnyOrder {
                     );
                 }
             }
-            curves.push(plots::Series::new(mesh, points));
+            let curve = chart.curve(mesh, points);
+            *curve = curve.clone().marked();
         }
-        let y = plots::Axis::log("L2 error of all fields (dimensionless)");
-        let drawing = Xy {
-            x: plots::Axis::linear("degree p"),
-            ..plots::history(y, &curves).marked()
-        };
-        let svg = drawing
-            .titled("The error falls exponentially with the degree, to round-off")
-            .draw();
+        let holds = checks.iter().all(|check: &Check| check.verdict.is_pass());
+        let title = "The error falls exponentially with the degree, to round-off";
+        let svg = chart.titled_where(holds, title).svg();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let title = "Error of all fields at the end over the degree";
         let evidence: Vec<String> = checks

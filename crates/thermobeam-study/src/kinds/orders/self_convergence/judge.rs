@@ -11,7 +11,7 @@ use crate::{
 };
 use convergence_judge::judge::richardson;
 use convergence_study::internal::{
-    plots,
+    chart::{self, Chart},
     study::over_levels::{ErrorColumn, Levels},
 };
 
@@ -90,7 +90,7 @@ impl SelfConvergence {
         for (k, &(elements, steps)) in self.levels.iter().enumerate().take(count) {
             refinements.push(Refine::level(elements, steps, self.step_size(k)));
         }
-        Levels::new(self.axis, refinements, columns)
+        Levels::new(self.axis, refinements, columns).of_differences()
     }
 
     fn observables(&self) -> impl Iterator<Item = &'static Observable> {
@@ -125,9 +125,7 @@ impl SelfConvergence {
     pub(super) fn to_reference(&self, runs: &Runs<Self>) -> Figure {
         let mut differences = self.differences(runs, ComparisonWith::Reference, |_| true);
         for (column, observable) in differences.columns.iter_mut().zip(self.observables()) {
-            if self.claim(observable).is_none() {
-                column.symbol = Some(format!("{} (not claimed)", observable.symbol));
-            }
+            column.is_only_drawn = self.claim(observable).is_none();
         }
         let rates = differences.judge();
         let subject = self.scene.name.clone();
@@ -138,7 +136,9 @@ impl SelfConvergence {
     /// How far u(1) of each level is from the reference over time.
     pub(super) fn tip(&self, runs: &Runs<Self>) -> Figure {
         let reference = self.levels.len();
-        let mut curves = vec![];
+        let y = chart::Axis::log("|u(1, t) − reference| (dimensionless)");
+        let time = chart::Axis::linear("time t");
+        let mut chart = Chart::empty(time, y);
         for (level, (elements, steps)) in self.levels.iter().enumerate() {
             let name = match self.axis {
                 Axis::Time => format!("{steps} steps"),
@@ -149,16 +149,14 @@ impl SelfConvergence {
                     (self.tip_at(runs, level, k) - self.tip_at(runs, reference, k)).abs();
                 (self.time(k), distance)
             });
-            curves.push(plots::Series::new(name, points));
+            let curve = chart.curve(name, points);
+            *curve = curve.clone().marked();
         }
-        let y = plots::Axis::log("|u(1, t) − reference| (dimensionless)");
-        let figure = plots::history(y, &curves)
-            .marked()
-            .titled("Each refinement brings the tip nearer to the reference, at all times");
+        let chart = chart.titled("How near each refinement brings the tip to the reference");
         Figure::new(
             "tip",
             "Distance of u(1, t) to the reference on each level.",
-            figure.draw(),
+            chart.svg(),
         )
     }
 

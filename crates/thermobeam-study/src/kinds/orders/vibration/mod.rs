@@ -25,7 +25,7 @@ use crate::{
     run::{ObservableMotion, driver::Driver},
     scene::{Coefficients, limits, tables},
 };
-use convergence_study::internal::plots;
+use convergence_study::internal::chart::{self, Chart};
 use modes::Modes;
 use thermobeam::{one_step::Problem, solve::Level};
 use thermobeam_exact::vibration::Mode;
@@ -388,19 +388,16 @@ impl Vibration {
     /// The tip's displacement on the coarsest and the finest level, and the exact one.
     fn tip_figure(&self, runs: &Runs<Self>) -> Option<Figure> {
         let modes = Modes::of_beam(self).ok()?;
-        let mut curves = vec![];
-        for run in [runs.first()?, runs.last()?] {
-            let tip = run.ok()?.tip.clone();
-            curves.push(plots::Series::new(&run.case.label, tip));
-        }
+        let y = chart::Axis::linear("tip displacement u(1, t) (dimensionless)");
+        let mut chart = Chart::empty(chart::Axis::linear("time t"), y);
         let times = runs.last()?.ok()?.tip.iter().map(|(t, _)| *t);
-        let exact = times.map(|t| (t, modes.exact.tip(t)));
-        curves.insert(0, plots::Series::new("exact", exact));
-        let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
+        chart.curve("exact", times.map(|t| (t, modes.exact.tip(t))));
+        for run in [runs.first()?, runs.last()?] {
+            chart.curve(&run.case.label, run.ok()?.tip.iter().copied());
+        }
         let caption =
             "Tip displacement over time: exact, and on the coarsest and the finest level.";
-        let figure = plots::history(y, &curves)
-            .titled("The tip of the fine beam moves as the exact one does");
-        Some(Figure::new("tip", caption, figure.draw()))
+        let chart = chart.titled("The tip of the beam, and as it moves exactly");
+        Some(Figure::new("tip", caption, chart.svg()))
     }
 }

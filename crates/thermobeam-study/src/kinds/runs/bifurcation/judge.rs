@@ -22,10 +22,7 @@ use crate::{
     },
     scene::Scene,
 };
-use convergence_study::internal::{
-    plots,
-    study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
 use thermobeam::kirchhoff::BUCKLING;
 
 /// A beam with a tip closer to zero than this is straight.
@@ -260,7 +257,7 @@ impl<'r> OfScene<'r> {
             title,
             branches,
             obstacles: figures::obstacle_lines(self.scene.obstacles),
-            ends: plots::Series::new("end of a run", tips),
+            ends: tips.collect(),
         })
     }
 }

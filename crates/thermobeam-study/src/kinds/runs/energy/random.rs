@@ -31,7 +31,10 @@ use crate::{
     run::RunError,
     scene::limits,
 };
-use convergence_study::{Coverage, internal::plots};
+use convergence_study::{
+    Coverage,
+    internal::chart::{self, Cells, Chart},
+};
 use thermobeam::{
     kirchhoff::BUCKLING,
     mesh::MeshError,
@@ -162,15 +165,17 @@ impl Runs for RandomScenes {
             .zip(total.ends)
             .map(|((name, _), count)| vec![(*name).to_owned(), count.to_string()]);
         let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);
+        let checks = total.claims(scenes, exceptions);
+        let closes = checks.iter().all(|check| check.verdict.is_pass());
         Findings {
             summary: format!(
                 "{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}"
             ),
             headline: format!("{headline}; largest residual {largest}"),
-            checks: total.claims(scenes, exceptions),
+            checks,
             coverage: vec![total.coverage()],
             listings: vec![Listing::from(counts), Listing::from(self.table(&listed))],
-            figures: vec![residuals(&total.scenes)],
+            figures: vec![residuals(&total.scenes, closes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
             quantities: vec![Quantity::new("answers", answers as f64, 1e-3)],
             ..Findings::default()
@@ -343,14 +348,16 @@ impl Batch {
 }
 
 /// The largest residual in each cell of (dt, shortest element).
-fn residuals(scenes: &[[f64; 3]]) -> Figure {
+///
+/// * `closes`: whether the study passes, which the title says.
+fn residuals(scenes: &[[f64; 3]], closes: bool) -> Figure {
     // NaN in cells without a scene.
-    let mut values = vec![vec![f64::NAN; CELLS]; CELLS];
+    let mut values = vec![f64::NAN; CELLS * CELLS];
     for &[dt, shortest, residual] in scenes {
         let (Some(column), Some(row)) = (index(DT, dt), index(SHORTEST, shortest)) else {
             continue;
         };
-        let cell = &mut values[row][column];
+        let cell = &mut values[row * CELLS + column];
         let residual = max_or_nan(residual, ZERO);
         *cell = if cell.is_nan() {
             residual
@@ -358,25 +365,46 @@ fn residuals(scenes: &[[f64; 3]]) -> Figure {
             max_or_nan(*cell, residual)
         };
     }
-    let marked = values
+    let [across, up] = [centres(DT), centres(SHORTEST)];
+    let places = up.iter().flat_map(|y| across.iter().map(move |x| (*x, *y)));
+    let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
+    let empty = values
         .iter()
-        .map(|row| row.iter().map(|value| value.is_nan()).collect())
-        .collect();
-    let map = plots::ColouredCells {
-        title: Some("The balance of the energy closes to round-off".to_owned()),
-        x: plots::Axis::log("time step dt"),
-        y: plots::Axis::log("shortest element (dimensionless)"),
-        z: plots::Axis::log("largest residual / energy"),
-        x_values: centres(DT),
-        y_values: centres(SHORTEST),
-        values,
-        marked,
-        marked_label: "no scene".to_owned(),
-        ..plots::ColouredCells::default()
+        .map(|value| f64::from(u8::from(value.is_nan())));
+    let [dt, shortest, residual, none] = [
+        "time step dt",
+        "shortest element (dimensionless)",
+        "largest residual / energy",
+        "no scene",
+    ];
+    let columns = [
+        (dt, x),
+        (shortest, y),
+        (none, empty.collect()),
+        (residual, values),
+    ];
+    let chart = Chart {
+        cells: Some(Cells {
+            x: dt.to_owned(),
+            y: shortest.to_owned(),
+            value: residual.to_owned(),
+            colours: chart::Axis::log(residual),
+            hatched: Some([none, none].map(str::to_owned)),
+        }),
+        ..Chart::new(
+            chart::Table::new(columns),
+            chart::Axis::log(dt),
+            chart::Axis::log(shortest),
+        )
     };
+    let title = "The balance of the energy closes to round-off";
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";
-    Figure::new("residuals", caption, plots::surface(&map))
+    Figure::new(
+        "residuals",
+        caption,
+        chart.titled_where(closes, title).svg(),
+    )
 }
 
 /// The cell of a value along an axis.

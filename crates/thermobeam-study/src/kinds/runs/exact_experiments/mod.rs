@@ -41,7 +41,7 @@ use crate::{
 };
 use convergence_study::{
     Coverage,
-    internal::plots::{self, xy::Xy},
+    internal::chart::{self, Chart, Guide},
 };
 use judge::{OfScene, events};
 
@@ -325,19 +325,19 @@ impl ExactExperiments {
         let tip = over_time(
             scenes,
             "the free end bounces, faster for larger β",
-            plots::Axis::linear("displacement u(1, t) (dimensionless)"),
+            chart::Axis::linear("u(1, t) (dimensionless)"),
             &figures::obstacle_lines(obstacles),
             |runs| runs.tip(),
         );
         let caption = format!(
             "The free end of every experiment by dG; two discretisations agree within {agreement:.1e}."
         );
-        let mut figures = vec![Figure::new("tip", &caption, plots::panels(&caption, &tip))];
+        let mut figures = vec![Figure::new("tip", &caption, chart::panels(&caption, &tip))];
         if self.compare {
             let error = over_time(
                 scenes,
                 "the error jumps where contact begins",
-                plots::Axis::log("error of u(1, t) (dimensionless)"),
+                chart::Axis::log("error of u(1, t)"),
                 &[],
                 |runs| runs.error_over_time(),
             );
@@ -346,7 +346,7 @@ impl ExactExperiments {
             figures.push(Figure::new(
                 "error",
                 caption,
-                plots::panels(caption, &error),
+                chart::panels(caption, &error),
             ));
         }
         figures
@@ -358,31 +358,30 @@ impl ExactExperiments {
 fn over_time(
     scenes: &[OfScene<'_>],
     title: &str,
-    y: plots::Axis,
-    guides: &[plots::Guide],
+    y: chart::Axis,
+    guides: &[Guide],
     points: fn(&OfScene<'_>) -> Vec<(f64, f64)>,
-) -> Vec<Xy> {
+) -> Vec<Chart> {
     let mut sorted: Vec<&OfScene<'_>> = scenes.iter().collect();
     sorted.sort_by(|one, other| one.scene.beam.beta.total_cmp(&other.scene.beam.beta));
     sorted.sort_by(|one, other| one.heating().total_cmp(&other.heating()));
     let mut panels = vec![];
     for group in sorted.chunk_by(|one, other| one.heating() == other.heating()) {
-        let mut looks = vec![];
-        let mut curves = vec![];
+        let mut panel = Chart {
+            guides: guides.to_vec(),
+            is_panel: true,
+            ..Chart::empty(chart::Axis::linear("time t"), y.clone())
+        };
         for runs in group {
             let beam = &runs.scene.beam;
-            looks.push(figures::look_of_beta(beam.beta));
-            curves.push(plots::Series::new(figures::beta_label(beam), points(runs)));
+            let curve = panel.curve(figures::beta_label(beam), points(runs));
+            curve.look = Some(figures::look_of_beta(beam.beta));
         }
         let heated = match group[0].heating() {
             0.0 => "Without heating (θ_A = 0)".to_owned(),
             theta_a => format!("Heated (θ_A = {theta_a})"),
         };
-        let panel = plots::history(y.clone(), &curves).with_looks(&looks);
-        panels.push(Xy {
-            guides: guides.to_vec(),
-            ..panel.titled(format!("{heated}: {title}"))
-        });
+        panels.push(panel.titled(format!("{heated}: {title}")));
     }
     panels
 }

@@ -15,7 +15,7 @@ use crate::kinds::{
     },
     settings::ItemMethod,
 };
-use convergence_study::{Origin, internal::plots};
+use convergence_study::Origin;
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 use thermobeam_exact::equilibrium::Phase;
 
@@ -99,7 +99,7 @@ fn error_of_paper(runs: &OfExperiment<'_>) -> f64 {
     };
     let exact = U_TIP.points(runs.experiment, &runs.first.trace);
     let tip = U_TIP.points(runs.experiment, &paper.trace);
-    largest_difference(plots::Scale::Linear, &exact, &tip)
+    largest_difference(false, &exact, &tip)
 }
 
 /// The figures are drawn from curves whose error cannot be seen.

@@ -1,14 +1,7 @@
 //! The figures as data: curves by the first discretisation, their errors by the second, the paper's
 //! algorithm on top.
 
-use convergence_study::internal::plots::{
-    self,
-    inset::{Inset, InsetFrame},
-    look::{Look, look},
-    ruler::on_scale,
-    style,
-    xy::{Curve, Xy},
-};
+use convergence_study::internal::chart::{self, Chart, DOTTED, SOLID};
 
 use super::{Experiment, Trace, group::OfExperiment};
 use crate::kinds::prelude::*;
@@ -24,9 +17,9 @@ pub(super) struct Plotted {
     /// Its name in the caption.
     pub(super) name: &'static str,
     /// Without the paper's algorithm.
-    pub(super) xy: Xy,
-    /// A small figure inside, and where.
-    inset: Option<(Box<Plotted>, InsetFrame)>,
+    pub(super) chart: Chart,
+    /// A panel below, with the same curves enlarged or on another scale.
+    below: Option<Box<Plotted>>,
     curves: Vec<PlottedCurve>,
 }
 
@@ -52,21 +45,20 @@ pub(super) struct PlottedSeries {
 }
 
 impl Plotted {
-    /// * `what`, `name`: of the file, and in the caption; `xy`: title, vertical axis and guides.
+    /// * `what`, `name`: of the file, and in the caption; `chart`: title, axes and guides.
     pub(super) fn new(
         [what, name]: [&'static str; 2],
-        xy: Xy,
+        chart: Chart,
         runs: &[OfExperiment<'_>],
         quantities: &[PlottedSeries],
     ) -> Self {
         let mut plotted = Self {
             what,
             name,
-            xy,
-            inset: None,
+            chart,
+            below: None,
             curves: vec![],
         };
-        plotted.xy.x = plots::Axis::linear("time t");
         for (runs, quantity) in runs
             .iter()
             .flat_map(|runs| quantities.iter().map(move |quantity| (runs, quantity)))
@@ -76,10 +68,14 @@ impl Plotted {
         plotted
     }
 
-    /// The same with a small figure inside.
-    pub(super) fn with_inset(self, inset: Plotted, place: InsetFrame) -> Self {
+    /// The same with a panel below, which names the curves of both.
+    pub(super) fn above(mut self, mut below: Plotted) -> Self {
+        for chart in [&mut self.chart, &mut below.chart] {
+            chart.is_panel = true;
+        }
+        self.chart.without_legend = true;
         Self {
-            inset: Some((Box::new(inset), place)),
+            below: Some(Box::new(below)),
             ..self
         }
     }
@@ -87,18 +83,12 @@ impl Plotted {
     fn push(&mut self, runs: &OfExperiment<'_>, quantity: &PlottedSeries) {
         let OfExperiment { experiment, .. } = *runs;
         let drawn = quantity.points(experiment, &runs.first.trace);
+        let beam = &experiment.scene.beam;
         let (label, look) = match quantity.label {
-            Some(label) => (label.to_owned(), look(self.curves.len())),
-            None => (
-                figures::beta_label(&experiment.scene.beam),
-                look_of(experiment),
-            ),
+            Some(label) => (label.to_owned(), self.curves.len()),
+            None => (figures::beta_label(beam), figures::look_of_beta(beam.beta)),
         };
-        let series = plots::Series::new(label, drawn.iter().copied());
-        self.xy.curves.push(Curve {
-            look,
-            ..Curve::line(0, &series)
-        });
+        self.chart.curve(label, drawn.iter().copied()).look = Some(look);
         self.curves.push(PlottedCurve {
             drawn,
             second: quantity.points(experiment, &runs.second.trace),
@@ -115,20 +105,20 @@ impl Plotted {
         self.over_width(&|curve| Some(&curve.second))
     }
 
-    /// The largest difference to other runs, over the width of the line, in the figure and its
-    /// inset; NaN if some are missing.
+    /// The largest difference to other runs, over the width of the line, in all panels; NaN if some
+    /// are missing.
     fn over_width(&self, other: &dyn Fn(&PlottedCurve) -> Option<&Points>) -> f64 {
-        let scale = self.xy.y.scale;
+        let is_log = self.chart.y.is_log;
         let differences = self.curves.iter().map(|curve| {
             other(curve).map_or(f64::NAN, |other| {
-                largest_difference(scale, &curve.drawn, other)
+                largest_difference(is_log, &curve.drawn, other)
             })
         });
         let largest = differences.reduce(max_or_nan);
-        let here = largest.unwrap_or(f64::NAN) / self.xy.line_width();
-        match &self.inset {
+        let here = largest.unwrap_or(f64::NAN) / self.chart.line_width();
+        match &self.below {
             None => here,
-            Some((inset, place)) => max_or_nan(here, inset.over_width(other) * place.height()),
+            Some(below) => max_or_nan(here, below.over_width(other)),
         }
     }
 
@@ -153,32 +143,34 @@ impl Plotted {
 
     /// The figure, with the paper's algorithm on top.
     pub(super) fn draw(&self) -> String {
-        let mut xy = self.overlaid();
-        if let Some((inset, place)) = &self.inset {
-            xy.inset = Some(Inset {
-                xy: Box::new(inset.overlaid()),
-                place: *place,
-            });
+        let mut panels = vec![self.overlaid()];
+        panels.extend(self.below.as_ref().map(|below| below.overlaid()));
+        if let Some(last) = panels.last_mut() {
+            last.notes.extend(self.accuracy());
         }
-        xy.notes.extend(self.accuracy());
-        xy.draw()
+        match &panels[..] {
+            [only] => only.svg(),
+            all => chart::panels(&self.chart.title, all),
+        }
     }
 
-    fn overlaid(&self) -> Xy {
-        let mut xy = self.xy.clone();
-        for (curve, drawn) in self.curves.iter().zip(&self.xy.curves) {
+    fn overlaid(&self) -> Chart {
+        let mut chart = self.chart.clone();
+        for (place, curve) in self.curves.iter().enumerate() {
             if let Some(points) = &curve.paper {
-                let solid = xy
-                    .curves
-                    .iter_mut()
-                    .filter(|other| other.name == drawn.name);
-                solid.for_each(|curve| curve.look.dash = style::SOLID);
-                xy.curves.push(overlay(&curve.by_the_paper, drawn, points));
+                chart.series[place].dashes = Some(SOLID);
+                let dots = chart.curve(&curve.by_the_paper, points.iter().copied());
+                dots.look = Some(INK);
+                dots.dashes = Some(DOTTED);
+                dots.width = 1.2;
             }
         }
-        xy
+        chart
     }
 }
+
+/// The look in ink of the paper's algorithm, dots on the exact curve.
+const INK: usize = 5;
 
 /// The energy within the figures' span.
 pub(super) const ENERGY: PlottedSeries = PlottedSeries {
@@ -215,39 +207,26 @@ impl PlottedSeries {
 /// Relative difference of two times that are the same up to round-off.
 const SAME_TIME: f64 = 1e-9;
 
-/// The largest difference as far as both go; NaN if there is none, or times differ.
-pub(super) fn largest_difference(scale: plots::Scale, one: &Points, other: &Points) -> f64 {
+/// The largest difference as far as both go, in decades on a logarithmic axis; NaN if there is
+/// none, or times differ.
+pub(super) fn largest_difference(is_log: bool, one: &Points, other: &Points) -> f64 {
+    let place = |value: f64| if is_log { value.log10() } else { value };
     let differences = one.iter().zip(other).map(|(&(t, a), &(s, b))| {
         if (t - s).abs() > SAME_TIME * t {
             return f64::NAN;
         }
-        let [a, b] = [a, b].map(|value| on_scale(scale, value).unwrap_or(f64::NAN));
-        (a - b).abs()
+        let difference = (place(a) - place(b)).abs();
+        // What has no place has no difference.
+        if difference.is_finite() {
+            difference
+        } else {
+            f64::NAN
+        }
     });
     differences.reduce(max_or_nan).unwrap_or(f64::NAN)
-}
-
-/// The paper's algorithm as dots on the exact curve.
-fn overlay(label: &str, drawn: &Curve, points: &Points) -> Curve {
-    let series = plots::Series::new(label, points.iter().copied());
-    Curve {
-        look: Look {
-            colour: style::INK,
-            dash: style::DOTTED,
-            ..drawn.look
-        },
-        width: 1.2,
-        is_data: false,
-        ..Curve::line(0, &series)
-    }
 }
 
 fn by_the_paper(Experiment { scene, .. }: &Experiment) -> String {
     let h = 1.0 / scene.mesh.elements() as f64;
     format!("(4.1)-(4.5), h = {h}, δt = {}", plain_text(scene.dt()))
-}
-
-/// The look of a value of β, the same in all figures.
-fn look_of(experiment: &Experiment) -> Look {
-    look(figures::look_of_beta(experiment.scene.beam.beta))
 }

@@ -14,7 +14,7 @@ use crate::{
 };
 use convergence_study::{
     Origin,
-    internal::plots::{self, inset::InsetFrame, xy::Xy},
+    internal::chart::{self, Chart, Guide},
 };
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
@@ -44,7 +44,7 @@ pub(super) fn findings(study: &Experiments, runs: &SectionFive<'_>) -> Findings 
         listings.push(Listing::of(title, &["θ_A", "β"], rows));
     }
     let drawn = plotted.iter().map(|plot| {
-        let title = plot.xy.title.as_deref().unwrap_or_default();
+        let title = &plot.chart.title;
         let caption = format!("{}: {title}. {}.", plot.name, plot.accuracy().join(". "));
         Figure::new(plot.what, caption, plot.draw())
     });
@@ -102,23 +102,6 @@ impl Tally {
     }
 }
 
-/// Where the inset of Figure 2 lies: the energy falls so soon that the middle of the figure is
-/// empty.
-const MIDDLE: InsetFrame = InsetFrame {
-    left: 0.4,
-    top: 0.34,
-    right: 0.98,
-    bottom: 0.9,
-};
-
-/// Where that of Figure 7 lies.
-const UPPER: InsetFrame = InsetFrame {
-    left: 0.3,
-    top: 0.12,
-    right: 0.98,
-    bottom: 0.68,
-};
-
 /// The figures of the paper, and the decay of the energy until each run is steady.
 fn plotted(runs: &SectionFive<'_>) -> Vec<Plotted> {
     let first = &runs.first.runs;
@@ -161,13 +144,18 @@ fn plotted(runs: &SectionFive<'_>) -> Vec<Plotted> {
     plotted
 }
 
-/// Figure 2. Two of its limits lie too close together for labels: the inset shows the distance to
-/// each.
+/// Figure 2. Two of its limits lie too close together for labels: the panel below shows the
+/// distance to each.
 fn energies(runs: &[OfExperiment<'_>]) -> Plotted {
-    let inset = axis(plots::Axis::log("E − β²/(4ρ)"));
-    let xy = energy("Without heating, the energy falls to its limit β²/(4ρ)");
-    Plotted::new(["figure-2", "Figure 2"], xy, runs, &[ENERGY])
-        .with_inset(Plotted::new(["", ""], inset, runs, &[EXCESS]), MIDDLE)
+    let below = over_time(chart::Axis::log("E − β²/(4ρ)"));
+    let chart = energy("Without heating, the energy falls to its limit β²/(4ρ)");
+    let below = below.titled("Its distance to that limit");
+    Plotted::new(["figure-2", "Figure 2"], chart, runs, &[ENERGY]).above(Plotted::new(
+        ["", ""],
+        below,
+        runs,
+        &[EXCESS],
+    ))
 }
 
 /// Both parts of Figure 7.
@@ -176,18 +164,18 @@ fn beyond_buckling(runs: &[OfExperiment<'_>]) -> [Plotted; 2] {
         until_steady: true,
         ..ENERGY
     };
-    let guides: Vec<plots::Guide> = runs.iter().map(straight).collect();
-    let energy = Xy {
+    let guides: Vec<Guide> = runs.iter().map(straight).collect();
+    let energy = Chart {
         guides: guides.clone(),
         ..energy("Beyond buckling, the energy falls below β²/(4ρ)")
     };
-    let late = Xy {
+    let late = Chart {
         guides,
-        ..axis(plots::Axis::linear("E, enlarged"))
+        ..over_time(chart::Axis::linear("energy E")).titled("The same, enlarged")
     };
     let late = Plotted::new(["", ""], late, runs, &[LATE]);
-    let tip = Xy {
-        y: plots::Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
+    let tip = Chart {
+        y: chart::Axis::linear("u(1, t) and φ(1, t) (dimensionless)"),
         ..displacement(runs, "Beyond buckling, the beam comes to rest bent")
     };
     [
@@ -197,7 +185,7 @@ fn beyond_buckling(runs: &[OfExperiment<'_>]) -> [Plotted; 2] {
             runs,
             &[whole],
         )
-        .with_inset(late, UPPER),
+        .above(late),
         Plotted::new(["figure-7-tip", "Figure 7, right"], tip, runs, &TIP),
     ]
 }
@@ -207,10 +195,10 @@ fn decay(runs: &[OfExperiment<'_>]) -> Plotted {
         until_steady: true,
         ..EXCESS
     };
-    let xy = axis(plots::Axis::log("E − β²/(4ρ) (dimensionless)"))
+    let chart = over_time(chart::Axis::log("E − β²/(4ρ) (dimensionless)"))
         .titled("Without heating, the energy of the straight beam is reached");
     let name = "Figure 2 until the beams are steady";
-    Plotted::new(["decay", name], xy, runs, &[excess])
+    Plotted::new(["decay", name], chart, runs, &[excess])
 }
 
 /// The energy when it is close to its limit.
@@ -245,33 +233,33 @@ const TIP: [PlottedSeries; 2] = [
     },
 ];
 
-fn axis(y: plots::Axis) -> Xy {
-    Xy { y, ..Xy::default() }
+fn over_time(y: chart::Axis) -> Chart {
+    Chart::empty(chart::Axis::linear("time t"), y)
 }
 
 /// The energy of the straight beam.
-fn straight(runs: &OfExperiment<'_>) -> plots::Guide {
-    plots::Guide {
+fn straight(runs: &OfExperiment<'_>) -> Guide {
+    Guide {
         label: "β²/(4ρ)".to_owned(),
         value: straight_energy(&runs.experiment.scene),
     }
 }
 
-fn energy(title: &str) -> Xy {
-    axis(plots::Axis::linear("energy E (dimensionless)")).titled(title)
+fn energy(title: &str) -> Chart {
+    over_time(chart::Axis::linear("energy E (dimensionless)")).titled(title)
 }
 
-fn displacement(runs: &[OfExperiment<'_>], title: &str) -> Xy {
+fn displacement(runs: &[OfExperiment<'_>], title: &str) -> Chart {
     let scene = runs.first().map(|runs| &runs.experiment.scene);
-    Xy {
+    Chart {
         guides: figures::obstacle_lines(scene.and_then(|scene| scene.obstacles)),
-        ..axis(plots::Axis::linear(
+        ..over_time(chart::Axis::linear(
             "tip displacement u(1, t) (dimensionless)",
         ))
         .titled(title)
     }
 }
 
-fn rotation(title: &str) -> Xy {
-    axis(plots::Axis::linear("tip rotation φ(1, t) (dimensionless)")).titled(title)
+fn rotation(title: &str) -> Chart {
+    over_time(chart::Axis::linear("tip rotation φ(1, t) (dimensionless)")).titled(title)
 }

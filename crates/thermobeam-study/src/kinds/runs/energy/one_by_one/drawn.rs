@@ -4,30 +4,12 @@ use super::{EnergyAt, EnergyHistory, EnergyRun, EnergyRuns};
 use crate::figures::looks;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::plain_text;
-use convergence_study::internal::plots::{self, xy::Xy};
-
-/// Curves of all runs drawn.
-fn curves(
-    drawn: &[(&EnergyRun, &EnergyHistory)],
-    label: fn(&EnergyRun) -> String,
-    point: fn(&EnergyAt) -> (f64, f64),
-) -> Vec<plots::Series> {
-    let mut curves = vec![];
-    for (run, found) in drawn {
-        let points = found.samples.iter().map(point);
-        curves.push(plots::Series::new(label(run), points));
-    }
-    curves
-}
+use convergence_study::internal::chart::{self, Chart, Guide};
 
 /// The quantities in which the runs of a study differ.
 fn quantities(run: &EnergyRun) -> String {
     let beam = &run.problem.beam;
     format!("θ_A = {}, β = {}", beam.theta_a, beam.beta).replace('-', "−")
-}
-
-fn scene(run: &EnergyRun) -> String {
-    run.scene().to_owned()
 }
 
 impl EnergyRuns {
@@ -60,17 +42,25 @@ impl EnergyRuns {
 /// The change of the energy is negative; a rise would have no place on a logarithmic axis, and
 /// would be counted below the figure.
 fn energies(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
-    let mut losses = curves(drawn, quantities, |sample| (sample.t, -sample.change));
-    for series in &mut losses {
-        series.points.retain(|(_, loss)| !loss.is_nan());
+    let y = chart::Axis::log("least energy lost in a step / initial energy");
+    let mut loss = Chart::empty(chart::Axis::linear("time t"), y);
+    let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
+    for ((run, found), look) in drawn.iter().zip(looks) {
+        let points = found
+            .samples
+            .iter()
+            .map(|sample| (sample.t, -sample.change));
+        let known = points.filter(|(_, loss)| !loss.is_nan());
+        loss.curve(quantities(run), known).look = Some(look);
     }
-    let axis = plots::Axis::log("least energy lost in a step / initial energy");
-    let loss = plots::history(axis, &losses)
-        .with_looks(&looks(drawn.iter().map(|(run, _)| run.scene())))
-        .titled("Every step loses energy");
+    let rises = |sample: &EnergyAt| sample.change > 0.0;
+    let rises = drawn
+        .iter()
+        .any(|(_, found)| found.samples.iter().any(rises));
+    let loss = loss.titled_where(!rises, "Every step loses energy");
     let caption =
         "Least loss of energy in a step, in units of the initial energy: it is never negative.";
-    Figure::new("energy", caption, loss.draw())
+    Figure::new("energy", caption, loss.svg())
 }
 
 /// With a line for each bound that the runs drawn must keep.
@@ -80,24 +70,30 @@ fn drifts(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     bounds.dedup();
     let mut guides = vec![];
     for value in bounds {
-        guides.push(plots::Guide {
+        guides.push(Guide {
             label: "allowed".to_owned(),
             value,
         });
     }
-    let mut drifts = curves(drawn, scene, |sample| {
-        (sample.step as f64, sample.drift.abs())
-    });
-    // Exactly zero, such as at the start, has no place on a logarithmic axis.
-    for series in &mut drifts {
-        series.points.retain(|(_, value)| *value != 0.0);
-    }
-    let drift = Xy {
-        x: plots::Axis::linear("steps"),
+    let y = chart::Axis::log("|sum of residuals| / energy");
+    let mut drift = Chart {
         guides,
-        ..plots::history(plots::Axis::log("|sum of residuals| / energy"), &drifts)
+        ..Chart::empty(chart::Axis::linear("steps"), y)
     };
+    let mut is_within = true;
+    for (run, found) in drawn {
+        let points = found
+            .samples
+            .iter()
+            .map(|sample| (sample.step as f64, sample.drift.abs()));
+        // Exactly zero, such as at the start, has no place on a logarithmic axis.
+        let shown = points.filter(|(_, value)| *value != 0.0);
+        is_within &= shown
+            .clone()
+            .all(|(_, value)| run.drift.is_none_or(|most| value <= most));
+        drift.curve(run.scene(), shown);
+    }
     let caption = "Sum of the signed residuals of the energy balance up to each step.";
     let title = "The residuals of the balance do not add up";
-    Figure::new("drift", caption, drift.titled(title).draw())
+    Figure::new("drift", caption, drift.titled_where(is_within, title).svg())
 }

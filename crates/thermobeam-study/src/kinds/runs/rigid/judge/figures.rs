@@ -1,9 +1,9 @@
 //! The figures: contraction, penetrations, and the motion as obstacles become rigid.
 
 use super::{Compliance, LARGEST, RigidObstacles, ShownImpact};
-use crate::figures::{ContractionFactors, contraction, obstacle_lines};
+use crate::figures::{ContractionFactors, NamedPoints, contraction, obstacle_lines};
 use crate::kinds::prelude::*;
-use convergence_study::internal::plots::{self, xy::Xy};
+use convergence_study::internal::chart::{self, Band, Chart, Series};
 
 pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     let mut converging = vec![];
@@ -18,63 +18,73 @@ pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     }
     let svg = contraction(&ContractionFactors {
         title: "The fixed point contracts by α, and fails from α = 1 on".to_owned(),
-        measured: vec![
-            plots::Series::new("converges", converging),
-            plots::Series::new("fails", failing),
-        ],
+        measured: [("converges", converging), ("fails", failing)]
+            .map(|(label, points)| NamedPoints {
+                label: label.to_owned(),
+                points,
+            })
+            .to_vec(),
         predicted: "predicted factor α".to_owned(),
-        estimates: plots::Series::default(),
+        estimates: NamedPoints::default(),
     });
     let caption = "Contraction of the fixed point in contact, measured over predicted; right of α = 1 it fails.";
     Figure::new("contraction", caption, svg)
 }
 
-/// A penetration over ε.
-fn penetration_series(
-    label: &str,
-    compliances: &[Compliance<'_>],
+/// A penetration of each compliance.
+struct Penetration {
+    label: &'static str,
     value: fn(&Compliance<'_>) -> Option<f64>,
-) -> plots::ErrorSeries {
-    let mut points = vec![];
-    for compliance in compliances {
-        points.push((compliance.epsilon, value(compliance).unwrap_or(f64::NAN)));
-    }
-    plots::ErrorSeries {
-        label: label.into(),
-        points,
-        ..plots::ErrorSeries::default()
-    }
 }
 
 /// Without the distance to the rigid limit: on the scale of the figure it coincides with the
 /// largest penetration.
+const PENETRATIONS: [Penetration; 3] = [
+    Penetration {
+        label: LARGEST,
+        value: |compliance| compliance.bouncing.penetration,
+    },
+    Penetration {
+        label: "peak of a resolved impact",
+        value: |compliance| compliance.impact.penetration,
+    },
+    Penetration {
+        label: "at rest",
+        value: |compliance| compliance.rest.penetration,
+    },
+];
+
+/// Penetrations over ε.
 pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
-    let series = [
-        penetration_series(LARGEST, compliances, |compliance| {
-            compliance.bouncing.penetration
-        }),
-        penetration_series("peak of a resolved impact", compliances, |compliance| {
-            compliance.impact.penetration
-        }),
-        penetration_series("at rest", compliances, |compliance| {
-            compliance.rest.penetration
-        }),
-    ];
+    const EPSILON: &str = "compliance of the obstacles ε";
+    let epsilons = compliances.iter().map(|compliance| compliance.epsilon);
+    let mut table = chart::Table::new([(EPSILON, epsilons.collect())]);
+    let mut series = vec![];
+    for Penetration { label, value } in PENETRATIONS {
+        let values = compliances
+            .iter()
+            .map(|compliance| value(compliance).unwrap_or(f64::NAN));
+        table.push(label, values);
+        series.push(Series::errors(label, EPSILON, label));
+    }
     let title = "Penetration vanishes with ε: order 1, and 2/3 in a resolved impact";
     let resolved = compliances
         .first()
         .map(|compliance| compliance.alpha() * compliance.epsilon);
-    let xy = Xy {
-        title: Some(title.to_owned()),
-        x: plots::Axis::log("compliance of the obstacles ε"),
-        y: plots::Axis::log("penetration (dimensionless)"),
-        beyond: resolved.map(|epsilon| (epsilon, "impact resolved (α < 1)".into())),
-        ..Xy::default()
+    let bands = resolved.map(|epsilon| Band {
+        label: "impact resolved (α < 1)".to_owned(),
+        intervals: vec![(epsilon, f64::INFINITY)],
+    });
+    let y = chart::Axis::log("penetration (dimensionless)");
+    let chart = Chart {
+        series,
+        bands: bands.into_iter().collect(),
+        slopes: vec![1.0, 2.0 / 3.0],
+        ..Chart::new(table, chart::Axis::log(EPSILON), y).titled(title)
     };
     let caption = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
                    order 2/3 where it is resolved.";
-    let svg = plots::convergence(xy, &series, &[1.0, 2.0 / 3.0]);
-    Figure::new("penetration", caption, svg)
+    Figure::new("penetration", caption, chart.svg())
 }
 
 /// The decades of ε whose curves are distinct.
@@ -93,17 +103,15 @@ pub(super) fn tip(
         series.extend(decade.map(|(_, label)| (*label, compliance.bouncing)));
     }
     series.push(("rigid", limit));
-    let curves: Vec<_> = series
-        .into_iter()
-        .map(|(label, run)| plots::Series::new(label, run.tip.clone()))
-        .collect();
-    let y = plots::Axis::linear("tip displacement u(1, t) (dimensionless)");
-    let svg = Xy {
+    let y = chart::Axis::linear("tip displacement u(1, t) (dimensionless)");
+    let mut chart = Chart {
         guides: obstacle_lines(study.moving.obstacles),
-        ..plots::history(y, &curves)
+        ..Chart::empty(chart::Axis::linear("time t"), y)
+    };
+    for (label, run) in series {
+        chart.curve(label, run.tip.iter().copied());
     }
-    .titled("The motion tends to that between rigid obstacles")
-    .draw();
+    let chart = chart.titled("The motion as obstacles become rigid");
     let caption = "Displacement of the free end as the obstacles become rigid.";
-    Figure::new("tip", caption, svg)
+    Figure::new("tip", caption, chart.svg())
 }

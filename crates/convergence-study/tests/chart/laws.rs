@@ -1,7 +1,7 @@
 //! Laws that every figure obeys, whatever its data: for the generic figures here and for those of
 //! other crates of the workspace.
 
-use convergence_study::internal::plots::style;
+use convergence_study::internal::chart::text_width;
 use roxmltree::{Document, Node};
 
 /// Figures by name.
@@ -31,7 +31,7 @@ pub(crate) fn number(node: Node<'_, '_>, attribute: &str) -> f64 {
 /// which are generous.
 pub(crate) fn bounds(node: Node<'_, '_>) -> [f64; 4] {
     let size = number(node, "font-size");
-    let width = 0.9 * style::text_width(node.text().unwrap_or("").trim(), size);
+    let width = 0.9 * text_width(node.text().unwrap_or("").trim(), size);
     let (x, y) = (number(node, "x"), number(node, "y"));
     let before = match node.attribute("text-anchor") {
         Some("start") => 0.0,
@@ -46,12 +46,18 @@ pub(crate) fn bounds(node: Node<'_, '_>) -> [f64; 4] {
             y + 0.5 * width,
         ];
     }
+    // Labels of ticks hang from their place; all other texts stand around its height.
+    let y = if text_hangs(node) { y + 0.4 * size } else { y };
     [
         x - before,
         y - 0.4 * size,
         x - before + width,
         y + 0.4 * size,
     ]
+}
+
+fn text_hangs(text: Node<'_, '_>) -> bool {
+    text.attribute("dy") == Some("0.76em")
 }
 
 pub(crate) fn every_figure_is_well_formed_and_free_of_nan(figures: &Figures) {
@@ -142,7 +148,7 @@ pub(crate) fn every_curve_belongs_to_an_entry_of_the_legend(figures: &Figures) {
             named("data-series").all(|series| entries.contains(&series)),
             "{name}: {entries:?}"
         );
-        let has_curves = !matches!(*name, "surface" | "space-time" | "forest" | "variants");
+        let has_curves = *name != "field";
         assert_eq!(named("data-series").next().is_some(), has_curves, "{name}");
     }
 }
@@ -166,6 +172,21 @@ pub(crate) fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most
     }
 }
 
+/// How many corners a marker has, and which way the first one points, in px.
+fn corners(points: &str) -> String {
+    let numbers: Vec<f64> = points
+        .split([' ', ','])
+        .filter_map(|number| number.parse().ok())
+        .collect();
+    let count = numbers.len() / 2;
+    let from_middle = [0, 1].map(|k| {
+        let along = numbers.iter().skip(k).step_by(2);
+        let middle = along.sum::<f64>() / count as f64;
+        ((numbers[k] - middle) / UNITS).round()
+    });
+    format!("{count} {from_middle:?}")
+}
+
 /// What distinguishes the sample of a legend's entry from the others: shapes, colours and dashes,
 /// without positions.
 fn sample(entry: Node<'_, '_>) -> Vec<String> {
@@ -176,7 +197,12 @@ fn sample(entry: Node<'_, '_>) -> Vec<String> {
     let shape = |n: Node<'_, '_>| {
         let [fill, stroke, dash] =
             ["fill", "stroke", "stroke-dasharray"].map(|name| attribute(&n, name));
-        format!("{} {fill} {stroke} {dash}", n.tag_name().name())
+        let corners = if n.has_tag_name("polygon") {
+            corners(attribute(&n, "points").as_str())
+        } else {
+            String::new()
+        };
+        format!("{} {fill} {stroke} {dash} {corners}", n.tag_name().name())
     };
     shapes.map(shape).collect()
 }

@@ -1,6 +1,6 @@
 //! Made-up but realistic data, one set per figure.
 
-use convergence_study::internal::plots::{Guide, Series};
+use convergence_study::internal::chart::Guide;
 use thermobeam_study::figures::*;
 
 /// Every figure of a beam, drawn.
@@ -11,8 +11,8 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     ]
 }
 
-fn series(label: &str, points: Vec<(f64, f64)>) -> Series {
-    Series {
+fn series(label: &str, points: Vec<(f64, f64)>) -> NamedPoints {
+    NamedPoints {
         label: label.into(),
         points,
     }
@@ -74,10 +74,7 @@ pub(crate) fn equilibria() -> String {
             value: 0.1,
         },
     ];
-    let ends = series(
-        "end of a simulation",
-        vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)],
-    );
+    let ends = vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)];
     bifurcation(&Bifurcation {
         title: "Several equilibria below β = −0.7116".into(),
         branches: branches.into(),

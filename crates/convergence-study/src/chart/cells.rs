@@ -1,0 +1,304 @@
+//! Values over two parameters as coloured cells, with a bar that explains the colours.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+
+use super::layout::Layout;
+use super::page::Page;
+use super::pen::{INK, LABEL, Point, Rect, TEXT, THIN, elide, font, frame, line, tenths, write};
+use super::ruler::Ruler;
+use super::{Axis, Cells, Chart, Table};
+
+/// Of the bar: from the plot, and its width, in px.
+pub(super) const GAP: f64 = 22.0;
+pub(super) const WIDTH: f64 = 20.0;
+/// Of colour: few enough to merge equal neighbours, too many to see steps; odd, so that zero has
+/// its own.
+const LEVELS: usize = 65;
+const NO_VALUE: RGBColor = RGBColor(200, 200, 200);
+/// Between the strokes of a hatch, in px.
+const SPACING: f64 = 9.0;
+/// Blue, white, red: Brewer's RdBu, readable with all common kinds of colour vision.
+const DIVERGING: [RGBColor; 9] = [
+    RGBColor(33, 102, 172),
+    RGBColor(67, 147, 195),
+    RGBColor(146, 197, 222),
+    RGBColor(209, 229, 240),
+    RGBColor(247, 247, 247),
+    RGBColor(253, 219, 199),
+    RGBColor(244, 165, 130),
+    RGBColor(214, 96, 77),
+    RGBColor(178, 24, 43),
+];
+
+impl Cells {
+    /// The scales of both axes and of the colours.
+    pub(super) fn rulers(&self, chart: &Chart) -> [Ruler; 3] {
+        let along = |axis: &Axis, column: &str| {
+            let values = chart.table.column(column);
+            let ruler = Ruler::new(axis, values.iter().copied(), 0.0);
+            match edges(&ruler, values)[..] {
+                [low, .., high] => Ruler { low, high, ..ruler },
+                _ => ruler,
+            }
+        };
+        let values = chart.table.column(&self.value).iter().copied();
+        let mut z = Ruler::new(&self.colours, values, 0.0);
+        if self.is_diverging() {
+            z.high = z.high.max(-z.low);
+            z.low = -z.high;
+        }
+        [
+            along(&chart.x, &self.x),
+            along(&chart.y, &self.y),
+            z.with_ticks(8),
+        ]
+    }
+
+    /// Whether zero is white.
+    fn is_diverging(&self) -> bool {
+        !self.colours.is_log && self.colours.show.contains(&0.0)
+    }
+
+    /// The values that must have a colour, each as the height of a point.
+    pub(super) fn values_to_show(&self, table: &Table) -> Vec<Point> {
+        let values = table.column(&self.value).iter().zip(self.hatches(table));
+        values
+            .filter(|(_, is_hatched)| !is_hatched)
+            .map(|(value, _)| (1.0, *value))
+            .collect()
+    }
+
+    /// For each cell whether it is hatched.
+    fn hatches(&self, table: &Table) -> Vec<bool> {
+        match &self.hatched {
+            Some([column, _]) => table
+                .column(column)
+                .iter()
+                .map(|mark| *mark != 0.0)
+                .collect(),
+            None => vec![false; table.column(&self.value).len()],
+        }
+    }
+
+    fn colour(&self, fraction: f64) -> RGBColor {
+        let level = (fraction * LEVELS as f64).floor().min(LEVELS as f64 - 1.0);
+        let level = (level / (LEVELS - 1) as f64) as f32;
+        if self.is_diverging() {
+            DerivedColorMap::new(&DIVERGING).get_color(level)
+        } else {
+            ViridisRGB.get_color(level)
+        }
+    }
+
+    pub(super) fn draw(&self, chart: &Chart, page: &mut Page, layout: &Layout) {
+        let [left, top, right, bottom] = layout.plot;
+        let table = &chart.table;
+        let [x, y] = [(&layout.x, &self.x), (&layout.y, &self.y)]
+            .map(|(ruler, column)| (ruler, edges(ruler, table.column(column))));
+        let colours: Vec<RGBColor> = (0..LEVELS)
+            .map(|k| self.colour(k as f64 / (LEVELS - 1) as f64))
+            .collect();
+        let mut cells = vec![];
+        let mut hatched = vec![];
+        let values = table.column(&self.value).iter().zip(self.hatches(table));
+        for ((across, up), (value, is_hatched)) in
+            table.pairs(&self.x, &self.y).into_iter().zip(values)
+        {
+            let Some(((from, to), (low, high))) = side(&x, across).zip(side(&y, up)) else {
+                continue;
+            };
+            let (width, height) = (right - left, bottom - top);
+            let cell = [
+                left + from * width,
+                bottom - high * height,
+                left + to * width,
+                bottom - low * height,
+            ];
+            let level = layout
+                .z
+                .fraction(*value)
+                .map(|at| (at * LEVELS as f64) as usize);
+            cells.push((
+                cell,
+                level.map_or(NO_VALUE, |level| colours[level.min(LEVELS - 1)]),
+            ));
+            if is_hatched {
+                hatched.push(cell);
+            }
+        }
+        fill(page, joined(cells));
+        strokes(page, &hatched);
+        self.draw_bar(page, layout);
+    }
+
+    fn draw_bar(&self, page: &mut Page, layout: &Layout) {
+        let [_, top, right, bottom] = layout.plot;
+        let (left, end) = (right + GAP, right + GAP + WIDTH);
+        let height = |fraction: f64| bottom - fraction * (bottom - top);
+        let levels = (0..LEVELS).map(|k| [k, k + 1].map(|k| k as f64 / LEVELS as f64));
+        fill(
+            page,
+            levels.map(|[low, high]| ([left, height(high), end, height(low)], self.colour(low))),
+        );
+        page.layer(|area| {
+            frame(area, [left, top, end, bottom]);
+            for (value, label) in &layout.z.major {
+                let y = height(layout.z.fraction(*value).unwrap_or(0.0));
+                line(area, &[(end, y), (end + 5.0, y)], INK, THIN);
+                write(area, label, (end + 9.0, y), font(TEXT), HPos::Left);
+            }
+            let name = elide(&self.colours.label, LABEL, bottom - top);
+            let at = (
+                end + 18.0 + layout.z.widest() + 0.5 * LABEL,
+                0.5 * (top + bottom),
+            );
+            let upwards = font(LABEL).transform(FontTransform::Rotate270);
+            write(area, &name, at, upwards, HPos::Center);
+        });
+    }
+}
+
+/// The sides of the cell around a value, as fractions of the axis.
+fn side((ruler, edges): &(&Ruler, Vec<f64>), value: f64) -> Option<(f64, f64)> {
+    let place = ruler.place(value)?;
+    let after = edges
+        .partition_point(|edge| *edge <= place)
+        .clamp(1, edges.len().max(2) - 1);
+    let fraction = |edge: &f64| (edge - ruler.low) / (ruler.high - ruler.low);
+    Some((fraction(edges.get(after - 1)?), fraction(edges.get(after)?)))
+}
+
+/// Edges of cells, half way between neighbouring places; the outer ones as wide as if they had
+/// neighbours.
+fn edges(ruler: &Ruler, values: &[f64]) -> Vec<f64> {
+    let mut places: Vec<f64> = values
+        .iter()
+        .filter_map(|value| ruler.place(*value))
+        .collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup_by(|next, one| *next - *one <= 1e-9 * next.abs().max(1.0));
+    let (Some(first), Some(last)) = (places.first(), places.last()) else {
+        return vec![];
+    };
+    let mut edges: Vec<f64> = places
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0] + pair[1]))
+        .collect();
+    // A cell alone is half a decade wide, or half a unit.
+    let half = |end: &f64, edge: Option<&f64>| edge.map_or(0.25, |edge| (edge - end).abs());
+    let ends = [
+        first - half(first, edges.first()),
+        last + half(last, edges.last()),
+    ];
+    edges.insert(0, ends[0]);
+    edges.push(ends[1]);
+    edges
+}
+
+/// Equal neighbours in a row become one: few bytes for many cells.
+fn joined(cells: Vec<(Rect, RGBColor)>) -> Vec<(Rect, RGBColor)> {
+    let mut cells = cells;
+    cells
+        .sort_by(|(one, _), (next, _)| one[1].total_cmp(&next[1]).then(one[0].total_cmp(&next[0])));
+    let mut joined: Vec<(Rect, RGBColor)> = vec![];
+    for (cell, colour) in cells {
+        match joined.last_mut() {
+            Some((last, own))
+                if *own == colour && last[1] == cell[1] && cell[0] <= last[2] + 0.5 =>
+            {
+                last[2] = cell[2];
+            }
+            _ => joined.push((cell, colour)),
+        }
+    }
+    joined
+}
+
+/// Fills rectangles, one path a colour, in whole px: few bytes, and no seams.
+pub(super) fn fill(page: &mut Page, cells: impl IntoIterator<Item = (Rect, RGBColor)>) {
+    let mut paths: BTreeMap<(u8, u8, u8), String> = BTreeMap::new();
+    for (cell, RGBColor(r, g, b)) in cells {
+        let [left, top, right, bottom] = cell.map(f64::round);
+        let (width, height) = (right - left, bottom - top);
+        // Writing into memory cannot fail.
+        let _ = write!(
+            paths.entry((r, g, b)).or_default(),
+            "M{left} {top}h{width}v{height}h-{width}z"
+        );
+    }
+    let scale = format!(
+        " transform=\"scale({})\" shape-rendering=\"crispEdges\"",
+        tenths(1.0)
+    );
+    if !paths.is_empty() {
+        page.group(&scale, |page| {
+            for ((r, g, b), path) in paths {
+                page.raw(&format!(
+                    "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>\n"
+                ));
+            }
+        });
+    }
+}
+
+/// Grey rectangles with diagonal strokes.
+pub(super) fn hatch(page: &mut Page, cells: &[Rect]) {
+    fill(page, cells.iter().map(|cell| (*cell, NO_VALUE)));
+    strokes(page, cells);
+}
+
+/// Diagonal strokes over rectangles; where two of these touch, a stroke goes on.
+fn strokes(page: &mut Page, cells: &[Rect]) {
+    // Strokes lie where x + y is a multiple of the spacing: of each, the intervals of x.
+    let mut strokes: BTreeMap<i32, Vec<[f64; 2]>> = BTreeMap::new();
+    for [left, top, right, bottom] in cells {
+        let first = ((left + top) / SPACING).ceil() as i32;
+        let last = ((right + bottom) / SPACING).floor() as i32;
+        for k in first..=last {
+            let sum = SPACING * f64::from(k);
+            let ends = [left.max(sum - bottom), right.min(sum - top)];
+            match strokes.entry(k).or_default() {
+                own if ends[0] < ends[1] => own.push(ends),
+                _ => {}
+            }
+        }
+    }
+    let mut path = String::new();
+    for (k, mut intervals) in strokes {
+        intervals.sort_by(|one, next| one[0].total_cmp(&next[0]));
+        let sum = tenths(SPACING) * k;
+        let mut end = f64::NEG_INFINITY;
+        for [from, to] in intervals {
+            let x = tenths(from);
+            // A gap below the unit of the page is round-off.
+            if from > end + 0.1 {
+                let _ = write!(path, "M{x} {}", sum - x);
+            }
+            let x = tenths(to);
+            let _ = write!(path, "L{x} {}", sum - x);
+            end = to;
+        }
+    }
+    if !path.is_empty() {
+        page.raw(&format!(
+            "<path fill=\"none\" stroke=\"#606060\" stroke-width=\"11\" d=\"{path}\"/>\n"
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_enclose_every_place() {
+        let ruler = Ruler::default();
+        assert_eq!(edges(&ruler, &[4.0, 1.0, 2.0, 1.0]), [0.5, 1.5, 3.0, 5.0]);
+        assert_eq!(edges(&ruler, &[3.0]), [2.75, 3.25]);
+        assert!(edges(&ruler, &[]).is_empty());
+    }
+}

@@ -1,0 +1,182 @@
+//! The document: layers of shapes, groups with names, and the texts that XML accepts.
+
+use plotters::prelude::*;
+
+use super::Chart;
+use super::layout::{Layout, TITLE_ROW, WIDTH};
+use super::pen::{Area, Dashes, FONT, Point, certain, line, tenths};
+
+/// A document being drawn, layer upon layer.
+pub(super) struct Page {
+    body: String,
+    size: (u32, u32),
+}
+
+impl Page {
+    pub(super) fn new(height: f64) -> Self {
+        Self {
+            body: String::new(),
+            size: (tenths(WIDTH) as u32, tenths(height) as u32),
+        }
+    }
+
+    /// Adds elements as they are.
+    pub(super) fn raw(&mut self, elements: &str) {
+        self.body += elements;
+    }
+
+    /// Puts what is drawn into a group with these attributes, each with a blank in front.
+    pub(super) fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Self)) {
+        self.body += &format!("<g{attributes}>\n");
+        draw(self);
+        self.body += "</g>\n";
+    }
+
+    /// Adds what is drawn.
+    pub(super) fn layer(&mut self, draw: impl FnOnce(&Area<'_>)) {
+        let mut text = String::new();
+        {
+            let area = SVGBackend::with_string(&mut text, self.size).into_drawing_area();
+            draw(&area);
+            certain(area.present());
+        }
+        // Without a document around every layer, and without attributes that all have: a third of
+        // the bytes.
+        let family = format!(" font-family=\"{FONT}\"");
+        for line in text.lines() {
+            if line.starts_with("<svg ") || line == "</svg>" {
+                continue;
+            }
+            if line.starts_with('<') {
+                let line = line.replace(" opacity=\"1\"", "").replace(&family, "");
+                self.body += &line.replace(" \"/>", "\"/>");
+            } else {
+                // Texts stand on lines of their own, and do not start with a tag.
+                self.body += line;
+            }
+            self.body.push('\n');
+        }
+    }
+
+    /// Adds the parts of a line.
+    pub(super) fn line(
+        &mut self,
+        parts: &[Vec<Point>],
+        colour: RGBColor,
+        width: f64,
+        dashes: Dashes,
+    ) {
+        if width == 0.0 || parts.is_empty() {
+            return;
+        }
+        let dashed = match dashes {
+            "" => String::new(),
+            _ => format!(" stroke-dasharray=\"{dashes}\""),
+        };
+        self.group(&dashed, |page| {
+            page.layer(|area| {
+                for part in parts {
+                    line(area, part, colour, width);
+                }
+            });
+        });
+    }
+
+    /// The document, with what is needed to read its lines back.
+    pub(super) fn finish(self, chart: &Chart, layout: &Layout) -> String {
+        let (width, height) = self.size;
+        let mut axes = String::new();
+        // Rows have no scale.
+        if chart.y.rows.is_empty() {
+            let plot = layout.plot.map(|px| tenths(px).to_string()).join(" ");
+            axes = format!(" data-plot=\"{plot}\"");
+            for (name, axis, ruler) in [("x", &chart.x, &layout.x), ("y", &chart.y, &layout.y)] {
+                let scale = if ruler.is_log { "log" } else { "linear" };
+                let label = escape_attribute(&axis.label);
+                let [low, high] = [ruler.low, ruler.high].map(steady);
+                axes +=
+                    &format!(" data-{name}=\"{scale} {low} {high}\" data-{name}-label=\"{label}\"");
+            }
+        }
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{}\" viewBox=\"0 0 {width} {height}\" \
+             role=\"img\" font-family=\"{FONT}\" stroke-linejoin=\"round\"{axes}>\n<title>{}</title>\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            layout.height,
+            escape(&chart.heading()),
+            self.body
+        )
+    }
+}
+
+/// To nine digits: the last bits of a result vary between machines.
+fn steady(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value)
+}
+
+/// Draws charts one below the other, in one document, their plots beginning at the same place.
+///
+/// * `description`: of the whole, as read out by screen readers.
+pub fn panels(description: &str, charts: &[Chart]) -> String {
+    let lefts = charts.iter().map(|chart| chart.drawn(0.0).1.plot[0]);
+    let left = lefts.fold(0.0, f64::max);
+    let mut body = format!("<title>{}</title>\n", escape(description));
+    let mut top = 0.0;
+    for chart in charts {
+        let (panel, layout) = chart.drawn(left);
+        body += &panel.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1);
+        top += layout.height;
+    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{top}\" viewBox=\"0 0 {WIDTH} {top}\" \
+         role=\"group\">\n{body}</svg>\n"
+    )
+}
+
+/// The opening and the end of the group of a title.
+pub(super) const TITLE_GROUP: &str = " data-title=\"\"";
+
+/// A picture of this room without its titles, for papers, where captions take their place; any
+/// other text as it is.
+pub fn without_title(svg: &str) -> String {
+    let opening = format!("<g{TITLE_GROUP}>");
+    let mut parts = svg.split(&opening);
+    let mut kept = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        kept += part.split_once("</g>\n").map_or(part, |(_, rest)| rest);
+    }
+    let ends = |from: &str, to: &str| {
+        let (_, rest) = svg.split_once(from)?;
+        rest.split_once(to)?.0.parse::<f64>().ok()
+    };
+    let view = "viewBox=\"0 0 ";
+    let width = ends(view, " ");
+    let height = ends(" height=\"", "\"");
+    let (Some(width), Some(height), true) = (width, height, kept.len() < svg.len()) else {
+        return kept;
+    };
+    // The first title leaves no blank row at the top.
+    let unit = width / WIDTH;
+    let [top, rest] = [TITLE_ROW, height - TITLE_ROW].map(|px| unit * px);
+    let cut = format!("viewBox=\"0 {top} {width} {rest}\"");
+    let whole = format!("{view}{width} {}\"", unit * height);
+    let kept = kept.replacen(&whole, &cut, 1);
+    let [old, new] = [height, height - TITLE_ROW].map(|px| format!(" height=\"{px}\""));
+    kept.replacen(&old, &new, 1)
+}
+
+/// Text that XML accepts: markup escaped, control characters blanked.
+fn escape(text: &str) -> String {
+    let text = printable(text).replace('&', "&amp;");
+    text.replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Text for an attribute in double quotes.
+pub(super) fn escape_attribute(text: &str) -> String {
+    escape(text).replace('"', "&quot;")
+}
+
+pub(super) fn printable(text: &str) -> String {
+    let is_blank = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.replace(is_blank, " ")
+}

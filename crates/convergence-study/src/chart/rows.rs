@@ -1,0 +1,158 @@
+//! Judged rates with their intervals, below each other (a forest plot).
+
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
+
+use super::layout::{EDGE, Layout};
+use super::pen::{Area, GRID, INK, MUTED, TEXT, elide, font, line, look, write};
+use super::{Axis, Band, Chart, Series, Table};
+use crate::interval::Interval;
+use crate::judge::verdict::{self, Verdict};
+
+/// Height of a row, and from its middle to the middle of each of its two lines, in px.
+pub(super) const ROW: f64 = 46.0;
+const LINE: f64 = 10.5;
+/// Room beyond the outermost rates.
+const MARGIN: f64 = 0.1;
+/// Verdicts and the looks of their rates.
+const LOOKS: [(Verdict, usize); 3] = [
+    (Verdict::Pass, 0),
+    (Verdict::Inconclusive, 4),
+    (Verdict::Fail, 1),
+];
+/// What verdicts are called.
+pub const VERDICTS: [&str; 3] = ["pass", "inconclusive", "fail"];
+
+/// A rate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Its name, with that of its study.
+    pub name: String,
+    /// Its numbers, below the name.
+    pub numbers: String,
+    /// Where it is on the axis; `None` or NaN if there is none.
+    pub value: Option<f64>,
+    /// Its interval on the axis.
+    pub interval: Option<Interval>,
+    /// Its colour.
+    pub verdict: Verdict,
+}
+
+/// Rates relative to their claims, in units of their tolerances.
+pub fn deviations(rows: Vec<Row>) -> Chart {
+    let axis = Axis {
+        range: Some([-2.0, 2.0]),
+        ..Axis::linear("observed rate \u{2212} order claimed, in tolerances")
+    };
+    forest(axis, 0.0, Interval::around(0.0, 1.0), VERDICTS, rows)
+}
+
+/// Rates against one claim.
+///
+/// * `words`: what the colours of pass, inconclusive and fail mean.
+/// * `rows`: rates more than 3 below the claim, or more than 2 above, are beyond the plot.
+pub fn rates_of(claim: verdict::Band, words: [&str; 3], rows: Vec<Row>) -> Chart {
+    let verdict::Band {
+        order, tolerance, ..
+    } = claim;
+    let [mut low, mut high] = [order - 1.0, order + 0.5];
+    for rate in rows
+        .iter()
+        .filter_map(|row| row.value)
+        .filter(|rate| rate.is_finite())
+    {
+        low = low.min(rate.max(order - 3.0) - MARGIN);
+        high = high.max(rate.min(order + 2.0) + MARGIN);
+    }
+    let axis = Axis {
+        // Whole halves.
+        range: Some([0.5 * (2.0 * low).floor(), 0.5 * (2.0 * high).ceil()]),
+        ..Axis::linear(format!(
+            "rate; the line is the order claimed, {order}, the band its tolerance"
+        ))
+    };
+    forest(axis, order, Interval::around(order, tolerance), words, rows)
+}
+
+/// * `claimed`: a vertical line.
+fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Vec<Row>) -> Chart {
+    let mut table = Table::new([
+        ("order claimed", vec![claimed; 2]),
+        ("ends", vec![-(rows.len() as f64), 0.0]),
+    ]);
+    let claimed = Series::new("order claimed", "order claimed", "ends").looking(5);
+    let mut series = vec![Series {
+        width: 1.2,
+        dashes: Some(""),
+        ..claimed
+    }];
+    for ((verdict, look), word) in LOOKS.into_iter().zip(words) {
+        let own = rows
+            .iter()
+            .enumerate()
+            .filter(|(_, row)| row.verdict == verdict);
+        let end = |end: fn(Interval) -> f64| {
+            move |(_, row): (usize, &Row)| row.interval.map_or(f64::NAN, end)
+        };
+        let columns = ["value", "row", "low", "high"].map(|name| format!("{name}: {word}"));
+        let [value, row, low, high] = columns;
+        table.push(
+            &value,
+            own.clone().map(|(_, row)| row.value.unwrap_or(f64::NAN)),
+        );
+        table.push(&row, own.clone().map(|(k, _)| -(k as f64) - 0.5));
+        table.push(&low, own.clone().map(end(|ends| ends.low)));
+        table.push(&high, own.map(end(|ends| ends.high)));
+        series.push(Series {
+            interval: Some([low, high]),
+            ..Series::new(word, value, row).scattered().looking(look)
+        });
+    }
+    let [low, high] = x.range.unwrap_or_default();
+    let is_beyond = |row: &Row| row.value.is_some_and(|value| value < low || value > high);
+    let notes = match rows.iter().any(is_beyond) {
+        true => vec!["triangles at the rim: beyond the plot".to_owned()],
+        false => vec![],
+    };
+    let bands = vec![Band {
+        label: "tolerance".to_owned(),
+        intervals: vec![(tolerance.low, tolerance.high)],
+    }];
+    let y = Axis {
+        rows,
+        ..Axis::linear("rate")
+    };
+    Chart {
+        series,
+        notes,
+        bands,
+        ..Chart::new(table, x, y)
+    }
+}
+
+/// Names and numbers, with a line above each row.
+pub(super) fn draw(area: &Area<'_>, chart: &Chart, layout: &Layout) {
+    let [left, top, right, _] = layout.plot;
+    for (k, row) in chart.y.rows.iter().enumerate() {
+        let above = top + ROW * k as f64;
+        line(area, &[(EDGE, above), (right, above)], GRID, 1.0);
+        let colour = LOOKS
+            .into_iter()
+            .find(|(verdict, _)| *verdict == row.verdict && row.verdict != Verdict::Pass);
+        let colour = colour.map_or(INK, |(_, k)| look(k).colour);
+        let middle = above + 0.5 * ROW;
+        for (text, y, colour) in [
+            (&row.name, middle - LINE, colour),
+            (&row.numbers, middle + LINE, MUTED),
+        ] {
+            let text = elide(text, TEXT, left - 28.0);
+            write(
+                area,
+                &text,
+                (left - 12.0, y),
+                font(TEXT).color(&colour.to_rgba()),
+                HPos::Right,
+            );
+        }
+    }
+}

@@ -116,8 +116,15 @@ function show(...nodes) {
   byId("copies").hidden = !last || !last.verdict || !place.querySelector(".verdict");
 }
 
+// Words between back quotes as code.
+function phrase(text) {
+  const parts = text.split("`");
+  if (parts.length % 2 === 0) return [text];
+  return parts.map((part, k) => (k % 2 ? element("code", {}, part) : part));
+}
+
 function message(words) {
-  return element("p", { className: "help" }, words);
+  return element("p", { className: "help" }, ...phrase(words));
 }
 
 function badge(verdict) {
@@ -128,9 +135,9 @@ function answer(found) {
   const nodes = [element("p", { className: "verdict" }, badge(found.verdict), ` ${found.sentence}`)];
   for (const table of found.tables) {
     if (found.tables.length > 1) nodes.push(element("h3", {}, table.name));
-    nodes.push(element("p", { className: "help" }, table.reading));
+    nodes.push(message(table.reading));
     for (const doubt of table.doubts) {
-      const row = element("p", { className: "row" }, `Doubt: ${doubt.because} `);
+      const row = element("p", { className: "row" }, ...phrase(`Doubt: ${doubt.because} `));
       if (doubt.settings) row.append(offered(doubt.settings));
       nodes.push(row);
     }
@@ -145,9 +152,9 @@ function answer(found) {
 function column(one) {
   const head = element("p", {}, element("b", {}, one.name), " ");
   if (one.verdict) head.append(badge(one.verdict), " ");
-  head.append(one.answer);
+  head.append(...phrase(one.answer));
   const node = element("div", { className: "found" }, head);
-  if (one.advice) node.append(element("p", { className: "help" }, one.advice));
+  if (one.advice) node.append(message(one.advice));
   return node;
 }
 
@@ -165,10 +172,10 @@ function figure(table) {
 
 function refusal(refused) {
   const nodes = [element("p", { className: "verdict" }, element("span", { className: "badge fail" }, "not judged"))];
-  nodes.push(element("pre", {}, refused.message));
+  nodes.push(element("pre", {}, ...phrase(refused.message)));
   if (refused.line) nodes.push(place(refused));
   for (const offer of refused.offers ?? []) {
-    nodes.push(element("p", { className: "row" }, offered(offer.settings), offer.comment));
+    nodes.push(element("p", { className: "row" }, offered(offer.settings), ...phrase(offer.comment ?? "")));
   }
   return nodes;
 }

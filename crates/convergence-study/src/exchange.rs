@@ -40,11 +40,41 @@ pub(crate) fn refused(refusal: &Value) -> Value {
 }
 
 /// A field of a CSV line, in quotes if needed (RFC 4180).
+///
+/// A text that a spreadsheet would run as a formula begins with an apostrophe: spreadsheets run
+/// quoted fields, too.
 #[cfg(feature = "reports")]
 pub(crate) fn csv_field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
+    let begins_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    let is_number = text == "-" || text.parse::<f64>().is_ok();
+    if begins_formula && !is_number {
+        format!("\"'{}\"", text.replace('"', "\"\""))
+    } else if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text.to_owned()
+    }
+}
+
+#[cfg(all(test, feature = "reports"))]
+mod tests {
+    use super::csv_field;
+
+    #[test]
+    fn no_field_is_a_formula_and_every_number_stays_one() {
+        for number in ["-1.5e-3", "+2", "-", "1.9998", "-inf"] {
+            assert_eq!(csv_field(number), number);
+        }
+        for (text, field) in [
+            ("L2", "L2"),
+            ("a,b", "\"a,b\""),
+            ("=1+1", "\"'=1+1\""),
+            ("=HYPERLINK(\"x\")", "\"'=HYPERLINK(\"\"x\"\")\""),
+            ("+cmd", "\"'+cmd\""),
+            ("-u, v", "\"'-u, v\""),
+            ("@SUM(A1)", "\"'@SUM(A1)\""),
+        ] {
+            assert_eq!(csv_field(text), field);
+        }
     }
 }

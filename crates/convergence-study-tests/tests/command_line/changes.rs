@@ -176,11 +176,12 @@ fn a_study_with_a_near_extension_is_named() {
     let root = workspace(false);
     let write =
         |name: &str, text: &str| fs::write(root.path().join("studies").join(name), text).unwrap();
-    write("two.TOML", &study("two", "c", 0.5));
+    write("two.tml", &study("two", "c", 0.5));
+    write("UP.TOML", &study("up", "c", 1.0));
     write("notes.tml", "# [study]\n");
     write("three.txt", &study("three", "c", 0.5));
     let message =
-        "warning: studies/two.TOML: a study that is not run; expected a name that ends in .toml\n";
+        "warning: studies/two.tml: a study that is not run; expected a name that ends in .toml\n";
     for (arguments, status) in [
         (&["verify", "--bless"][..], 0),
         (&["verify", "--quiet"], 0),
@@ -193,4 +194,10 @@ fn a_study_with_a_near_extension_is_named() {
             "{arguments:?}"
         );
     }
+    // Some systems write names in capitals: the study is read.
+    let (_, listed, _) = run(&root, &["list"]);
+    assert!(
+        listed.lines().any(|line| line.starts_with("up ")),
+        "{listed}"
+    );
 }

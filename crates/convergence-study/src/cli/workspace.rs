@@ -90,17 +90,20 @@ pub(crate) fn warn_of_near_names(root: &Path) {
     }
 }
 
-/// Whether the extension is almost `toml`: capitals, one wrong letter, or something after it.
+/// Whether the extension is `toml`, in any case of its letters: some systems write `UP.TOML`.
+pub(crate) fn is_toml(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Whether the extension is almost `toml`: one wrong letter, or something after it.
 fn has_near_extension(path: &Path) -> bool {
     let name = path
         .file_name()
         .unwrap_or_default()
         .to_string_lossy()
         .to_lowercase();
-    let is_toml = path
-        .extension()
-        .is_some_and(|extension| extension == "toml");
-    !is_toml
+    !is_toml(path)
         && [".toml", ".tml", ".tom", ".toml.txt", ".toml~"]
             .iter()
             .any(|end| name.ends_with(end))
@@ -109,10 +112,7 @@ fn has_near_extension(path: &Path) -> bool {
 fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
     let mut paths = entries.collect::<io::Result<Vec<_>>>()?;
-    paths.retain(|path| {
-        path.extension()
-            .is_some_and(|extension| extension == "toml")
-    });
+    paths.retain(|path| is_toml(path));
     paths.sort();
     // Messages name files relative to the current folder.
     let here = env::current_dir().unwrap_or_default();

@@ -25,7 +25,7 @@ pub struct Provenance {
     pub git_revision: Option<String>,
     /// Whether the working tree differs from that revision.
     pub git_modified: Option<bool>,
-    /// The output of `rustc --version`.
+    /// The output of `rustc --version`, in a project of Rust.
     pub toolchain: Option<String>,
     /// Model of the processor.
     pub cpu: Option<String>,
@@ -76,7 +76,12 @@ impl Provenance {
                     .current_dir(root),
             )
             .map(|changes| !changes.is_empty()),
-            toolchain: output_of(Command::new(rustc).arg("--version").current_dir(root)),
+            // A project without Rust was not compiled by what is installed here.
+            toolchain: root
+                .join("Cargo.toml")
+                .exists()
+                .then(|| output_of(Command::new(rustc).arg("--version").current_dir(root)))
+                .flatten(),
             cpu: entry("/proc/cpuinfo", "model name"),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             threads_available: thread::available_parallelism().ok().map(usize::from),

@@ -54,8 +54,8 @@ impl Tendency {
             ),
             Self::Constant { limit } => format!(
                 "The errors tend to about {}, not to zero: the scheme solves another problem (a coefficient, a sign, \
-                 the source, a boundary or initial value), the reference is off, or an axis that is not refined \
-                 dominates.",
+                 the source, a boundary or initial value), its solver stops too early (a tolerance), the reference is off, \
+                 or an axis that is not refined dominates.",
                 plain_text(limit)
             ),
             Self::Growth => "The errors grow at every refinement: the scheme is unstable, or the errors do not stand \

@@ -16,7 +16,7 @@ use crate::verify::Scope;
 /// # Errors
 /// Files beside ids, and options that are about the studies of the project.
 pub(super) fn files(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Unusable> {
-    let is_file = |id: &&String| Path::new(id).extension().is_some_and(|end| end == "toml");
+    let is_file = |id: &&String| workspace::is_toml(Path::new(id));
     let Some(file) = arguments.ids.iter().find(is_file) else {
         return Ok(None);
     };

@@ -21,6 +21,8 @@ use thermobeam_study::{kinds::KINDS, studies::STUDIES};
 pub const PROJECT: Project = Project {
     kinds: &WITH_CALIBRATION,
     studies: &STUDIES,
+    about: "Two programs in one repository: `thermobeam` simulates a beam between obstacles, `convergence-study` verifies it, and \
+            any other code",
     ..project("cargo xtask")
 };
 

@@ -93,6 +93,9 @@ use sheet::Sheet;
 
 pub use draw::{CalibrationError, ELEMENTS_OF_A_TABLE};
 
+/// Fewest tables, as `tables` counts them, of shares that the first page of the project states.
+const FEWEST_OF_STATED: usize = 20;
+
 /// Tables of hidden terms for each table of a law.
 const HIDDEN_TABLES: usize = 20;
 
@@ -118,11 +121,12 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
     let usual = "4 to 8 levels, ratios 1.5 to 3";
     let wide = "3 to 12 levels, ratios 1.1 to 4";
     let hidden_tables = HIDDEN_TABLES * tables;
+    let stated = tables.max(FEWEST_OF_STATED);
     Ok(vec![
         rules("rules", usual, USUAL, tables, &mut draw(seed, 0))?,
         rules("rules-wide", wide, WIDE, tables, &mut draw(seed, 1))?,
         levels("levels", &LAWS, 10 * tables, &mut draw(seed, 2))?,
-        levels("held-out", &HELD_OUT, 10 * tables, &mut draw(seed, 7))?,
+        levels("held-out", &HELD_OUT, 10 * stated, &mut draw(seed, 7))?,
         three(40 * tables, &mut draw(seed, 8))?,
         intervals(20 * tables, &mut draw(seed, 3))?,
         hidden("hidden-6", 0.1, 6, hidden_tables, &mut draw(seed, 4))?,
@@ -130,9 +134,9 @@ pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationEr
         hidden("hidden-wide", 0.2, 8, hidden_tables, &mut draw(seed, 4))?,
         limits(hidden_tables, &mut draw(seed, 5))?,
         other_claims(10 * tables, &mut draw(seed, 6))?,
-        levels("benign", &BENIGN, 25 * tables, &mut draw(seed, 9))?,
+        levels("benign", &BENIGN, 25 * stated, &mut draw(seed, 9))?,
         differences(3 * tables, &mut draw(seed, 10))?,
-        noisy(20 * tables, &mut draw(seed, 11))?,
+        noisy(20 * stated, &mut draw(seed, 11))?,
         compared(40 * tables, &mut draw(seed, 12))?,
     ])
 }

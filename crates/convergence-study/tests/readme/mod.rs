@@ -15,21 +15,18 @@ const README: &str = include_str!("../../README.md");
 const FIRST: &str = include_str!("../../../../README.md");
 
 /// Pages of the book that show output.
-const BOOK: [(&str, usize); 1] = [(include_str!("../../book/src/start.md"), 2)];
-
-/// What published tools passed: the name in the first column of the page's table, and a table of
-/// errors like theirs.
-const MISTAKES: [(&str, &str); 2] = [
-    (
-        "| [polaris 471]",
-        "n,L2\n8,0.041\n16,0.0103\n32,nan\n64,nan\n",
-    ),
-    // The rate of 75.975 between neighbours.
-    (
-        "| [polaris 491]",
-        "n,L2\n60,1.0\n90,4.1828e-14\n120,1.3466e-23\n150,5.8413e-31\n",
-    ),
+const BOOK: [(&str, usize); 4] = [
+    (include_str!("../../book/src/start.md"), 2),
+    (include_str!("../../book/src/which.md"), 1),
+    (include_str!("../../book/src/scatter.md"), 1),
+    (include_str!("../../book/src/steps.md"), 1),
 ];
+
+/// The page of the reasons.
+const REASONS: &str = include_str!("../../book/src/inconclusive.md");
+
+/// The list of the pages.
+const SUMMARY: &str = include_str!("../../book/src/SUMMARY.md");
 
 /// The files that the commands of a page read: the table is on the page, or on that of the program.
 fn fill(folder: &Path, page: &str) {
@@ -67,27 +64,135 @@ fn every_block_of_output_is_what_the_program_prints() {
     }
 }
 
-/// The last column of the table of mistakes: the verdict.
+/// What a published tool passed fails here, as the first page says.
 #[test]
-fn what_published_tools_passed_is_judged_as_the_first_page_says() {
+fn an_error_that_is_nan_fails_as_the_first_page_says() {
+    let page = FIRST.replace('\n', " ");
+    let sentence = "An error that is NaN, which [a published tool passed](https://github.com/E3SM-Project/polaris/issues/471) until its PR 478, fails.";
+    assert!(page.contains(sentence));
     let folder = tempfile::tempdir().unwrap();
-    for (name, table) in MISTAKES {
-        let row = FIRST.lines().find(|line| line.starts_with(name)).unwrap();
-        let verdict = row.trim_end_matches(" |").rsplit("| ").next().unwrap();
-        fs::write(folder.path().join("table.csv"), table).unwrap();
+    let table = "n,L2\n8,0.041\n16,0.0103\n32,nan\n64,nan\n";
+    fs::write(folder.path().join("table.csv"), table).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_convergence-study"))
+        .args(["rates", "table.csv", "--order", "2", "--dim", "1"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let printed = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{printed}");
+    let is_said = |line: &str| {
+        line.starts_with("L2: fail: ") && line.ends_with(": an error is NaN or infinite")
+    };
+    assert!(printed.lines().any(is_said), "{printed}");
+}
+
+/// A row of the table of reasons.
+struct Given<'p> {
+    code: &'p str,
+    /// The table that gives it.
+    csv: String,
+    arguments: Vec<&'p str>,
+}
+
+/// The rows of the page: reason, errors with their steps, arguments.
+fn given<'p>(page: &'p str) -> Vec<Given<'p>> {
+    let (_, rows) = page.split_once("| `rates` with |").expect("a table");
+    let row = |line: &'p str| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [_, code, errors, arguments, _] = cells[..] else {
+            panic!("{line}")
+        };
+        let (errors, steps) = errors.split_once(" at ").unwrap_or((errors, ""));
+        let mut steps: Vec<String> = steps.split_whitespace().map(str::to_owned).collect();
+        let errors: Vec<&str> = errors.split_whitespace().collect();
+        if steps.is_empty() {
+            let halved = |k: usize| (0.2 * 0.5_f64.powi(k as i32)).to_string();
+            steps = (0..errors.len()).map(halved).collect();
+        }
+        let columns = 1 + errors[0].matches(',').count();
+        let names = ["h,L2\n", "h,L2,H1\n"][columns - 1];
+        let lines = steps.iter().zip(&errors).map(|(h, e)| format!("{h},{e}\n"));
+        Given {
+            code: code.trim_matches('`'),
+            csv: names.to_owned() + &lines.collect::<String>(),
+            arguments: arguments.trim_matches('`').split_whitespace().collect(),
+        }
+    };
+    let rows = rows.lines().skip(2);
+    rows.take_while(|line| line.starts_with('|'))
+        .map(row)
+        .collect()
+}
+
+/// Each reason of an inconclusive verdict is that of the table next to it, or one that no table has.
+#[test]
+fn each_reason_has_a_table_that_gives_it() {
+    let given = given(REASONS);
+    let folder = tempfile::tempdir().unwrap();
+    for Given {
+        code,
+        csv,
+        arguments,
+    } in &given
+    {
+        fs::write(folder.path().join("table.csv"), csv).unwrap();
         let output = Command::new(env!("CARGO_BIN_EXE_convergence-study"))
-            .args(["rates", "table.csv", "--order", "2", "--dim", "1"])
+            .args(["rates", "table.csv", "--format", "json"])
+            .args(arguments)
             .current_dir(folder.path())
             .output()
             .unwrap();
-        let printed = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
-        let reason = verdict.strip_prefix("fail: ").expect("a failure");
-        assert_eq!(output.status.code(), Some(1), "{name}: {printed}");
-        let is_said = printed
-            .lines()
-            .any(|line| line.starts_with("L2: fail: ") && line.contains(reason));
-        assert!(is_said, "{name}: {reason} in {printed}");
+        let found: serde_json::Value = serde_json::from_slice(&output.stdout)
+            .unwrap_or_else(|error| panic!("{code}: {error}: {csv}"));
+        let rate = &found["rates"][0];
+        assert_eq!(rate["code"], **code, "{csv}");
+        assert_eq!(rate["verdict"], "inconclusive", "{csv}");
     }
+    let (_, of_no_table) = REASONS.split_once("\n`steps`, ").expect("a sentence");
+    let (of_no_table, every) = of_no_table
+        .split_once("## Every reason")
+        .expect("a chapter");
+    let all = every.lines().filter_map(|line| {
+        let (code, rest) = line.strip_prefix("- `")?.split_once("`, ")?;
+        rest.starts_with("inconclusive").then_some(code)
+    });
+    let mut count = 0;
+    for code in all {
+        let is_given = given.iter().any(|row| row.code == code);
+        let is_named = code == "steps" || of_no_table.contains(&format!("`{code}`"));
+        assert!(is_given != is_named, "{code}");
+        count += 1;
+    }
+    assert!(count > given.len());
+}
+
+/// The pages of users: at most 28 beside gallery and reference, each a question.
+#[test]
+fn each_page_of_the_book_answers_one_question() {
+    let (users, _) = SUMMARY.split_once("\n# Reference").expect("a reference");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("book/src");
+    let mut count = 0;
+    for line in users.lines() {
+        let Some((title, path)) = line
+            .trim_start()
+            .strip_prefix("- [")
+            .and_then(|rest| rest.split_once("]("))
+        else {
+            continue;
+        };
+        let path = path.trim_end_matches(')');
+        if path.starts_with("gallery/") {
+            continue;
+        }
+        count += 1;
+        // READMEs of other crates have their names as titles.
+        if !(path.starts_with("../../../") && path.ends_with("/README.md")) {
+            let page = fs::read_to_string(source.join(path)).unwrap();
+            assert_eq!(page.lines().next(), Some(&*format!("# {title}")), "{path}");
+            assert!(title.contains('?'), "{title}");
+        }
+    }
+    assert!((20..=28).contains(&count), "{count} pages");
 }
 
 #[test]

@@ -47,9 +47,9 @@ pub use judge::{
     grid::{Adding, GridErrors, SpaceTime},
     richardson::{Bar, Estimate, Estimator, Gci, NoErrorBar, StepValue},
     verdict::{
-        Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, PowerLaw,
-        RateVerdict, Reading, Reason, SetAside, Tendency, Verdict, WIDEST_TOLERANCE, judge,
-        judge_pairs, observe,
+        Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, Of,
+        PowerLaw, RateVerdict, Reading, Reason, Samples, SetAside, Tendency, Verdict,
+        WIDEST_TOLERANCE, judge, judge_pairs, observe,
     },
 };
 #[doc(inline)]

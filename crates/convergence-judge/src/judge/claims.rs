@@ -8,7 +8,8 @@ use std::fmt;
 
 use super::fit::Level;
 use super::verdict::{
-    Band, Floor, Printed, RateVerdict, Reason, against_claim, judge_band, judged_in_words,
+    Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reason, against_claim, judge_band,
+    judged_in_words,
 };
 use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
@@ -30,6 +31,15 @@ impl Bound {
     /// Whether the order is a lower bound.
     pub fn is_least(self) -> bool {
         self != Self::Both
+    }
+
+    /// The rate judged against the order, held against this bound.
+    pub(super) fn held_against(self, rate: RateVerdict) -> RateVerdict {
+        match self {
+            Self::Both => rate,
+            Self::AtLeast => at_least(rate),
+            Self::AnyAbove => any_above(rate),
+        }
     }
 
     /// A claim as people write it, without its bound: `2`, `>= 2`, `>= 2..`.
@@ -112,6 +122,22 @@ impl Claim {
         }
     }
 
+    /// The same within the tolerance of a claim that names none: [`DEFAULT_TOLERANCE`], but at most
+    /// half a small order, and a quarter of one that is a lower bound.
+    pub fn usual(order: f64, bound: Bound) -> Self {
+        let share = if bound.is_least() { 0.25 } else { 0.5 };
+        Self {
+            bound,
+            ..Self::new(order, DEFAULT_TOLERANCE.min(share * order))
+        }
+    }
+
+    /// Whether order and tolerance are those of a claim.
+    pub(super) fn is_usable(&self) -> bool {
+        let is_order = self.order > 0.0 && self.order.is_finite();
+        is_order && self.tolerance < self.order && Judge::new(self.tolerance).is_ok()
+    }
+
     /// The rates that are accepted.
     pub fn band(&self) -> Band {
         Band {
@@ -121,12 +147,15 @@ impl Claim {
     }
 
     /// The rate of these levels, coarsest first, held against everything claimed. A claim with an
-    /// order or a tolerance that is no claim is inconclusive; the rate is still given.
+    /// order or a tolerance that is no claim is inconclusive; the rate is still given. Where the
+    /// finest errors may be round-off, a floor that makes it pass is
+    /// [offered](RateVerdict::offered_floor).
     pub fn judge(&self, levels: &[Level], floor: Floor) -> RateVerdict {
-        self.judge_printed(levels, floor, Printed::default())
+        let judge = |floor: Floor| self.judge_printed(levels, floor, Printed::default());
+        judge(floor).offering(levels, floor, judge)
     }
 
-    /// The same for errors that were printed.
+    /// The same for errors that were printed; no floor is offered.
     pub fn judge_printed(
         &self,
         levels: &[Level],
@@ -134,11 +163,7 @@ impl Claim {
         printed: Printed<'_>,
     ) -> RateVerdict {
         let rate = judge_band(levels, self.band(), floor, printed);
-        let rate = match self.bound {
-            Bound::Both => rate,
-            Bound::AtLeast => at_least(rate),
-            Bound::AnyAbove => any_above(rate),
-        };
+        let rate = self.bound.held_against(rate);
         match self.constant {
             Some(between) => with_constant(levels, rate, between),
             None => rate,
@@ -346,6 +371,21 @@ mod tests {
         assert_eq!(kind(0.25), Reason::Agrees);
         assert_eq!(kind(0.01), Reason::TooHigh);
         assert_eq!(kind(0.7), Reason::ToleranceTooWide);
+        // As wide as the order is: errors that do not fall would agree.
+        let slow = |tolerance| Claim::new(0.3, tolerance).judge(&levels, Floor::NONE).kind;
+        assert_eq!(slow(0.3), Reason::ToleranceTooWide);
+        assert_eq!(slow(0.29), Reason::TooHigh);
+        let usual = |order, bound| Claim::usual(order, bound).tolerance;
+        let orders = [0.25, 0.5, 1.0, 2.0];
+        assert_eq!(
+            orders.map(|p| usual(p, Bound::Both)),
+            [0.125, 0.25, 0.25, 0.25]
+        );
+        assert_eq!(
+            orders.map(|p| usual(p, Bound::AtLeast)),
+            [0.0625, 0.125, 0.25, 0.25]
+        );
+        assert_eq!(usual(0.5, Bound::AnyAbove), 0.125);
         assert_eq!(kind(f64::NAN), Reason::ClaimUnusable);
         assert_eq!(observe(&levels, Floor::NONE).kind, Reason::NotClaimed);
     }

@@ -7,10 +7,12 @@ use thiserror::Error;
 pub use crate::judge::fit::Level;
 
 mod cause;
+mod floor;
 mod outcome;
 mod reading;
 mod reason;
 mod repeats;
+mod samples;
 mod scatter;
 mod tendency;
 mod trend;
@@ -19,10 +21,12 @@ mod units;
 mod words;
 
 pub use cause::Cause;
+pub use floor::Floor;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::{Printed, Reading};
 pub use reason::Reason;
 pub use repeats::{are_equal, significant_digits};
+pub use samples::{FEWEST_NUMBERS, Of, Samples};
 pub use tendency::Tendency;
 pub use trend::Rates;
 pub use words::{Aside, SetAside, Verdict};
@@ -54,34 +58,9 @@ pub enum JudgeError {
     /// Negative, infinite or NaN.
     #[error("floor = {0}: expected a finite number >= 0")]
     Floor(f64),
-}
-
-/// Round-off, in the unit of the errors: fine levels with errors up to it are not used.
-///
-/// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
-/// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the
-/// data. [`RateVerdict::set_aside`] names the levels.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Floor(f64);
-
-impl Floor {
-    /// Every level is used.
-    pub const NONE: Self = Self(0.0);
-
-    /// # Errors
-    /// [`JudgeError::Floor`] for a number that is negative, infinite or NaN.
-    pub const fn new(floor: f64) -> Result<Self, JudgeError> {
-        if floor >= 0.0 && floor.is_finite() {
-            Ok(Self(floor))
-        } else {
-            Err(JudgeError::Floor(floor))
-        }
-    }
-
-    /// In the unit of the errors.
-    pub fn value(self) -> f64 {
-        self.0
-    }
+    /// Zero, negative, infinite or NaN.
+    #[error("{0} = {1}: expected a finite number > 0")]
+    RoundOff(&'static str, f64),
 }
 
 /// The rule with its settings; make one and use it for many rates.
@@ -183,7 +162,7 @@ impl Judge {
     /// tolerance: [`Judge::judge_read`] and [`Judge::decide`] hold it against any claim, also those
     /// of judges with other tolerances.
     pub fn read<'a>(&self, levels: &'a [Level]) -> Reading<'a> {
-        Reading::new(levels, self.floor.value())
+        Reading::new(levels, self.floor)
     }
 
     /// The verdict alone on levels that a judge with the same floor has [read](Self::read).
@@ -200,7 +179,7 @@ pub fn observe(levels: &[Level], floor: Floor) -> RateVerdict {
 
 /// The same for errors that were printed.
 pub fn observe_printed(levels: &[Level], floor: Floor, printed: Printed<'_>) -> RateVerdict {
-    let reading = Reading::new(levels, floor.value()).printed(printed);
+    let reading = Reading::new(levels, floor).printed(printed);
     RateVerdict::new(
         &reading,
         None,
@@ -232,7 +211,7 @@ pub(crate) fn judge_band(
     floor: Floor,
     printed: Printed<'_>,
 ) -> RateVerdict {
-    let reading = Reading::new(levels, floor.value()).printed(printed);
+    let reading = Reading::new(levels, floor).printed(printed);
     let kind = match Judge::new(band.tolerance) {
         Ok(_) => reading.reason(band.order, band.tolerance),
         Err(JudgeError::ToleranceTooWide(_)) => Reason::ToleranceTooWide,

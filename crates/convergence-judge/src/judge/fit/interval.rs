@@ -47,6 +47,18 @@ pub struct RateInterval {
     pub scatter: f64,
 }
 
+impl RateInterval {
+    /// Of a straight line through samples.
+    pub(crate) fn of_samples(rate: f64, interval: Interval) -> Self {
+        Self {
+            rate,
+            pollution: None,
+            interval,
+            scatter: 0.0,
+        }
+    }
+}
+
 /// The rate of the levels given, which should be those of
 /// [`asymptotic_range`](super::asymptotic_range).
 ///

@@ -148,6 +148,10 @@ pub struct RateVerdict {
     /// A law that explains why the claim does not pass, if one is known: advice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cause: Option<Cause>,
+    /// The least floor with which the claim passes, where the finest errors may be round-off. It is
+    /// never taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offered_floor: Option<f64>,
 }
 
 impl RateVerdict {
@@ -242,6 +246,18 @@ impl RateVerdict {
             .cause
             .map_or(String::new(), |cause| format!(" {}", cause.advice()));
         Some(self.kind.advice().to_owned() + &cause)
+    }
+
+    /// The same in factors by which errors fall for each unit of a count n, where the step is
+    /// exp(-n).
+    pub fn as_factors(&self) -> Self {
+        Self {
+            pairwise: self.pairwise.iter().map(|rate| rate.exp()).collect(),
+            fitted: self.fitted.map(f64::exp),
+            interval: self.interval.map(|interval| interval.map(f64::exp)),
+            extrapolated: self.extrapolated.map(f64::exp),
+            ..self.clone()
+        }
     }
 
     /// The last rate between neighbouring levels that is a number.
@@ -426,6 +442,7 @@ impl RateVerdict {
             reason: Prose::default(),
             tendency: reading.tendency().filter(|_| kind.is_about_the_errors()),
             cause: cause.filter(|_| !kind.verdict().is_pass()),
+            offered_floor: None,
         };
         let words = match kind {
             Reason::Repeats => reading.words(kind),

@@ -7,10 +7,11 @@ use super::reason::{REPEATED, Reason};
 use super::tendency::Tendency;
 use super::trend::Rates;
 use super::words::{Aside, SetAside};
-use super::{FEWEST_LEVELS, repeats, scatter};
+use super::{FEWEST_LEVELS, Floor, repeats, scatter};
 use crate::interval::Interval;
 use crate::judge::fit::{
-    Level, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates, rate_interval,
+    Level, MOST_USED, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates,
+    rate_interval,
 };
 
 /// Two steps that are rounded, in another unit once more, and divided have a ratio that is off by
@@ -47,8 +48,8 @@ pub struct Reading<'a> {
     unusable: Option<Reason>,
     /// The rates between levels above the floor.
     rates: Rates,
-    /// Round-off, in the unit of the errors; 0 if it is not known.
-    floor: f64,
+    /// What is known of round-off.
+    floor: Floor,
     /// The number of printed digits of each error; empty if they are those of the numbers.
     digits: &'a [usize],
     /// Whether the numbers are the errors of levels, each from a run of its own.
@@ -56,11 +57,11 @@ pub struct Reading<'a> {
 }
 
 impl<'a> Reading<'a> {
-    pub(super) fn new(sequence: &'a [Level], floor: f64) -> Self {
-        let unusable = defect(sequence, floor);
+    pub(super) fn new(sequence: &'a [Level], floor: Floor) -> Self {
+        let unusable = defect(sequence, floor.value());
         let range = match unusable {
             Some(_) => 0..0,
-            None => asymptotic_range(sequence, floor),
+            None => asymptotic_range(sequence, floor.value()),
         };
         let end = range.end;
         let start = if range.len() < FEWEST_LEVELS {
@@ -82,6 +83,20 @@ impl<'a> Reading<'a> {
             floor,
             digits: &[],
             are_errors: true,
+        }
+    }
+
+    /// Whether rates can be formed of the levels.
+    pub(super) fn is_usable(&self) -> bool {
+        self.unusable.is_none()
+    }
+
+    /// The same with a rate of all levels, found by another rule.
+    pub(super) fn with_fit(self, fit: RateInterval) -> Self {
+        Self {
+            used: 0..self.levels,
+            fit: Some(fit),
+            ..self
         }
     }
 
@@ -176,8 +191,11 @@ impl<'a> Reading<'a> {
         let finest = self.rates.values().last().copied().unwrap_or(f64::NAN);
         // The level next to the range was dropped for its rate, or because the range is as long as
         // it may be.
+        let is_full = self.used.len() == MOST_USED;
         let because = match coarse.checked_sub(1) {
-            Some(next) if !((self.pairwise[next] - finest).abs() > SPREAD) => Aside::BeyondFive,
+            Some(next) if is_full && !((self.pairwise[next] - finest).abs() > SPREAD) => {
+                Aside::BeyondFive
+            }
             _ => Aside::PreAsymptotic,
         };
         let mut set_aside = vec![];
@@ -205,6 +223,9 @@ impl<'a> Reading<'a> {
         if !is_sensible {
             return Reason::ClaimUnusable;
         }
+        if tolerance >= order {
+            return Reason::ToleranceTooWide;
+        }
         if let Some(reason) = self.unusable {
             return reason;
         }
@@ -220,7 +241,7 @@ impl<'a> Reading<'a> {
             self.above_floor(),
             &self.rates,
             |level| self.digits(level),
-            self.floor > 0.0,
+            self.floor,
         )
     }
 
@@ -310,7 +331,7 @@ fn defect(levels: &[Level], floor: f64) -> Option<Reason> {
 }
 
 /// The interval against the band.
-fn compare(Interval { low, high }: Interval, order: f64, tolerance: f64) -> Reason {
+pub(super) fn compare(Interval { low, high }: Interval, order: f64, tolerance: f64) -> Reason {
     let least = order - tolerance;
     let most = order + tolerance;
     if least <= low && high <= most {
@@ -329,6 +350,24 @@ fn compare(Interval { low, high }: Interval, order: f64, tolerance: f64) -> Reas
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_level_of_a_short_table_is_coarser_than_five_others() {
+        for rates in [[2.0, 3.0, 2.1], [2.0, 2.0, 4.0], [0.5, 2.0, 2.0]] {
+            let mut error = 1.0;
+            let mut levels = vec![Level { step: 1.0, error }];
+            for (k, rate) in (1..).zip(rates) {
+                error /= 2_f64.powf(rate);
+                levels.push(Level {
+                    step: 0.5_f64.powi(k),
+                    error,
+                });
+            }
+            for aside in Reading::new(&levels, Floor::NONE).set_aside() {
+                assert_eq!(aside.because, Aside::PreAsymptotic, "{rates:?}");
+            }
+        }
+    }
 
     #[test]
     fn an_interval_is_compared_with_its_ends_and_those_of_the_band() {

@@ -1,16 +1,16 @@
 //! Errors that are those of another level, or of no discretization at all: nothing may be read from
 //! their rates.
 
-use super::FEWEST_LEVELS;
 use super::reason::Reason;
 use super::trend::Rates;
 use super::words::Verdict;
+use super::{FEWEST_LEVELS, Floor};
 use crate::judge::fit::Level;
 
 /// Fewest digits whose repetition is no chance.
 const FEWEST_DIGITS: usize = 3;
-/// Errors up to this one are round-off where the solution is of size 1.
-const ROUND_OFF: f64 = 1e3 * f64::EPSILON;
+/// Errors up to this many units of the round-off of the solution are round-off.
+const ROUND_OFF: f64 = 1e3;
 /// Largest rate, from the first level to the last, of errors that are round-off on all of them.
 const LEVEL: f64 = 0.5;
 
@@ -41,15 +41,15 @@ pub fn are_equal(one: &[Level], other: &[Level], digits: impl Fn(usize) -> usize
 ///
 /// * `levels`: above the floor, three or more, with their rates.
 /// * `digits`: the number of digits of the error at a level.
-/// * `is_floor_known`: whether the caller has said what is round-off.
+/// * `floor`: what is known of round-off; errors that are none but it are found where none is set.
 pub(super) fn doubted(
     decided: Reason,
     levels: &[Level],
     rates: &Rates,
     digits: impl Fn(usize) -> usize,
-    is_floor_known: bool,
+    floor: Floor,
 ) -> Reason {
-    if !is_floor_known && !decided.verdict().is_pass() && is_round_off(levels) {
+    if floor.value() == 0.0 && !decided.verdict().is_pass() && is_round_off(levels, floor) {
         return Reason::NothingTested;
     }
     if rates.alternate() {
@@ -79,19 +79,20 @@ fn has_levelled_off(levels: &[Level]) -> bool {
 }
 
 /// Whether no error is above round-off, and they do not fall.
-fn is_round_off(levels: &[Level]) -> bool {
+fn is_round_off(levels: &[Level], floor: Floor) -> bool {
     let ([coarse, ..], [.., fine]) = (levels, levels) else {
         return false;
     };
     let falls = (coarse.error / fine.error).ln() > LEVEL * (coarse.step / fine.step).ln();
-    !falls && levels.iter().all(|level| level.error <= ROUND_OFF)
+    let most = ROUND_OFF * floor.unit();
+    !falls && levels.iter().all(|level| level.error <= most)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::judge::claims::{Bound, Claim};
-    use crate::judge::verdict::{Floor, Printed, RateVerdict, judge};
+    use crate::judge::verdict::{Printed, RateVerdict, judge};
 
     fn halved(errors: &[f64]) -> Vec<Level> {
         let levels = errors.iter().enumerate();
@@ -202,7 +203,7 @@ mod tests {
         };
         let judged = kind(&errors, 1e-14);
         assert_eq!((judged.kind, judged.set_aside.len()), (Reason::Agrees, 3));
-        assert_eq!(kind(&errors, 0.0).kind, Reason::ZeroError);
+        assert_eq!(kind(&errors, 0.0).kind, Reason::RoundOff);
         let mut middle = errors;
         middle[1] = 0.0;
         assert_eq!(kind(&middle, 1e-14).kind, Reason::ZeroError);

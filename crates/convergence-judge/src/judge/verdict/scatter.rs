@@ -10,12 +10,12 @@ const MOST: usize = 8;
 const FEWEST: usize = 4;
 /// Exponents by which a lower order lies below the one claimed, beside that order itself, which
 /// leaves a constant.
-const BELOW: [f64; 2] = [0.5, 1.0];
+pub(super) const BELOW: [f64; 2] = [0.5, 1.0];
 /// A lower order must leave less than this share of what the claimed order leaves.
 const SHARE: f64 = 0.2;
 /// A term of lower order counts if it changes the finest rate by more than this share of the
 /// tolerance.
-const LEAST_CHANGE: f64 = 1.0 / 60.0;
+pub(super) const LEAST_CHANGE: f64 = 1.0 / 60.0;
 /// Squares of residuals below this are round-off of logarithms.
 const ROUND_OFF: f64 = 1e-24;
 

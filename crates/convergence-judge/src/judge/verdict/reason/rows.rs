@@ -17,7 +17,7 @@ pub(super) struct ReasonRow {
     pub(super) mathematics: &'static str,
 }
 
-pub(super) static ROWS: [ReasonRow; 34] = [
+pub(super) static ROWS: [ReasonRow; 36] = [
     ReasonRow {
         reason: Reason::Agrees,
         verdict: Verdict::Pass,
@@ -174,7 +174,7 @@ pub(super) static ROWS: [ReasonRow; 34] = [
         wants_a_level: false,
         code: "tolerance",
         text: "the tolerance is too wide to tell anything",
-        advice: "Half an order or more on either side accepts two integer orders. Claim more narrowly.",
+        advice: "Half an order or more on either side accepts two integer orders, and as much as the order errors that do not fall. Claim more narrowly.",
         mathematics: NEXT_TERM,
     },
     ReasonRow {
@@ -357,7 +357,27 @@ pub(super) static ROWS: [ReasonRow; 34] = [
         text: "nothing is tested: the solution lies in the discrete space, if it is of size 1",
         advice: "No error is above a thousand times the round-off of numbers of size 1, and they do not fall. Choose a solution \
               that the discrete space does not hold, or claim that the error is exact; where the solution is much smaller \
-              than 1, give the errors relative to it.",
+              than 1, say its size, or give the errors relative to it.",
         mathematics: ROUND_OFF,
+    },
+    ReasonRow {
+        reason: Reason::RoundOff,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "round-off",
+        text: "round-off, if the solution is of size 1: with a floor the claim passes",
+        advice: "The finest errors are near the round-off of the solution, and without them the rates agree. If its size is as said, \
+              set the floor. It is not set by itself: a wrong limit of that size looks the same.",
+        mathematics: ROUND_OFF,
+    },
+    ReasonRow {
+        reason: Reason::Samples,
+        verdict: Verdict::Inconclusive,
+        wants_a_level: false,
+        code: "samples",
+        text: "a level tells nothing: two standard errors exceed its mean",
+        advice: "The scatter of its samples hides the error of a level. Take more samples there, or leave it out: coarser levels have \
+              larger errors, and need fewer.",
+        mathematics: NEXT_TERM,
     },
 ];

@@ -1,0 +1,500 @@
+//! Samples: several numbers at each level, as of Monte Carlo, whose scatter says how well the level
+//! is known.
+
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
+use super::reading::compare;
+use super::scatter::{BELOW, LEAST_CHANGE};
+use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
+use crate::interval::Interval;
+use crate::judge::claims::Claim;
+use crate::judge::fit::{FACTOR, POLLUTION_EXPONENTS, RateInterval};
+
+/// Fewest numbers of a sample: with fewer its scatter is not known.
+pub const FEWEST_NUMBERS: usize = 10;
+/// Fewest levels whose scatter decides; with fewer the ordinary rule does.
+const FEWEST_LEVELS_OF_SAMPLES: usize = 4;
+/// The quantile of a normal number that 95 % lie below in size.
+const NORMAL: f64 = 1.96;
+/// A normal number that 99 % lie below.
+const NORMAL_99: f64 = 2.326_35;
+/// Standard errors up to which a term beside the power law is chance.
+const CHANCE: f64 = 2.8;
+/// Standard errors above which a lower order keeps a claim from passing.
+const LOWER_ORDER: f64 = 2.0;
+
+/// How the numbers of a sample make an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Of {
+    /// Their mean: a strong error.
+    #[default]
+    Mean,
+    /// The root of the mean of their squares.
+    RootMeanSquare,
+    /// The size of the mean of signed numbers: a weak error.
+    Weak,
+}
+
+impl FromStr for Of {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "mean" => Ok(Self::Mean),
+            "rms" => Ok(Self::RootMeanSquare),
+            "weak" => Ok(Self::Weak),
+            _ => Err("expected mean, rms or weak".to_owned()),
+        }
+    }
+}
+
+impl Display for Of {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mean => "mean",
+            Self::RootMeanSquare => "rms",
+            Self::Weak => "weak",
+        })
+    }
+}
+
+/// The numbers of all samples, and what they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Samples {
+    /// Those of each level, coarsest first; [`FEWEST_NUMBERS`] or more each.
+    pub numbers: Vec<Vec<f64>>,
+    /// How they make an error.
+    pub of: Of,
+    /// Whether the k-th numbers of all levels belong together, as those of one seed.
+    pub are_shared: bool,
+}
+
+/// A level as its sample shows it.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    error: f64,
+    /// The variance of its logarithm.
+    variance: f64,
+}
+
+/// A straight line through weighted logarithms.
+struct WeightedLine {
+    rate: f64,
+    /// Of the rate, from the scatter of the samples.
+    standard_error: f64,
+    /// Weighted squares of what is left.
+    chi_square: f64,
+}
+
+impl Samples {
+    /// The error of each level.
+    pub fn errors(&self) -> Vec<f64> {
+        self.known(None).iter().map(|known| known.error).collect()
+    }
+
+    /// The errors of all levels, and how well they are known.
+    ///
+    /// * `without`: the number to leave out at each level.
+    fn known(&self, without: Option<usize>) -> Vec<Known> {
+        let levels = self.numbers.iter().map(|numbers| {
+            let kept = numbers.iter().enumerate();
+            let kept = kept.filter(|(k, _)| Some(*k) != without).map(|(_, x)| *x);
+            kept.collect::<Vec<f64>>()
+        });
+        let moments: Vec<Moments> = levels
+            .map(|numbers| Moments::of(&numbers, self.of))
+            .collect();
+        // One relative variance for all levels; of signed numbers the absolute one is of one size.
+        let squares: f64 = moments.iter().map(|one| one.squares).sum();
+        let freedom: f64 = moments.iter().map(|one| one.count - 1.0).sum();
+        let known = |one: &Moments| Known {
+            error: one.error,
+            variance: match self.of {
+                Of::Weak => one.squares / (one.count - 1.0) / one.count,
+                Of::Mean | Of::RootMeanSquare => squares / freedom / one.count,
+            },
+        };
+        moments.iter().map(known).collect()
+    }
+
+    /// Half the width of the interval by leaving out each of the numbers that belong together.
+    fn jackknife(&self, x: &[f64]) -> f64 {
+        let count = self.numbers.iter().map(Vec::len).min().unwrap_or(0);
+        if !self.are_shared || self.numbers.iter().any(|numbers| numbers.len() != count) {
+            return 0.0;
+        }
+        let rate = |k: usize| line(x, &self.known(Some(k))).rate;
+        let rates: Vec<f64> = (0..count).map(rate).collect();
+        let mean = rates.iter().sum::<f64>() / count as f64;
+        let squares: f64 = rates.iter().map(|rate| (rate - mean).powi(2)).sum();
+        FACTOR * NORMAL * (squares * (count as f64 - 1.0) / count as f64).sqrt()
+    }
+}
+
+/// What the numbers of a level say.
+struct Moments {
+    count: f64,
+    error: f64,
+    /// Sum of squares of the deviations of the logarithm.
+    squares: f64,
+}
+
+impl Moments {
+    fn of(numbers: &[f64], of: Of) -> Self {
+        let squared: Vec<f64> = numbers.iter().map(|x| x * x).collect();
+        let values = if of == Of::RootMeanSquare {
+            &squared
+        } else {
+            numbers
+        };
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares = values.iter().map(|x| (x / mean - 1.0).powi(2)).sum();
+        let negative = numbers.iter().copied().find(|x| *x < 0.0);
+        match of {
+            // No size of an error is negative.
+            Of::Mean => Self {
+                count,
+                error: negative.unwrap_or(mean),
+                squares,
+            },
+            Of::Weak => Self {
+                count,
+                error: mean.abs(),
+                squares,
+            },
+            Of::RootMeanSquare => Self {
+                count,
+                error: mean.sqrt(),
+                squares: squares / 4.0,
+            },
+        }
+    }
+}
+
+impl Claim {
+    /// The rate of samples, coarsest level first, held against the order claimed.
+    ///
+    /// * `steps`: as many as samples.
+    pub fn judge_samples(&self, steps: &[f64], samples: &Samples) -> RateVerdict {
+        let known = samples.known(None);
+        let levels: Vec<Level> = steps
+            .iter()
+            .zip(&known)
+            .map(|(&step, known)| Level {
+                step,
+                error: known.error,
+            })
+            .collect();
+        let reading = Reading::new(&levels, Floor::NONE);
+        let unsampled = || {
+            let doubt = doubt_of_finest(&levels, &known);
+            let printed = Printed { doubt, digits: &[] };
+            self.judge_printed(&levels, Floor::NONE, printed)
+        };
+        let is_usable = reading.is_usable()
+            && self.is_usable()
+            && known.iter().all(|level| level.variance > 0.0);
+        if !is_usable {
+            return unsampled();
+        }
+        if let Some((level, many)) = unknown_level(samples, &known) {
+            let words = format!(
+                "level {} tells nothing: two standard errors exceed its mean; more than {many} samples would",
+                level + 1
+            );
+            return unsampled().with_reason(Reason::Samples, &words);
+        }
+        let x: Vec<f64> = steps.iter().map(|step| step.ln()).collect();
+        let model = line(&x, &known);
+        let freedom = (levels.len().saturating_sub(2)) as f64;
+        let lower = Term::of_lower_orders(&x, &known, self.order);
+        let mut others = Term::of_others(&x, &known)
+            .into_iter()
+            .chain(lower.iter().copied());
+        let is_power = levels.len() >= FEWEST_LEVELS_OF_SAMPLES
+            && model.chi_square <= chi_square_99(freedom)
+            && others.all(|term| term.size.abs() <= CHANCE);
+        if !is_power {
+            return unsampled();
+        }
+        let spread = (model.chi_square / freedom).sqrt().max(1.0);
+        let half = FACTOR * NORMAL * spread * model.standard_error;
+        let half = half.max(samples.jackknife(&x));
+        let interval = Interval::around(model.rate, half);
+        let least = LEAST_CHANGE * self.tolerance;
+        let hides = lower
+            .iter()
+            .any(|term| term.size > LOWER_ORDER && term.slope > least);
+        let reason = match compare(interval, self.order, self.tolerance) {
+            Reason::Agrees if hides => Reason::LowerOrderLikely,
+            reason => reason,
+        };
+        let reading = reading.with_fit(RateInterval::of_samples(model.rate, interval));
+        let rate = RateVerdict::new(&reading, Some(self.band()), reason);
+        self.bound.held_against(rate)
+    }
+}
+
+/// The first level whose two standard errors exceed its mean, and the number of samples above which
+/// they do not.
+fn unknown_level(samples: &Samples, known: &[Known]) -> Option<(usize, usize)> {
+    let share = |known: &Known| 2.0 * known.variance.sqrt();
+    let level = known.iter().position(|known| share(known) > 1.0)?;
+    let many = samples.numbers[level].len() as f64 * share(&known[level]).powi(2);
+    Some((level, many.ceil() as usize))
+}
+
+/// By how much the scatter of the two finest levels may move their rate.
+fn doubt_of_finest(levels: &[Level], known: &[Known]) -> f64 {
+    let ([.., before, finest], [.., one, other]) = (levels, known) else {
+        return 0.0;
+    };
+    let doubt = NORMAL * (one.variance + other.variance).sqrt() / (before.step / finest.step).ln();
+    if doubt.is_finite() { doubt } else { 0.0 }
+}
+
+/// The quantile of χ² that 99 % lie below, by Wilson and Hilferty.
+fn chi_square_99(freedom: f64) -> f64 {
+    let share = 2.0 / (9.0 * freedom);
+    freedom * (1.0 - share + NORMAL_99 * share.sqrt()).powi(3)
+}
+
+/// Products of columns, weighted by how well each level is known.
+fn product(known: &[Known], a: &[f64], b: &[f64]) -> f64 {
+    let terms = known.iter().zip(a.iter().zip(b));
+    terms.map(|(known, (a, b))| a * b / known.variance).sum()
+}
+
+/// What a column leaves without its weighted projection on another.
+fn without(known: &[Known], column: &[f64], direction: &[f64]) -> Vec<f64> {
+    let factor = product(known, column, direction) / product(known, direction, direction);
+    let rest = column.iter().zip(direction);
+    rest.map(|(value, along)| value - factor * along).collect()
+}
+
+/// Columns of x and of the logarithms of the errors, without their weighted means.
+fn columns(x: &[f64], known: &[Known]) -> [Vec<f64>; 2] {
+    let y: Vec<f64> = known.iter().map(|known| known.error.ln()).collect();
+    let ones = vec![1.0; x.len()];
+    [without(known, x, &ones), without(known, &y, &ones)]
+}
+
+fn line(x: &[f64], known: &[Known]) -> WeightedLine {
+    let [x, y] = columns(x, known);
+    let square = product(known, &x, &x);
+    let rest = without(known, &y, &x);
+    WeightedLine {
+        rate: product(known, &x, &y) / square,
+        standard_error: square.sqrt().recip(),
+        chi_square: product(known, &rest, &rest),
+    }
+}
+
+/// A term beside the power law.
+#[derive(Clone, Copy)]
+struct Term {
+    /// Its change of the finest rate, for a power.
+    slope: f64,
+    /// In its standard errors; 0 where the levels do not show it.
+    size: f64,
+}
+
+impl Term {
+    /// Of orders below the one claimed.
+    fn of_lower_orders(x: &[f64], known: &[Known], order: f64) -> Vec<Self> {
+        let exponents = BELOW.iter().copied().chain([order]);
+        exponents.map(|d| Self::of_power(x, known, -d)).collect()
+    }
+
+    /// Of pollution, and of the finest level alone.
+    fn of_others(x: &[f64], known: &[Known]) -> Vec<Self> {
+        let pollution = POLLUTION_EXPONENTS.map(|r| Self::of_power(x, known, r));
+        let is_finest = |k: usize| f64::from(u8::from(k + 1 == x.len()));
+        let finest = Self::of_column(x, known, is_finest);
+        pollution.into_iter().chain([finest]).collect()
+    }
+
+    /// b (h/h_m)^r: its size has the sign of b.
+    fn of_power(x: &[f64], known: &[Known], r: f64) -> Self {
+        let finest = x[x.len() - 1];
+        let term = Self::of_column(x, known, |k| (r * (x[k] - finest)).exp());
+        Self {
+            slope: -r * term.slope,
+            ..term
+        }
+    }
+
+    fn of_column(x: &[f64], known: &[Known], column: impl Fn(usize) -> f64) -> Self {
+        let column: Vec<f64> = (0..x.len()).map(column).collect();
+        let [x, y] = columns(x, known);
+        let column = without(known, &column, &vec![1.0; x.len()]);
+        let column = without(known, &column, &x);
+        let square = product(known, &column, &column);
+        let slope = product(known, &column, &y) / square;
+        let size = slope * square.sqrt();
+        Self {
+            slope,
+            size: if size.is_finite() { size } else { 0.0 },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::random::SplitMix;
+    use crate::judge::verdict::Verdict;
+    use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+    const STEPS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
+
+    /// Samples of this many numbers of h^rate, each times a random one.
+    fn samples(count: usize, of: Of, mut number: impl FnMut(f64) -> f64) -> Samples {
+        let numbers = STEPS.map(|step| (0..count).map(|_| number(step)).collect());
+        Samples {
+            numbers: numbers.to_vec(),
+            of,
+            are_shared: false,
+        }
+    }
+
+    /// Of the errors of Monte Carlo with N = 1/h numbers, over 400 tables: how often the claim passes,
+    /// and how often the interval holds the order.
+    fn monte_carlo(order: f64, count: usize, of: Of) -> [f64; 3] {
+        let mut random = SplitMix::new(7);
+        let [mut passed, mut failed, mut held] = [0.0; 3];
+        for _ in 0..400 {
+            let samples = samples(count, of, |h| (h.sqrt() * random.normal()).abs());
+            let judged = Claim::new(order, 0.25).judge_samples(&STEPS, &samples);
+            passed += f64::from(u8::from(judged.verdict.is_pass()));
+            failed += f64::from(u8::from(judged.verdict == Verdict::Fail));
+            let interval = judged.interval.expect("a rate");
+            held += f64::from(u8::from(interval.low <= 0.5 && 0.5 <= interval.high));
+        }
+        [passed, failed, held].map(|count| count / 400.0)
+    }
+
+    #[test]
+    fn means_of_samples_pass_where_they_should_and_nowhere_else() {
+        for of in [Of::Mean, Of::RootMeanSquare] {
+            let [passed, failed, held] = monte_carlo(0.5, 30, of);
+            assert!(
+                passed > 0.7 && failed < 0.02 && held > 0.95,
+                "{passed} {failed} {held}"
+            );
+            let [passed, ..] = monte_carlo(1.0, 30, of);
+            assert_eq!(passed, 0.0);
+            let [passed, ..] = monte_carlo(0.5, 200, of);
+            assert!(passed > 0.9, "{passed}");
+        }
+    }
+
+    #[test]
+    fn the_size_of_a_mean_of_signed_numbers_is_a_weak_error() {
+        let mut random = SplitMix::new(8);
+        let [mut passed, mut wrong] = [0; 2];
+        for _ in 0..100 {
+            let weak = samples(4000, Of::Weak, |h| 0.3 * h + 0.3 * random.normal());
+            let judged = |order| Claim::new(order, 0.45).judge_samples(&STEPS, &weak);
+            passed += i32::from(judged(1.0).verdict.is_pass());
+            wrong += i32::from(judged(2.0).verdict.is_pass());
+        }
+        assert!(passed > 30 && wrong == 0, "{passed} {wrong}");
+        // A level that is lost in its scatter is named, with what would do.
+        let weak = samples(20, Of::Weak, |h| 0.3 * h + 0.3 * random.normal());
+        let judged = Claim::new(1.0, 0.25).judge_samples(&STEPS, &weak);
+        assert_eq!(judged.kind, Reason::Samples);
+        assert!(
+            judged.because.to_string().contains("samples would"),
+            "{}",
+            judged.because
+        );
+    }
+
+    #[test]
+    fn numbers_that_levels_share_widen_the_interval() {
+        let mut random = SplitMix::new(9);
+        let seeds: Vec<[f64; 2]> = (0..30)
+            .map(|_| [random.normal(), random.normal()])
+            .collect();
+        // The rate of each seed is another one, so that levels scatter together.
+        let level = |h: f64| {
+            seeds
+                .iter()
+                .map(move |[a, b]| (0.2 * a).exp() * h.powf(1.0 + 0.3 * b))
+        };
+        let shared = |are_shared| Samples {
+            numbers: STEPS.iter().map(|h| level(*h).collect()).collect(),
+            of: Of::Mean,
+            are_shared,
+        };
+        let width = |are_shared| {
+            let judged = Claim::new(1.0, 0.45).judge_samples(&STEPS, &shared(are_shared));
+            judged.interval.expect("a rate").width()
+        };
+        assert!(
+            width(true) > width(false),
+            "{} {}",
+            width(true),
+            width(false)
+        );
+    }
+
+    #[test]
+    fn broken_numbers_and_curved_errors_are_no_samples_of_a_power() {
+        let mut random = SplitMix::new(10);
+        let mut exact = |h: f64| h * (1.0 + 0.01 * random.normal());
+        let good = samples(20, Of::Mean, &mut exact);
+        let claim = Claim::new(1.0, 0.25);
+        assert!(claim.judge_samples(&STEPS, &good).verdict.is_pass());
+        for (level, number) in [(0, f64::NAN), (4, f64::INFINITY), (2, -0.1)] {
+            let mut broken = good.clone();
+            broken.numbers[level][3] = number;
+            let judged = claim.judge_samples(&STEPS, &broken);
+            assert_eq!(judged.verdict, Verdict::Fail, "{number}");
+        }
+        // Claims that tell nothing.
+        for (order, tolerance) in [
+            (1.0, 0.6),
+            (0.3, 0.3),
+            (-1.0, 0.2),
+            (f64::NAN, 0.2),
+            (1.0, 0.0),
+        ] {
+            let judged = Claim::new(order, tolerance).judge_samples(&STEPS, &good);
+            assert_eq!(judged.verdict, Verdict::Inconclusive, "{order} {tolerance}");
+        }
+        let mut reversed = STEPS;
+        reversed.reverse();
+        assert!(!claim.judge_samples(&reversed, &good).verdict.is_pass());
+        // A plateau far above the scatter.
+        let plateau = samples(200, Of::Mean, |h| (h + 0.2) * (1.0 + 0.1 * random.normal()));
+        assert!(!claim.judge_samples(&STEPS, &plateau).verdict.is_pass());
+        // Every number the same: there is no scatter, and the ordinary rule judges.
+        let same = samples(20, Of::Mean, |h| h * (1.0 + 0.1 * h));
+        assert!(claim.judge_samples(&STEPS, &same).verdict.is_pass());
+    }
+
+    #[test]
+    fn quantiles_are_those_of_chi_square() {
+        for freedom in 1..20 {
+            let freedom = f64::from(freedom);
+            let exact = ChiSquared::new(freedom).expect("freedom").inverse_cdf(0.99);
+            let share = chi_square_99(freedom) / exact;
+            assert!((share - 1.0).abs() < 0.02, "{freedom} {share}");
+        }
+    }
+
+    #[test]
+    fn the_ways_to_an_error_have_names() {
+        for name in ["mean", "rms", "weak"] {
+            assert_eq!(
+                name.parse::<Of>().map(|of| of.to_string()),
+                Ok(name.to_owned())
+            );
+        }
+        assert!("median".parse::<Of>().is_err());
+    }
+}

@@ -143,10 +143,8 @@ fn request(options: &[String]) -> Result<Request, String> {
     }
     Ok(Request {
         claims,
-        tolerance: 0.25,
-        floor: 0.0,
         choice,
-        all: false,
+        ..Request::default()
     })
 }
 

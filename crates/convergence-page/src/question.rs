@@ -14,9 +14,6 @@ use serde_json::{Map, Value};
 use crate::answer::Refused;
 use crate::{FILE, LONGEST_TEXT, PROGRAM};
 
-/// The tolerance of the command line.
-const TOLERANCE: f64 = convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
-
 /// A text, and the options of the command `rates` under their names.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct Question {
@@ -66,10 +63,10 @@ impl Question {
             .collect();
         Ok(Request {
             claims: claims?,
-            tolerance: self.tolerance.unwrap_or(TOLERANCE),
+            tolerance: self.tolerance,
             floor: self.floor.unwrap_or(0.0),
             choice: self.choice.clone(),
-            all: false,
+            ..Request::default()
         })
     }
 

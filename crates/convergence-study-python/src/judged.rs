@@ -6,7 +6,6 @@ use convergence_judge::{
     judge::{
         fit::Level,
         shown::{self, MOST_PLACES, Shown},
-        verdict::DEFAULT_TOLERANCE,
     },
     text::number::decimals,
 };
@@ -28,7 +27,7 @@ type Arguments = (
     Vec<f64>,
     Vec<f64>,
     Option<Order>,
-    f64,
+    Option<f64>,
     f64,
     BTreeMap<String, String>,
 );
@@ -49,7 +48,7 @@ pub(crate) struct Judgement {
     pub(crate) step: String,
     pub(crate) levels: Vec<Level>,
     pub(crate) claim: Option<Claim>,
-    pub(crate) tolerance: f64,
+    pub(crate) tolerance: Option<f64>,
     pub(crate) floor: Floor,
     pub(crate) rate: RateVerdict,
     /// The columns of its table that are not judged, each with the reason.
@@ -120,7 +119,7 @@ impl Judgement {
 impl Judgement {
     /// Judges levels, coarse to fine; `copy` and `pickle` repeat the judgement.
     #[new]
-    #[pyo3(signature = (name, step, h, errors, order=None, tolerance=DEFAULT_TOLERANCE, floor=0.0, left_out=BTreeMap::new()))]
+    #[pyo3(signature = (name, step, h, errors, order=None, tolerance=None, floor=0.0, left_out=BTreeMap::new()))]
     #[allow(
         clippy::too_many_arguments,
         reason = "the arguments of the constructor in Python"
@@ -131,7 +130,7 @@ impl Judgement {
         h: &Bound<'_, PyAny>,
         errors: &Bound<'_, PyAny>,
         order: Option<&Bound<'_, PyAny>>,
-        tolerance: f64,
+        tolerance: Option<f64>,
         floor: f64,
         left_out: BTreeMap<String, String>,
     ) -> PyResult<Self> {

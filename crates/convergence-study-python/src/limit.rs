@@ -1,6 +1,9 @@
 //! Limits of values without an exact solution.
 
-use convergence_judge::{judge::richardson::Estimate, text::number::RATE_PLACES};
+use convergence_judge::{
+    judge::{richardson::Estimate, verdict::DEFAULT_TOLERANCE},
+    text::number::RATE_PLACES,
+};
 use convergence_study::{Estimator, StepValue};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -99,7 +102,7 @@ pub(crate) fn limit(
     h: &Bound<'_, PyAny>,
     values: &Bound<'_, PyAny>,
     order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    tolerance: Option<f64>,
 ) -> PyResult<Limit> {
     let claim = values::optional_claim(order, tolerance)?;
     let levels = values::levels(h, "values", values)?;
@@ -110,7 +113,8 @@ pub(crate) fn limit(
             value: level.error,
         })
         .collect();
-    let estimator = Estimator::new(tolerance).map_err(refuse)?;
+    let tolerance = claim.map_or(tolerance, |claim| Some(claim.tolerance));
+    let estimator = Estimator::new(tolerance.unwrap_or(DEFAULT_TOLERANCE)).map_err(refuse)?;
     let estimate = match claim {
         Some(claim) => estimator.estimate(&values, claim.order),
         None => estimator.estimate_unclaimed(&values),

@@ -16,28 +16,36 @@ use crate::values::{self, Claims, refuse};
 /// The object that `rates --format json` prints, as text.
 ///
 /// * `source`: a text with tables, or the path of a file.
+/// * `round_off`: the size of the solution, and the relative round-off of its numbers.
 ///
 /// # Errors
 /// `ValueError` with the place in the text, or with the argument.
 #[pyfunction]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the arguments of the function in Python"
+)]
 pub(crate) fn rates(
     py: Python<'_>,
     source: &str,
     is_text: bool,
     order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    tolerance: Option<f64>,
     floor: f64,
+    round_off: [Option<f64>; 2],
     chosen: Chosen,
 ) -> PyResult<String> {
     // Refuses what the rule cannot use.
-    values::check_tolerance(tolerance)?;
     let _ = values::floor_of(floor)?;
+    let [scale, eps] = round_off;
     let request = Request {
         claims: claimed(py, order, tolerance)?,
         tolerance,
         floor,
+        scale,
+        eps,
         choice: chosen.choice()?,
-        all: false,
+        ..Request::default()
     };
     let (tables, first) = if is_text {
         (Tables::Text(source), "text".to_owned())
@@ -54,7 +62,7 @@ pub(crate) fn rates(
 fn claimed(
     py: Python<'_>,
     order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    tolerance: Option<f64>,
 ) -> PyResult<Vec<Claimed>> {
     let Some(order) = order else {
         return Ok(vec![]);

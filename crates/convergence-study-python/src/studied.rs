@@ -59,7 +59,7 @@ impl Study {
                 step: self.results.step().to_owned(),
                 levels: outcome.levels_of(name),
                 claim: Some(claim),
-                tolerance: claim.tolerance,
+                tolerance: Some(claim.tolerance),
                 floor: self.results.options.floor,
                 rate: rate.clone(),
                 left_out: std::collections::BTreeMap::new(),
@@ -377,7 +377,7 @@ pub(crate) fn study(
     n: Option<&Bound<'_, PyAny>>,
     h: Option<&Bound<'_, PyAny>>,
     order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    tolerance: Option<f64>,
     options: Options,
 ) -> PyResult<Study> {
     let claims = Claims::read(order, tolerance)?;

@@ -20,6 +20,7 @@ pub(crate) struct Chosen {
     dim: Option<f64>,
     ratio: Option<f64>,
     lines: Option<Vec<String>>,
+    samples: Option<String>,
 }
 
 impl Chosen {
@@ -27,6 +28,10 @@ impl Chosen {
     /// `ValueError` for lines that are no range.
     pub(crate) fn choice(self) -> PyResult<Choice> {
         let lines = self.lines.iter().flatten();
+        let samples = |text: String| {
+            let refused = |expected| refuse(format!("samples: {expected}; found {text:?}"));
+            text.parse().map_err(refused)
+        };
         let range = |text: &String| {
             let refused = |expected| refuse(format!("lines: {expected}; found {text:?}"));
             text.parse().map_err(refused)
@@ -39,6 +44,7 @@ impl Chosen {
             names: self.names,
             dim: self.dim,
             ratio: self.ratio,
+            samples: self.samples.map(samples).transpose()?,
             ..Choice::default()
         })
     }
@@ -56,7 +62,7 @@ impl Chosen {
 pub(crate) fn judge_table(
     table: &Bound<'_, PyAny>,
     order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    tolerance: Option<f64>,
     floor: f64,
     chosen: Chosen,
     function: &str,

@@ -45,7 +45,11 @@ pub(crate) fn taylor(
     let found: TaylorFindings = test.try_run(
         |m| called(value, m),
         |direction| called(slope, direction),
-        if curvature.is_some() { Some(&mut second) } else { None },
+        if curvature.is_some() {
+            Some(&mut second)
+        } else {
+            None
+        },
     )?;
     let json = serde_json::to_string(&found).map_err(refuse)?;
     Ok((found.verdict().name(), found.to_string(), json))

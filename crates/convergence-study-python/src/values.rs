@@ -127,8 +127,10 @@ pub(crate) fn floor_of(floor: f64) -> PyResult<Floor> {
 }
 
 /// Refuses tolerances that the rule cannot use.
-pub(crate) fn check_tolerance(tolerance: f64) -> PyResult<()> {
-    Judge::new(tolerance).map(|_| ()).map_err(refuse)
+pub(crate) fn check_tolerance(tolerance: Option<f64>) -> PyResult<()> {
+    tolerance.map_or(Ok(()), |tolerance| {
+        Judge::new(tolerance).map(|_| ()).map_err(refuse)
+    })
 }
 
 /// An order as Python writes it: a number, or a text such as `">=2.0"`.
@@ -150,14 +152,14 @@ pub(crate) fn order_of(claim: &Claim) -> Order {
 /// The claim about an error, if there is an order.
 pub(crate) fn optional_claim(
     order: Option<&Bound<'_, PyAny>>,
-    tolerance: f64,
+    tolerance: Option<f64>,
 ) -> PyResult<Option<Claim>> {
     check_tolerance(tolerance)?;
     order.map(|order| claim(order, tolerance)).transpose()
 }
 
 /// The claim about an error.
-fn claim(order: &Bound<'_, PyAny>, tolerance: f64) -> PyResult<Claim> {
+fn claim(order: &Bound<'_, PyAny>, tolerance: Option<f64>) -> PyResult<Claim> {
     let expected = || refuse(format!("order: expected {ORDER}, found {}", shown(order)));
     let (order, bound) = match order.extract::<String>() {
         Ok(text) => order_from_text(&text).ok_or_else(expected)?,
@@ -169,10 +171,14 @@ fn claim(order: &Bound<'_, PyAny>, tolerance: f64) -> PyResult<Claim> {
     if !(order > 0.0 && order.is_finite()) {
         return Err(expected());
     }
-    Ok(Claim {
-        bound,
-        ..Claim::new(order, tolerance)
-    })
+    let usual = Claim::usual(order, bound);
+    let tolerance = tolerance.unwrap_or(usual.tolerance);
+    if tolerance >= order {
+        return Err(refuse(format!(
+            "tolerance: expected a number less than the order {order}, found {tolerance}"
+        )));
+    }
+    Ok(Claim { tolerance, ..usual })
 }
 
 /// Claims by name, or one for all names, which may be none.
@@ -182,7 +188,7 @@ pub(crate) enum Claims {
 }
 
 impl Claims {
-    pub(crate) fn read(order: Option<&Bound<'_, PyAny>>, tolerance: f64) -> PyResult<Self> {
+    pub(crate) fn read(order: Option<&Bound<'_, PyAny>>, tolerance: Option<f64>) -> PyResult<Self> {
         let Some(by_name) = order.and_then(|order| order.cast::<PyDict>().ok()) else {
             return Ok(Self::ForAll(optional_claim(order, tolerance)?));
         };

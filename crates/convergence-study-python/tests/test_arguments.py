@@ -307,7 +307,7 @@ def test_rates_returns_what_the_program_prints(tmp_path):
     assert cs.rates(counts, order=2, dim=1)["verdict"] == "inconclusive"
     assert cs.rates("level L2\n0 0.16\n1 0.04\n2 0.01\n", ratio=2)["step"] == "2^(-level)"
     path.write_text(counts)
-    repeated = "text:1:1: expected steps that fall or rise from row to row; other tables by lines=A-B, found `h`"
+    repeated = "text:4:1: expected steps that fall or rise from row to row, found `h`"
     assert f"\n  rates({str(path)!r}, order=2, dim=2)  #" in refusal(path, function=cs.rates, order=2)
     assert refusal("h L2\n0.2 4\n0.1 1\n0.1 1\n", function=cs.rates, order=2).startswith(repeated)
     found = refusal("h L2\n0.2 4\n0.1 1\n", function=cs.rates, order={"L3": ">=2"})
@@ -356,3 +356,31 @@ def test_no_column_of_a_table_is_left_out_in_silence():
             cs.assert_order({"h": h, "L2": errors, name: cells}, order=2)
     with pytest.raises(ValueError, match="one of the steps, in space or in time, found `N`, `dt`"):
         cs.judge({"N": [16, 32, 64, 128, 256], "dt": h, "L2": errors}, order=2)
+
+
+def test_a_tolerance_is_less_than_the_order_and_small_orders_have_small_ones():
+    slow = [h**0.05 for h in H]
+    for order in (0.27, ">=0.27", 0.1, ">=0.1"):
+        assert cs.judge(H, slow, order=order).verdict != "pass"
+    with pytest.raises(ValueError, match="tolerance: expected a number less than the order 0.27, found 0.3"):
+        cs.judge(H, slow, order=0.27, tolerance=0.3)
+    assert cs.judge(H, [h**2 for h in H], order=2, tolerance=None).verdict == "pass"
+
+
+def test_rates_of_samples_and_of_errors_near_round_off():
+    rows = [(h, k, h * (1 + 0.01 * math.sin(7 * k + 1 / h))) for h in H for k in range(12)]
+    text = "h seed error\n" + "".join(f"{h} {k} {error:.6e}\n" for h, k, error in rows)
+    with pytest.raises(ValueError, match="fall or rise"):
+        cs.rates(text, order=1)
+    assert cs.rates(text, order=1, samples="mean")["verdict"] == "pass"
+    assert cs.rates(text, order=2, samples="rms")["verdict"] == "fail"
+    with pytest.raises(ValueError, match="samples: expected mean, rms or weak"):
+        cs.rates(text, order=1, samples="median")
+    fine = [0.5**k for k in range(1, 11)]
+    noise = [4e-16, 3e-16, 5e-16, 2e-16, 4e-16, 6e-16, 3e-16, 4e-16, 5e-16, 2e-16]
+    text = "h L2\n" + "".join(f"{h} {0.3 * h**6 + e:.6e}\n" for h, e in zip(fine, noise))
+    [told] = cs.rates(text, order=6)["rates"]
+    assert told["code"] == "round-off" and told["verdict"] == "inconclusive"
+    assert cs.rates(text, order=6, floor=told["offered_floor"])["verdict"] == "pass"
+    [told] = cs.rates(text, order=6, scale=1e-9)["rates"]
+    assert told["code"] != "round-off"

@@ -116,7 +116,8 @@ pub use convergence_judge::judge::{
     grid::SpaceTime,
     richardson::{Estimator, StepValue},
     verdict::{
-        Band, Floor, JudgeError, Level, RateVerdict, Reason, Verdict, judge, judge_pairs, observe,
+        Band, Floor, JudgeError, Level, Of, RateVerdict, Reason, Samples, Verdict, judge,
+        judge_pairs, observe,
     },
 };
 #[doc(inline)]

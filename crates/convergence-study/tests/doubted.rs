@@ -2,7 +2,7 @@
 //! studies say so, and do not pass.
 
 use convergence_study::{
-    Bound, Choice, Claim, Kind, Outcome, Reason, Verdict,
+    Bound, Claim, Kind, Outcome, Reason, Verdict,
     internal::{
         rates::{Claimed, Request, Tables, claimed, object, sheet},
         study::run_cases_here,
@@ -34,10 +34,8 @@ fn request(orders: &[&str], floor: f64) -> Request {
         .collect();
     Request {
         claims,
-        tolerance: 0.25,
         floor,
-        choice: Choice::default(),
-        all: false,
+        ..Request::default()
     }
 }
 
@@ -137,7 +135,7 @@ fn zeros_below_the_floor_are_dropped_from_a_table() {
     );
     assert_eq!(
         judged(0.0),
-        ("zero".to_owned(), Some("inconclusive".to_owned()))
+        ("round-off".to_owned(), Some("inconclusive".to_owned()))
     );
 }
 

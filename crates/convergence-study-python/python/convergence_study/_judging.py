@@ -23,7 +23,7 @@ def judge(
     h: Any = None,
     errors: Numbers = None,
     order: Order = None,
-    tolerance: float = 0.25,
+    tolerance: float | None = None,
     *,
     n: Numbers = None,
     dim: float | None = None,
@@ -42,7 +42,8 @@ def judge(
     steps of numbered levels) say what the table does not.
 
     order: a number > 0, or ">= 2" for a minimum order, ">= 2.." if any higher rate will do; for a table also a dict of names and orders; None for no claim, which is never a pass.
-    tolerance: allowed deviation of the rate from the order, 0 < tolerance < 0.5. floor: round-off, in the unit of the errors: the finest
+    tolerance: allowed deviation of the rate from the order, 0 < tolerance < 0.5 and less than the order; None is 0.25, but at most half of the
+    order, and a quarter of a minimum order. floor: round-off, in the unit of the errors: the finest
     levels are dropped as long as their errors are not above it.
 
     Returns a Judgement; for a table of several columns a dict of them by name. Raises ValueError or TypeError, which names the argument, if
@@ -56,7 +57,7 @@ def assert_order(
     h: Any = None,
     errors: Numbers = None,
     order: Order = None,
-    tolerance: float = 0.25,
+    tolerance: float | None = None,
     *,
     n: Numbers = None,
     dim: float | None = None,
@@ -83,7 +84,7 @@ def limit(
     h: Any = None,
     values: Numbers = None,
     order: float | None = None,
-    tolerance: float = 0.25,
+    tolerance: float | None = None,
     *,
     n: Numbers = None,
     dim: float | None = None,
@@ -99,7 +100,7 @@ def limit(
         h, values = h.index, h
     if values is None:
         raise ValueError("values: expected the values at the steps h, found None")
-    return _native.limit(_steps(h, n, dim)[0], values, order, number("tolerance", tolerance))
+    return _native.limit(_steps(h, n, dim)[0], values, order, optional("tolerance", tolerance))
 
 
 def study(
@@ -107,7 +108,7 @@ def study(
     n: str | Iterable[int] | None = None,
     order: Order = None,
     budget: float = 60.0,
-    tolerance: float = 0.25,
+    tolerance: float | None = None,
     name: str = "study",
     *,
     h: Numbers = None,
@@ -136,7 +137,7 @@ def study(
 def rates(
     path_or_text: str | os.PathLike[str],
     order: Order = None,
-    tolerance: float = 0.25,
+    tolerance: float | None = None,
     *,
     floor: float = 0.0,
     step: str | int | None = None,
@@ -146,21 +147,26 @@ def rates(
     dim: float | None = None,
     ratio: float | None = None,
     lines: Iterable[str] | str | None = None,
+    scale: float | None = None,
+    eps: float | None = None,
+    samples: str | None = None,
 ) -> dict[str, Any]:
     """What the program prints: the object of `convergence-study rates --format json`, as a dict.
 
     path_or_text: a file, or a text of several lines with a table, a log, a list or JSON. values: the columns of values that tend to an unknown
-    limit. lines: where the table is, such as "3-9", or several of them. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
+    limit. lines: where the table is, such as "3-9", or several of them. scale: the size of the solution, and eps: the relative round-off of its
+    numbers, which say what may be round-off. samples: "mean", "rms" or "weak": rows with equal steps are samples, at least ten of each. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
     """
     source, is_text = _source(path_or_text)
     order = dict(order) if isinstance(order, Mapping) else order
-    chosen = _chosen(step, columns, names, dim, ratio, values, lines)
-    return json.loads(_native.rates(source, is_text, order, number("tolerance", tolerance), number("floor", floor), chosen))
+    chosen = _chosen(step, columns, names, dim, ratio, values, lines, samples)
+    round_off = [optional("scale", scale), optional("eps", eps)]
+    return json.loads(_native.rates(source, is_text, order, optional("tolerance", tolerance), number("floor", floor), round_off, chosen))
 
 
 def studied(solve, n, h, order, tolerance, options, variants):
     """A study, and where its order is lost, if it is lost and there are variants of its solution."""
-    tolerance = number("tolerance", tolerance)
+    tolerance = optional("tolerance", tolerance)
     description = None if variants is None else described(variants)
     study = _native.study(solve, n, h, order, tolerance, options)
     if description is None or not study._has_lost_order():
@@ -190,7 +196,7 @@ def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
 
 def judged(function, h, errors, order, tolerance, n=None, dim=None, floor=0.0, step=None, columns=None, names=None, ratio=None):
     """The judgements of one or several errors, and whether there may be several; function: the one that was called."""
-    tolerance, floor = number("tolerance", tolerance), number("floor", floor)
+    tolerance, floor = optional("tolerance", tolerance), number("floor", floor)
     if h is None and n is None and errors is not None:
         h, errors = errors, None
     if errors is not None:
@@ -258,7 +264,12 @@ def number(name, value, above=None):
     return found
 
 
-def _chosen(step, columns, names, dim, ratio, values=None, lines=None):
+def optional(name, value):
+    """A number, or None."""
+    return None if value is None else number(name, value)
+
+
+def _chosen(step, columns, names, dim, ratio, values=None, lines=None, samples=None):
     """How a table is read."""
     return {
         "step": None if step is None else str(step),
@@ -267,6 +278,7 @@ def _chosen(step, columns, names, dim, ratio, values=None, lines=None):
         "names": _names("names", names),
         "dim": None if dim is None else number("dim", dim, above=0),
         "ratio": None if ratio is None else number("ratio", ratio, above=1),
+        "samples": None if samples is None else str(samples),
         "lines": None if lines is None else [lines] if isinstance(lines, str) else [str(one) for one in lines],
     }
 

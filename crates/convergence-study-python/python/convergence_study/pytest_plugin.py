@@ -56,13 +56,13 @@ class Convergence:
         self.assert_order = like(_judging.assert_order, self._assert_order)
         self.study = like(_judging.study, self._study)
 
-    def _assert_order(self, h=None, errors=None, order=None, tolerance=0.25, *, floor=0.0, allow_inconclusive=False, **table):
+    def _assert_order(self, h=None, errors=None, order=None, tolerance=None, *, floor=0.0, allow_inconclusive=False, **table):
         __tracebackhide__ = True
         found, _ = _judging.judged("convergence.assert_order", h, errors, order, tolerance, floor=floor, **table)
         return self._kept(_native.study_of(found, self._options(None, floor=floor, allow_inconclusive=allow_inconclusive)))
 
     def _study(
-        self, solve, n=None, order=None, budget=60.0, tolerance=0.25, name=None, *, h=None, floor=0.0, allow_inconclusive=False, variants=None
+        self, solve, n=None, order=None, budget=60.0, tolerance=None, name=None, *, h=None, floor=0.0, allow_inconclusive=False, variants=None
     ):
         __tracebackhide__ = True
         options = self._options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive)

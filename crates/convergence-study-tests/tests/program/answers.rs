@@ -140,7 +140,7 @@ fn a_program_has_the_variables_of_its_study() {
         ),
         (
             "environment = {}",
-            "unknown key `environment`; expected command, directory, env, manufacture, time_limit",
+            "unknown key `environment`; expected command, directory, env, manufacture, time_limit, floor, scale",
         ),
     ] {
         let (status, _, err) = study(program, env, MAX).study(&[]);
@@ -183,4 +183,26 @@ fn a_reason_that_all_cases_share_is_there_once() {
         ),
         "{out}"
     );
+}
+
+#[test]
+fn a_floor_of_a_study_drops_levels_of_round_off_and_is_offered() {
+    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+        return;
+    }
+    let program = "BEGIN { printf \"max error = %.8e\\n\", 1 / n^8 + 1e-14 }\n";
+    let expect = MAX.replace("2.0", "8.0");
+    let judged = |more: &str| study(program, more, &expect).study(&[]);
+    let (status, out, err) = judged("");
+    assert_eq!(status, Some(1), "{out}{err}");
+    assert!(
+        out.contains("round-off, if the solution is of size 1"),
+        "{out}"
+    );
+    let (status, out, err) = judged("floor = 2.2e-12");
+    assert_eq!(status, Some(0), "{out}{err}");
+    let (status, out, _) = judged("scale = 1e-6");
+    assert!(status == Some(1) && !out.contains("round-off, if"), "{out}");
+    let (status, _, err) = judged("floor = -1");
+    assert!(status == Some(2) && err.contains("floor"), "{err}");
 }

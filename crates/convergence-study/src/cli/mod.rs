@@ -43,7 +43,7 @@ pub enum Command {
     Verify(verify::Arguments),
     Study(study::Arguments),
     List(list::Arguments),
-    Rates(rates::Arguments),
+    Rates(Box<rates::Arguments>),
     Report(report::Arguments),
     Schema(schema::Arguments),
     New(new::Arguments),

@@ -12,10 +12,10 @@ use super::screen::{self, Format};
 use crate::chart::without_title;
 use crate::input::advice::CommandLine;
 use crate::input::table::{Choice, LineRange};
-use crate::judge::verdict::{self, Verdict};
+use crate::judge::verdict::{Of, Verdict};
 use crate::project::Project;
 use crate::rates::{
-    self, Claimed, Judgement, Refusal, Request, Rule, Tables, cases, claimed, figure, markdown,
+    self, Claimed, Judgement, Refusal, Request, Tables, cases, claimed, figure, markdown,
     verdict_in_markdown,
 };
 use crate::report::{Suite, TestCase, junit_of};
@@ -41,14 +41,19 @@ pub struct Arguments {
     /// 'Degree = 2'. TABLE:NAME=P is about one table, by its heading or as 'Table 2'.
     #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
     order: Vec<Claimed>,
-    /// How far the rate may be from the order, above or below: 0 < T < 0.5, because bands of half
-    /// an order around consecutive whole orders would overlap
-    #[arg(long, value_name = "T", default_value_t = verdict::DEFAULT_TOLERANCE, value_parser = number, allow_negative_numbers = true)]
-    tolerance: f64,
+    /// The factor by which errors fall for each unit of a count or a degree, where convergence is
+    /// exponential, in place of an order: F, '>=F', NAME=F; may be repeated
+    #[arg(long, value_name = "[NAME=]F", value_parser = claimed, conflicts_with_all = ["order", "dim", "ratio"])]
+    factor: Vec<Claimed>,
+    /// How far the rate may be from the order, above or below: 0 < T < 0.5, and less than the order.
+    /// Without it 0.25, but at most half of the order, and a quarter of the least one
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    tolerance: Option<f64>,
     /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors
-    /// are not above E; 0 drops none
+    /// are not above E; 0 drops none. If you know the round-off, give a thousand times as much
     ///
-    /// A level above the floor is kept, and so are all levels coarser than it.
+    /// A level above the floor is kept, and so are all levels coarser than it. Where a floor would
+    /// make it pass, and the finest errors are near the round-off of the solution, it is offered.
     #[arg(
         long,
         value_name = "E",
@@ -57,6 +62,13 @@ pub struct Arguments {
         allow_negative_numbers = true
     )]
     floor: f64,
+    /// The size of the solution, which says what round-off is; 1 without it
+    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    scale: Option<f64>,
+    /// The relative round-off of numbers, as 1.2e-7 of single precision; that of double precision
+    /// without it
+    #[arg(long, value_name = "EPS", value_parser = number, allow_negative_numbers = true)]
+    eps: Option<f64>,
     /// The column of the step, of a count or of levels: its name, or its number from 1
     #[arg(long, value_name = "COLUMN")]
     step: Option<String>,
@@ -77,6 +89,14 @@ pub struct Arguments {
     /// h = R^(-level)
     #[arg(long, value_name = "R", value_parser = ratio, conflicts_with = "dim", allow_negative_numbers = true)]
     ratio: Option<f64>,
+    /// Rows with equal steps are samples, at least ten of each step: their scatter says how well the
+    /// level is known. A column `seed`, `sample` or `run` says which belong together
+    #[arg(long, conflicts_with_all = ["values", "ratio", "factor", "floor"])]
+    samples: bool,
+    /// What samples make an error: `mean`, `rms` (root mean square), or `weak`, the size of the mean
+    /// of signed numbers
+    #[arg(long, value_name = "OF", requires = "samples", default_value_t)]
+    of: Of,
     /// The lines where a table is, from 1; may be repeated. Others are no doubt, unless they tell
     /// of a failure
     #[arg(long, value_name = "A-B", value_delimiter = ',')]
@@ -115,13 +135,11 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let request = arguments.request();
     let files = arguments.files()?;
     let refused = |refusal| refuse(project, arguments, &refusal);
-    let rule = Rule::new(&request).map_err(refused)?;
     let mut sources = vec![];
     for file in &files {
         sources.extend(rates::read(Tables::File(file), &request.choice()).map_err(refused)?);
     }
-    let findings =
-        rates::judgements(project.command, &sources, &rule, &request).map_err(refused)?;
+    let findings = rates::judgements(project.command, &sources, &request).map_err(refused)?;
     let verdict = rates::verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
@@ -141,7 +159,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
 /// too.
 fn refuse(project: &Project, arguments: &Arguments, refusal: &Refusal) -> Unusable {
     let command = match refusal {
-        Refusal::Table { file, .. } => Some(rates::call(project.command, file, &arguments.order)),
+        Refusal::Table { file, .. } => {
+            Some(rates::call(project.command, file, &arguments.request()))
+        }
         Refusal::Claim(_) | Refusal::Rule(_) => None,
     };
     let surface = CommandLine {
@@ -157,9 +177,12 @@ impl Arguments {
     /// What the arguments say, but for the files.
     fn request(&self) -> Request {
         Request {
-            claims: self.order.clone(),
+            claims: [&self.order[..], &self.factor].concat(),
+            by_factor: !self.factor.is_empty(),
             tolerance: self.tolerance,
             floor: self.floor,
+            scale: self.scale,
+            eps: self.eps,
             choice: Choice {
                 step: self.step.clone(),
                 columns: self.columns.clone(),
@@ -168,6 +191,7 @@ impl Arguments {
                 lines: self.lines.clone(),
                 dim: self.dim,
                 ratio: self.ratio,
+                samples: self.samples.then_some(self.of),
                 ..Choice::default()
             },
             all: self.all,

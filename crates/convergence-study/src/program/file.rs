@@ -10,8 +10,9 @@ use super::refine::{self, CaseParameter, refine};
 use crate::input::{Field, Form, InputError, Key, Section, visible};
 use crate::judge::claims::Bound;
 use crate::judge::claims::order_of_factor;
-use crate::judge::verdict::{DEFAULT_TOLERANCE, WIDEST_TOLERANCE};
+use crate::judge::verdict::{Floor, WIDEST_TOLERANCE};
 use crate::study::{Claim, Header, read_claim};
+use crate::text::number::plain_text;
 
 /// The keys of the file.
 pub(super) const KEYS: [Key; 3] = [
@@ -33,7 +34,7 @@ pub(super) const KEYS: [Key; 3] = [
     ),
 ];
 
-const PROGRAM: [Key; 5] = [
+const PROGRAM: [Key; 7] = [
     Key::new(
         "command",
         Form::List(&Form::Text),
@@ -64,6 +65,18 @@ const PROGRAM: [Key; 5] = [
         "the time limit of a case in seconds",
     )
     .or("600"),
+    Key::new(
+        "floor",
+        Form::Positive,
+        "a thousand times the round-off: fine levels with errors up to it are dropped",
+    )
+    .or("none"),
+    Key::new(
+        "scale",
+        Form::Positive,
+        "the size of the solution, which says what may be round-off",
+    )
+    .or("1"),
 ];
 const ERROR: Key = Key::new(
     "error",
@@ -86,7 +99,7 @@ const TOLERANCE: Key = Key::new(
     Form::Positive,
     "how far the rate may be from the order",
 )
-.or("0.25");
+.or("0.25, at most half of the order, a quarter of a least one");
 const ORDER: [Key; 4] = [
     RATE,
     Key::new("order_dt", Form::Positive, "of a grid: the order in dt").or("order"),
@@ -106,6 +119,19 @@ const FACTOR: [Key; 2] = [
     ),
     TOLERANCE,
 ];
+
+/// What is known of round-off.
+fn floor(section: &Section<'_>) -> Result<Floor, InputError> {
+    let number = |key: &str, default: f64| {
+        section
+            .get(key)
+            .map_or(Ok(default), |field| field.positive())
+    };
+    let [floor, scale] = [number("floor", 0.0)?, number("scale", 1.0)?];
+    // Both are finite and positive.
+    let floor = Floor::new(floor).and_then(|floor| floor.of_scale(scale));
+    Ok(floor.unwrap_or_default())
+}
 
 /// The default time limit of a case.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
@@ -132,6 +158,7 @@ pub(super) fn read(
         directory,
         variables: variables(&section)?,
         time_limit,
+        floor: floor(&section)?,
         refine,
         expect,
         manufactured: manufactured(&section, folder)?,
@@ -325,7 +352,7 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
         }
         // There is no rate for a tolerance to apply to.
         return Ok((
-            Claim::new(1.0, DEFAULT_TOLERANCE),
+            Claim::usual(1.0, Bound::Both),
             false,
             Some(field.positive()?),
         ));
@@ -343,19 +370,23 @@ fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f6
         if claim.order <= 1.0 {
             return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));
         }
-        claim.order = order_of_factor(claim.order);
         // No scheme gains an order over the degree: any larger factor may be right.
-        if claim.bound.is_least() {
-            claim.bound = Bound::AnyAbove;
-        }
+        let is_least = claim.bound.is_least();
+        let bound = if is_least {
+            Bound::AnyAbove
+        } else {
+            Bound::Both
+        };
+        claim = Claim {
+            constant: claim.constant,
+            ..Claim::usual(order_of_factor(claim.order), bound)
+        };
     }
-    let narrow = format!("a number > 0 and < {WIDEST_TOLERANCE}");
-    let is_narrow = |tolerance: f64| tolerance > 0.0 && tolerance < WIDEST_TOLERANCE;
-    claim.tolerance = section
-        .get("tolerance")
-        .map_or(Ok(DEFAULT_TOLERANCE), |field| {
-            field.number_where(&narrow, is_narrow)
-        })?;
+    if let Some(field) = section.get("tolerance") {
+        let most = WIDEST_TOLERANCE.min(claim.order);
+        let narrow = format!("a number > 0 and < {}", plain_text(most));
+        claim.tolerance = field.number_where(&narrow, |number| number > 0.0 && number < most)?;
+    }
     Ok((claim, claims[1].is_some(), None))
 }
 

@@ -296,6 +296,7 @@ fn levels(study: &Program, ran: &[CaseRun]) -> Levels {
         ErrorColumn::of(&study.claims(false), &found),
     )
     .of_answers()
+    .with_floor(study.floor)
 }
 
 /// Every error of every level, with the work that the program counts.

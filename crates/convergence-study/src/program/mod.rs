@@ -30,6 +30,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::input::{InputError, Keys, Section};
+use crate::judge::verdict::Floor;
 use crate::project::{Project, Template};
 use crate::run::time_limit;
 use crate::study::until_decided::Next;
@@ -99,6 +100,8 @@ pub(crate) struct Program {
     variables: Vec<(String, String)>,
     /// The time limit of a case.
     time_limit: Duration,
+    /// What is known of round-off.
+    floor: Floor,
     refine: Refine,
     expect: Vec<Expectation>,
     /// The file of `manufacture` whose module the program uses, as an absolute path.

@@ -3,8 +3,9 @@
 use super::{Request, SourceTable, columns};
 use crate::input::advice::{Argument, Text};
 use crate::input::table::names::{is_degree, position};
-use crate::judge::claims::{Bound, Claim, order_from_text};
+use crate::judge::claims::{Bound, Claim, order_from_text, order_of_factor};
 use crate::text::names::{did_you_mean, nearest};
+use crate::text::number::plain_text;
 use crate::text::visible::visible;
 
 /// An order that is claimed, for one column or for all.
@@ -175,7 +176,7 @@ fn claims_of(
     let all = names.len();
     // What the caller has not chosen has an order only by its own name.
     let [own_of_all, general_of_all] = [own[all], general[all]];
-    let claim = |(k, name): (usize, &&str)| {
+    let claim_of = |(k, name): (usize, &&str)| {
         let of_all = |claimed: Option<&Claimed>| claimed.filter(|_| is_chosen[k]).cloned();
         let own = own[k].cloned().or_else(|| of_all(own_of_all));
         let claimed = own.or_else(|| general[k].cloned());
@@ -185,14 +186,41 @@ fn claims_of(
                     + Argument::Order.with(&claimed.text)
                     + format!(" for `{name}`"))
             }
-            Some(claimed) => Ok(Some(Claim {
-                bound: claimed.bound,
-                ..Claim::new(order(&claimed, source)?, request.tolerance)
-            })),
+            Some(claimed) => claim(&claimed, order(&claimed, source)?, request).map(Some),
             None => Ok(None),
         }
     };
-    names.iter().enumerate().map(claim).collect()
+    names.iter().enumerate().map(claim_of).collect()
+}
+
+/// The claim of a number, which is an order or a factor.
+fn claim(claimed: &Claimed, number: f64, request: &Request) -> Result<Claim, Text> {
+    let expected = |what: &str, found: &str| Text::from(format!("expected {what}; found {found}"));
+    let usual = if !request.by_factor {
+        Claim::usual(number, claimed.bound)
+    } else if number > 1.0 {
+        // No scheme gains an order over the degree: any larger factor may be right.
+        let is_least = claimed.bound.is_least();
+        let bound = if is_least {
+            Bound::AnyAbove
+        } else {
+            Bound::Both
+        };
+        Claim::usual(order_of_factor(number), bound)
+    } else {
+        return Err(expected("a factor > 1", &claimed.text));
+    };
+    match request.tolerance {
+        None => Ok(usual),
+        Some(tolerance) if tolerance >= usual.order => {
+            let order = plain_text(usual.order);
+            Err(expected(
+                &format!("a tolerance less than the order {order}"),
+                &tolerance.to_string(),
+            ))
+        }
+        Some(tolerance) => Ok(Claim { tolerance, ..usual }),
+    }
 }
 
 /// The order that is claimed of a table.

@@ -109,6 +109,9 @@ fn object(findings: &Judgement<'_>) -> Value {
                 .claim
                 .is_some_and(|claim| claim.bound == Bound::AnyAbove)
         );
+        if let Some(factors) = &judged.factors {
+            object["factor"] = json!({"fitted": factors.fitted, "interval": factors.interval});
+        }
         object["levels"] = judged.column.levels.iter().map(level).collect();
         object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
         if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {

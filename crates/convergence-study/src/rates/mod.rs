@@ -11,11 +11,13 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::exchange;
+use crate::input::advice::{CommandLine, Surface};
 use crate::input::table::{Choice, Column, Doubt, RateTable};
 use crate::judge::richardson::{Estimate, Estimator};
-use crate::judge::verdict::{Floor, RateVerdict, Verdict};
+use crate::judge::verdict::{DEFAULT_TOLERANCE, Floor, JudgeError, RateVerdict, Verdict};
 use crate::judge::{self, claims::Claim};
 use crate::text::names::quoted;
+use crate::text::number::plain_text;
 use crate::text::visible::visible;
 pub use claims::{Claimed, ClaimedOrder, claimed};
 #[cfg(feature = "command-line")]
@@ -29,6 +31,8 @@ pub(crate) struct JudgedColumn<'t> {
     column: &'t Column,
     claim: Option<Claim>,
     rate: RateVerdict,
+    /// The same with factors for each unit of a count in place of rates, where they are claimed.
+    factors: Option<RateVerdict>,
     /// Only of a column of values.
     estimate: Option<Estimate>,
     /// Whether its verdict counts.
@@ -90,8 +94,10 @@ impl SourceTable {
 pub(crate) struct Judgement<'t> {
     /// The program of the caller, in the commands that advice names.
     command: &'t str,
-    /// The command that judges the file by the same claims, without the settings of the reader.
+    /// The command that judges the file in the same way, without the settings of the reader.
     call: String,
+    /// The command with a floor that makes it pass, where the finest errors may be round-off.
+    call_with_floor: Option<String>,
     source: &'t SourceTable,
     columns: Vec<JudgedColumn<'t>>,
     floor: Floor,
@@ -115,14 +121,20 @@ impl std::fmt::Display for EqualColumns {
 }
 
 /// What is judged, and how.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Request {
     /// The orders that theory claims; without one nothing passes.
     pub claims: Vec<Claimed>,
-    /// Allowed deviation of a rate from its order, above or below.
-    pub tolerance: f64,
-    /// Round-off, in the unit of the errors.
+    /// Whether the claims are factors by which errors fall for each unit of a count or a degree.
+    pub by_factor: bool,
+    /// Allowed deviation of a rate from its order, above or below; that of [`Claim::usual`] without.
+    pub tolerance: Option<f64>,
+    /// Round-off, in the unit of the errors; 0 if it is not known.
     pub floor: f64,
+    /// The size of the solution; 1 without.
+    pub scale: Option<f64>,
+    /// The relative round-off of numbers; that of double precision without.
+    pub eps: Option<f64>,
     /// How the tables are read; the columns with a claim need not be named again.
     pub choice: Choice,
     /// Whether columns without a claim count, too.
@@ -148,9 +160,8 @@ const TEXT: &str = "text";
 /// # Errors
 /// [`Refusal`], if the tables cannot be read or the claims are about other columns.
 pub fn object(command: &str, tables: Tables<'_>, request: &Request) -> Result<Value, Refusal> {
-    let rule = Rule::new(request)?;
     let sources = read(tables, &request.choice())?;
-    let findings = judgements(command, &sources, &rule, request)?;
+    let findings = judgements(command, &sources, request)?;
     Ok(exchange::object(
         verdict_of(&findings),
         &object_of_all(&findings),
@@ -163,23 +174,15 @@ impl Request {
         let claims = self.claims.iter();
         Choice {
             claimed: claims.filter_map(|claimed| claimed.name.clone()).collect(),
+            by_unit: self.by_factor,
             ..self.choice.clone()
         }
     }
-}
 
-/// The rule for errors and the rule for values.
-pub(crate) struct Rule {
-    floor: Floor,
-    estimator: Estimator,
-}
-
-impl Rule {
-    pub(crate) fn new(request: &Request) -> Result<Self, Refusal> {
-        Ok(Self {
-            floor: Floor::new(request.floor)?,
-            estimator: Estimator::new(request.tolerance)?,
-        })
+    /// What is known of round-off.
+    fn floor(&self) -> Result<Floor, JudgeError> {
+        let floor = Floor::new(self.floor)?.of_scale(self.scale.unwrap_or(1.0))?;
+        floor.of_epsilon(self.eps.unwrap_or(f64::EPSILON))
     }
 }
 
@@ -239,9 +242,8 @@ pub struct ColumnSheet {
 /// # Errors
 /// As [`object`].
 pub fn sheet(command: &str, text: &str, request: &Request) -> Result<Sheet, Refusal> {
-    let rule = Rule::new(request)?;
     let sources = read(Tables::Text(text), &request.choice())?;
-    let findings = judgements(command, &sources, &rule, request)?;
+    let findings = judgements(command, &sources, request)?;
     let verdict = verdict_of(&findings);
     let mut pages: Vec<String> = findings.iter().map(|one| markdown(one, "")).collect();
     pages.extend(verdict_in_markdown(&findings, verdict));
@@ -267,7 +269,7 @@ fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
         name: judged.column.name.clone(),
         verdict: judged.is_claimed().then_some(judged.rate.verdict),
         answer: judged.answer(),
-        advice: shown::advice_of_claim(judged).unwrap_or_default(),
+        advice: shown::advice_of_claim(judged, &table.step).unwrap_or_default(),
     };
     TableSheet {
         name: judgement.source.name.clone(),
@@ -300,12 +302,12 @@ pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTabl
 pub(crate) fn judgements<'t>(
     command: &'t str,
     sources: &'t [SourceTable],
-    rule: &'t Rule,
     request: &Request,
 ) -> Result<Vec<Judgement<'t>>, Refusal> {
+    let floor = request.floor()?;
     let claims = claims::claims(request, sources)?;
     let judged = |(source, claims): (&'t SourceTable, Vec<Option<Claim>>)| {
-        let mut columns = judged_columns(source, &claims, rule, request.all);
+        let mut columns = judged_columns(source, &claims, floor, request)?;
         let equals = equal_columns(&mut columns);
         let deciding = columns.iter().filter(|column| column.decides);
         let verdicts = deciding.map(|column| column.rate.verdict);
@@ -313,25 +315,72 @@ pub(crate) fn judgements<'t>(
         let doubts = source.table.doubts.iter();
         let doubts = doubts.filter(|doubt| counts(doubt, &columns));
         let verdict = Verdict::worst(verdicts.chain(doubts.map(|_| Verdict::Inconclusive)));
-        Judgement {
+        Ok(Judgement {
             command,
-            call: call(command, &source.file, &request.claims),
+            call: call(command, &source.file, request),
+            call_with_floor: call_with_floor(command, source, request, &columns)?,
             source,
             columns,
-            floor: rule.floor,
+            floor,
             verdict,
             equals,
-        }
+        })
     };
-    Ok(sources.iter().zip(claims).map(judged).collect())
+    sources.iter().zip(claims).map(judged).collect()
 }
 
-/// The command that judges a file by these claims, without the settings of the reader.
-pub(crate) fn call(command: &str, file: &str, claims: &[Claimed]) -> String {
-    let orders = claims
+/// The command that judges a file in the same way, without the settings of the reader.
+pub(crate) fn call(command: &str, file: &str, request: &Request) -> String {
+    let option = if request.by_factor { "factor" } else { "order" };
+    let claims = request.claims.iter();
+    let claims = claims.map(|claimed| format!(" --{option} {}", quoted(&claimed.text)));
+    let floor = Some(request.floor).filter(|floor| *floor > 0.0);
+    let numbers = [
+        ("tolerance", request.tolerance),
+        ("floor", floor),
+        ("scale", request.scale),
+        ("eps", request.eps),
+    ];
+    let numbers = numbers
+        .into_iter()
+        .filter_map(|(option, number)| Some(format!(" --{option} {}", plain_text(number?))));
+    let samples = request
+        .choice
+        .samples
+        .map(|of| format!(" --samples --of {of}"));
+    let options: String = claims.chain(numbers).chain(samples).collect();
+    format!("{command} rates {file}{options}")
+}
+
+/// The command with a floor that makes all columns pass that decide, if one is offered.
+fn call_with_floor(
+    command: &str,
+    source: &SourceTable,
+    request: &Request,
+    columns: &[JudgedColumn<'_>],
+) -> Result<Option<String>, JudgeError> {
+    let offered = columns
         .iter()
-        .map(|claimed| format!(" --order {}", quoted(&claimed.text)));
-    format!("{command} rates {file}{}", orders.collect::<String>())
+        .filter_map(|judged| judged.rate.offered_floor);
+    let Some(floor) = offered.reduce(f64::max) else {
+        return Ok(None);
+    };
+    let request = Request {
+        floor,
+        ..request.clone()
+    };
+    let floor = request.floor()?;
+    let passes = |judged: &JudgedColumn<'_>| match (&judged.claim, &judged.estimate) {
+        (Some(claim), None) => judged.column.judge(claim, floor).verdict.is_pass(),
+        _ => judged.rate.verdict.is_pass(),
+    };
+    let mut deciding = columns.iter().filter(|judged| judged.decides);
+    let surface = CommandLine {
+        command: Some(&call(command, &source.file, &request)),
+    };
+    Ok(surface
+        .call(&request.choice.settings())
+        .filter(|_| deciding.all(passes)))
 }
 
 /// Whether a doubt speaks against the verdict: not one about an error without a claim.
@@ -352,29 +401,32 @@ pub(crate) fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
 /// The columns of a table with their judgements.
 ///
 /// * `claims`: one for each column, errors first.
-/// * `all`: whether columns without a claim count, too.
 fn judged_columns<'t>(
     source: &'t SourceTable,
     claims: &[Option<Claim>],
-    rule: &Rule,
-    all: bool,
-) -> Vec<JudgedColumn<'t>> {
+    floor: Floor,
+    request: &Request,
+) -> Result<Vec<JudgedColumn<'t>>, JudgeError> {
     let errors = source.table.columns.len();
     let judged = |(k, (column, claim)): (usize, (&'t Column, &Option<Claim>))| {
+        let tolerance = claim.map_or(request.tolerance, |claim| Some(claim.tolerance));
+        let estimator = Estimator::new(tolerance.unwrap_or(DEFAULT_TOLERANCE))?;
         let order = claim.map(|claim| claim.order);
-        let estimate = (k >= errors).then(|| column.estimate(&rule.estimator, order));
+        let estimate = (k >= errors).then(|| column.estimate(&estimator, order));
         let rate = match (&estimate, claim) {
             (Some(estimate), _) => estimate.judged.clone(),
-            (None, Some(claim)) => column.judge(claim, rule.floor),
-            (None, None) => column.observe(rule.floor),
+            (None, Some(claim)) => column.judge(claim, floor),
+            (None, None) => column.observe(floor),
         };
-        JudgedColumn {
+        let factors = request.by_factor.then(|| rate.as_factors());
+        Ok(JudgedColumn {
             column,
             claim: *claim,
             rate,
+            factors,
             estimate,
-            decides: all || claim.is_some(),
-        }
+            decides: request.all || claim.is_some(),
+        })
     };
     let columns = columns(&source.table).zip(claims).enumerate();
     columns.map(judged).collect()

@@ -5,19 +5,22 @@ use std::slice;
 use super::{EqualColumns, JudgedColumn, Judgement};
 use crate::input::advice::CommandLine;
 use crate::input::table::Doubt;
+use crate::judge::claims::Claim;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{Tendency, Verdict};
+use crate::judge::verdict::{RateVerdict, Tendency, Verdict, judged_in_words};
 use crate::text::lists::distinct;
-use crate::text::number::{counted, pair_text, short_text};
+use crate::text::names::quoted;
+use crate::text::number::{committed_rate, counted, order_text, pair_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
     pub(super) fn answer(&self) -> String {
-        let rate = match &self.claim {
-            Some(claim) => claim.answer(&self.rate, &self.rate.rate_in_words(MOST_PLACES)),
-            None => self.rate.answer(MOST_PLACES),
+        let rate = match (&self.claim, &self.factors) {
+            (Some(claim), Some(factors)) => factor_in_words(claim, factors),
+            (Some(claim), None) => claim.answer(&self.rate, &self.rate.rate_in_words(MOST_PLACES)),
+            (None, _) => self.rate.answer(MOST_PLACES),
         };
         match self
             .estimate
@@ -44,7 +47,7 @@ impl JudgedColumn<'_> {
         Shown {
             name: &self.column.name,
             levels: &self.column.levels,
-            rate: &self.rate,
+            rate: self.factors.as_ref().unwrap_or(&self.rate),
             late,
         }
     }
@@ -167,7 +170,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
     // Words common to several columns appear once.
     let mut said = vec![];
     for judged in columns {
-        let Some(advice) = advice_of_claim(judged) else {
+        let Some(advice) = advice_of_claim(judged, &table.step) else {
             continue;
         };
         let words = (judged.rate.kind.code(), advice);
@@ -175,6 +178,9 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
             section(&mut text, words.0, &words.1);
             said.push(words);
         }
+    }
+    if let Some(call) = &findings.call_with_floor {
+        text += &format!("\nif the finest errors are round-off:\n  {call}\n");
     }
     if !said.is_empty() {
         text += &format!("\nevery reason, and what to try: {REASONS}\n");
@@ -189,14 +195,38 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
 }
 
 /// What the reason means for a column with a claim, and what to do; nothing of a pass.
-pub(super) fn advice_of_claim(judged: &JudgedColumn<'_>) -> Option<String> {
-    (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged))
+///
+/// * `step`: as the table has it.
+pub(super) fn advice_of_claim(judged: &JudgedColumn<'_>, step: &str) -> Option<String> {
+    (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged, step))
+}
+
+/// A factor with its interval and its claim: `factor 3.1 (3.0 to 3.2), claimed >=3: at least 2.34`.
+fn factor_in_words(claim: &Claim, factors: &RateVerdict) -> String {
+    let [claimed, least] = [claim.order, claim.order - claim.tolerance]
+        .map(|order| order_text(committed_rate(order.exp())));
+    let bound = if claim.bound.is_least() { ">=" } else { "" };
+    let why = match factors.verdict.is_pass() {
+        true if claim.bound.is_least() => format!("at least {least}"),
+        true => "agrees".to_owned(),
+        false => factors.because.to_string(),
+    };
+    let factor = format!("factor {}", factors.rate_in_words(MOST_PLACES));
+    judged_in_words(&factor, &format!("{bound}{claimed}"), &why)
 }
 
 /// What the errors tend to, or what the reason means, and what to do; for a value that looks like
 /// an error, how it is judged as one.
-fn advice(judged: &JudgedColumn<'_>) -> String {
+fn advice(judged: &JudgedColumn<'_>, step: &str) -> String {
     let general = judged.rate.advice().unwrap_or_default();
+    let count = step.strip_prefix("1/").filter(|_| judged.factors.is_none());
+    if let Some(count) = count.filter(|_| rises(&judged.rate.pairwise)) {
+        return format!(
+            "The rates rise at each level, as where errors fall by a factor for each unit of `{count}`. If theory says so: \
+             --factor F --step {}, in place of --order.",
+            quoted(count)
+        );
+    }
     match judged.rate.tendency {
         Some(Tendency::Constant { .. }) if judged.estimate.is_none() => {
             let name = &judged.column.name;
@@ -204,6 +234,13 @@ fn advice(judged: &JudgedColumn<'_>) -> String {
         }
         _ => general,
     }
+}
+
+/// Whether each rate is well above the one before, as of errors that fall exponentially.
+fn rises(rates: &[f64]) -> bool {
+    /// Least rise between two levels.
+    const RISE: f64 = 0.5;
+    rates.len() > 2 && rates.windows(2).all(|two| two[1] > two[0] + RISE)
 }
 
 /// The overall verdict in words.

@@ -1,13 +1,14 @@
 //! Levels of a function, run and asserted in one line, for tests of a solver.
 
 use super::{Finished, run_kind};
+use crate::judge::claims::{Bound, Claim};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, Shown};
-use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict, judge};
+use crate::judge::verdict::{Floor, Verdict};
 use crate::study::{ErrorsOverLevels, IntoErrors, NamedRate};
 
 /// Judges errors against the order that theory claims, in any test; the tolerance is
-/// [`DEFAULT_TOLERANCE`].
+/// that of [`Claim::usual`].
 ///
 /// * `h`: the steps, in any order; `errors`: the errors at these steps.
 ///
@@ -33,7 +34,7 @@ pub fn assert_order(h: &[f64], errors: &[f64], order: f64) {
         .map(|(&step, &error)| Level { step, error })
         .collect();
     levels.sort_by(|one, other| other.step.total_cmp(&one.step));
-    let rate = judge(&levels, order, DEFAULT_TOLERANCE);
+    let rate = Claim::usual(order, Bound::Both).judge(&levels, Floor::NONE);
     let shown = Shown {
         name: "error",
         levels: &levels,

@@ -7,7 +7,8 @@ use super::kind::{Case, CaseFailure, Kind, Ran, completion_check};
 use super::outcome::{Check, Outcome};
 use super::over_levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::subject::Subject;
-use crate::judge::verdict::{DEFAULT_TOLERANCE, Verdict};
+use crate::judge::claims::Bound;
+use crate::judge::verdict::Verdict;
 use crate::text::named::NamedNumber;
 
 /// Names under which a level reports its own step, if that is not 1/n.
@@ -130,9 +131,9 @@ impl<F> ErrorsOverLevels<F> {
     }
 
     /// The same study with a claim: the error of this name falls like `step^order`, within
-    /// [`DEFAULT_TOLERANCE`].
+    /// the tolerance of [`Claim::usual`].
     pub fn claim(self, error: impl Into<String>, order: f64) -> Self {
-        self.claiming(error, Claim::new(order, DEFAULT_TOLERANCE))
+        self.claiming(error, Claim::usual(order, Bound::Both))
     }
 
     /// The same with any claim, for example with another tolerance: 0 < tolerance < 0.5.
@@ -253,7 +254,6 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::claims::Bound;
     use crate::judge::verdict::Reason;
     use crate::study::run_cases_here;
 

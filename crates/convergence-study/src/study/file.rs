@@ -10,7 +10,6 @@ use super::kind::Kind;
 use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
 use crate::interval::Interval;
 use crate::judge::claims::{Bound, Claim, order_from_text};
-use crate::judge::verdict::DEFAULT_TOLERANCE;
 use crate::text::visible;
 
 /// Reads a study of one kind from the document of its file.
@@ -397,9 +396,8 @@ pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError>
         Err(_) => (field.positive()?, Bound::Both),
     };
     Ok(Claim {
-        bound,
         constant: constant(section)?,
-        ..Claim::new(order, DEFAULT_TOLERANCE)
+        ..Claim::usual(order, bound)
     })
 }
 

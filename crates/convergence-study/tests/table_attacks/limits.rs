@@ -30,6 +30,7 @@ fn a_text_beyond_the_limits_is_refused() {
         (table(10_001, 2), "at most 10000 rows"),
         (table(2, 1_001), "at most 1000 columns"),
         (tables, "at most 1000 tables"),
+        ("# a heading\n".repeat(100_001), "at most 100000 lines"),
         (long, "a name of at most 200 characters"),
         (
             "h,L2\u{202e}\n0.2,4.0\n0.1,1.0\n".to_owned(),

@@ -6,6 +6,7 @@ mod documents;
 mod forms;
 mod laws;
 mod limits;
+mod options;
 mod rules;
 
 use convergence_study::{
@@ -21,18 +22,19 @@ fn answer(text: &str, orders: &[&str]) -> Option<Sheet> {
 
 /// The same with a choice.
 fn chosen(text: &str, orders: &[&str], choice: Choice) -> Result<Sheet, Refusal> {
+    rates::sheet("rates", text, &request(orders, choice))
+}
+
+fn request(orders: &[&str], choice: Choice) -> Request {
     let claims: Vec<Claimed> = orders
         .iter()
         .map(|order| claimed(order).expect("an order"))
         .collect();
-    let request = Request {
+    Request {
         claims,
-        tolerance: 0.25,
-        floor: 0.0,
         choice,
-        all: false,
-    };
-    rates::sheet("rates", text, &request)
+        ..Request::default()
+    }
 }
 
 fn passes(text: &str) -> bool {

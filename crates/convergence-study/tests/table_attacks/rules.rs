@@ -3,7 +3,8 @@
 use convergence_study::{Choice, FrameCell, FrameColumn, RateTable};
 
 use super::forms::{Form, Law, Table, cells};
-use super::{LAW, answer, chosen, passes};
+use super::{LAW, answer, chosen, passes, request};
+use convergence_study::internal::rates::{self, Request, Sheet};
 
 /// A table of order 2 in four levels with another column.
 fn with(name: &str, column: &[&str]) -> Table {
@@ -168,10 +169,92 @@ fn a_level_that_repeats_the_one_before_is_a_doubt() {
     let rows = "h L2\n0.4 1.600e-1\n0.2 4.000e-2\n0.1 1.000e-2\n";
     assert!(passes(rows));
     let sheet = answer(&format!("{rows}0.05 1.000e-2\n"), &["2"]).expect("a table");
+    let answer = &sheet.tables[0].columns[0].answer;
     assert!(
-        !sheet.verdict.is_pass() && sheet.sentence.contains("a stale file?"),
-        "{}",
-        sheet.sentence
+        !sheet.verdict.is_pass() && answer.contains("a stale file"),
+        "{answer}"
+    );
+    // Below a floor that the caller knows, errors may repeat.
+    let floored = chosen_with_floor(&format!(
+        "{rows}0.05 2.500e-3\n0.025 1.234e-9\n0.0125 1.234e-9\n"
+    ));
+    assert!(floored.verdict.is_pass(), "{}", floored.text);
+}
+
+fn chosen_with_floor(text: &str) -> Sheet {
+    let request = Request {
+        floor: 1e-8,
+        ..request(&["2"], Choice::default())
+    };
+    rates::sheet("rates", text, &request).expect("a table")
+}
+
+#[test]
+fn a_unit_that_all_numbers_share_is_no_part_of_them() {
+    for unit in ["%", " %", "\\%", " mm", " µm"] {
+        let text = format!("h;L2\n0.4;1.600e-1{unit}\n0.2;4.000e-2{unit}\n0.1;1.000e-2{unit}\n");
+        assert!(passes(&text), "{text}");
+        let some = text.replacen(unit, "", 1);
+        assert!(answer(&some, &["2"]).is_none(), "{some}");
+    }
+    // Words that say something of a number are no units.
+    for word in ["*", "?", "!", " (est.)", " nan", " fail", " extrapolated"] {
+        let text = format!("h;L2\n0.4;0.16{word}\n0.2;0.04{word}\n0.1;0.01{word}\n");
+        assert!(!passes(&text), "{text}");
+    }
+}
+
+#[test]
+fn names_over_several_columns_have_the_rates_of_their_errors_below() {
+    let table = |name: &str, rates: [&str; 4]| {
+        let row = |k: usize| {
+            let h = 0.4 / f64::from(1 << k);
+            format!("{h} & {:.3e} & {} \\\\\n", h * h, rates[k])
+        };
+        format!("h & {name} \\\\ \\hline\n") + &(0..4).map(row).collect::<String>()
+    };
+    let spanned = r"\multicolumn{2}{|c|}{$L^2$-error}";
+    assert!(passes(&table(spanned, ["-", "2.00", "2.00", "2.00"])));
+    for other in [["-", "2.00", "2.00", "1.50"], ["-", "1.00", "1.00", "1.00"]] {
+        assert!(!passes(&table(spanned, other)));
+    }
+    // Two lines of names stay refused.
+    let two = table(r"$e$ & rate", ["-", "2.00", "2.00", "2.00"]);
+    assert!(passes(&two));
+    assert!(!passes(&format!(
+        r"& {spanned} \\{}",
+        "\n".to_owned() + &two
+    )));
+}
+
+#[test]
+fn a_refusal_names_the_row_at_fault() {
+    for (rows, line) in [
+        ("0.4 0.16\n0.2 0.04*\n0.1 0.01\n", 4),
+        ("0.4 0.16\n0.2 0.04\n0.3 0.01\n", 5),
+        ("0.4 0.16\n0.4 0.04\n0.1 0.01\n", 4),
+    ] {
+        let text = format!("# a heading\nh L2\n{rows}");
+        let error = RateTable::parse_with(&text, "t", &Choice::default()).expect_err(&text);
+        assert_eq!(error.place.map(|place| place.line), Some(line), "{error}");
+    }
+}
+
+#[test]
+fn a_count_of_any_name_is_offered_as_the_step() {
+    let text = "panneaux,L2\n8,4.00e-2\n16,1.00e-2\n32,2.50e-3\n";
+    let error = RateTable::parse_with(text, "t", &Choice::default()).expect_err(text);
+    let first = &error.offers[0].choice;
+    assert_eq!(
+        (first.step.as_deref(), first.dim),
+        (Some("panneaux"), Some(1.0))
+    );
+    // Numbers of the rows are none.
+    let text = "case,L2\n1,4.00e-2\n2,1.00e-2\n3,2.50e-3\n";
+    let error = RateTable::parse_with(text, "t", &Choice::default()).expect_err(text);
+    assert!(
+        error.offers.iter().all(|offer| offer.choice.step.is_none()),
+        "{error}"
     );
 }
 

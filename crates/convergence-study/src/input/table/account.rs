@@ -3,11 +3,10 @@
 
 use super::cell::Cell;
 use super::fits::{Printed, Steps, fit};
-use super::grid::{Cells, Sense, moves};
+use super::grid::{Cells, Sense, moves, named};
 use super::ladders::is_flag;
 use super::names::{
-    Measure, is_degree, position, says_cost, says_count_or_cost, says_error, says_rates,
-    says_solved,
+    Measure, is_degree, says_cost, says_count_or_cost, says_error, says_rates, says_solved,
 };
 use super::step::{NEAR, Step};
 use super::{Choice, Doubt, LeftOut, Refused};
@@ -42,18 +41,7 @@ impl<'t> Accounts<'t> {
         step: &'t Step,
         choice: &'t Choice,
     ) -> Result<Self, Refused> {
-        let names = || columns.iter().map(|column| column.name.as_str());
-        let find = |argument: Argument| {
-            move |name: &String| {
-                position(names(), name).ok_or_else(|| {
-                    let known = names().take(12).collect::<Vec<_>>().join(", ");
-                    Refused::new(
-                        argument.with(name) + ", the name or number of a column",
-                        known,
-                    )
-                })
-            }
-        };
+        let find = |argument| move |name: &String| named(columns, argument, name);
         let named_errors = choice.columns.iter().flatten().map(find(Argument::Columns));
         let values = choice.values.iter().map(find(Argument::Values));
         let named_errors: Vec<usize> = named_errors.collect::<Result<_, _>>()?;
@@ -105,9 +93,6 @@ impl<'t> Accounts<'t> {
             }
         }
         self.set_rates_aside(&mut account);
-        for k in account.errors.iter().filter(|k| self.is_chosen(**k)) {
-            account.doubts.extend(repetition(&self.columns[*k]));
-        }
         if account.errors.is_empty() && account.values.is_empty() {
             let names = account
                 .left_out
@@ -148,7 +133,7 @@ impl<'t> Accounts<'t> {
             }
         } else if let Some(cell) = column.cells.iter().find(is_broken) {
             let found = format!("`{}` in the column `{}`", cell.text, column.name);
-            return Err(Refused::new("a number alone in each cell", found));
+            return Err(Refused::new("a number alone in each cell", found).at(cell.line));
         }
         let is_no = |cell: &Cell| ["false", "no", "0"].contains(&cell.text.to_lowercase().as_str());
         let differs = column
@@ -181,7 +166,10 @@ impl<'t> Accounts<'t> {
             column.is_constant() && (is_whole && known || is_step && column.is_positive()),
             "a parameter",
         )
-        .or_else(|| is(self.numbers_rows(column), "numbers of the rows"))
+        .or_else(|| {
+            let is_other = says_rates(&column.key) || is_degree(&column.key);
+            is(!is_other && column.numbers_rows(), "numbers of the rows")
+        })
         .or_else(|| is(self.is_other_family(column), "a step of the other family"))
         .or_else(|| self.second_name(column))
         .or_else(|| {
@@ -210,18 +198,6 @@ impl<'t> Accounts<'t> {
     /// How a column changes as the step falls.
     fn sense(&self, column: &Cells) -> Option<Sense> {
         moves(&self.coarse_first(column))
-    }
-
-    /// 0, 1, 2, ... or 1, 2, 3, ...
-    fn numbers_rows(&self, column: &Cells) -> bool {
-        let values = column.values().unwrap_or_default();
-        let is_other = says_rates(&column.key) || is_degree(&column.key);
-        !is_other
-            && column.is_whole()
-            && values
-                .first()
-                .is_some_and(|first| [0.0, 1.0].contains(first))
-            && values.windows(2).all(|two| two[1] - two[0] == 1.0)
     }
 
     fn is_other_family(&self, column: &Cells) -> bool {
@@ -316,14 +292,4 @@ impl Account {
             because,
         });
     }
-}
-
-/// The doubt that a level repeats the one before, in three digits or more.
-fn repetition(column: &Cells) -> Option<Doubt> {
-    let has_digits = |cell: &Cell| cell.number.as_ref().is_some_and(|number| number.digits > 2);
-    let repeats = |two: &[Cell]| two[0].text == two[1].text && has_digits(&two[0]);
-    column.cells.windows(2).any(repeats).then(|| Doubt::Column {
-        column: column.name.clone(),
-        because: "repeats the level before: a stale file?".to_owned(),
-    })
 }

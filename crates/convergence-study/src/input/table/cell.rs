@@ -10,8 +10,6 @@ pub(super) struct Number {
     pub(super) decimals: Option<i32>,
     /// The power of ten behind the digits, if one is printed.
     pub(super) exponent: Option<i32>,
-    /// Digits without zeros in front.
-    pub(super) digits: usize,
     /// The counts along all edges, where the cell is `16x32`: the value is the first.
     pub(super) edges: Vec<f64>,
 }
@@ -21,6 +19,8 @@ pub(super) struct Number {
 pub(super) struct Cell {
     pub(super) text: String,
     pub(super) number: Option<Number>,
+    /// Its line in the text, from 1; 0 without one.
+    pub(super) line: usize,
 }
 
 /// How the numbers of a table are written.
@@ -43,7 +43,7 @@ const FAILING: &str = "nan -nan +nan 1.# -1.# ** ## -- diverge fail";
 
 /// A text without markup and with single blanks.
 pub(super) fn plain(text: &str) -> String {
-    let mut text = text.replace('\u{2212}', "-");
+    let mut text = without_spans(&text.replace('\u{2212}', "-"));
     let has_markup = text.contains(['\\', '*', '`', '$']);
     for command in COMMANDS.split(' ').filter(|_| has_markup) {
         while let Some(start) = text.find(command) {
@@ -57,6 +57,40 @@ pub(super) fn plain(text: &str) -> String {
         text = text.replace(mark, " ");
     }
     text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A text without `\multicolumn{3}{|c|}{` and its closing brace: what stands below a name without one of
+/// its own must be rates.
+fn without_spans(text: &str) -> String {
+    let mut parts = text.split(r"\multicolumn{");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| {
+        let content = part.splitn(3, "}{").nth(2).unwrap_or_default();
+        let (before, behind) = content.rsplit_once('}').unwrap_or((content, ""));
+        text + before + behind
+    })
+}
+
+/// The unit that all numbers of a column end in: `%`, or a short word.
+pub(super) fn unit<'c>(mut cells: impl Iterator<Item = &'c str>) -> &'c str {
+    /// Most letters of a unit.
+    const LONGEST: usize = 4;
+    let end = |cell: &'c str| {
+        &cell[cell
+            .rfind(|c: char| c.is_ascii_digit())
+            .map_or(0, |last| last + 1)..]
+    };
+    let unit = cells.next().map_or("", end);
+    let is_word =
+        |word: &str| word.chars().all(char::is_alphabetic) && word.chars().count() <= LONGEST;
+    let word = unit.trim_start();
+    let is_share = ["%", r"\%"].contains(&word);
+    let is_unit = is_share || unit.starts_with(' ') && is_word(word) && !is_failure(word);
+    if is_unit && cells.all(|cell| end(cell) == unit) {
+        unit
+    } else {
+        ""
+    }
 }
 
 impl Style {
@@ -98,7 +132,11 @@ impl Cell {
     pub(super) fn new(raw: &str, style: Style) -> Self {
         let text = plain(raw);
         let number = real(&text, style).or_else(|| edges(&text));
-        Self { text, number }
+        Self {
+            text,
+            number,
+            line: 0,
+        }
     }
 
     /// A number without rounding.
@@ -108,10 +146,10 @@ impl Cell {
             half: 0.0,
             decimals: (value.fract() != 0.0).then_some(0),
             exponent: None,
-            digits: 3,
             edges: vec![],
         };
         Self {
+            line: 0,
             text: value.to_string(),
             number: value.is_finite().then_some(number),
         }
@@ -179,7 +217,6 @@ fn real(text: &str, style: Style) -> Option<Number> {
             half: 0.0,
             decimals: Some(0),
             exponent: None,
-            digits: 0,
             edges: vec![],
         });
     }
@@ -215,7 +252,6 @@ fn real(text: &str, style: Style) -> Option<Number> {
         },
         decimals: (!is_whole).then_some(decimals),
         exponent,
-        digits: all.trim_start_matches('0').len(),
         edges: vec![],
     })
 }
@@ -271,7 +307,6 @@ fn edges(text: &str) -> Option<Number> {
         half: 0.0,
         decimals: None,
         exponent: None,
-        digits: 0,
         edges: counts,
     })
 }

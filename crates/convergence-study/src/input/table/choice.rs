@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::Deserialize;
 
 use crate::input::advice::{Argument, ArgumentValue, Setting, Surface};
+use crate::judge::verdict::Of;
 
 /// Lines of a text, from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -69,6 +70,12 @@ pub struct Choice {
     pub dim: Option<f64>,
     /// Ratio R > 1 of the steps of consecutive levels: h = R^(-level).
     pub ratio: Option<f64>,
+    /// Whether errors fall by a factor for each unit of a count or a degree n: h = exp(-n).
+    #[serde(skip)]
+    pub by_unit: bool,
+    /// Rows with equal steps are samples, which make errors in this way.
+    #[serde(skip)]
+    pub samples: Option<Of>,
 }
 
 /// A choice that reads a table which was refused.

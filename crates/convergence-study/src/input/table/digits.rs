@@ -3,15 +3,21 @@
 use crate::judge::claims::Claim;
 use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
 use crate::judge::richardson::{Estimate, Estimator, StepValue};
-use crate::judge::verdict::{self, Cause, Floor, Printed, RateVerdict, Reason, Verdict};
+use crate::judge::verdict::{self, Cause, Floor, Printed, RateVerdict, Reason, Samples, Verdict};
 use crate::text::number::{counted, plain_text};
 
 use super::Doubt;
 
 /// Rounding below this share of a number changes no verdict.
 const NOTHING: f64 = 1e-9;
-/// The finest levels, which rounding changes most.
-const FINEST: usize = 4;
+/// Changes of the finest levels, in half units, that move the finest rate, its change, the growth
+/// of that, and the slope of a line most: a verdict that none of them changes is that of all digits.
+const SLOPES: [[f64; 4]; 4] = [
+    [0.0, 0.0, 1.0, -1.0],
+    [0.0, 1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0, -1.0],
+    [1.0, 1.0, -1.0, -1.0],
+];
 
 /// A column of errors or of values, coarsest level first.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +34,8 @@ pub struct Column {
     /// Whether an order that is claimed for all columns is claimed for it: the caller names it, or
     /// no other column.
     pub is_chosen: bool,
+    /// The samples of which the numbers are errors, if they are.
+    pub samples: Option<Samples>,
 }
 
 /// What rounding does to the rate of a column.
@@ -45,8 +53,18 @@ struct Rounding {
 impl Column {
     /// Judges the errors. The interval, whatever is claimed, is wider by as much as rounding moves
     /// the finest rate. If without rounding there would be a verdict, or if other digits could turn
-    /// another verdict into a pass, the reason is missing digits.
+    /// another verdict into a pass, the reason is missing digits. Where the finest errors may be
+    /// round-off, a floor that makes it pass is [offered](RateVerdict::offered_floor).
     pub fn judge(&self, claim: &Claim, floor: Floor) -> RateVerdict {
+        if let Some(samples) = &self.samples {
+            let steps: Vec<f64> = self.levels.iter().map(|level| level.step).collect();
+            return claim.judge_samples(&steps, samples);
+        }
+        let judge = |floor: Floor| self.judge_above(claim, floor);
+        judge(floor).offering(&self.levels, floor, judge)
+    }
+
+    fn judge_above(&self, claim: &Claim, floor: Floor) -> RateVerdict {
         let Rounding {
             used,
             finest_rate,
@@ -77,13 +95,13 @@ impl Column {
                 self.share(k, finest_rate)
             })
         });
+        let unprinted = |levels: &[Level]| claim.judge_printed(levels, floor, Printed::default());
         let possible: Vec<Verdict> = self
-            .corners(finest_rate)
-            .iter()
-            .map(|levels| claim.judge(levels, floor).verdict)
+            .otherwise(used, finest_rate)
+            .map(|levels| unprinted(&levels).verdict)
             .collect();
         let is_undone = judged.verdict == Verdict::Inconclusive
-            && claim.judge(&self.levels, floor).verdict != Verdict::Inconclusive;
+            && unprinted(&self.levels).verdict != Verdict::Inconclusive;
         let is_poor = doubt > claim.tolerance
             && (judged.verdict != Verdict::Fail || possible.contains(&Verdict::Inconclusive));
         if is_undone || is_poor || possible.contains(&Verdict::Pass) {
@@ -157,17 +175,16 @@ impl Column {
         };
         let mut estimate = of(&self.levels);
         let rate = estimate.judged.finest_rate().unwrap_or(0.0);
-        let corners: Vec<Estimate> = self.corners(rate).iter().map(|levels| of(levels)).collect();
+        let others: Vec<Estimate> = self
+            .otherwise(self.levels.len(), rate)
+            .map(|levels| of(&levels))
+            .collect();
         let verdict = estimate.judged.verdict;
-        if order.is_some()
-            && corners
-                .iter()
-                .any(|corner| corner.judged.verdict != verdict)
-        {
+        if order.is_some() && others.iter().any(|other| other.judged.verdict != verdict) {
             estimate.judged = self.without_digits(estimate.judged);
         }
         if let Ok(bar) = &mut estimate.bar {
-            for other in corners.iter().filter_map(|corner| corner.bar.as_ref().ok()) {
+            for other in others.iter().filter_map(|other| other.bar.as_ref().ok()) {
                 bar.limit.low = bar.limit.low.min(other.limit.low);
                 bar.limit.high = bar.limit.high.max(other.limit.high);
             }
@@ -188,20 +205,21 @@ impl Column {
         self.halves[k] + error.abs() * rate.max(0.0) * self.step_halves[k] / step
     }
 
-    /// The numbers that may have been rounded to the finest ones: each unchanged, or half a unit
-    /// more or less.
-    fn corners(&self, rate: f64) -> Vec<Vec<Level>> {
-        let mut corners = vec![self.levels.clone()];
-        for k in self.levels.len().saturating_sub(FINEST)..self.levels.len() {
-            let half = self.half(k, rate);
-            if half > NOTHING * self.levels[k].error.abs() && half.is_finite() {
-                corners = [0.0, -half, half]
-                    .into_iter()
-                    .flat_map(|change| with_change(&corners, k, change))
-                    .collect();
+    /// Numbers that may have been rounded to the finest of the levels up to `end`: along each of
+    /// [`SLOPES`], to either side.
+    fn otherwise(&self, end: usize, rate: f64) -> impl Iterator<Item = Vec<Level>> {
+        let finest = end.saturating_sub(SLOPES.len())..end;
+        let slopes = SLOPES
+            .iter()
+            .flat_map(|slope| [(slope, 1.0), (slope, -1.0)]);
+        slopes.map(move |(slope, side)| {
+            let mut levels = self.levels.clone();
+            for (k, change) in finest.clone().rev().zip(slope.iter().rev()) {
+                let half = Some(self.half(k, rate)).filter(|half| half.is_finite());
+                levels[k].error += side * change * half.unwrap_or(0.0);
             }
-        }
-        corners
+            levels
+        })
     }
 
     /// Whether another column has the same numbers, in all digits.
@@ -240,15 +258,6 @@ impl Column {
         };
         judged.with_reason(Reason::Digits, &format!("{what}: print more"))
     }
-}
-
-/// Lists of levels whose k-th error is changed by this much.
-fn with_change(lists: &[Vec<Level>], k: usize, change: f64) -> Vec<Vec<Level>> {
-    let mut lists = lists.to_vec();
-    for levels in &mut lists {
-        levels[k].error += change;
-    }
-    lists
 }
 
 /// Levels that hold values in place of errors.

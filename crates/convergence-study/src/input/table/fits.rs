@@ -2,6 +2,7 @@
 
 use super::cell::{Cell, Number};
 use super::grid::Cells;
+use crate::interval::Interval;
 
 /// Steps of the levels in the order of the rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,12 +19,6 @@ pub(super) enum Printed {
     Rates,
     /// e/e', or e'/e.
     Factors,
-}
-
-/// Two ends.
-struct Range {
-    low: f64,
-    high: f64,
 }
 
 impl Steps {
@@ -57,11 +52,11 @@ impl Steps {
     }
 
     /// ln(h/h') and by how much the rounding of the steps may change it: at most 0.5 % of each.
-    fn logarithm(&self, before: usize, level: usize) -> Range {
+    fn logarithm(&self, before: usize, level: usize) -> Interval {
         let share = |k: usize| (self.halves[k] / self.sizes[k]).min(0.005);
         let doubt = share(before) + share(level);
         let logarithm = (self.sizes[before] / self.sizes[level]).ln();
-        Range {
+        Interval {
             low: logarithm - doubt,
             high: logarithm + doubt,
         }
@@ -104,7 +99,7 @@ fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, above: bo
                     Printed::Rates => rate(&coarse, &fine, &steps.logarithm(before, level)),
                     Printed::Factors => factor(&coarse, &fine),
                 };
-                let inverse = Range {
+                let inverse = Interval {
                     low: 1.0 / range.high,
                     high: 1.0 / range.low,
                 };
@@ -123,25 +118,25 @@ fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, above: bo
 }
 
 /// The ends of the size of an error that is not zero.
-fn size(cell: &Cell) -> Option<Range> {
+fn size(cell: &Cell) -> Option<Interval> {
     let number = cell.number.as_ref().filter(|number| number.value != 0.0)?;
     let size = number.value.abs();
-    Some(Range {
+    Some(Interval {
         low: size - number.half,
         high: size + number.half,
     })
 }
 
-fn factor(coarse: &Range, fine: &Range) -> Range {
-    Range {
+fn factor(coarse: &Interval, fine: &Interval) -> Interval {
+    Interval {
         low: coarse.low / fine.high,
         high: coarse.high / fine.low.max(f64::MIN_POSITIVE),
     }
 }
 
-fn rate(coarse: &Range, fine: &Range, steps: &Range) -> Range {
+fn rate(coarse: &Interval, fine: &Interval, steps: &Interval) -> Interval {
     if steps.low * steps.high <= 0.0 {
-        return Range {
+        return Interval {
             low: f64::NAN,
             high: f64::NAN,
         };
@@ -151,12 +146,12 @@ fn rate(coarse: &Range, fine: &Range, steps: &Range) -> Range {
     let rates = ends
         .into_iter()
         .flat_map(|end| [end / steps.low, end / steps.high]);
-    let fold = |range: Range, rate: f64| Range {
+    let fold = |range: Interval, rate: f64| Interval {
         low: range.low.min(rate),
         high: range.high.max(rate),
     };
     rates.fold(
-        Range {
+        Interval {
             low: f64::INFINITY,
             high: f64::NEG_INFINITY,
         },
@@ -165,7 +160,7 @@ fn rate(coarse: &Range, fine: &Range, steps: &Range) -> Range {
 }
 
 /// Whether a printed number lies in a range, but for the last place.
-fn is_within(number: &Number, range: &Range) -> bool {
+fn is_within(number: &Number, range: &Interval) -> bool {
     /// Rates that are printed may have been computed from rounded errors.
     const SLACK: f64 = 1e-3;
     let slack = 1.02 * number.half + SLACK * range.low.abs().max(range.high.abs());

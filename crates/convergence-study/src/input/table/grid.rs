@@ -1,8 +1,10 @@
 //! A table as it stands in a text, and its columns.
 
 use super::Refused;
-use super::cell::{Cell, Style, is_failure, plain};
-use super::names::{Family, Measure, family, key, says_rates};
+use super::cell::{Cell, Style, is_failure, plain, unit};
+use super::names::{Family, Measure, family, key, position, says_rates};
+use crate::input::advice::Argument;
+use crate::judge::verdict::Samples;
 use crate::text::number::counted;
 use crate::text::visible::is_hidden;
 
@@ -27,6 +29,8 @@ pub(super) struct Grid {
     pub(super) head: Option<String>,
     /// As many cells in each.
     pub(super) rows: Vec<Vec<String>>,
+    /// The line of each row, from 1; empty without lines.
+    pub(super) row_lines: Vec<usize>,
 }
 
 impl Grid {
@@ -35,7 +39,8 @@ impl Grid {
         let width = self.rows[0].len();
         let most = |count: usize, noun: &str| format!("at most {}", counted(count, noun));
         if self.rows.len() > ROWS {
-            return Err(self.refuse(most(ROWS, "row"), "more"));
+            let line = self.row_lines.get(ROWS).copied().unwrap_or(0);
+            return Err(Refused::new(most(ROWS, "row"), "more").at(line));
         }
         if width > COLUMNS {
             return Err(self.refuse(most(COLUMNS, "column"), counted(width, "column")));
@@ -65,12 +70,14 @@ impl Grid {
     pub(super) fn columns(&self, names: &[String]) -> Vec<Cells> {
         let style = Style::of(self.rows.iter().flatten().map(String::as_str));
         let column = |(k, name): (usize, &String)| {
-            let cells = self
-                .rows
-                .iter()
-                .map(|row| Cell::new(&row[k], style))
-                .collect();
-            Cells::new(name, cells)
+            let lines = self.row_lines.iter().copied().chain(std::iter::repeat(0));
+            let texts = self.rows.iter().map(|row| row[k].as_str());
+            let unit = unit(texts.filter(|text| text.contains(|c: char| c.is_ascii_digit())));
+            let cell = |(row, line): (&Vec<String>, usize)| Cell {
+                line,
+                ..Cell::new(row[k].strip_suffix(unit).unwrap_or(&row[k]), style)
+            };
+            Cells::new(name, self.rows.iter().zip(lines).map(cell).collect())
         };
         names.iter().enumerate().map(column).collect()
     }
@@ -82,6 +89,8 @@ pub(super) struct Cells {
     pub(super) name: String,
     pub(super) key: String,
     pub(super) cells: Vec<Cell>,
+    /// The samples of which the cells are errors.
+    pub(super) samples: Option<Samples>,
 }
 
 impl Cells {
@@ -90,6 +99,7 @@ impl Cells {
             name: plain(name),
             key: key(name),
             cells,
+            samples: None,
         }
     }
 
@@ -112,9 +122,23 @@ impl Cells {
         family(&self.key).filter(|_| self.name != "H" && !self.is_size())
     }
 
+    /// How the numbers change from row to row, if all cells have one.
+    pub(super) fn sense(&self) -> Option<Sense> {
+        moves(&self.values()?)
+    }
+
+    /// Whether the numbers are 0, 1, 2, ... or 1, 2, 3, ...
+    pub(super) fn numbers_rows(&self) -> bool {
+        let values = self.values().unwrap_or_default();
+        let first = values.first().copied();
+        self.is_whole()
+            && first.is_some_and(|first| [0.0, 1.0].contains(&first))
+            && values.windows(2).all(|two| two[1] - two[0] == 1.0)
+    }
+
     /// Whether a `mesh` or a `grid` has no growing whole numbers.
     pub(super) fn is_size(&self) -> bool {
-        let grows = || moves(&self.values().unwrap_or_default()) == Some(Sense::Rises);
+        let grows = || self.sense() == Some(Sense::Rises);
         ["mesh", "grid"].contains(&self.key.as_str()) && !(self.is_whole() && grows())
     }
 
@@ -171,6 +195,14 @@ impl Cells {
             .is_some_and(|values| values.iter().all(|value| *value > 0.0))
     }
 
+    /// The line of the first row that does not go on as the rows before it.
+    pub(super) fn turn(&self) -> usize {
+        let values = self.values().unwrap_or_default();
+        let going = |end: &usize| moves(&values[..*end]).is_none();
+        let end = (2..=values.len()).find(going);
+        end.map_or(0, |end| self.cells[end - 1].line)
+    }
+
     /// Whether all cells are words, none of them a word of failure.
     pub(super) fn are_labels(&self) -> bool {
         let is_word = |cell: &Cell| cell.is_blank() || !is_failure(&cell.text) && !cell.is_broken();
@@ -183,14 +215,22 @@ impl Cells {
     pub(super) fn is_named_rates(&self) -> bool {
         /// Least factor by which an error falls over a table.
         const STEEP: f64 = 3.0;
-        let values = self
-            .values()
-            .filter(|_| self.is_positive())
-            .unwrap_or_default();
-        let falls =
-            moves(&values) == Some(Sense::Falls) && values[0] > STEEP * values[values.len() - 1];
-        says_rates(&self.key) && !falls
+        let is_steep = |values: Vec<f64>| values[0] > STEEP * values[values.len() - 1];
+        let falls = self.is_positive() && self.sense() == Some(Sense::Falls);
+        says_rates(&self.key) && !(falls && self.values().is_some_and(is_steep))
     }
+}
+
+/// The column that the caller names for an argument.
+pub(super) fn named(columns: &[Cells], argument: Argument, name: &str) -> Result<usize, Refused> {
+    let names = columns.iter().map(|column| column.name.as_str());
+    position(names.clone(), name).ok_or_else(|| {
+        let found = names.take(12).collect::<Vec<_>>().join(", ");
+        Refused::new(
+            argument.with(name) + ", the name or number of a column",
+            found,
+        )
+    })
 }
 
 /// How numbers change from row to row.

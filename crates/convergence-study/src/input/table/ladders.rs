@@ -2,7 +2,7 @@
 
 use super::grid::{Cells, Grid};
 use super::names::{is_degree, says_solved};
-use super::{Doubt, Refused};
+use super::{Choice, Doubt, Refused};
 use crate::text::lists::grouped;
 use crate::text::number::counted;
 
@@ -31,8 +31,14 @@ struct Label(Vec<String>);
 ///
 /// # Errors
 /// A degree that changes with the step.
-pub(super) fn ladders(grid: &Grid, columns: &[Cells]) -> Result<Vec<Ladder>, Refused> {
+pub(super) fn ladders(
+    grid: &Grid,
+    columns: &[Cells],
+    choice: &Choice,
+) -> Result<Vec<Ladder>, Refused> {
     let count = grid.rows.len();
+    // Errors that fall by a factor for each degree are judged over it.
+    let degree_varies = |column: &Cells| degree_varies(column) && !choice.by_unit;
     let parts = |column: &&Cells| parts_rows(column, count) || degree_varies(column);
     let (parting, others): (Vec<&Cells>, Vec<&Cells>) = columns.iter().partition(parts);
     let label = |row: usize| {

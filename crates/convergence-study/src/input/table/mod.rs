@@ -30,6 +30,7 @@ mod grid;
 mod ladders;
 pub(crate) mod names;
 mod refused;
+mod samples;
 mod step;
 mod unnamed;
 
@@ -93,6 +94,15 @@ pub struct LeftOut {
     pub column: String,
     /// The reason.
     pub because: String,
+}
+
+impl LeftOut {
+    fn of_samples(column: &Cells) -> Self {
+        Self {
+            column: column.name.clone(),
+            because: "numbers of the samples".to_owned(),
+        }
+    }
 }
 
 /// A table with what tells it from others of a text.
@@ -296,7 +306,7 @@ fn table_of_columns(
     columns: &[Cells],
     choice: &Choice,
 ) -> Result<Vec<NamedTable>, Refused> {
-    let ladders = ladders(grid, columns)?;
+    let ladders = ladders(grid, columns, choice)?;
     ladders
         .into_iter()
         .map(|ladder| {
@@ -312,7 +322,13 @@ fn table_of_columns(
 }
 
 /// The table of a ladder.
-fn table(ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
+fn table(mut ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
+    let mut sampled = None;
+    if let Some(of) = choice.samples {
+        let mut levels = samples::sampled(&ladder.columns, of, choice)?;
+        std::mem::swap(&mut ladder.columns, &mut levels.columns);
+        sampled = Some(levels);
+    }
     let columns = &ladder.columns;
     let step = step::Ladder { columns, choice }.step()?;
     let accounts = Accounts::new(columns, &step, choice)?;
@@ -327,6 +343,7 @@ fn table(ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
         column,
         because: "labels".to_owned(),
     });
+    let (numbers, words) = sampled.map_or((vec![], None), |one| (one.left_out, Some(one.words)));
     let judged = |numbers: Vec<usize>| {
         let column = |k: &usize| column(&columns[*k], &step, accounts.is_chosen(*k));
         numbers.iter().map(column).collect::<Vec<_>>()
@@ -334,7 +351,7 @@ fn table(ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
     let mut table = RateTable {
         columns: judged(errors),
         values: judged(values),
-        left_out: labels.chain(left_out).collect(),
+        left_out: labels.chain(numbers).chain(left_out).collect(),
         reading: String::new(),
         degree: ladder.degree,
         step: step.label,
@@ -343,7 +360,8 @@ fn table(ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
     let chosen = table.columns.iter().filter(|column| column.is_chosen);
     let jumps: Vec<Doubt> = chosen.filter_map(Column::jump).collect();
     table.doubts.extend(jumps);
-    table.reading = reading(&table);
+    let words = words.map_or(String::new(), |words| format!("; samples: {words}"));
+    table.reading = reading(&table) + &words;
     Ok(table)
 }
 
@@ -360,11 +378,16 @@ fn column(cells: &Cells, step: &Step, is_chosen: bool) -> Column {
         halves: cells.halves(),
         step_halves: step.steps.clone().unrounded().halves,
         is_chosen,
+        samples: cells.samples.clone(),
     };
     if moves(&step.steps.sizes) == Some(Sense::Rises) {
         column.levels.reverse();
         column.halves.reverse();
         column.step_halves.reverse();
+        column
+            .samples
+            .iter_mut()
+            .for_each(|samples| samples.numbers.reverse());
     }
     column
 }

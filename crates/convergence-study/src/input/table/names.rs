@@ -40,7 +40,7 @@ const UNITS: &str = "s ms us m mm cm h K Pa";
 /// The name of a column in small letters, without markup and unit, words separated by blanks.
 pub(super) fn key(name: &str) -> String {
     let name = plain(name);
-    let name = name.trim_start_matches(['#', '%', ' ']);
+    let name = name.trim_start_matches(['#', '%', '\\', ' ']);
     let unit = name
         .rsplit_once('/')
         .filter(|(_, unit)| UNITS.split(' ').any(|one| one == *unit));
@@ -115,6 +115,14 @@ pub(super) fn says_error(key: &str) -> bool {
 pub(super) fn says_solved(key: &str) -> bool {
     const SOLVED: &str = "conv succe ok valid pass finish complete stable solved";
     words(key).any(|word| SOLVED.split(' ').any(|start| word.starts_with(start)))
+}
+
+/// Whether a key numbers samples.
+pub(super) fn says_sample(key: &str) -> bool {
+    has_word(
+        "seed sample run replica realization realisation path trial",
+        key,
+    )
 }
 
 /// Whether a key has a word of a cost.

@@ -1,9 +1,12 @@
 //! The step of a ladder: one column, by its name or as the caller says.
 
+use std::f64::consts::E;
+
+use super::cell::Cell;
 use super::fits::{Printed, Steps, fit};
-use super::grid::{Cells, moves};
-use super::names::{Family, Measure, family, is_level, position};
-use super::{Choice, Refused};
+use super::grid::{Cells, Sense, moves, named};
+use super::names::{Family, Measure, family, is_degree, is_level, says_error};
+use super::{Choice, Offer, Refused};
 use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;
 
@@ -11,6 +14,8 @@ use crate::text::number::plain_text;
 pub(super) const NEAR: usize = 40;
 /// When an offer to number the rows is right.
 const HALVED: &str = "if each row halves the step";
+/// When an offer to take a count is right.
+const ALONG: &str = "if it counts along an edge";
 
 /// The step that was chosen.
 #[derive(Debug, Clone)]
@@ -96,8 +101,11 @@ impl Ladder<'_> {
             let offer = self.choice.offer("", |choice| choice.dim = None);
             return Err(Refused::new(expected, "both").offering([offer]));
         }
+        if self.choice.by_unit {
+            return self.levels(E, self.unit()?);
+        }
         if let Some(ratio) = self.choice.ratio {
-            return self.levels(ratio);
+            return self.levels(ratio, self.level()?);
         }
         let candidates = self.candidates()?;
         let mut columns: Vec<usize> = candidates.iter().map(|one| one.column).collect();
@@ -110,9 +118,9 @@ impl Ladder<'_> {
             return Err(self.without_step());
         }
         if moving.is_empty() {
-            let expected = "steps that fall or rise from row to row; other tables by ";
-            let expected = Text::from(expected) + Argument::Lines.with_placeholder();
-            return Err(Refused::new(expected, self.quoted(&columns)));
+            let expected = "steps that fall or rise from row to row";
+            let line = self.columns[columns[0]].turn();
+            return Err(Refused::new(expected, self.quoted(&columns)).at(line));
         }
         let printed = self.printed_rates(&columns);
         let belongs = |one: &&Candidate| {
@@ -139,52 +147,63 @@ impl Ladder<'_> {
         })
     }
 
-    /// The step of levels, each R times as small: of a column of levels, else of the rows.
-    fn levels(&self, ratio: f64) -> Result<Step, Refused> {
-        let is_level = |k: &usize| {
-            let column = &self.columns[*k];
-            is_level(&column.key) && column.is_whole() && column.varies()
+    /// The column that numbers the levels, if one does: else the rows do.
+    fn level(&self) -> Result<Option<usize>, Refused> {
+        let is_level = |k: &usize| is_level(&self.columns[*k].key) && self.is_numbered(*k);
+        match &self.choice.step {
+            Some(name) => named(self.columns, Argument::Step, name).map(Some),
+            None => Ok((0..self.columns.len()).find(is_level)),
+        }
+    }
+
+    /// The column of the count, the degree or the level that a factor is about.
+    fn unit(&self) -> Result<Option<usize>, Refused> {
+        let is_unit = |k: &usize| {
+            let Cells { key, .. } = &self.columns[*k];
+            let is_count = matches!(family(key), Some((_, Measure::Count)));
+            (is_count || is_degree(key) || is_level(key)) && self.is_numbered(*k)
         };
-        let column = match &self.choice.step {
-            Some(name) => Some(self.named(name)?),
-            None => (0..self.columns.len()).find(is_level),
+        let units: Vec<usize> = match &self.choice.step {
+            Some(name) => vec![named(self.columns, Argument::Step, name)?],
+            None => (0..self.columns.len()).filter(is_unit).collect(),
         };
+        if let [column] = units[..] {
+            return Ok(Some(column));
+        }
+        let expected =
+            Argument::Step.with_placeholder() + ", the count or degree that the factor is about";
+        Err(Refused::new(expected, self.quoted(&units)))
+    }
+
+    fn is_numbered(&self, column: usize) -> bool {
+        self.columns[column].is_whole() && self.columns[column].varies()
+    }
+
+    /// The step of levels, each R times as small, numbered by a column or by the rows.
+    fn levels(&self, ratio: f64, column: Option<usize>) -> Result<Step, Refused> {
         let rows = || {
             (0..self.columns[0].cells.len())
                 .map(|row| row as f64)
                 .collect()
         };
         let numbers = column.map_or_else(|| Some(rows()), |k| self.columns[k].values());
-        let numbers = numbers.filter(|numbers| moves(numbers).is_some());
         let name = column.map_or("row", |k| &self.columns[k].name);
-        let Some(numbers) = numbers else {
-            return Err(Refused::new(
-                "numbers of levels that rise or fall",
-                format!("`{name}`"),
-            ));
+        let Some(numbers) = numbers.filter(|numbers| moves(numbers).is_some()) else {
+            let line = column.map_or(0, |k| self.columns[k].turn());
+            let expected = "numbers of levels that rise or fall";
+            return Err(Refused::new(expected, format!("`{name}`")).at(line));
         };
+        let label = if self.choice.by_unit {
+            format!("exp(-{name})")
+        } else {
+            format!("{}^(-{name})", plain_text(ratio))
+        };
+        let sizes = numbers.into_iter().map(|level| ratio.powf(-level));
         Ok(Step {
             column,
-            label: format!("{}^(-{name})", plain_text(ratio)),
-            steps: Steps::exact(
-                numbers
-                    .into_iter()
-                    .map(|level| ratio.powf(-level))
-                    .collect(),
-            ),
+            label,
+            steps: Steps::exact(sizes.collect()),
             is_said: true,
-        })
-    }
-
-    /// The column of the step that the caller names.
-    fn named(&self, name: &str) -> Result<usize, Refused> {
-        let names = self.columns.iter().map(|column| column.name.as_str());
-        position(names.clone(), name).ok_or_else(|| {
-            let found = names.take(12).collect::<Vec<_>>().join(", ");
-            Refused::new(
-                Argument::Step.with(name) + ", the name or number of a column",
-                found,
-            )
         })
     }
 
@@ -199,10 +218,16 @@ impl Ladder<'_> {
     /// The ways in which columns may give the step.
     fn candidates(&self) -> Result<Vec<Candidate>, Refused> {
         if let Some(name) = &self.choice.step {
-            let column = self.named(name)?;
-            if !self.columns[column].is_positive() {
-                let found = format!("`{}`", self.columns[column].name);
-                return Err(Refused::new("steps, finite numbers > 0 in each row", found));
+            let column = named(self.columns, Argument::Step, name)?;
+            let is_step = |cell: &Cell| cell.value().is_some_and(|step| step > 0.0);
+            let other = self.columns[column]
+                .cells
+                .iter()
+                .find(|cell| !is_step(cell));
+            if let Some(cell) = other {
+                let found = format!("`{}` in `{}`", cell.text, self.columns[column].name);
+                let refused = Refused::new("steps, finite numbers > 0 in each row", found);
+                return Err(refused.at(cell.line));
             }
             return self.ways(column);
         }
@@ -376,7 +401,7 @@ impl Ladder<'_> {
         Err(Refused::new(expected, self.quoted(&columns)).offering(offers))
     }
 
-    fn offer(&self, one: &Candidate) -> super::Offer {
+    fn offer(&self, one: &Candidate) -> Offer {
         self.choice.offer("", |choice| {
             choice.step = Some(self.columns[one.column].name.clone());
             choice.dim = one.dim.filter(|_| one.kind == Kind::Count);
@@ -416,7 +441,7 @@ impl Ladder<'_> {
                 .unwrap_or_default();
             self.choice.offer(comment, |choice| choice.dim = one.dim)
         };
-        let mut offers: Vec<super::Offer> = same.by_ref().map(offer).collect();
+        let mut offers: Vec<Offer> = same.by_ref().map(offer).collect();
         let along = self.columns[first.column].key.len() < 3 || name.contains("side");
         if !along && offers.len() > 2 {
             offers.rotate_left(1);
@@ -441,16 +466,27 @@ impl Ladder<'_> {
     fn without_step(&self) -> Refused {
         let all: Vec<usize> = (0..self.columns.len()).collect();
         let may_be_error = |column: &Cells| {
-            let numbers = column.cells.iter().filter_map(super::cell::Cell::value);
+            let numbers = column.cells.iter().filter_map(Cell::value);
             column.is_named_rates() || numbers.into_iter().all(|number| number >= 0.0)
         };
         let halved = self.columns.iter().all(may_be_error);
         let halved = halved.then(|| self.choice.offer(HALVED, |choice| choice.ratio = Some(2.0)));
+        let counts = self.columns.iter().filter(|column| {
+            let is_count = column.is_whole() && column.is_positive() && !column.numbers_rows();
+            is_count && column.sense() == Some(Sense::Rises) && !says_error(&column.key)
+        });
+        let counts = counts.map(|column| {
+            self.choice.offer(ALONG, |choice| {
+                choice.step = Some(column.name.clone());
+                choice.dim = choice.dim.or(Some(1.0));
+            })
+        });
+        let offers: Vec<Offer> = counts.chain(halved).collect();
         let expected = Text::from("a column of steps: name it `h`, or say ")
             + Argument::Step.with_placeholder()
             + ", or "
             + Argument::Ratio.with_placeholder()
             + " for rows in order";
-        Refused::new(expected, self.quoted(&all)).offering(halved)
+        Refused::new(expected, self.quoted(&all)).offering(offers)
     }
 }

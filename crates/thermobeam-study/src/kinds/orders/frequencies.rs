@@ -25,7 +25,7 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::{
         settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration},
-        tables::{Layout, MAP, increasing, level_of_mesh, tolerance},
+        tables::{Layout, MAP, claim, increasing, level_of_mesh},
     },
     scene::{limits, tables},
 };
@@ -75,7 +75,7 @@ const KEYS: [Key; 7] = [
         Form::Positive,
         "how far a rate may be from the order",
     )
-    .or("0.25"),
+    .or("0.25, at most half of the order, a quarter of a least one"),
     Key::new(
         "first",
         Form::Count(1),
@@ -116,7 +116,6 @@ impl ErrorSource for Frequencies {
             .map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
         // A mesh has twice as many frequencies, but the upper ones are not approximations.
         let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
-        let claim = read_claim(&section, "order")?;
         Ok(Self {
             first: section
                 .get("first")
@@ -125,10 +124,7 @@ impl ErrorSource for Frequencies {
             degree,
             layout: Layout::read(&section, &elements, None)?,
             elements,
-            claim: Claim {
-                tolerance: tolerance(&section)?,
-                ..claim
-            },
+            claim: claim(&section)?,
         })
     }
 

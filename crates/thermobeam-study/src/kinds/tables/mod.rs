@@ -3,7 +3,6 @@
 
 mod refine;
 
-use convergence_judge::judge::verdict::DEFAULT_TOLERANCE;
 use convergence_study::{Term, internal::input::POSITIVE};
 use thermobeam::{
     dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE},
@@ -200,7 +199,7 @@ pub(crate) const CLAIM_KEYS: [Key; 3] = [
         Form::Positive,
         "how far the rate may be from the order",
     )
-    .or("0.25"),
+    .or("0.25, at most half of the order, a quarter of a least one"),
 ];
 
 /// The tables `[[expect]]` with norms.
@@ -220,6 +219,16 @@ pub(crate) const EXPECT: Key = Key::new(
 /// All tables `[[expect]]`: the norms and their orders.
 pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, InputError> {
     claims(root, "norm", &Norm::ALL.map(|norm| (norm.name(), norm)))
+}
+
+/// An order with its tolerance.
+pub(crate) fn claim(section: &Section<'_>) -> Result<Claim, InputError> {
+    let claim = read_claim(section, "order")?;
+    let tolerance = match section.get("tolerance") {
+        Some(field) => field.positive()?,
+        None => claim.tolerance,
+    };
+    Ok(Claim { tolerance, ..claim })
 }
 
 /// All tables `[[expect]]`: of what which order, each once.
@@ -250,23 +259,9 @@ pub(crate) fn claims<T: Copy>(
                 ));
             }
             known.push(name);
-            let claim = read_claim(section, "order")?;
-            Ok((
-                of,
-                Claim {
-                    tolerance: tolerance(section)?,
-                    ..claim
-                },
-            ))
+            Ok((of, claim(section)?))
         },
     )
-}
-
-/// The tolerance of a claim.
-pub(crate) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
-    section
-        .get("tolerance")
-        .map_or(Ok(DEFAULT_TOLERANCE), |field| field.positive())
 }
 
 /// The table `[control]`.

@@ -1,5 +1,7 @@
 //! JSON: an object of lists, a list of objects, or lines of objects, at any depth.
 
+use std::collections::HashSet;
+
 use super::super::Refused;
 use super::super::cell::{is_failure, is_number};
 use super::super::grid::Grid;
@@ -62,10 +64,10 @@ impl Reader<'_> {
         }
         if self.skip(&['{']) {
             let mut object: Vec<(String, Json)> = vec![];
+            let mut names = HashSet::new();
             while !self.skip(&['}']) {
                 let name = self.text()?;
-                let is_new = object.iter().all(|(known, _)| *known != name);
-                if !is_new || !self.skip(&[':']) {
+                if !names.insert(name.clone()) || !self.skip(&[':']) {
                     return None;
                 }
                 object.push((name, self.value(depth + 1)?));

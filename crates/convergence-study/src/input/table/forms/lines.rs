@@ -5,7 +5,10 @@ use super::super::cell::plain;
 use super::super::grid::Grid;
 use super::super::{Choice, LineRange};
 use super::{Found, is_frame, lists, logs, outside, rows};
+use crate::input::advice::{Argument, Text};
 
+/// Most lines of a text, but for empty ones and those that the caller has not chosen.
+const LINES: usize = 100_000;
 /// Lines above a table that may say its degree.
 const ABOVE: usize = 3;
 /// Most characters of a heading.
@@ -47,6 +50,12 @@ impl<'t> Lines<'t> {
 /// Finds the tables of a text.
 pub(super) fn find(text: &str, choice: &Choice) -> Result<Found, Refused> {
     let mut lines = Lines::of(text, &choice.lines);
+    let mut filled = (1..).zip(&lines.text).filter(|(_, line)| !line.is_empty());
+    if let Some((line, _)) = filled.nth(LINES) {
+        let expected =
+            Text::from(format!("at most {LINES} lines, or ")) + Argument::Lines.with_placeholder();
+        return Err(Refused::new(expected, "more").at(line));
+    }
     let mut blocks = rows::find(&mut lines, choice.names.as_deref())?;
     blocks.extend(logs::find(&mut lines)?);
     blocks.extend(lists::find(&mut lines));
@@ -70,7 +79,7 @@ fn with_heading(block: Block, lines: &Lines<'_>) -> Result<Grid, Refused> {
     } = block;
     let first = own[0];
     grid.lines = [first + 1, own[own.len() - 1] + 1];
-    let above = &lines.text[first.saturating_sub(2)..=first];
+    let above = &lines.text[first.saturating_sub(2)..first];
     if above.iter().any(|line| line.contains("\\multi")) {
         return Err(grid.refuse(
             "one cell below each name",

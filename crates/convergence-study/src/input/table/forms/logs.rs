@@ -68,6 +68,7 @@ pub(super) fn find(lines: &mut Lines<'_>) -> Result<Vec<Block>, Refused> {
         let grid = Grid {
             names: names.into_iter().map(str::to_owned).collect(),
             rows: run.iter().map(row).collect(),
+            row_lines: run.iter().map(|record| record.lines[0] + 1).collect(),
             ..Grid::default()
         };
         let own: Vec<usize> = run.into_iter().flat_map(|record| record.lines).collect();

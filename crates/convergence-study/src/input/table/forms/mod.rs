@@ -28,10 +28,14 @@ impl Found {
         self.grids
             .push(grid.and_then(|grid| grid.check().map(|()| grid)));
         if self.grids.len() > TABLES {
-            return Err(Refused::new(format!("at most {TABLES} tables"), "more"));
+            return Err(too_many_tables());
         }
         Ok(())
     }
+}
+
+fn too_many_tables() -> Refused {
+    Refused::new(format!("at most {TABLES} tables"), "more")
 }
 
 /// Finds the tables of a text, and the lines that are a doubt.

@@ -5,7 +5,7 @@ use super::super::cell::is_number;
 use super::super::grid::{Grid, ROWS};
 use super::super::names::{key, says_rates};
 use super::lines::{Block, Lines};
-use super::{TABLES, is_frame, pairs};
+use super::{TABLES, is_frame, pairs, too_many_tables};
 
 /// What parts the cells of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,16 +92,21 @@ pub(super) fn find(lines: &mut Lines<'_>, names: Option<&[String]>) -> Result<Ve
         let own: Vec<usize> = head.into_iter().chain(rows.lines).collect();
         own.iter().for_each(|line| lines.used[*line] = true);
         let is_blank = matches!(rows.mark, Mark::Blanks | Mark::WideBlanks);
+        let row_lines = own[usize::from(head.is_some())..].iter();
         let grid = Grid {
             names: rows.names,
             head: (is_blank && names.is_none()).then(|| without_comment(lines.text[k]).to_owned()),
             rows: rows.cells,
+            row_lines: row_lines.map(|line| line + 1).collect(),
             ..Grid::default()
         };
+        if grid.rows.len() > ROWS {
+            grid.check()?;
+        }
         k = own[own.len() - 1] + 1;
         blocks.push(Block { grid, lines: own });
         if blocks.len() > TABLES {
-            break;
+            return Err(too_many_tables());
         }
     }
     Ok(blocks)

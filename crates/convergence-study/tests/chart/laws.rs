@@ -88,7 +88,7 @@ pub(crate) fn every_text_is_large_enough_and_on_the_page(figures: &Figures) {
         );
         for text in elements(&doc, "text") {
             assert!(
-                number(text, "font-size") >= 14.0 * UNITS,
+                number(text, "font-size") >= 18.0 * UNITS,
                 "{name}: {:?}",
                 text.text()
             );

@@ -108,7 +108,7 @@ impl Levels {
         match [Verdict::Fail, Verdict::Inconclusive].map(count) {
             _ if verdicts.is_empty() => format!("{measured}s over {step}"),
             [0, 0] if self.columns.iter().any(|column| column.is_only_drawn) => {
-                format!("those claimed fall with {step} as the triangles do")
+                "those claimed fall as the triangles do".to_owned()
             }
             [0, 0] => format!("{measured}s fall with {step} as the triangles do"),
             [0, undecided] => format!("the order in {step} is undecided for {}", of(undecided)),

@@ -12,7 +12,7 @@ pub struct Located {
     pub named: Vec<SolverPart>,
     /// The conclusion, in words.
     pub conclusion: String,
-    /// Each variant that was run.
+    /// All variants.
     pub variants: Vec<VariantRates>,
 }
 
@@ -37,10 +37,10 @@ pub struct VariantRates {
     pub name: String,
     /// What it switches off.
     pub switches_off: SolverPart,
-    /// What became of the order.
+    /// What became of the order, as its rates or those of other variants show.
     pub order: Fate,
-    /// The rates of the errors whose order is lost in the study; none for a variant that cannot be
-    /// used.
+    /// The rates of the errors whose order is lost in the study; none for a variant that was not
+    /// run: it cannot be used, or its order follows from others.
     pub rates: Vec<VariantRate>,
     /// Why it cannot be used.
     #[serde(default, skip_serializing_if = "Option::is_none")]

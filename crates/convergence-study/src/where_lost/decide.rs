@@ -231,7 +231,11 @@ impl Table {
         if !open.is_empty() {
             return Some(Conclusion::Open(open));
         }
-        match flat {
+        // A solution that is flat at the first time is small at the faces: it hides what is there.
+        let faces = flat.iter().filter(|part| **part != SolverPart::Initial);
+        let faces: Vec<SolverPart> = faces.cloned().collect();
+        let places = if faces.is_empty() { flat } else { &faces };
+        match places {
             [SolverPart::Face(name)] => Some(Conclusion::Faces {
                 names: vec![name.clone()],
                 time: time_of(inside),

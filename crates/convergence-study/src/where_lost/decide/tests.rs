@@ -378,6 +378,15 @@ fn rows() -> Vec<Row> {
             ]
             .concat(),
         },
+        // At the first time the solution is small where the faces meet.
+        Row {
+            conclusion: Conclusion::Corner(["x_max".to_owned(), "y_max".to_owned()]),
+            back: [
+                AT_X_MAX.as_slice(),
+                &["flat_y_max", "flat_y", "flat_but_x_max", "flat_initial"],
+            ]
+            .concat(),
+        },
         inside(vec![y.clone()], &["constant_y"]),
         inside(vec![t], &["constant_t"]),
         inside(vec![y, p], &["constant_y", "zero_p"]),
@@ -443,8 +452,8 @@ fn round_off_in_what_is_named_names_nothing() {
     for (row, variant) in [
         (0, "flat_x_max"),
         (5, "flat_y_max"),
-        (6, "constant_y"),
-        (9, "flat_initial"),
+        (7, "constant_y"),
+        (10, "flat_initial"),
     ] {
         let examined = with(back(&rows()[row].back), variant, Fate::RoundOff);
         assert_eq!(decide(&examined), Conclusion::Several, "{variant}");

@@ -9,32 +9,35 @@ mod tables;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use convergence_calibration::kind;
+use convergence_calibration::studies as calibration;
 use convergence_study::{
-    KindRow, Project,
+    CodeStudy, Project,
     internal::cli::{command_line, ended},
 };
 use thermobeam_cli::{GROUPS, PAGES, project};
-use thermobeam_study::{kinds::KINDS, studies::STUDIES};
+use thermobeam_study::studies;
 
-/// The beam under this command, and the calibration of the rule.
+/// The beam under this command, its studies in code, and the calibration of the rule.
 pub const PROJECT: Project = Project {
-    kinds: &WITH_CALIBRATION,
     studies: &STUDIES,
     about: "Two programs in one repository: `thermobeam` simulates a beam between obstacles, `convergence-study` verifies it, and \
             any other code",
     ..project("cargo xtask")
 };
 
-/// The kinds of the beam, and that which counts how often the rule errs: it is not published.
-const WITH_CALIBRATION: [KindRow; KINDS.len() + 1] = {
-    let mut kinds = [kind::ROW; KINDS.len() + 1];
+/// The studies in code: none of them is published.
+const STUDIES: [CodeStudy; studies::STUDIES.len() + calibration::STUDIES.len()] = {
+    let mut all = [calibration::STUDIES[0]; studies::STUDIES.len() + calibration::STUDIES.len()];
     let mut place = 0;
-    while place < KINDS.len() {
-        kinds[place] = KINDS[place];
+    while place < all.len() {
+        all[place] = if place < studies::STUDIES.len() {
+            studies::STUDIES[place]
+        } else {
+            calibration::STUDIES[place - studies::STUDIES.len()]
+        };
         place += 1;
     }
-    kinds
+    all
 };
 
 #[derive(Debug, Parser)]

@@ -1,7 +1,7 @@
 //! How far the verdicts can be trusted: the rule of `convergence-judge`, and others, applied to
 //! errors whose order is known.
 //!
-//! [`kind`] is a kind of study that gives each share its limit. One generator serves most of them:
+//! The [`studies`] give each share its limit. One generator serves most of them:
 //! the 29 [laws], most of them not designed for the rule. The counts are reported as
 //! [sheets](sheet::Sheet) of shares.
 //!
@@ -69,13 +69,13 @@ pub mod grids;
 pub mod held_out;
 pub mod hidden;
 pub mod intervals;
-pub mod kind;
 pub mod laws;
 pub mod noise;
 pub mod noisy;
 pub mod rules;
 mod shapes;
 pub mod sheet;
+pub mod studies;
 
 use convergence_judge::judge::verdict::Judge;
 use convergence_study::JudgeError;

@@ -3,7 +3,7 @@
 /// Shares of one subject.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
-    /// Its name in a study file.
+    /// Its name in a study.
     pub key: &'static str,
     /// What it is.
     pub title: String,

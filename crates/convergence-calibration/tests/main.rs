@@ -1,4 +1,4 @@
 //! The tests of the calibration, in one program.
 
-mod kind;
 mod sheets;
+mod studies;

@@ -16,8 +16,7 @@ use std::path::Path;
 use convergence_study::{InputError, internal::study::StudyFile};
 use thermobeam_study::kinds::KINDS;
 
-/// Reads a study of the repository: of a kind of the beam, or the calibration of the rule.
+/// Reads a study file of the repository.
 fn read_study(path: &Path) -> Result<StudyFile, InputError> {
-    let kinds = [&KINDS[..], &[convergence_calibration::kind::ROW]].concat();
-    StudyFile::read(&kinds, path)
+    StudyFile::read(&KINDS, path)
 }

@@ -66,17 +66,10 @@ fn as_json(text: &str) -> Value {
 
 /// The changes that a reader refuses and a schema does not, because the reader compares values of
 /// several keys or counts tables.
-const STRICTER: [&str; 18] = [
-    "[obstacles] is missing",
+const STRICTER: [&str; 11] = [
     "[beam] is missing",
     "[beam] without theta_a",
     "[exact] without theta",
-    "[initial] is missing",
-    "[initial] without phi",
-    "[initial] without phi_t",
-    "[initial] without theta",
-    "[initial] without u",
-    "[initial] without u_t",
     "[[reference]] is missing",
     "[[discretisations]] is missing",
     "[case.beam] without theta_a",

@@ -6,6 +6,7 @@ use super::header::{Header, Tier};
 use super::kind::{Case, CaseFailure, Kind, Ran, completion_check};
 use super::measured::Sheet;
 use super::outcome::{Figure, LevelErrors, NamedRate, Outcome, Quantity};
+use super::over_levels::Levels;
 use crate::judge::verdict::Verdict;
 
 /// What a study in code says about itself.
@@ -65,6 +66,19 @@ pub struct Findings {
     pub quantities: Vec<Quantity>,
     /// Items other than runs: how many were judged, and why not the others.
     pub coverage: Vec<Coverage>,
+}
+
+impl Findings {
+    /// The same with the rates of these errors: guarded, like the errors themselves.
+    #[must_use]
+    pub fn with_orders(mut self, levels: &Levels, rates: Vec<NamedRate>) -> Self {
+        self.quantities.extend(levels.quantities(&rates));
+        Self {
+            levels: levels.errors(),
+            rates,
+            ..self
+        }
+    }
 }
 
 impl From<Sheet> for Findings {

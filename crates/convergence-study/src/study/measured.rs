@@ -21,7 +21,7 @@ pub enum Shown {
 /// How the baseline guards a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recorded {
-    /// Its name within the case.
+    /// Its name, which no other guarded number of the study has.
     pub name: String,
     /// Relative change tolerated.
     pub tolerance: f64,
@@ -106,7 +106,15 @@ impl Measured {
     /// The baseline guards it under `case: name`.
     ///
     /// * `tolerance`: relative change tolerated.
-    pub fn recorded(self, name: impl Into<String>, tolerance: f64) -> Self {
+    pub fn recorded(self, name: &str, tolerance: f64) -> Self {
+        let name = self.in_case(name);
+        self.recorded_as(name, tolerance)
+    }
+
+    /// The baseline guards it under a name without the case.
+    ///
+    /// * `tolerance`: relative change tolerated.
+    pub fn recorded_as(self, name: impl Into<String>, tolerance: f64) -> Self {
         let name = name.into();
         let record = Some(Recorded { name, tolerance });
         Self { record, ..self }

@@ -7,11 +7,11 @@ use super::subject::Subject;
 use crate::text::lists::{distinct, grouped};
 
 impl Measured {
-    fn subject(&self, quantity: &str) -> Subject {
+    fn subject(&self) -> Subject {
         let case = (!self.case.is_empty()).then(|| self.case.clone());
         Subject {
             case,
-            ..Subject::of(quantity)
+            ..Subject::of(&self.name)
         }
     }
 
@@ -24,14 +24,14 @@ impl Measured {
             None => return None,
         };
         let holds = self.holds().unwrap_or(false);
-        Some(Check::that(holds, words, self.text()).about(self.subject(&self.name)))
+        Some(Check::that(holds, words, self.text()).about(self.subject()))
     }
 
     fn quantity(&self) -> Option<Quantity> {
         let Recorded { name, tolerance } = self.record.as_ref()?;
         let value = self.value.unwrap_or(f64::NAN);
-        let quantity = Quantity::new(self.in_case(name), value, *tolerance);
-        Some(quantity.about(self.subject(name)).claimed(self.claim))
+        let quantity = Quantity::new(name, value, *tolerance);
+        Some(quantity.about(self.subject()).claimed(self.claim))
     }
 }
 

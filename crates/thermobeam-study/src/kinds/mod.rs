@@ -25,13 +25,12 @@ use orders::ErrorSource;
 use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;
 use orders::manufactured::Convergence;
-use orders::projection::Projection;
 use orders::self_convergence::SelfConvergence;
 use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 17] = [
+pub const KINDS: [KindRow; 13] = [
     Convergence::ROW,
     AnyOrder::ROW,
     detects::ROW,
@@ -40,13 +39,9 @@ pub const KINDS: [KindRow; 17] = [
     solvers::ROW,
     Vibration::ROW,
     Frequencies::ROW,
-    Projection::ROW,
     SelfConvergence::ROW,
     runs::experiment::ROW,
     runs::exact_experiments::ROW,
-    runs::equilibrium::ROW,
-    runs::bifurcation::ROW,
-    runs::rigid::ROW,
     work_precision::ROW,
     program::ROW,
 ];

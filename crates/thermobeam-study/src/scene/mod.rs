@@ -50,7 +50,6 @@ use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
 
 pub use method::{DG, Method};
-pub(crate) use sections::INITIAL;
 pub use sections::KEYS;
 pub use tables::Coefficients;
 

@@ -26,7 +26,7 @@ pub const KEYS: [Key; 5] = [
 ];
 
 /// The table `[initial]`.
-pub(crate) const INITIAL: Key = Key::new(
+const INITIAL: Key = Key::new(
     "initial",
     Form::Table(&[&[&INITIAL_KEYS]]),
     "the initial data, functions of x",

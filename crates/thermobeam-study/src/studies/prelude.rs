@@ -1,7 +1,16 @@
-//! Common imports of the studies in code.
+//! Common imports and helpers of the studies in code.
 
 pub(super) use crate::kinds::prelude::largest_of;
 pub(super) use convergence_study::{
     About, Case, CaseFailure, Described, Findings, InCode, Measured, Must, Runs, Sheet, Tier,
     measured,
 };
+
+/// What a run shows.
+///
+/// # Panics
+/// The study has no such run.
+pub(super) fn of<'r, R: PartialEq, S>(shown: &[(&R, &'r S)], run: &R) -> &'r S {
+    let known = shown.iter().find(|(known, _)| *known == run);
+    known.map(|(_, shown)| *shown).expect("a run of the study")
+}

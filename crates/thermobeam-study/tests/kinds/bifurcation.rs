@@ -1,16 +1,9 @@
 use convergence_judge::interval::Interval;
-use convergence_study::{FromFile, Verdict};
-use thermobeam_study::kinds::runs::RunStudy;
-use thermobeam_study::kinds::runs::bifurcation::{
-    AtRest, Bifurcation, BifurcationResult, Diagram, ROW,
-};
+use convergence_study::Verdict;
+use thermobeam_study::studies::bifurcation::{AtRest, BifurcationResult, Diagram, study};
 
-use super::file;
 use super::planted::verdict_with;
-use super::refused::refusal;
 use super::typed::passes_but_not_without_each_case;
-
-type BifurcationStudy = RunStudy<Bifurcation>;
 
 fn diagram(change: fn(&mut Diagram)) -> Box<dyn Fn(&mut BifurcationResult)> {
     Box::new(move |found| match found {
@@ -32,8 +25,7 @@ fn rest(change: fn(&mut AtRest)) -> Box<dyn Fn(&mut BifurcationResult)> {
 
 #[test]
 fn each_claim_can_fail() {
-    let study =
-        BifurcationStudy::read(file("bifurcation.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let study = study().kind;
     let sound = passes_but_not_without_each_case(&study);
     let unstable =
         |rest: &mut AtRest| rest.nearest.as_mut().expect("a steady state").state.stable = false;
@@ -120,19 +112,5 @@ fn each_claim_can_fail() {
             Verdict::Pass,
             "defect {number}, in {label}"
         );
-    }
-}
-
-#[test]
-fn files_with_errors_are_refused() {
-    for (from, to, message) in [
-        ("beta = [-1.0, 1.0]", "beta = [1.0, -1.0]", "diagram.beta"),
-        ("points = 201", "points = 1", "diagram.points"),
-        ("[8, 16, 32, 64, 128]", "[8, 16]", "buckling.elements"),
-        ("tolerance = 0.02", "tolerance = 0.5", "buckling.tolerance"),
-        ("distance = 1e-3", "distance = \"far\"", "rest.distance"),
-    ] {
-        let error = refusal(&ROW, "bifurcation.toml", from, to);
-        assert!(error.contains(message), "{error}");
     }
 }

@@ -1,18 +1,13 @@
 //! Obstacles becoming rigid: the study passes, and fails on each of its claims.
 
-use super::file;
 use super::planted::verdict_with;
 use super::typed::{leaves_one_out, passes_but_not_without_each_case};
-use convergence_study::{FromFile, Kind, Verdict};
-use thermobeam_study::kinds::runs::RunStudy;
-use thermobeam_study::kinds::runs::rigid::{RigidObstacles, RunOf, ShownImpact};
-
-type RigidStudy = RunStudy<RigidObstacles>;
+use convergence_study::{Kind, Verdict};
+use thermobeam_study::studies::rigid::{RunOf, ShownImpact, study};
 
 #[test]
 fn every_claim_about_rigid_obstacles_can_fail() {
-    let study =
-        RigidStudy::read(file("rigid-obstacles.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let study = study().kind;
     let sound = passes_but_not_without_each_case(&study);
     let position = |run: RunOf, nth: usize| {
         let of_run = sound
@@ -119,17 +114,4 @@ fn every_claim_about_rigid_obstacles_can_fail() {
     leaves_one_out(&study, &sound, stiff, items, |found| {
         found.alpha = Some(0.5);
     });
-}
-
-#[test]
-fn a_file_that_makes_no_sense_is_refused() {
-    for (from, to, field) in [
-        ("1e-1, 3.16e-2", "1e-1, 3.16e-1", "obstacles.epsilon"),
-        ("scenes/impact", "scenes/paper-1-beta-0", "impact.scene"),
-    ] {
-        let name = file("rigid-obstacles.toml");
-        let text = super::text("rigid-obstacles.toml").replacen(from, to, 1);
-        let error = RigidStudy::parse(&text, &name).expect_err(to).to_string();
-        assert!(error.contains(field), "{error}");
-    }
 }

@@ -41,7 +41,7 @@ fn each_mistake_in_what_is_written_fails() {
             force.take(5).for_each(|force| *force *= 0.5);
         }),
         ("one iteration less", 0, |pair| {
-            pair.written.counts[2] -= 1.0
+            pair.written.counts[2] -= 1.0;
         }),
     ];
     for (mistake, case, plant) in planted {

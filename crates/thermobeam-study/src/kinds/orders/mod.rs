@@ -10,7 +10,6 @@ pub mod frequencies;
 pub mod manufactured;
 mod one_step;
 pub(in crate::kinds) mod planted;
-pub mod projection;
 pub mod self_convergence;
 pub mod vibration;
 

@@ -4,14 +4,11 @@
 //! [`Reading`]s: these give completion, table and guarded numbers. It judges by the checks of
 //! [`checks`]. [`RunStudy`] does for all of them what does not depend on the kind.
 
-pub mod bifurcation;
 pub mod cases;
 pub mod checks;
 pub mod energy;
-pub mod equilibrium;
 pub mod exact_experiments;
 pub mod experiment;
-pub mod rigid;
 pub mod scenes;
 pub(crate) mod side_by_side;
 pub(crate) mod steady;
@@ -21,7 +18,7 @@ use super::prelude::*;
 use crate::kinds::settings::Exercise;
 use convergence_study::{
     Coverage, LevelErrors,
-    internal::study::{header::SettingWords, over_levels::Levels, readings},
+    internal::study::{header::SettingWords, readings},
 };
 
 /// A list of runs, and what is claimed of them.
@@ -101,17 +98,6 @@ impl Findings {
                 counted(all, "run")
             ),
             ..Self::default()
-        }
-    }
-
-    /// The same with the rates of these errors: guarded, like the errors themselves.
-    #[must_use]
-    pub(crate) fn with_orders(mut self, levels: &Levels, rates: Vec<NamedRate>) -> Self {
-        self.quantities.extend(levels.quantities(&rates));
-        Self {
-            levels: levels.errors(),
-            rates,
-            ..self
         }
     }
 }

@@ -11,24 +11,10 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::tables::Discretisation,
     run::{ObservableMotion, Report, RunError, run, simulate},
-    scene::{Method, Scene, limits, resampled, tables},
+    scene::{Method, Scene, limits, resampled},
 };
-use convergence_judge::judge::verdict::Judge;
 use convergence_study::internal::input::POSITIVE;
 use thermobeam::{mesh::Mesh, solve::Level};
-
-/// Reads the scenes of a list of file names, which are relative to the folder of the study file.
-pub(crate) fn listed_scenes(
-    section: &Section<'_>,
-    folder: &Path,
-) -> Result<Vec<Scene>, InputError> {
-    section.list(
-        "scenes",
-        "a list of at least one scene file",
-        |item| listed_scene(item, folder),
-        |list| !list.is_empty(),
-    )
-}
 
 /// Reads the scene of a file name; it must have obstacles.
 pub(crate) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
@@ -42,24 +28,6 @@ pub(crate) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, In
     Ok(scene)
 }
 
-/// The key `scenes` of [`listed_scenes`].
-pub(crate) const SCENES: Key = Key::new(
-    "scenes",
-    Form::List(&Form::Text),
-    "scene files, relative to this file",
-);
-/// The key of [`meshes`].
-pub(crate) const MESHES: Key = Key::new(
-    "elements",
-    Form::List(&Form::Count(1)),
-    "at least three numbers of elements, ascending",
-);
-/// The key of [`tolerance`].
-pub(crate) const TOLERANCE: Key = Key::new(
-    "tolerance",
-    Form::Positive,
-    "how far the rate may be from the order 2, below 0.5",
-);
 /// The largest velocity that counts as rest.
 pub(crate) const SPEED: Key = Key::new(
     "speed",
@@ -95,22 +63,6 @@ enum MethodToRest {
 const COMPARED: usize = 32;
 
 impl ToRest {
-    /// The keys of a table.
-    pub(crate) const KEYS: [Key; 5] = [
-        BETAS,
-        Key::new("elements", Form::Count(1), "number of elements"),
-        Key::new("dt", Form::Positive, "time step"),
-        SPEED,
-        T_MAX,
-    ];
-
-    /// Reads a table that has [`ToRest::KEYS`], and possibly others.
-    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let (dt, t_max) = steps_to_rest(section)?;
-        let elements = tables::elements(&section.require("elements", "a whole number >= 1")?)?;
-        Self::with(section, MethodToRest::OneStep { elements, dt }, t_max)
-    }
-
     /// The keys of a table for runs by dG.
     pub(crate) const ANY_ORDER_KEYS: [Key; 3] = [BETAS, SPEED, T_MAX];
 
@@ -133,6 +85,24 @@ impl ToRest {
             speed: section.positive("speed")?,
             t_max,
         })
+    }
+
+    /// By the scheme of the scene, on a uniform mesh.
+    ///
+    /// * `elements_and_dt`: of the mesh, and of each step.
+    /// * `speed_and_t_max`: what counts as rest, and when it must be reached.
+    pub(crate) fn by_one_step(
+        betas: Vec<f64>,
+        [elements, dt]: [f64; 2],
+        [speed, t_max]: [f64; 2],
+    ) -> Self {
+        let elements = elements as usize;
+        Self {
+            betas,
+            method: MethodToRest::OneStep { elements, dt },
+            speed,
+            t_max,
+        }
     }
 
     /// What a run costs.
@@ -169,34 +139,6 @@ pub(crate) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
         Method::OneStep(_) => scene.mesh.clone(),
         Method::Dg(_) => resampled(&scene.mesh, COMPARED)?,
     })
-}
-
-/// The keys dt and t_max of a run to rest.
-pub(crate) fn steps_to_rest(section: &Section<'_>) -> Result<(f64, f64), InputError> {
-    let (dt, t_max) = (section.positive("dt")?, section.positive("t_max")?);
-    limits::steps_until(
-        &section.require("t_max", "a number")?,
-        t_max,
-        dt,
-        limits::STEPS,
-    )?;
-    Ok((dt, t_max))
-}
-
-/// The key `elements`: the meshes over which the rate is observed.
-pub(crate) fn meshes(section: &Section<'_>) -> Result<Vec<usize>, InputError> {
-    let allowed = "a list of at least three numbers of elements, ascending";
-    section.list("elements", allowed, tables::elements, |list| {
-        list.len() >= 3 && increases(list)
-    })
-}
-
-/// The key `tolerance`: the allowed deviation of a rate from its order.
-pub(crate) fn tolerance(section: &Section<'_>) -> Result<f64, InputError> {
-    let allowed = "a number > 0 and < 0.5";
-    section
-        .require("tolerance", allowed)?
-        .number_where(allowed, |tolerance| Judge::new(tolerance).is_ok())
 }
 
 /// When a beam has come to rest, roughly.

@@ -370,6 +370,25 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
+    /// * `counts`: elements, degree p, degree q in time.
+    /// * `steps`: the longest, the first after an event, and how fast they grow.
+    pub(crate) fn new(
+        [elements, degree, time_degree]: [usize; 3],
+        [dt, restart_dt, growth]: [f64; 3],
+    ) -> Self {
+        Self {
+            elements,
+            degree,
+            stepping: DgStepping {
+                degree: time_degree,
+                dt,
+                restart_dt,
+                growth,
+                ..DgStepping::default()
+            },
+        }
+    }
+
     /// Discretises a scene in this way.
     ///
     /// # Errors

@@ -5,8 +5,9 @@ use std::cmp::Ordering;
 use convergence_judge::{interval::Interval, time_limit::Patience};
 use thermobeam_exact::equilibrium::{Equilibrium, EquilibriumError, Phase, Proof, enclose_change};
 
-use crate::kinds::prelude::*;
-use crate::{kinds::runs::steady::exact_states, scene::Scene};
+use crate::kinds::runs::steady::exact_states;
+use crate::scene::Scene;
+use convergence_study::CaseFailure;
 
 /// Half the width of the close-up of a fork.
 pub(super) const CLOSE: f64 = 0.025;
@@ -236,7 +237,7 @@ impl Diagram {
 /// Whether the event of a scene is buckling of its straight beam: below it there are several steady
 /// states, above it one. A heated beam lifts off instead: below the event it presses against the
 /// upper obstacle, above it is free.
-pub(super) fn buckles(scene: &Scene) -> bool {
+fn buckles(scene: &Scene) -> bool {
     scene.beam.theta_a == 0.0
 }
 

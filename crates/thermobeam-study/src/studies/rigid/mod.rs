@@ -24,59 +24,82 @@
 //! fails approximately where the time step no longer resolves the impact. The number of Newton
 //! iterations does not depend on ε.
 
+mod figures;
 mod judge;
 
-use super::{
-    Findings, Results, RunStudy, Runs,
-    steady::{self, listed_scene, settle, steps_to_rest, tolerance},
+use super::paper::{FIRST, SECOND};
+use super::prelude::*;
+use crate::kinds::runs::steady::{cost_to_rest, settle};
+use crate::run::{
+    ObservableMotion, RunError,
+    driver::Driver,
+    run_to,
+    simulate::{self, Recording, Simulator},
 };
-use crate::kinds::prelude::*;
-use crate::{
-    kinds::settings::{CONTACT, Exercise, Integration},
-    run::{
-        ObservableMotion, RunError,
-        driver::Driver,
-        run_to,
-        simulate::{self, Recording, Simulator},
-    },
-    scene::{Scene, limits, tables},
-};
-use convergence_study::internal::input::POSITIVE;
+use crate::scene::Scene;
+use convergence_judge::text::number::max_or_nan;
 use thermobeam::{error::StepFailure, mesh::Mesh, parameters::Obstacles, solve::Solver};
 
-/// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
-    name: "runs/rigid",
-    keys: RigidObstacles::KEYS,
-    read: read_study::<RunStudy<RigidObstacles>>,
-    why: "As epsilon falls the obstacles become rigid: penetration falls like epsilon at rest and on a fixed grid, like \
-          epsilon^(2/3) in an impact that the grid resolves.",
-    judged: "The observed orders in epsilon, Newton's iterations, and where the fixed point ceases to converge.",
-    failure: "The contact law, or its solution in closed form, loses digits or stability for stiff obstacles.",
+/// What the study says about itself.
+pub const ABOUT: About = About {
+    id: "rigid-obstacles",
+    claim: "Penetration falls like epsilon at rest and on a fixed mesh with a fixed dt, like epsilon^(2/3) in a resolved impact",
+    tier: Tier::Quick,
+    group: "contact",
+    headline: "",
+    home: file!(),
 };
 
+/// Compliances, descending.
+const EPSILONS: [f64; 15] = [
+    1e-1, 3.16e-2, 1e-2, 3.16e-3, 1e-3, 3.16e-4, 1e-4, 3.16e-5, 1e-5, 3.16e-6, 1e-6, 3.16e-7, 1e-7,
+    3.16e-8, 1e-8,
+];
+/// The compliance that stands for a rigid obstacle.
+const LIMIT: f64 = 1e-12;
+/// A beam that bounces, on a fixed mesh with a fixed dt.
+const MOVING: Grid = Grid {
+    elements: 50,
+    dt: 1e-3,
+    t_end: 1.0,
+};
+/// Iterations after which the fixed point is abandoned.
+const MAX_ITERATIONS: usize = 300;
+/// A beam that comes to rest on an obstacle.
+const RESTING: Grid = Grid {
+    elements: 32,
+    dt: 0.1,
+    t_end: 2000.0,
+};
+/// The largest velocity of a beam at rest.
+const SPEED: f64 = 1e-10;
+/// A beam whose free end moves into the upper obstacle at t = 0, on a mesh graded towards that end.
+const IMPACT: &str = "beam = { zeta = 0.1, a = 0.017, rho = 1.0, beta = 0.0, theta_a = 0.0 }
+obstacles = { epsilon = 1e-3, g1 = -0.01, g2 = 0.0 }
+initial = { u_t = \"sin(pi*x/2)\" }
+mesh = { elements = 128, map = \"1 - (1-s)^4\" }
+time = { dt = 1e-4, t_end = 0.02 }
+";
+const IMPACT_ELEMENTS: usize = 128;
+/// ζ of that beam.
+const IMPACT_ZETA: f64 = 0.1;
+/// Its time steps in units of t*.
+const STEPS: usize = 200;
+
+/// Mesh, step and end of a run.
+struct Grid {
+    elements: usize,
+    dt: f64,
+    t_end: f64,
+}
+
+/// The beam at the obstacles as they become rigid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RigidObstacles;
+
 /// The study.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RigidObstacles {
-    /// Compliances, descending.
-    epsilons: Vec<f64>,
-    /// The compliance that represents a rigid obstacle.
-    limit: f64,
-    /// Tolerance of the orders.
-    tolerance: f64,
-    /// A beam that bounces, on a fixed mesh with a fixed dt.
-    moving: Scene,
-    /// Iterations after which the fixed point iteration is abandoned.
-    max_iterations: usize,
-    /// A beam that comes to rest on an obstacle.
-    resting: Scene,
-    speed: f64,
-    t_max: f64,
-    /// A beam whose free end moves into the upper obstacle at t = 0, on a mesh graded towards that
-    /// end.
-    impact: Scene,
-    /// Time steps in units of t*.
-    steps: usize,
+pub fn study() -> Described<InCode<RigidObstacles>> {
+    ABOUT.study(RigidObstacles)
 }
 
 /// A computation with one compliance.
@@ -128,217 +151,82 @@ pub struct ShownImpact {
     pub failed_at: Option<f64>,
 }
 
-/// The scene of a table, at the table's resolution.
-fn scene(section: &Section<'_>, folder: &Path, dt: f64) -> Result<Scene, InputError> {
-    let scene = listed_scene(&section.require("scene", "a scene file")?, folder)?;
-    let elements = section.require("elements", "a whole number >= 1")?;
-    let mesh = Mesh::uniform(tables::elements(&elements)?)
-        .map_err(|error| elements.refuse(error.to_string(), "a mesh"))?;
-    Ok(scene.at(mesh, dt))
-}
-
-/// The scene of the beam that bounces, until the table's t_end.
-fn moving_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
-    let t_end = section.positive("t_end")?;
-    let dt = section.positive("dt")?;
-    // Its tip is kept at every step.
-    limits::steps_until(
-        &section.require("dt", POSITIVE)?,
-        t_end,
-        dt,
-        limits::RECORDED_STEPS,
-    )?;
-    Ok(Scene {
-        t_end,
-        ..scene(section, folder, dt)?
-    })
-}
-
-/// The scene of the impact: its free end must start at the upper obstacle and move into it.
-fn impact_scene(section: &Section<'_>, folder: &Path) -> Result<Scene, InputError> {
-    let field = section.require("scene", "a scene file")?;
-    let scene = listed_scene(&field, folder)?;
-    let initial = &scene.initial;
-    let [tip, velocity] = [&initial.u, &initial.u_t].map(|function| match function {
-        Some(function) => function.eval(1.0),
-        None => 0.0,
-    });
-    let on_the_obstacle = scene.obstacles.is_some_and(|obstacles| tip == obstacles.g2);
-    if on_the_obstacle && velocity > 0.0 {
-        return Ok(scene);
-    }
-    Err(field.refuse_as_written("a scene with u(1) = g2 and u_t(1) > 0"))
-}
-
-const KEYS: [Key; 4] = [
-    Key::new(
-        "obstacles",
-        Form::Table(&[&[&OBSTACLE_KEYS]]),
-        "compliances of the obstacles",
-    ),
-    Key::new(
-        "moving",
-        Form::Table(&[&[&SCENE, &MOVING]]),
-        "a beam that bounces",
-    ),
-    Key::new(
-        "rest",
-        Form::Table(&[&[&SCENE, &REST]]),
-        "a beam that comes to rest in contact",
-    ),
-    Key::new(
-        "impact",
-        Form::Table(&[&[&IMPACT]]),
-        "a free end that moves into the upper obstacle",
-    ),
-];
-const OBSTACLE_KEYS: [Key; 3] = [
-    Key::new(
-        "epsilon",
-        Form::List(&Form::Positive),
-        "normal compliances, at least three, descending",
-    ),
-    Key::new("limit", Form::Positive, "a compliance that counts as rigid"),
-    steady::TOLERANCE,
-];
-const SCENE_FILE: Key = Key::new("scene", Form::Text, "a scene file, relative to this file");
-const SCENE: [Key; 3] = [
-    SCENE_FILE,
-    Key::new("elements", Form::Count(1), "number of elements"),
-    Key::new("dt", Form::Positive, "time step"),
-];
-const MOVING: [Key; 2] = [
-    Key::new("t_end", Form::Positive, "final time"),
-    Key::new(
-        "max_iterations",
-        Form::Count(1),
-        "of the fixed point, after which a step fails",
-    ),
-];
-const REST: [Key; 2] = [steady::SPEED, steady::T_MAX];
-const IMPACT: [Key; 2] = [
-    SCENE_FILE,
-    Key::new("steps", Form::Count(1), "steps of a run"),
-];
-
 impl Runs for RigidObstacles {
-    const KEYS: &'static [Keys] = &[&[&KEYS]];
-
     /// Compliance of the obstacles, and the computation.
     type Run = (f64, RunOf);
     type Shown = ShownImpact;
 
-    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let obstacles = root.table("obstacles", &[&OBSTACLE_KEYS])?;
-        let moving = root.table("moving", &[&SCENE, &MOVING])?;
-        let rest = root.table("rest", &[&SCENE, &REST])?;
-        let impact = root.table("impact", &[&IMPACT])?;
-        let bouncing = moving_scene(&moving, folder)?;
-        let (dt, t_max) = steps_to_rest(&rest)?;
-        let allowed = "a list of at least three positive numbers, descending";
-        // Descending, so that the last is the smallest.
-        let fits = |list: &[f64]| {
-            list.len() >= 3 && list.is_sorted_by(|a, b| a > b) && list[list.len() - 1] > 0.0
-        };
-        Ok(Self {
-            epsilons: obstacles.list("epsilon", allowed, Field::number, fits)?,
-            limit: obstacles.positive("limit")?,
-            tolerance: tolerance(&obstacles)?,
-            moving: bouncing,
-            max_iterations: moving.count("max_iterations", 1..=usize::MAX)?,
-            resting: scene(&rest, folder, dt)?,
-            speed: rest.positive("speed")?,
-            t_max,
-            impact: impact_scene(&impact, folder)?,
-            steps: impact.count("steps", 1..=1_000_000)?,
-        })
-    }
-
-    fn exercise(&self, case: Option<&str>) -> Exercise {
-        let scenes = [&self.moving, &self.resting, &self.impact];
-        Exercise::of_scenes(CONTACT, Integration::PAPER, scenes, case)
-    }
-
     /// The rigid limit, then each compliance in four scenes.
     fn runs(&self) -> Vec<Case<Self::Run>> {
-        let mut runs = vec![self.case(RunOf::RigidLimit, self.limit)];
+        let mut runs = vec![RunOf::RigidLimit.case(LIMIT)];
         for run in RunOf::OF_EACH_COMPLIANCE {
-            runs.extend(self.epsilons.iter().map(|&epsilon| self.case(run, epsilon)));
+            runs.extend(EPSILONS.map(|epsilon| run.case(epsilon)));
         }
         runs
     }
 
     fn run(&self, &(epsilon, run): &Self::Run) -> Result<ShownImpact, CaseFailure> {
-        let mut scene = self.scene(run).clone();
+        let mut scene = run.scene()?;
         scene.obstacles = scene.obstacles.map(|obstacles| Obstacles {
             epsilon,
             ..obstacles
         });
         match run {
             RunOf::RigidLimit | RunOf::Bouncing => newton(&scene, epsilon),
-            RunOf::FixedPoint => fixed_point(&scene, self.max_iterations),
+            RunOf::FixedPoint => fixed_point(&scene, MAX_ITERATIONS),
             RunOf::Rest => {
-                let (_, level) = settle(&scene, self.speed, self.t_max)?;
+                let (_, level) = settle(&scene, SPEED, RESTING.t_end)?;
                 Ok(ShownImpact::by_force(level.contact_force.abs(), epsilon))
             }
             RunOf::Impact => {
-                let time = self.impact_time(epsilon);
+                let time = impact_time(epsilon);
                 // The peak is at 1.65 t*.
                 scene.t_end = 3.0 * time;
-                scene.method = scene.method.with_dt(time / self.steps as f64);
+                scene.method = scene.method.with_dt(time / STEPS as f64);
                 newton(&scene, epsilon)
             }
         }
     }
 
-    fn numbers(&self, _: &Self::Run, run: &ShownImpact) -> Vec<Reading> {
-        let tip = run.tip.iter().map(|(t, u)| t.abs() + u.abs());
-        vec![
-            Reading::new("velocity", run.velocity),
-            Reading::new("force", run.force),
-            Reading::new("penetration", run.penetration),
-            Reading::new("alpha", run.alpha),
-            Reading::new("contraction", run.contraction),
-            Reading::new("iterations", run.mean_iterations),
-            Reading::new("tip", largest_of(tip)),
-            Reading::new("time of failure", run.failed_at),
-        ]
-    }
-
-    fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        judge::judge(self, results)
+    fn judge(&self, shown: &[(&Self::Run, &ShownImpact)]) -> Findings {
+        judge::judge(shown)
     }
 }
 
-impl RigidObstacles {
-    fn scene(&self, run: RunOf) -> &Scene {
-        match run {
-            RunOf::RigidLimit | RunOf::Bouncing | RunOf::FixedPoint => &self.moving,
-            RunOf::Rest => &self.resting,
-            RunOf::Impact => &self.impact,
-        }
+impl RunOf {
+    fn scene(self) -> Result<Scene, CaseFailure> {
+        let (experiment, grid) = match self {
+            RunOf::RigidLimit | RunOf::Bouncing | RunOf::FixedPoint => (FIRST[1], MOVING),
+            RunOf::Rest => (SECOND[1], RESTING),
+            RunOf::Impact => return Ok(Scene::parse(IMPACT, "impact.toml")?),
+        };
+        let scene = experiment.scene()?;
+        let mesh = Mesh::uniform(grid.elements)?;
+        Ok(Scene {
+            t_end: grid.t_end,
+            ..scene.at(mesh, grid.dt)
+        })
     }
 
-    fn case(&self, run: RunOf, epsilon: f64) -> Case<(f64, RunOf)> {
-        let moving = self.moving.steps() as f64;
-        let (name, steps) = match run {
+    fn case(self, epsilon: f64) -> Case<(f64, RunOf)> {
+        let moving = MOVING.t_end / MOVING.dt * MOVING.elements as f64;
+        let (name, cost) = match self {
             RunOf::RigidLimit | RunOf::Bouncing => ("bouncing", moving),
             RunOf::FixedPoint => ("fixed point", 4.0 * moving),
-            RunOf::Rest => ("at rest", 200.0 / self.resting.dt()),
-            RunOf::Impact => ("impact", 3.0 * self.steps as f64),
+            RunOf::Rest => ("at rest", cost_to_rest(RESTING.elements, RESTING.dt)),
+            RunOf::Impact => ("impact", (3 * STEPS * IMPACT_ELEMENTS) as f64),
         };
-        let cost = steps * self.scene(run).mesh.elements() as f64;
-        Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, run))
+        Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, self))
     }
+}
 
-    /// t*, the time scale of an impact.
-    fn impact_time(&self, epsilon: f64) -> f64 {
-        let obstacles = Obstacles {
-            epsilon,
-            ..Obstacles::default()
-        };
-        obstacles.impact_time(self.impact.beam.zeta)
-    }
+/// t*, the time scale of an impact.
+fn impact_time(epsilon: f64) -> f64 {
+    let obstacles = Obstacles {
+        epsilon,
+        ..Obstacles::default()
+    };
+    obstacles.impact_time(IMPACT_ZETA)
 }
 
 impl ShownImpact {

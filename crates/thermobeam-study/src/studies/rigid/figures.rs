@@ -1,9 +1,13 @@
 //! The figures: contraction, penetrations, and the motion as obstacles become rigid.
 
-use super::{Compliance, LARGEST, RigidObstacles, ShownImpact};
+use super::ShownImpact;
+use super::judge::{Compliance, LARGEST};
 use crate::figures::{ContractionFactors, NamedPoints, contraction, obstacle_lines};
-use crate::kinds::prelude::*;
-use convergence_study::internal::chart::{self, Band, Chart, Series};
+use crate::studies::paper::OBSTACLES;
+use convergence_study::{
+    Figure,
+    internal::chart::{self, Band, Chart, Series},
+};
 
 pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
     let mut converging = vec![];
@@ -90,11 +94,7 @@ pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
 /// The decades of ε whose curves are distinct.
 const DECADES: [(f64, &str); 3] = [(1e-1, "ε = 10⁻¹"), (1e-2, "ε = 10⁻²"), (1e-3, "ε = 10⁻³")];
 
-pub(super) fn tip(
-    study: &RigidObstacles,
-    compliances: &[Compliance<'_>],
-    limit: &ShownImpact,
-) -> Figure {
+pub(super) fn tip(compliances: &[Compliance<'_>], limit: &ShownImpact) -> Figure {
     let mut series = vec![];
     for compliance in compliances {
         let decade = DECADES
@@ -105,7 +105,7 @@ pub(super) fn tip(
     series.push(("rigid", limit));
     let y = chart::Axis::linear("tip displacement u(1, t) (dimensionless)");
     let mut chart = Chart {
-        guides: obstacle_lines(study.moving.obstacles),
+        guides: obstacle_lines(Some(OBSTACLES)),
         ..Chart::empty(chart::Axis::linear("time t"), y)
     };
     for (label, run) in series {

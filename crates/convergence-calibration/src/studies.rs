@@ -1,0 +1,661 @@
+//! The rules that judge rates, limits and grids are judged themselves, on data whose order or limit
+//! is known: thousands of made-up sequences and grids, pure powers, polluted by higher powers,
+//! scattered, tending to a wrong limit. Each share has its limit: how often a wrong claim passes,
+//! how often a right one fails, how often an interval holds the truth.
+
+use convergence_study::{
+    About, Case, CaseFailure, CodeStudy, Described, Figure, Findings, InCode, Measured, Must, Runs,
+    Sheet as Numbers, Tier,
+    internal::chart::{Axis, Chart},
+    measured,
+};
+
+use crate::grids::of_grids;
+use crate::hidden::HIDDEN_SHARES;
+use crate::noise::of_noise;
+use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
+use crate::sheet::{Sheet, SheetRow};
+use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
+
+/// On few tables of each law.
+const QUICK: About = About {
+    id: "rule-calibration",
+    claim: "Claims 0.1 off the true order pass in less than 1 % of all cases; intervals contain the true order",
+    tier: Tier::Quick,
+    group: "the harness",
+    headline: "",
+    home: file!(),
+};
+/// On many, with other seeds: shares are known to a tenth of a per cent.
+const FULL: About = About {
+    id: "rule-calibration-full",
+    claim: "Of 29 error laws at most 0.4 % of the wrong claims pass, and at least 57 % of the true ones at ±0.25",
+    tier: Tier::Full,
+    ..QUICK
+};
+/// Of intervals for the limit of values without an exact solution, whose errors scatter.
+const ERROR_BARS: About = About {
+    id: "error-bars",
+    claim: "Intervals for the limit of scattered values contain it in 87 % of cases or more",
+    ..QUICK
+};
+
+/// The studies.
+pub const STUDIES: [CodeStudy; 3] = [
+    CodeStudy {
+        home: QUICK.home,
+        study: || Box::new(quick()),
+    },
+    CodeStudy {
+        home: FULL.home,
+        study: || Box::new(full()),
+    },
+    CodeStudy {
+        home: ERROR_BARS.home,
+        study: || Box::new(error_bars()),
+    },
+];
+
+/// The rule and its grids on few tables.
+pub fn quick() -> Described<InCode<Calibration>> {
+    of_rule(QUICK, 0, [(4, 7919), (60, 17)])
+}
+
+fn full() -> Described<InCode<Calibration>> {
+    of_rule(FULL, 1, [(100, 104_729), (400, 104_729)])
+}
+
+/// * `size`: the place of the bounds.
+/// * `tables_and_seeds`: of the rule and of the grids.
+fn of_rule(
+    about: About,
+    size: usize,
+    [rule, grids]: [(usize, u64); 2],
+) -> Described<InCode<Calibration>> {
+    let of = |part: &'static CountedQuantity, (tables, seed)| Measure {
+        of: part,
+        tables,
+        seed,
+    };
+    let shares = SHARES.iter().flat_map(|(sheet, shares)| {
+        shares.iter().filter_map(move |share| {
+            Some(ExpectedShare {
+                sheet,
+                column: share.column,
+                row: share.row,
+                claim: share.claims[size]?,
+            })
+        })
+    });
+    about.study(Calibration {
+        measures: vec![of(&PARTS[0], rule), of(&PARTS[2], grids)],
+        expected: shares.collect(),
+    })
+}
+
+/// Intervals for limits. The seed goes on where the random numbers of earlier versions had come to,
+/// so that the shares stay what they were.
+pub fn error_bars() -> Described<InCode<Calibration>> {
+    ERROR_BARS.study(Calibration {
+        measures: vec![Measure {
+            of: &PARTS[1],
+            tables: 1500,
+            seed: 3_353_553_831_721_705_887,
+        }],
+        expected: vec![ExpectedShare {
+            sheet: "noise",
+            column: "interval holds the limit",
+            row: DECLARED,
+            claim: Must::AtLeast(0.87),
+        }],
+    })
+}
+
+/// A share with its bounds on few tables and on many.
+struct Share {
+    column: &'static str,
+    row: Option<&'static str>,
+    claims: [Option<Must>; 2],
+}
+
+const fn most(column: &'static str, row: Option<&'static str>, [few, many]: [f64; 2]) -> Share {
+    Share {
+        column,
+        row,
+        claims: [Some(Must::AtMost(few)), Some(Must::AtMost(many))],
+    }
+}
+
+const fn least(column: &'static str, row: Option<&'static str>, [few, many]: [f64; 2]) -> Share {
+    Share {
+        column,
+        row,
+        claims: [Some(Must::AtLeast(few)), Some(Must::AtLeast(many))],
+    }
+}
+
+/// A bound on many tables alone.
+const fn of_many(column: &'static str, row: Option<&'static str>, claim: Must) -> Share {
+    Share {
+        column,
+        row,
+        claims: [None, Some(claim)],
+    }
+}
+
+/// Each row for which the rule answers.
+const DECLARED: Option<&str> = None;
+const OURS: Option<&str> = Some("this rule");
+
+/// The shares with bounds, by sheet.
+const SHARES: &[(&str, &[Share])] = &[
+    (
+        "rules",
+        &[
+            most("wrong pass, ±0.05, 0.1 off", OURS, [0.0012, 0.00091]),
+            most("wrong pass, ±0.1, 0.2 off", OURS, [0.0018, 0.0012]),
+            most("wrong pass, ±0.25, 0.5 off", OURS, [0.0029, 0.0027]),
+            least("true pass, ±0.1", OURS, [0.413, 0.418]),
+            least("true pass, ±0.25", OURS, [0.573, 0.569]),
+        ],
+    ),
+    (
+        "rules-wide",
+        &[
+            most("wrong pass, ±0.05, 0.1 off", OURS, [0.0011, 0.00085]),
+            most("wrong pass, ±0.1, 0.2 off", OURS, [0.0015, 0.0011]),
+            most("wrong pass, ±0.25, 0.5 off", OURS, [0.0035, 0.0032]),
+        ],
+    ),
+    (
+        "levels",
+        &[
+            least("true pass", Some("4 levels"), [0.399, 0.442]),
+            most("true fail", Some("4 levels"), [0.029, 0.031]),
+            most("visibly wrong pass", Some("4 levels"), [0.0035, 0.0016]),
+            least("true pass", Some("5 levels"), [0.529, 0.553]),
+            most("true fail", Some("5 levels"), [0.012, 0.0087]),
+            most("visibly wrong pass", Some("5 levels"), [0.0035, 0.0016]),
+            least("true pass", Some("6 levels"), [0.566, 0.598]),
+            most("true fail", Some("6 levels"), [0.014, 0.0089]),
+            most("visibly wrong pass", Some("6 levels"), [0.0022, 0.0014]),
+            least("true pass", Some("added up to 8"), [0.73, 0.746]),
+            most(
+                "visibly wrong pass",
+                Some("added up to 8"),
+                [0.0035, 0.0027],
+            ),
+            most("true fail", Some("added up to 8"), [0.023, 0.019]),
+            most("wrong pass", Some("3 levels"), [0.0028, 0.0019]),
+            most("wrong pass", Some("4 levels"), [0.0053, 0.0012]),
+            most("wrong pass", Some("5 levels"), [0.0059, 0.0012]),
+            most("wrong pass", Some("6 levels"), [0.0048, 0.001]),
+            most("wrong pass", Some("8 levels"), [0.0035, 0.0013]),
+            least("true pass", Some("8 levels"), [0.684, 0.695]),
+            most(
+                "passes without its coarsest level only",
+                Some("4 levels"),
+                [0.014, 0.0125],
+            ),
+            most(
+                "passes without its coarsest level only",
+                Some("5 levels"),
+                [0.018, 0.017],
+            ),
+            most(
+                "passes without its coarsest level only",
+                Some("6 levels"),
+                [0.00087, 0.0003],
+            ),
+            most(
+                "passes without its coarsest level only",
+                Some("8 levels"),
+                [0.00087, 3.5e-05],
+            ),
+            of_many("wrong pass", Some("added up to 8"), Must::AtMost(0.0045)),
+            of_many(
+                "interval holds the order",
+                Some("5 levels"),
+                Must::AtLeast(0.886),
+            ),
+            of_many(
+                "interval holds the order",
+                Some("8 levels"),
+                Must::AtLeast(0.937),
+            ),
+        ],
+    ),
+    (
+        "held-out",
+        &[
+            most("true fail", Some("added up to 8"), [0.135, 0.13]),
+            most("wrong pass", Some("4 levels"), [0.027, 0.0155]),
+            most("wrong pass", Some("8 levels"), [0.024, 0.011]),
+            least("true pass", Some("4 levels"), [0.257, 0.359]),
+            least("true pass", Some("8 levels"), [0.677, 0.722]),
+            least("interval holds the order", Some("4 levels"), [0.804, 0.858]),
+            of_many("wrong pass", Some("added up to 8"), Must::AtMost(0.032)),
+        ],
+    ),
+    (
+        "laws",
+        &[
+            most("wrong pass", DECLARED, [0.019, 0.0057]),
+            most("true fail", DECLARED, [0.038, 0.046]),
+            least("interval holds the order", DECLARED, [0.849, 0.881]),
+            least(
+                "interval holds the order",
+                Some("all declared"),
+                [0.947, 0.946],
+            ),
+            most("wrong pass", Some("all declared"), [0.0018, 0.00096]),
+            most("true fail", Some("all declared"), [0.0056, 0.0067]),
+            most("wrong pass", Some("3 levels"), [0.0035, 0.0011]),
+            most("wrong pass", Some("4 levels"), [0.0096, 0.0023]),
+            most("wrong pass", Some("5 levels"), [0.0035, 0.00087]),
+            most("wrong pass", Some("6 levels"), [0.0035, 0.0014]),
+            most("wrong pass", Some("7 levels"), [0.0035, 0.00071]),
+            most("wrong pass", Some("8 levels"), [0.0035, 0.0014]),
+        ],
+    ),
+    ("hidden-8", &[most("10 %", OURS, [0.026, 0.004])]),
+    (
+        "hidden-wide",
+        &[
+            most("10 %", OURS, [0.026, 0.004]),
+            of_many("5 %", OURS, Must::AtMost(0.009)),
+        ],
+    ),
+    (
+        "limits",
+        &[
+            most(
+                "and departs without its coarsest levels",
+                DECLARED,
+                [1e-9, 1e-9],
+            ),
+            most("wrong limit passes", Some("±0.1"), [0.26, 0.16]),
+            most("three terms pass", Some("±0.2"), [0.28, 0.16]),
+        ],
+    ),
+    ("grids", &[most("constant passes", DECLARED, [1e-9, 1e-9])]),
+    (
+        "claims",
+        &[
+            most(
+                "at least half an order too much passes",
+                DECLARED,
+                [0.011, 0.011],
+            ),
+            least("interval holds the constant", DECLARED, [0.952, 0.979]),
+            most("right constant fails", DECLARED, [0.0042, 0.00017]),
+            most("wrong constant passes", DECLARED, [0.0042, 0.00017]),
+            least("right constant passes", Some("6 levels"), [0.919, 0.921]),
+        ],
+    ),
+    (
+        "three",
+        &[
+            most("wrong limit passes", DECLARED, [0.013, 0.0062]),
+            most("lower order passes", DECLARED, [0.037, 0.015]),
+        ],
+    ),
+    (
+        "benign",
+        &[
+            least("true pass", Some("4 levels"), [0.83, 0.87]),
+            least("true pass", Some("8 levels"), [0.999, 0.999]),
+            of_many(
+                "interval holds the order",
+                Some("5 levels"),
+                Must::AtLeast(0.96),
+            ),
+            of_many("true fail", Some("added up to 8"), Must::AtMost(1e-9)),
+        ],
+    ),
+    (
+        "differences",
+        &[
+            least("true pass", Some("4 levels"), [0.83, 0.87]),
+            most("wrong pass", DECLARED, [1e-9, 1e-9]),
+            of_many("true pass", Some("6 levels"), Must::AtLeast(0.97)),
+        ],
+    ),
+    (
+        "noisy",
+        &[
+            most(
+                "hidden order passes",
+                Some("8 levels, noise 0.3 %"),
+                [0.013, 0.002],
+            ),
+            most(
+                "hidden order passes",
+                Some("8 levels, noise 1 %"),
+                [0.1, 0.08],
+            ),
+            least("true pass", Some("8 levels, noise 1 %"), [0.86, 0.89]),
+            of_many(
+                "hidden order passes",
+                Some("5 levels, noise 1 %"),
+                Must::AtMost(0.37),
+            ),
+            of_many(
+                "true pass",
+                Some("5 levels, noise 1 %"),
+                Must::AtLeast(0.87),
+            ),
+        ],
+    ),
+    (
+        "compared",
+        &[
+            most("wrong pass", OURS, [0.034, 0.033]),
+            least("true pass", OURS, [0.53, 0.545]),
+        ],
+    ),
+];
+
+/// A quantity that can be counted.
+#[derive(Debug)]
+struct CountedQuantity {
+    /// Its name.
+    name: &'static str,
+    /// Measured cost in tables of all laws and meshes, for each of `tables`.
+    cost: usize,
+    /// Counts on this number of tables, drawn from a seed.
+    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
+}
+
+static PARTS: [CountedQuantity; 3] = [
+    CountedQuantity {
+        name: "rule",
+        cost: 3000,
+        sheets: of_the_rule,
+    },
+    CountedQuantity {
+        name: "noise",
+        cost: 6,
+        sheets: of_noise,
+    },
+    CountedQuantity {
+        name: "grids",
+        cost: 8,
+        sheets: of_grids,
+    },
+];
+
+/// A part with the number of its tables.
+#[derive(Debug, Clone, Copy)]
+pub struct Measure {
+    of: &'static CountedQuantity,
+    tables: usize,
+    seed: u64,
+}
+
+/// A share with a bound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExpectedShare {
+    /// The sheet, and its column.
+    pub sheet: &'static str,
+    /// Its column.
+    pub column: &'static str,
+    /// Its row; `None`: each row for which the rule answers.
+    pub row: Option<&'static str>,
+    claim: Must,
+}
+
+impl ExpectedShare {
+    fn is_of(&self, sheet: &Sheet, row: &SheetRow, column: &str) -> bool {
+        let is_row = self.row.map_or(row.declared, |name| row.name == name);
+        self.sheet == sheet.key && self.column == column && is_row
+    }
+}
+
+/// Shares that are counted, and their bounds.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    /// What is counted.
+    pub measures: Vec<Measure>,
+    /// The shares that have bounds.
+    pub expected: Vec<ExpectedShare>,
+}
+
+impl Runs for Calibration {
+    type Run = Measure;
+    type Shown = Vec<Sheet>;
+
+    fn runs(&self) -> Vec<Case<Measure>> {
+        let mut cases = vec![];
+        for &data in &self.measures {
+            let Measure { of, tables, .. } = data;
+            let label = format!("{}, {tables} tables of each law", of.name);
+            let cost = of.cost * tables * ELEMENTS_OF_A_TABLE;
+            cases.push(Case::new(label, cost as f64, data));
+        }
+        cases
+    }
+
+    fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
+        (of.sheets)(tables, seed).map_err(CaseFailure::from)
+    }
+
+    fn judge(&self, shown: &[(&Measure, &Vec<Sheet>)]) -> Findings {
+        let sheets: Vec<&Sheet> = shown.iter().flat_map(|(_, sheets)| *sheets).collect();
+        let mut numbers: Vec<Numbers> = sheets.iter().map(|sheet| self.numbers(sheet)).collect();
+        numbers.push(Numbers::new(
+            "Shares that are missing",
+            "share",
+            self.missing(&sheets),
+        ));
+        let all = numbers.iter().flat_map(|sheet| &sheet.measured);
+        let held = all.filter(|share| share.holds() == Some(true)).count();
+        Findings {
+            headline: Some(format!(
+                "{held} shares of {} sheets are within their limits",
+                sheets.len()
+            )),
+            sheets: numbers,
+            figures: figures(&sheets),
+            ..Findings::default()
+        }
+    }
+}
+
+impl Calibration {
+    /// The shares of a sheet; rows for which the rule does not answer are in brackets.
+    fn numbers(&self, sheet: &Sheet) -> Numbers {
+        let mut numbers = vec![];
+        for row in &sheet.rows {
+            let case = match row.declared {
+                true => format!("{}, {}", sheet.key, row.name),
+                false => format!("{}, ({})", sheet.key, row.name),
+            };
+            for cell in &row.cells {
+                // A share of nothing is none.
+                let value = Some(cell.value()).filter(|value| !value.is_nan());
+                let share = measured(&case, &cell.column, value).fixed(4);
+                let share = share.must_be(self.claim(sheet, row, &cell.column));
+                numbers.push(guarded(share, sheet, row, &cell.column));
+            }
+        }
+        Numbers::new(&sheet.title, "", numbers)
+    }
+
+    /// The tightest of the claims about a share.
+    fn claim(&self, sheet: &Sheet, row: &SheetRow, column: &str) -> Option<Must> {
+        let own = self.expected.iter();
+        let own = own.filter(|share| share.is_of(sheet, row, column));
+        own.map(|share| share.claim).reduce(|one, other| {
+            if other.is_looser_than(one) {
+                one
+            } else {
+                other
+            }
+        })
+    }
+
+    /// Shares with bounds that no sheet has.
+    fn missing(&self, sheets: &[&Sheet]) -> Vec<Measured> {
+        let is_there = |share: &&ExpectedShare| {
+            sheets.iter().any(|sheet| {
+                let mut rows = sheet.rows.iter();
+                rows.any(|row| {
+                    row.value(share.column).is_some() && share.is_of(sheet, row, share.column)
+                })
+            })
+        };
+        let missing = self.expected.iter().filter(|share| !is_there(share));
+        missing
+            .map(|share| {
+                let row = share.row.unwrap_or("each declared row");
+                let case = format!("{}, {row}", share.sheet);
+                measured(case, share.column, None).must_be(share.claim)
+            })
+            .collect()
+    }
+}
+
+/// The shares that the first page of the project states: rows and columns of a sheet.
+const STATED: [(&str, &[&str], &[&str]); 4] = [
+    (
+        "benign",
+        &["4 levels", "8 levels"],
+        &["true pass", "wrong pass"],
+    ),
+    (
+        "held-out",
+        &["4 levels", "8 levels", "added up to 8"],
+        &["true pass", "true fail", "wrong pass"],
+    ),
+    (
+        "noisy",
+        &[
+            "4 levels, noise 0 %",
+            "5 levels, noise 0 %",
+            "6 levels, noise 0 %",
+            "8 levels, noise 0 %",
+        ],
+        &["hidden order passes"],
+    ),
+    (
+        "compared",
+        &[
+            "this rule",
+            "last pair",
+            "Richardson",
+            "last three slopes",
+            "least squares",
+            "Eça-Hoekstra",
+        ],
+        &["true pass", "wrong pass", "half-width"],
+    ),
+];
+
+/// The shares of true claims that our own rule passes, and those that the first page states. Every
+/// run draws the same tables, so these shares change only with the rule. A few verdicts may differ
+/// on another machine.
+fn guarded(share: Measured, sheet: &Sheet, row: &SheetRow, column: &str) -> Measured {
+    const TOLERANCE: f64 = 0.01;
+    let Sheet { key, .. } = sheet;
+    let name = row.name.as_str();
+    let mut known = CLAIMS.iter().map(|(tolerance, _)| true_pass(*tolerance));
+    if name == Rule::Ours.name() && known.any(|known| known == column) {
+        return share.recorded_as(format!("{key}: {column}"), TOLERANCE);
+    }
+    let mut stated = STATED.iter();
+    let is_stated = stated.any(|(sheet, rows, columns)| {
+        sheet == key && rows.contains(&name) && columns.contains(&column)
+    });
+    if is_stated {
+        share.recorded_as(format!("{key}, {name}: {column}"), TOLERANCE)
+    } else {
+        share
+    }
+}
+
+/// A curve for each rule of a sheet.
+///
+/// * `show_x`: values that the axis must contain.
+/// * `points`: of the curve of a row.
+fn figure(
+    sheet: &Sheet,
+    title: &str,
+    caption: &str,
+    [x, y]: [Axis; 2],
+    show_x: [f64; 2],
+    note: String,
+    points: fn(&SheetRow) -> Vec<(f64, f64)>,
+) -> Figure {
+    let mut chart = Chart {
+        notes: vec![note],
+        ..Chart::empty(x.showing(show_x), y.showing([100.0])).titled(title)
+    };
+    for row in &sheet.rows {
+        let curve = chart.curve(&row.name, points(row));
+        *curve = curve.clone().marked();
+    }
+    Figure::new(sheet.key, caption, chart.svg())
+}
+
+/// True claims that pass, and wrong ones, in per cent, at each tolerance.
+fn trade(row: &SheetRow) -> Vec<(f64, f64)> {
+    CLAIMS
+        .map(|(tolerance, off)| {
+            (
+                percent(row, &true_pass(tolerance)),
+                percent(row, &wrong_pass(tolerance, off)),
+            )
+        })
+        .to_vec()
+}
+
+/// A share in per cent; NaN if the row does not have it.
+fn percent(row: &SheetRow, column: &str) -> f64 {
+    100.0 * row.value(column).unwrap_or(f64::NAN)
+}
+
+/// Tables that pass, by the share of the hidden term, both in per cent.
+fn hidden(row: &SheetRow) -> Vec<(f64, f64)> {
+    HIDDEN_SHARES
+        .map(|share| (100.0 * share, percent(row, &hidden_part(share))))
+        .to_vec()
+}
+
+/// Wrong claims that pass over true claims that pass, for each rule, and how often a lower order
+/// goes unnoticed.
+fn figures(sheets: &[&Sheet]) -> Vec<Figure> {
+    let [first, second, third] = CLAIMS.map(|(tolerance, _)| tolerance);
+    let mut figures = vec![];
+    if let Some(sheet) = sheets.iter().find(|sheet| sheet.key == "rules") {
+        figures.push(figure(
+            sheet,
+            "The rule seldom passes a wrong claim",
+            "What each rule pays for the true claims it passes: wrong claims that pass, too.",
+            [
+                Axis::linear("true claims that pass (%)"),
+                Axis::log("wrong claims that pass (%)"),
+            ],
+            [0.0, 100.0],
+            format!(
+                "tolerances {first}, {second}, {third} from left to right; better: right and down"
+            ),
+            trade,
+        ));
+    }
+    if let Some(sheet) = sheets.iter().find(|sheet| sheet.key == "hidden-8") {
+        figures.push(figure(
+            sheet,
+            "How often a table passes that hides a lower order",
+            "How often a term of lower order goes unnoticed, by its share of the finest error.",
+            [
+                Axis::linear("share of the finest error (%)"),
+                Axis::linear("tables that pass (%)"),
+            ],
+            [4.0, 21.0],
+            "better: down".to_owned(),
+            hidden,
+        ));
+    }
+    figures
+}

@@ -147,7 +147,7 @@ def test_a_study_adds_levels_until_it_is_decided(capfd, tmp_path):
     assert list(r.table()["h"]) == [0.25, 0.125, 0.0625, 0.03125]
     assert "<svg" in r._repr_html_() and "too low" in repr(cs.study(solve, [8, 16, 32], order={"H1": 2}))
     r.report(tmp_path / "report")
-    assert "decided after 4 levels" in (tmp_path / "report/README.md").read_text()
+    assert "decided after 4 levels" in (tmp_path / "report/index.html").read_text()
     late = cs.study(lambda n: n**-2.0 + 1.5 * n**-3.0 * (-1) ** int(math.log2(n)), order=2)
     assert late.verdict != "fail" and "levels" in late.summary
     absent = cs.study(solve, [8, 16, 32, 64], order={"L3": 2})

@@ -1,7 +1,6 @@
 //! Verification, without command line and terminal: run, judge, compare with the baseline, bless,
 //! write the report.
 
-mod destination;
 mod rebuilt;
 mod reports;
 
@@ -24,13 +23,12 @@ use crate::store::{
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 
-#[cfg(feature = "command-line")]
-pub(crate) use destination::{folder_of_figures, is_report};
 pub use rebuilt::{publish, write_report};
 pub(crate) use rebuilt::{rebuild, record};
 
-use destination::Destination;
 pub(crate) use reports::Reports;
+#[cfg(feature = "command-line")]
+pub(crate) use reports::is_report;
 
 /// Which studies to run. This decides where the report goes: a report on a selection never replaces
 /// one on a tier.
@@ -74,15 +72,6 @@ impl Scope {
                 format!("{verify} {}", words.join(" "))
             }
         }
-    }
-
-    /// One of each kind: the quick tier, the full one, a selection.
-    fn one_of_each() -> [Self; 3] {
-        [
-            Self::Tier(Tier::Quick, vec![]),
-            Self::Tier(Tier::Full, vec![]),
-            Self::Selection(vec![]),
-        ]
     }
 
     /// The headers of all existing studies, if a whole tier is run.
@@ -134,21 +123,25 @@ impl VerifyRequest {
         self.root.join("studies").join("baseline.json")
     }
 
+    /// The file of the work limits.
+    fn works(&self) -> PathBuf {
+        self.root.join("studies").join("work.json")
+    }
+
     /// Waits for other processes that write the reports, and then blocks them; for a blessing first
     /// for those that write the baseline, whose lock is in the project, wherever the reports go.
-    fn lock(&self) -> io::Result<[Option<File>; 2]> {
-        let reports = Reports::at(&self.reports);
+    fn lock(&self, reports: &Reports) -> io::Result<[Option<File>; 2]> {
         let of_project = self.reports_of_project();
         let baseline = self.bless.then(|| of_project.lock()).transpose()?;
         // A second lock on the same file would wait for the first.
-        let is_held = baseline.is_some() && of_project.shares_its_lock(&reports);
+        let is_held = baseline.is_some() && of_project.shares_its_lock(reports);
         let reports = (!is_held).then(|| reports.lock()).transpose()?;
         Ok([baseline, reports])
     }
 
     /// Those that have the lock of the baseline.
     fn reports_of_project(&self) -> Reports {
-        Reports::at(self.root.join("reports"))
+        Reports::of(self.root.join("reports"), self.scope.name())
     }
 }
 
@@ -201,29 +194,23 @@ pub fn verify(
     request: &VerifyRequest,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
-    let baseline_file = request.baseline();
-    Baseline::read(&baseline_file)?;
-    let reports = Reports::at(&request.reports);
-    if reports.is_used() {
-        locked(request, &reports, || remove_leftovers(request, &reports))?;
-    }
+    Baseline::read(&request.baseline())?;
+    let works = Works::read(&request.works())?;
+    let reports = Reports::of(&request.reports, request.scope.name());
     reports.prepare()?;
-    let works = Works::read(&works_file(request))?;
-    let newest = reports.report(&request.scope);
-    if newest.has_any(&NEWEST) {
-        locked(request, &reports, || newest.set_aside(&NEWEST))?;
-    }
+    locked(request, &reports, || {
+        // If the lock of the baseline is not held, another process may be writing it.
+        if request.bless || request.reports_of_project().shares_its_lock(&reports) {
+            atomic::remove_leftovers(&request.baseline())?;
+        }
+        reports.begin()
+    })?;
     let verification = run_and_write(project, studies, request, &reports, works, progress);
     if verification.is_err() {
         // The error of the run says more than one of putting back.
-        let _ = locked(request, &reports, || newest.put_back(&NEWEST));
+        let _ = locked(request, &reports, || reports.accepted.put_back(&NEWEST));
     }
     verification
-}
-
-/// The file of the work limits.
-fn works_file(request: &VerifyRequest) -> PathBuf {
-    request.root.join("studies/work.json")
 }
 
 /// Changes files of the reports while no other process writes them.
@@ -232,7 +219,7 @@ fn locked(
     reports: &Reports,
     change: impl FnOnce() -> io::Result<()>,
 ) -> io::Result<()> {
-    let _lock = request.lock()?;
+    let _lock = request.lock(reports)?;
     let _writing = atomic::begin_write();
     change().map_err(|error| reports.unwritable(&error))
 }
@@ -252,7 +239,7 @@ fn run_and_write(
         |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
     let finished = run::run_within(studies, request.effort, &allowed, progress)?;
 
-    let _lock = request.lock()?;
+    let _lock = request.lock(reports)?;
     // A request to end the process waits until everything is written.
     let _writing = atomic::begin_write();
     // Another run may have blessed in the meantime: the baseline is read again under the lock.
@@ -271,12 +258,11 @@ fn run_and_write(
     let committed = record.clone().committed();
     // A blessing of one tier can leave changes of another: the run then still fails.
     let passes = record.verdict == Verdict::Pass;
-    let destination = Destination::new(&request.scope, reports, passes);
-    let see_also = destination.see_also(&committed);
+    let see_also = reports.see_also(request.scope.name());
     let findings = Findings {
         project,
         record: &committed,
-        see_also,
+        see_also: see_also.filter(|_| passes),
         provenance: Some(&provenance),
     };
     let unwritable = |error| reports.unwritable(&error);
@@ -286,15 +272,15 @@ fn run_and_write(
         baseline.write(&baseline_file)?;
         works.take(&record.studies);
         if !works.is_empty() {
-            write_json(&works_file(request), &works)?;
+            write_json(&request.works(), &works)?;
         }
     }
-    destination.publish(&files).map_err(unwritable)?;
+    reports.publish(&files, passes)?;
     atomic::write(&reports.provenance(), provenance).map_err(unwritable)?;
     Ok(Verification {
         record,
         blessing,
-        reports: destination.folder().to_owned(),
+        reports: reports.folder(passes).to_owned(),
     })
 }
 
@@ -323,15 +309,6 @@ fn bless(baseline: &mut Baseline, finished: &[Finished], request: &VerifyRequest
         Ok(loosened) => Blessing::Taken(loosened),
         Err(refusal) => Blessing::Refused(refusal),
     }
-}
-
-/// Removes what runs that were killed have left.
-fn remove_leftovers(request: &VerifyRequest, reports: &Reports) -> io::Result<()> {
-    // If the lock of the baseline is not held, another process may be writing it.
-    if request.bless || request.reports_of_project().shares_its_lock(reports) {
-        atomic::remove_leftovers(&request.baseline())?;
-    }
-    reports.tidy()
 }
 
 /// The worst verdict of all studies; fail if the baseline differs.

@@ -1,6 +1,7 @@
 //! The first `verify`, before there is a baseline.
 
 use std::fs;
+use std::process::Command;
 
 use super::{command, run, texts, workspace};
 
@@ -71,5 +72,36 @@ fn a_new_study_beside_accepted_ones_and_one_that_fails_are_no_first_run() {
     assert!(
         out.contains("if that is meant: powers verify --bless"),
         "{out}"
+    );
+}
+
+/// What a new project commits after its first blessing.
+#[test]
+fn git_keeps_of_a_first_blessing_what_is_worth_reviewing() {
+    if !foreign_tools::are_here(&[foreign_tools::GIT]) {
+        return;
+    }
+    let root = workspace(false);
+    run(&root, &["verify", "--bless"]);
+    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
+    let git = |arguments: &[&str]| {
+        let mut git = Command::new("git");
+        texts(git.args(arguments).current_dir(root.path())).1
+    };
+    git(&["init", "--quiet"]);
+    git(&["add", "--all"]);
+    let mut kept: Vec<String> = git(&["ls-files"]).lines().map(str::to_owned).collect();
+    kept.retain(|path| path != "studies/one.toml");
+    assert_eq!(
+        kept,
+        [
+            "reports/.gitignore",
+            "reports/README.md",
+            "reports/figures/one-errors.svg",
+            "reports/figures/rates.svg",
+            "reports/full/README.md",
+            "reports/full/figures/rates.svg",
+            "studies/baseline.json",
+        ]
     );
 }

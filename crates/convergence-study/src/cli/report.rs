@@ -14,7 +14,7 @@ use crate::project::Project;
 use crate::report::{picture, sentence};
 use crate::store::{FIGURES, Provenance, Record};
 use crate::text::visible;
-use crate::verify::{Reports, folder_of_figures, is_report, rebuild};
+use crate::verify::{Reports, is_report as is_report_in, rebuild};
 
 /// Write the report on a record anew, without running anything
 ///
@@ -45,7 +45,7 @@ pub(super) fn run(
 ) -> CommandOutcome {
     let mut record = Record::read(path)?;
     let beside = path.parent().unwrap_or(Path::new(""));
-    let is_report = is_report(beside);
+    let is_report = is_report_in(beside);
     let own = is_report.then(|| beside.to_owned());
     let folder = flags.out.clone().or(own).ok_or_else(|| {
         let path = visible::path(path);
@@ -53,7 +53,14 @@ pub(super) fn run(
             "{path}: found outside of a report's folder; expected --out DIR for the new report"
         ))
     })?;
-    let pictures = folder_of_figures(&record, beside);
+    let reports = Reports::around(beside, &record.scope);
+    // A failing run has left the figures of the accepted one.
+    let own = reports.folder(record.verdict.is_pass()).to_owned();
+    let pictures = if is_report_in(&own) {
+        own
+    } else {
+        beside.to_owned()
+    };
     let missing = add_pictures(&mut record, &pictures)?;
     if *no_title {
         let outcomes = record.studies.iter_mut().map(|study| &mut study.outcome);
@@ -61,7 +68,7 @@ pub(super) fn run(
             figure.svg = without_title(&figure.svg);
         }
     }
-    let times = Reports::around(beside).provenance();
+    let times = reports.provenance();
     let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
     let verdict = record.verdict;

@@ -386,23 +386,35 @@ fn row(
 /// Studies that `--durations` lists.
 const SLOWEST: usize = 10;
 
-/// Changes listed one by one; more are grouped by their cause.
+/// Numbers that moved which are listed one by one, unless all are wanted.
 const LISTED: usize = 6;
 
-/// Changed claims, under a head, after the numbers, one line each if they are few or all are
-/// wanted.
+/// Numbers that moved, those that moved farthest first unless all are wanted; then changed claims,
+/// under a head.
 fn moved_lines(changes: &[GuardedChange], all: bool) -> String {
-    let (claims, numbers): (Vec<&GuardedChange>, Vec<&GuardedChange>) = changes
+    let (claims, mut numbers): (Vec<&GuardedChange>, Vec<&GuardedChange>) = changes
         .iter()
         .partition(|change| change.movement.is_of_claims());
-    let shown = numbers.iter().filter(|_| all || numbers.len() <= LISTED);
-    let numbers: String = shown.map(|change| line("baseline: ", change)).collect();
-    let claims: String = claims.iter().map(|change| line("  ", change)).collect();
-    if claims.is_empty() {
-        numbers
-    } else {
-        format!("{numbers}claims changed\n{claims}")
+    let more = numbers.len().saturating_sub(LISTED);
+    let mut lines = String::new();
+    if !all && more > 0 {
+        let weight = |change: &GuardedChange| change.movement.weight();
+        numbers.sort_by(|one, next| weight(next).total_cmp(&weight(one)));
+        numbers.truncate(LISTED);
     }
+    for change in &numbers {
+        lines += &line("baseline: ", change);
+    }
+    if numbers.len() == LISTED && more > 0 {
+        lines += &format!("baseline: and {more} more numbers\n");
+    }
+    if !claims.is_empty() {
+        lines += "claims changed\n";
+    }
+    for change in claims {
+        lines += &line("  ", change);
+    }
+    lines
 }
 
 /// A change on a line of its own.
@@ -429,24 +441,28 @@ mod tests {
     }
 
     #[test]
-    fn few_changes_are_listed_and_many_only_where_they_are_wanted() {
+    fn of_many_changes_the_farthest_are_listed_unless_all_are_wanted() {
         let changes: Vec<GuardedChange> = (0..10)
             .map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i)))
             .collect();
-        assert!(
-            moved_lines(&changes[..6], false)
-                .lines()
-                .all(|line| line.starts_with("baseline: many: n"))
-        );
-        assert_eq!(
-            [false, true].map(|all| moved_lines(&changes, all).lines().count()),
-            [0, 10]
-        );
+        let lines = |changes: &[GuardedChange], all| -> Vec<String> {
+            let text = moved_lines(changes, all);
+            text.lines().map(str::to_owned).collect()
+        };
+        assert_eq!(lines(&changes[..6], false).len(), 6);
+        assert!(lines(&changes[..6], false)[0].starts_with("baseline: many: n0"));
+        assert_eq!(lines(&changes, true).len(), 10);
+        let few = lines(&changes, false);
+        assert!(few[0].starts_with("baseline: many: n9 moved"), "{few:?}");
+        assert_eq!(few[6..], ["baseline: and 4 more numbers"]);
         let mut claim = moved("few", "study", 1.0);
         claim.movement = Movement::VanishedStudy { numbers: 3 };
         assert_eq!(
-            moved_lines(&[changes, vec![claim]].concat(), false),
-            "claims changed\n  few: study was deleted: it had 3 guarded numbers\n"
+            lines(&[changes, vec![claim]].concat(), false)[7..],
+            [
+                "claims changed",
+                "  few: study was deleted: it had 3 guarded numbers"
+            ]
         );
     }
 }

@@ -179,11 +179,6 @@ impl ReportFolder {
         remove_if_there(&self.folder)
     }
 
-    /// Whether one of these files exists.
-    pub(crate) fn has_any(&self, paths: &[&str]) -> bool {
-        paths.iter().any(|path| self.folder.join(path).exists())
-    }
-
     /// Takes files of the report out of sight while a run is under way: if it is killed, no reader
     /// takes what they say for what the run has found. The caller must hold the [`lock`].
     ///

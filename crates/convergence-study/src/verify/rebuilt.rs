@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::destination::Destination;
-use super::{Reports, Scope, VerificationError, verdict};
+use super::{Reports, VerificationError, verdict};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::Findings;
@@ -79,33 +78,18 @@ pub(crate) fn rebuild(
     folder: &Path,
 ) -> Result<PathBuf, VerificationError> {
     let record = record.committed();
-    let reports = Reports::around(folder);
+    let reports = Reports::around(folder, &record.scope);
     let _lock = reports.lock()?;
     let is_accepted = record.verdict == Verdict::Pass;
-    let own = Scope::one_of_each()
-        .into_iter()
-        .find(|scope| reports.report(scope).folder == folder);
-    let destination = own.map_or_else(
-        || Destination::One {
-            target: reports.elsewhere(folder),
-            failing: None,
-        },
-        |scope| {
-            // Only a run of the tier is one that the folder of the tier waits for.
-            let is_other = scope.name() != record.scope;
-            Destination::new(&scope, &reports, is_accepted || is_other)
-        },
-    );
-    let see_also = destination.see_also(&record);
+    let see_also = reports.see_also(&record.scope);
     let findings = Findings {
         project,
         record: &record,
-        see_also,
+        see_also: see_also.filter(|_| is_accepted),
         provenance,
     };
-    findings
-        .files()
-        .and_then(|files| destination.publish(&files))
-        .map_err(|error| reports.unwritable(&error))?;
-    Ok(destination.folder().to_owned())
+    let files = findings.files();
+    let files = files.map_err(|error| reports.unwritable(&error))?;
+    reports.publish(&files, is_accepted)?;
+    Ok(reports.folder(is_accepted).to_owned())
 }

@@ -1,38 +1,71 @@
-//! All reports of a project: `reports/`, and what is below it.
+//! The reports of a project: `reports/`, and what is below it.
 
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::Scope;
-use crate::store::{ReportFolder, atomic, lock};
+use crate::report::{NEWEST, SeeAlso, newest};
+use crate::store::{README, ReportFolder, ReportSet, atomic, lock};
 use crate::study::Tier;
 use crate::text::visible;
 
 /// The folder of the report on the full tier, in that of the report on the quick tier.
-pub(super) const FULL_FOLDER: &str = "full";
+const FULL_FOLDER: &str = "full";
 
-/// The folder of all reports of a project. Its lock keeps two runs apart; what belongs to one
-/// machine is in `local/`, which git ignores.
+/// What git ignores of the reports: what each run makes anew, for one machine.
+const IGNORED: &str = "# Made anew by each run; what people review is committed.\nlocal/\nindex.html\njunit.xml\n\
+                       results.json\nsummary.md\n**/figures/page/\n";
+
+/// Where the report on a scope is, among all reports of its project: decided once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Reports {
-    folder: PathBuf,
+    /// All reports. Their lock keeps two runs apart; what belongs to one machine is in `local/`.
+    root: PathBuf,
+    /// The report on a run that passes or is blessed.
+    pub(super) accepted: ReportFolder,
+    /// That on any other run of a tier, which leaves what git holds of the accepted one.
+    failing: Option<ReportFolder>,
 }
 
 impl Reports {
-    /// Those in this folder.
-    pub(super) fn at(folder: impl Into<PathBuf>) -> Self {
+    /// * `scope`: the name of a tier, or of any other scope, whose report is never committed.
+    pub(super) fn of(root: impl Into<PathBuf>, scope: &str) -> Self {
+        let root = root.into();
+        let local = root.join("local");
+        let folder = match scope {
+            _ if scope == Tier::Quick.name() => root.clone(),
+            _ if scope == Tier::Full.name() => root.join(FULL_FOLDER),
+            _ => local.join("partial"),
+        };
+        let prepared_in = |folder: PathBuf, workshop: &str| ReportFolder {
+            folder,
+            workshop: local.join("workshop").join(workshop),
+        };
+        let is_tier = Tier::ALL.iter().any(|tier| tier.name() == scope);
         Self {
-            folder: folder.into(),
+            accepted: prepared_in(folder, scope),
+            failing: is_tier.then(|| prepared_in(local.join(scope), &format!("{scope}-failing"))),
+            root,
         }
     }
 
-    /// Those that a folder belongs to, by their lock: `reports/` for `reports/full/`; otherwise the
-    /// folder itself.
-    pub(crate) fn around(folder: &Path) -> Self {
-        let mut folders = folder.ancestors().take(3).map(Self::at);
-        let with_lock = folders.find(|reports| reports.lock_file().is_file());
-        with_lock.unwrap_or_else(|| Self::at(folder))
+    /// The report in a folder, of a project if that has a lock: `reports/` of `reports/full/`.
+    pub(crate) fn around(folder: &Path, scope: &str) -> Self {
+        let mut roots = folder.ancestors().take(3);
+        let root = roots.find(|root| Self::of(*root, scope).lock_file().is_file());
+        let own = Self::of(root.unwrap_or(folder), scope);
+        if own.accepted.folder == folder {
+            return own;
+        }
+        let accepted = ReportFolder {
+            folder: folder.to_owned(),
+            workshop: own.local().join("workshop/rebuilt"),
+        };
+        Self {
+            accepted,
+            failing: None,
+            ..own
+        }
     }
 
     /// Where the run comes from, with times.
@@ -40,29 +73,44 @@ impl Reports {
         self.local().join("provenance.json")
     }
 
-    /// Where the report goes if the run passes or is blessed.
-    pub(super) fn report(&self, scope: &Scope) -> ReportFolder {
-        let folder = match scope {
-            Scope::Tier(Tier::Quick, _) => self.folder.clone(),
-            Scope::Tier(Tier::Full, _) => self.folder.join(FULL_FOLDER),
-            Scope::Selection(_) => self.local().join("partial"),
-        };
-        self.prepared_in(folder, scope.name())
+    /// The folder of the report on a run that passes, or does not.
+    pub(crate) fn folder(&self, is_accepted: bool) -> &Path {
+        match &self.failing {
+            Some(failing) if !is_accepted => &failing.folder,
+            _ => &self.accepted.folder,
+        }
     }
 
-    /// Where the report of a tier goes otherwise; `None` for a selection, whose report is never
-    /// committed.
-    pub(super) fn failing(&self, scope: &Scope) -> Option<ReportFolder> {
-        let Scope::Tier(tier, _) = scope else {
-            return None;
+    /// The report on the other tier, if it is there.
+    pub(super) fn see_also(&self, scope: &str) -> Option<SeeAlso> {
+        let own = &self.accepted.folder;
+        let (folder, other, place) = match scope {
+            _ if scope == Tier::Quick.name() => (FULL_FOLDER, Tier::Full, own.join(FULL_FOLDER)),
+            // The folder of the full tier may not yet exist.
+            _ if scope == Tier::Full.name() => ("..", Tier::Quick, own.parent()?.to_owned()),
+            _ => return None,
         };
-        let folder = self.local().join(tier.name());
-        Some(self.prepared_in(folder, &format!("{}-failing", tier.name())))
+        let has = |file: &str| place.join(file).is_file();
+        has(README).then(|| SeeAlso {
+            tier: other.name(),
+            folder,
+            has_page: has("index.html"),
+        })
     }
 
-    /// The report in any folder that shares the lock.
-    pub(super) fn elsewhere(&self, folder: &Path) -> ReportFolder {
-        self.prepared_in(folder.to_owned(), "rebuilt")
+    /// Writes the report; of a run that does not pass, the files that programs read also to the
+    /// place of the accepted one. The caller must hold the lock.
+    pub(super) fn publish(&self, files: &ReportSet, is_accepted: bool) -> io::Result<()> {
+        let published = match &self.failing {
+            Some(failing) if !is_accepted => failing
+                .publish(files)
+                .and_then(|()| self.accepted.renew(&newest(files))),
+            failing => self
+                .accepted
+                .publish(files)
+                .and_then(|()| failing.as_ref().map_or(Ok(()), ReportFolder::clear)),
+        };
+        published.map_err(|error| self.unwritable(&error))
     }
 
     /// Waits for other processes that write here, and then blocks them until the file is dropped.
@@ -78,30 +126,34 @@ impl Reports {
 
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
-        atomic::prepare_folder(&self.folder).map_err(|error| self.unwritable(&error))
+        let ignored = self.root.join(".gitignore");
+        atomic::prepare_folder(&self.root)
+            .and_then(|()| match ignored.exists() {
+                true => Ok(()),
+                false => atomic::write(&ignored, IGNORED),
+            })
+            .map_err(|error| self.unwritable(&error))
     }
 
-    /// Whether anything was ever written here.
-    pub(super) fn is_used(&self) -> bool {
-        self.local().is_dir()
-    }
-
-    /// Removes what killed runs have left. The caller must hold the lock.
-    pub(super) fn tidy(&self) -> io::Result<()> {
+    /// Removes what killed runs have left, and sets aside what programs read. The caller must hold
+    /// the lock.
+    pub(super) fn begin(&self) -> io::Result<()> {
         atomic::remove_leftovers(&self.provenance())?;
         // Left by a run that was killed while it tested the folder.
-        atomic::remove_leftovers(&self.folder.join(atomic::PROBE))?;
-        for scope in Scope::one_of_each() {
-            self.report(&scope).tidy()?;
-            self.failing(&scope)
-                .map_or(Ok(()), |failing| failing.tidy())?;
+        atomic::remove_leftovers(&self.root.join(atomic::PROBE))?;
+        for scope in ["quick", "full", "selection"] {
+            let Self {
+                accepted, failing, ..
+            } = Self::of(&self.root, scope);
+            accepted.tidy()?;
+            failing.map_or(Ok(()), |failing| failing.tidy())?;
         }
-        Ok(())
+        self.accepted.set_aside(&NEWEST)
     }
 
     /// The same error, preceded by the folder.
     pub(super) fn unwritable(&self, error: &io::Error) -> io::Error {
-        let folder = visible::path(&self.folder);
+        let folder = visible::path(&self.root);
         io::Error::new(
             error.kind(),
             format!("{folder}: the reports cannot be written: {error}"),
@@ -109,18 +161,17 @@ impl Reports {
     }
 
     fn local(&self) -> PathBuf {
-        self.folder.join("local")
+        self.root.join("local")
     }
 
     fn lock_file(&self) -> PathBuf {
         self.local().join("lock")
     }
+}
 
-    /// A folder whose next files are prepared in a workshop of that name.
-    fn prepared_in(&self, folder: PathBuf, workshop: &str) -> ReportFolder {
-        ReportFolder {
-            folder,
-            workshop: self.local().join("workshop").join(workshop),
-        }
-    }
+/// Whether a folder holds the files of a report that programs read, and a page may be missing.
+#[cfg(feature = "command-line")]
+pub(crate) fn is_report(folder: &Path) -> bool {
+    let mut files = NEWEST.iter().filter(|name| !name.ends_with(".html"));
+    files.all(|name| folder.join(name).is_file())
 }

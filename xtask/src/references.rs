@@ -1,5 +1,5 @@
-//! `dev references`: the schemas and reference pages of study files and scenes, made from the keys
-//! that the readers allow, which the site has and git ignores; and the book's page on verdicts,
+//! `dev references`: the schemas and reference pages of study files and scenes, made from the
+//! structs that files are read into, which the site has and git ignores; and the book's page on verdicts,
 //! made from their reasons, which is committed.
 
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use convergence_study::{
     internal::{
         cli::{
             exit::CommandOutcome,
-            schema::{MANUFACTURE, of_studies, of_tables_file, other_files, page, text},
+            schema::{MANUFACTURE, of_studies, other_files, page, text},
         },
         program,
         store::atomic,
@@ -66,10 +66,9 @@ pub fn made() -> Vec<Reference> {
         let others = other_files(&project).into_iter();
         // Both projects have the files of `manufacture`.
         let others = others.filter(|(name, _)| *name != MANUFACTURE || folder == HARNESS);
-        files.extend(others.map(|(name, set)| {
-            let schema = of_tables_file(name, set);
-            in_folder(&format!("{name}.schema.json"), text(&schema))
-        }));
+        files.extend(
+            others.map(|(name, schema)| in_folder(&format!("{name}.schema.json"), text(&schema))),
+        );
     }
     files
 }

@@ -19,9 +19,7 @@ pub mod cli {
         pub use crate::cli::running::{LongRun, consent, counting, seconds};
     }
     pub mod schema {
-        pub use crate::cli::schema::{
-            MANUFACTURE, of_studies, of_tables_file, other_files, page, text,
-        };
+        pub use crate::cli::schema::{MANUFACTURE, of_studies, other_files, page, text};
     }
     pub mod screen {
         pub use crate::cli::screen::{complain, print, table};
@@ -33,6 +31,9 @@ pub mod cli {
 #[cfg(feature = "files")]
 pub mod input {
     pub use crate::input::{POSITIVE, parse, parse_beside, parse_overlaid, read_text};
+    pub mod schema {
+        pub use crate::input::schema::of;
+    }
     pub mod advice {
         pub use crate::input::advice::{Argument, ArgumentValue, CommandLine, Setting, Surface};
     }

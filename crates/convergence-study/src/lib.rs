@@ -154,14 +154,24 @@ pub use crate::{
             Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
         },
     },
-    study::{FromFile, KindRow, read_claim, read_study},
+    study::{FromFile, KindRow, described, read_claim, read_study},
 };
+
+/// What structs of files are made of: numbers of a range, names of a choice, lists of levels; and
+/// how a file that was read is refused.
+#[cfg(feature = "files")]
+pub mod file {
+    pub use crate::input::{
+        Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range, Refusal,
+        named_file, within,
+    };
+}
 
 #[cfg(feature = "reports")]
 #[doc(inline)]
 pub use crate::{
     program::{PROJECT as PROGRAMS, ROW as PROGRAM},
-    project::{Front, Project, SourcePlace, Statement, Template, Term},
+    project::{FileSchema, Front, Project, SourcePlace, Statement, Template, Term},
     verify::{
         Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,
     },

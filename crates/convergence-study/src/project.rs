@@ -1,7 +1,11 @@
 //! A project's description of itself for the harness.
 
-use crate::input::Keys;
+use serde_json::Value;
+
 use crate::study::{CodeStudy, KindRow};
+
+/// The JSON schema of a file.
+pub type FileSchema = fn() -> Value;
 
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
@@ -21,8 +25,9 @@ pub struct Project {
     pub groups: &'static [&'static str],
     /// Its own words, such as norms: the reference page of its files says what they mean.
     pub terms: &'static [Term],
-    /// The files that it reads beside studies: their name, such as `mesh`, and their keys.
-    pub tables: &'static [(&'static str, Keys)],
+    /// The files that it reads beside studies: their name, such as `mesh`, and the JSON schema of the
+    /// struct that they are read into.
+    pub tables: &'static [(&'static str, FileSchema)],
     /// Files that `new` writes.
     pub templates: &'static [Template],
     /// The beginning of the report of a passing run.

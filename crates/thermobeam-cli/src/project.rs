@@ -1,8 +1,11 @@
 //! The beam as a project of the harness.
 
-use convergence_study::{Front, Project, Statement, Template, internal::program};
+use convergence_study::{
+    Front, Project, Statement, Template,
+    internal::{input::schema, program},
+};
 use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
-use thermobeam_study::scene;
+use thermobeam_study::scene::SceneFile;
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or
 /// `cargo xtask` in a checkout.
@@ -26,7 +29,7 @@ pub const fn project(command: &'static str) -> Project {
             "the harness",
         ],
         terms: &TERMS,
-        tables: &[("scene", &[&scene::KEYS])],
+        tables: &[("scene", schema::of::<SceneFile>)],
         templates: &TEMPLATES,
         front: FRONT,
         places: &PLACES,

@@ -101,16 +101,17 @@ impl Sweep {
         let path = path.as_ref();
         let text = input::read_text(path)?;
         input::parse_beside(&text, path, |root, folder| {
-            let file = file::SweepFile::read(root, folder)?;
+            let file = file::Described::read(root, folder)?;
             let base = Base {
                 file: file.scene.display().to_string(),
                 text: input::read_text(&file.scene)?,
-                set: file.common_values()?,
+                set: file.common_values(),
             };
             Scene::parse(&base.text, &base.file)?;
             let version = env!("CARGO_PKG_VERSION");
             let hashed = format!("{version}\0{text}\0{}", base.text);
-            file.check_scenes(&base)?;
+            file.check_scenes(&base)
+                .map_err(|refusal| root.locate(refusal))?;
             Ok(Self {
                 name: stem(&path.display().to_string()),
                 cases: file.cases,

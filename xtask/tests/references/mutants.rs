@@ -1,6 +1,8 @@
 //! Changes of a text: keys left out, keys too many, values of another type.
 
-use convergence_study::{Form, Key, Keys};
+use std::collections::BTreeMap;
+
+use serde_json::Value;
 
 /// A change of a text, and what it does to which key.
 pub(super) struct Mutant {
@@ -58,7 +60,7 @@ pub(super) fn mutants(text: &str) -> Vec<Mutant> {
 
 /// Keys of the tables of a text that are not there, each with a value of another type: a reader
 /// that does not read a key which it allows would not refuse that.
-pub(super) fn insertions(text: &str, sets: &[Keys]) -> Vec<Mutant> {
+pub(super) fn insertions(text: &str, schema: &Value) -> Vec<Mutant> {
     let lines: Vec<&str> = text.lines().collect();
     let mut mutants = vec![];
     for (k, line) in lines
@@ -75,17 +77,17 @@ pub(super) fn insertions(text: &str, sets: &[Keys]) -> Vec<Mutant> {
             .map(|line| line.split('=').next().unwrap().trim())
             .collect();
         let names: Vec<&str> = path.split('.').collect();
-        for key in keys_in(sets, None, &names) {
-            let below = format!("{path}.{}]", key.name);
-            if own.contains(&key.name) || text.contains(&below) {
+        for (name, key) in keys_at(schema, &names) {
+            let below = format!("{path}.{name}]");
+            if own.contains(&name) || text.contains(&below) {
                 continue;
             }
-            let other = if matches!(key.form, Form::Boolean) {
+            let other = if key["type"] == "boolean" {
                 "1.5"
             } else {
                 "true"
             };
-            let added = format!("{} = {other}", key.name);
+            let added = format!("{name} = {other}");
             let text = [&lines[..=k], &[&added], &lines[k + 1..]]
                 .concat()
                 .join("\n");
@@ -98,33 +100,32 @@ pub(super) fn insertions(text: &str, sets: &[Keys]) -> Vec<Mutant> {
     mutants
 }
 
-/// The keys of the table at a path below a value of this form; a name may be one of the user's.
-fn keys_at(form: Form, path: &[&str]) -> Vec<&'static Key> {
-    match form {
-        Form::List(form) => keys_at(*form, path),
-        Form::OneOf(forms) => forms.iter().flat_map(|form| keys_at(*form, path)).collect(),
-        Form::Table(sets) => keys_in(sets, None, path),
-        Form::Named(keys, others) => match (keys, path) {
-            ([], []) => vec![],
-            _ => keys_in(&[keys], Some(others), path),
-        },
-        _ => vec![],
+/// The keys of the table at a path below a value of this schema; a name may be one of the user's.
+fn keys_at<'s>(schema: &'s Value, path: &[&str]) -> BTreeMap<&'s str, &'s Value> {
+    let mut found = BTreeMap::new();
+    for form in schema["anyOf"].as_array().into_iter().flatten() {
+        found.extend(keys_at(form, path));
     }
-}
-
-fn keys_in(sets: &[Keys], others: Option<&Form>, path: &[&str]) -> Vec<&'static Key> {
-    let keys = sets.iter().copied().flatten().copied().flatten();
-    let Some((name, below)) = path.split_first() else {
-        return keys.collect();
-    };
-    let forms: Vec<Form> = keys
-        .filter(|key| key.name == *name)
-        .map(|key| key.form)
-        .collect();
-    let others = others.filter(|_| forms.is_empty()).copied();
-    forms
-        .into_iter()
-        .chain(others)
-        .flat_map(|form| keys_at(form, below))
-        .collect()
+    if let Some(items) = schema.get("items") {
+        found.extend(keys_at(items, path));
+    }
+    let keys = schema["properties"].as_object();
+    match path.split_first() {
+        None => {
+            let keys = keys.into_iter().flatten();
+            found.extend(keys.map(|(name, key)| (name.as_str(), key)));
+        }
+        Some((name, below)) => {
+            let own = keys.and_then(|keys| keys.get(*name));
+            let others = schema
+                .get("additionalProperties")
+                .filter(|rule| rule.is_object());
+            found.extend(
+                own.or(others)
+                    .into_iter()
+                    .flat_map(|form| keys_at(form, below)),
+            );
+        }
+    }
+    found
 }

@@ -9,6 +9,24 @@ pub(super) fn complaint(schema: &Value, value: &Value, path: &str) -> Option<Str
         let found = match word.as_str() {
             "$schema" | "title" | "description" | "default" | "then" => None,
             "type" if !has_type(rule.as_str().unwrap(), value) => wrong(&format!("no {rule}")),
+            "maximum" if value.as_f64().is_some_and(|x| x > rule.as_f64().unwrap()) => wrong(word),
+            "exclusiveMaximum" if value.as_f64().is_some_and(|x| x >= rule.as_f64().unwrap()) => {
+                wrong(word)
+            }
+            "minItems"
+                if value
+                    .as_array()
+                    .is_some_and(|list| (list.len() as u64) < rule.as_u64().unwrap()) =>
+            {
+                wrong(word)
+            }
+            "maxItems"
+                if value
+                    .as_array()
+                    .is_some_and(|list| list.len() as u64 > rule.as_u64().unwrap()) =>
+            {
+                wrong(word)
+            }
             "minimum" if value.as_f64().is_some_and(|x| x < rule.as_f64().unwrap()) => wrong(word),
             "exclusiveMinimum" if value.as_f64().is_some_and(|x| x <= rule.as_f64().unwrap()) => {
                 wrong(word)
@@ -17,7 +35,8 @@ pub(super) fn complaint(schema: &Value, value: &Value, path: &str) -> Option<Str
                 wrong(&format!("none of {rule}"))
             }
             "const" if rule != value => wrong(&format!("not {rule}")),
-            "type" | "minimum" | "exclusiveMinimum" | "enum" | "const" => None,
+            "type" | "minimum" | "exclusiveMinimum" | "maximum" | "exclusiveMaximum"
+            | "minItems" | "maxItems" | "enum" | "const" => None,
             "items" => in_list(rule, value, path),
             "properties" => in_table(rule, value, path),
             "required" => {

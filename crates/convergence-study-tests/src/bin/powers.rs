@@ -21,6 +21,7 @@ const PROJECT: Project = Project {
                 Form::Positive,
                 "errors are h^exponent",
             )]]],
+            schema: None,
             read,
             why: "",
             judged: "",

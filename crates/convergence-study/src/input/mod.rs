@@ -5,8 +5,11 @@
 //! compute the position of a message.
 
 pub(crate) mod advice;
+mod file;
 mod keys;
 mod lists;
+mod ranges;
+pub(crate) mod schema;
 mod settings;
 pub(crate) mod table;
 mod values;
@@ -29,6 +32,8 @@ use crate::text::names::did_you_mean;
 use crate::text::visible;
 
 pub(crate) use crate::text::visible::visible;
+pub use file::{Refusal, named_file, within};
+pub use ranges::{Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range};
 pub(crate) use values::shorten;
 pub use values::{Field, Misread, POSITIVE, Section};
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
-use super::{Complaint, InputError, SourceText, settings};
+use super::{Complaint, InputError, Refusal, SourceText, settings};
 use crate::text::names::nearest;
 use crate::text::visible;
 
@@ -35,7 +35,7 @@ impl<'a> Field<'a> {
     /// An error about this value.
     pub fn refuse(&self, found: impl Into<String>, allowed: impl Into<String>) -> InputError {
         self.complain(
-            self.span.start,
+            0,
             Complaint::NotAllowed {
                 found: found.into(),
                 allowed: allowed.into(),
@@ -46,6 +46,11 @@ impl<'a> Field<'a> {
     /// An error about this value, quoted as in the file.
     pub fn refuse_as_written(&self, allowed: impl Into<String>) -> InputError {
         self.refuse(self.as_written(), allowed)
+    }
+
+    /// The error of a refusal without a path, about this value.
+    pub fn locate(&self, refusal: Refusal) -> InputError {
+        refusal.about(self)
     }
 
     /// A finite number. A whole number will do, without a point.
@@ -161,7 +166,7 @@ impl<'a> Field<'a> {
                 .find(text)
                 .map_or(0, |start| start + misread.offset);
             self.complain(
-                self.span.start + inside,
+                inside,
                 Complaint::Invalid {
                     reason: misread.reason,
                 },
@@ -172,7 +177,7 @@ impl<'a> Field<'a> {
     /// An error about this value with a message of its own.
     pub fn invalid(&self, reason: impl Into<String>) -> InputError {
         self.complain(
-            self.span.start,
+            0,
             Complaint::Invalid {
                 reason: reason.into(),
             },
@@ -239,20 +244,20 @@ impl<'a> Field<'a> {
         self.source.text.get(self.span.clone()).unwrap_or("")
     }
 
-    fn complain(&self, offset: usize, complaint: Complaint) -> InputError {
+    pub(super) fn complain(&self, offset: usize, complaint: Complaint) -> InputError {
         self.source
-            .error(offset, Some(self.path.clone()), complaint)
+            .error(self.span.start + offset, Some(self.path.clone()), complaint)
     }
 }
 
 /// A table of the document, with its dotted name.
 #[derive(Debug, Clone)]
 pub struct Section<'a> {
-    source: SourceText<'a>,
-    table: &'a DeTable<'a>,
+    pub(super) source: SourceText<'a>,
+    pub(super) table: &'a DeTable<'a>,
     /// Empty for the document itself.
-    path: String,
-    span: Range<usize>,
+    pub(super) path: String,
+    pub(super) span: Range<usize>,
 }
 
 impl<'a> Section<'a> {

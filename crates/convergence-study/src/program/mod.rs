@@ -48,6 +48,7 @@ pub(crate) use refine::RefinedCase;
 pub const ROW: KindRow = KindRow {
     name: "program",
     keys: Program::KEYS,
+    schema: None,
     read: read_study::<Program>,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \

@@ -4,16 +4,29 @@
 
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
 use super::erased::{Described, Study, boxed_study};
 use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
-use crate::input::{self, Field, Form, InputError, Key, Keys, Section};
+use crate::input::{self, Field, Form, InputError, Key, Keys, Refusal, Section};
 use crate::interval::Interval;
 use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::text::visible;
 
 /// Reads a study of one kind from the document of its file.
 pub(crate) type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
+
+/// What a study file describes: its tables beside `[study]` as a struct, and what is made of it.
+pub fn described<F: DeserializeOwned + JsonSchema, T>(
+    root: &Section<'_>,
+    build: impl FnOnce(F) -> Result<T, Refusal>,
+) -> Result<T, InputError> {
+    let file = root.read_beside(&[STUDY_TABLE.name])?;
+    build(file).map_err(|refusal| root.locate(refusal))
+}
 
 /// The reader of a kind.
 pub fn read_study<K: FromFile + 'static>(
@@ -35,6 +48,8 @@ pub struct KindRow {
     /// The keys of its files beside `[study]`: one of these sets. Without any, its reader refuses
     /// unknown keys itself, and the schema allows all.
     pub keys: &'static [Keys],
+    /// The JSON schema of the struct that its files are read into, in place of `keys`.
+    pub schema: Option<fn() -> Value>,
     /// Its reader.
     pub read: Reader,
     /// Why the claim should hold.
@@ -185,6 +200,7 @@ fn row<'k>(
 /// const ROW: KindRow = KindRow {
 ///     name: "sums",
 ///     keys: Sums::KEYS,
+///     schema: None,
 ///     read: read_study::<Sums>,
 ///     why: "The series converges.",
 ///     judged: "Every sum must be finite.",

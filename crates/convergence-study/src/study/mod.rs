@@ -32,7 +32,7 @@ pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, STEPS, first_repeated
 #[cfg(feature = "command-line")]
 pub(crate) use file::STUDY_TABLE;
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, StudyFile, allow_only, read_claim, read_study};
+pub use file::{FromFile, KindRow, StudyFile, allow_only, described, read_claim, read_study};
 pub use header::{Header, Tier};
 pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};

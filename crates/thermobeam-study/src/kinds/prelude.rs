@@ -3,12 +3,16 @@
 pub(crate) use std::path::Path;
 
 pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
+pub(crate) use convergence_study::file::{Choice, Count, Positive, Refusal, named_file, within};
+pub(crate) use convergence_study::internal::input::schema;
 pub(crate) use convergence_study::{
     Axis, Case, CaseFailure, Check, Claim, Field, Figure, Form, FromFile, Header, InputError, Key,
     Keys, Kind, KindRow, NamedRate, Outcome, Quantity, Ran, Reading, Section, Subject, Table,
-    Verdict, completion_check, read_claim, read_study,
+    Verdict, completion_check, described, read_claim, read_study,
 };
 
+pub(crate) use schemars::JsonSchema;
+pub(crate) use serde::Deserialize;
 use thermobeam::solve::Level;
 
 /// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect

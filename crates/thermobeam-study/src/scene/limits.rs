@@ -5,7 +5,15 @@
 //! when a file is read: a typing error gives a message with its line, not a process that the
 //! operating system kills after an hour.
 
-use convergence_study::{Field, InputError};
+use std::borrow::Cow;
+use std::fmt::{self, Display, Formatter};
+
+use convergence_study::{
+    Field, InputError,
+    file::{Count, Refusal},
+};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Deserializer, de::Error};
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a
 /// typing error.
@@ -59,38 +67,77 @@ pub(crate) fn memory(bytes: f64) -> String {
 pub(crate) const ELEMENTS: usize = RUN_BYTES / BYTES_PER_ELEMENT;
 
 /// A number of elements that fits into memory.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub(crate) struct Elements(usize);
+
+impl Elements {
+    pub(crate) fn get(self) -> usize {
+        self.0
+    }
+
+    fn new(elements: usize) -> Result<Self, String> {
+        if elements <= ELEMENTS {
+            return Ok(Self(elements));
+        }
+        let bytes = memory_of_elements(elements as f64);
+        let found = format!("{elements}, which would take {bytes}");
+        Err(format!("found {found}; expected {}", Self::allowed()))
+    }
+
+    fn allowed() -> String {
+        let most = RUN_BYTES >> 30;
+        format!("a whole number >= 1 and <= {ELEMENTS} ({most} GiB)")
+    }
+}
+
+impl Display for Elements {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl<'de> Deserialize<'de> for Elements {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let elements = Count::<1>::deserialize(deserializer)?.get();
+        Self::new(elements).map_err(D::Error::custom)
+    }
+}
+
+impl JsonSchema for Elements {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "elements".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Count::<1, ELEMENTS>::json_schema(generator)
+    }
+}
+
+/// A number of elements that fits into memory.
 pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
     let elements = field.count(1..=usize::MAX)?;
-    if elements <= ELEMENTS {
-        return Ok(elements);
-    }
-    let found = format!(
-        "{elements}, which would take {}",
-        memory_of_elements(elements as f64)
-    );
-    Err(field.refuse(
-        found,
-        format!(
-            "a whole number >= 1 and <= {ELEMENTS} ({} GiB)",
-            RUN_BYTES >> 30
-        ),
-    ))
+    let elements = Elements::new(elements).map_err(|error| field.invalid(error))?;
+    Ok(elements.get())
 }
 
 /// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message
-/// names `field`.
+/// names the field at `path`.
 ///
 /// A block of the unknowns takes 29 (q + 1) + 20 numbers, a matrix of the elimination 9 (q + 1)²:
 /// three for each node, and 14 + 3p for each length of elements, in at least two factorisations.
 ///
 /// * `lengths`: the number of different element lengths.
-pub(crate) fn any_order_memory(
-    field: &Field<'_>,
+pub(crate) fn memory_of_dg(
+    path: &str,
     elements: usize,
     lengths: usize,
     p: usize,
     q: usize,
-) -> Result<(), InputError> {
+) -> Result<(), Refusal> {
     let (elements, stages) = (elements as f64, (q + 1) as f64);
     let blocks = elements * (1 + 2 * (p / 2)) as f64;
     let numbers = blocks * (29.0 * stages + 20.0)
@@ -98,18 +145,21 @@ pub(crate) fn any_order_memory(
     if 8.0 * numbers <= RUN_BYTES as f64 {
         return Ok(());
     }
-    let found = format!(
-        "{}, which would take {}",
-        field.as_written(),
-        memory(8.0 * numbers)
-    );
-    Err(field.refuse(
-        found,
-        format!(
-            "a mesh that takes at most {} GiB with degree p = {p} and q = {q}",
-            RUN_BYTES >> 30
-        ),
-    ))
+    let more = format!(", which would take {}", memory(8.0 * numbers));
+    let most = RUN_BYTES >> 30;
+    let allowed = format!("a mesh that takes at most {most} GiB with degree p = {p} and q = {q}");
+    Err(Refusal::written_and(path, more, allowed))
+}
+
+/// As [`memory_of_dg`], about a field that was looked up.
+pub(crate) fn any_order_memory(
+    field: &Field<'_>,
+    elements: usize,
+    lengths: usize,
+    p: usize,
+    q: usize,
+) -> Result<(), InputError> {
+    memory_of_dg("", elements, lengths, p, q).map_err(|refusal| field.locate(refusal))
 }
 
 /// The memory of a run with `elements` elements, in words.
@@ -117,22 +167,25 @@ pub(crate) fn memory_of_elements(elements: f64) -> String {
     memory(elements * BYTES_PER_ELEMENT as f64)
 }
 
-/// Refuses more than `most` steps from 0 to `t_end`; the message names `field`.
+/// Refuses more than `most` steps from 0 to `t_end`; the message names the field at `path`.
+pub(crate) fn steps_to(path: &str, t_end: f64, dt: f64, most: usize) -> Result<(), Refusal> {
+    let steps = (t_end / dt).round();
+    if steps <= most as f64 {
+        return Ok(());
+    }
+    let more = format!(", which is {steps:.3e} steps of {dt:?} to t = {t_end:?}");
+    let allowed = format!("at most {:e} steps", most as f64);
+    Err(Refusal::written_and(path, more, allowed))
+}
+
+/// As [`steps_to`], about a field that was looked up.
 pub(crate) fn steps_until(
     field: &Field<'_>,
     t_end: f64,
     dt: f64,
     most: usize,
 ) -> Result<(), InputError> {
-    let steps = (t_end / dt).round();
-    if steps <= most as f64 {
-        return Ok(());
-    }
-    let found = format!(
-        "{}, which is {steps:.3e} steps of {dt:?} to t = {t_end:?}",
-        field.as_written()
-    );
-    Err(field.refuse(found, format!("at most {:e} steps", most as f64)))
+    steps_to("", t_end, dt, most).map_err(|refusal| field.locate(refusal))
 }
 
 /// Refuses a mesh that is too fine for a dense method; the message names `field`.
@@ -148,18 +201,24 @@ pub(crate) fn dense(field: &Field<'_>, elements: usize) -> Result<(), InputError
     ))
 }
 
-/// Refuses a study with too many cases; the message names `field`.
-pub(crate) fn cases(field: &Field<'_>, factors: &[usize]) -> Result<(), InputError> {
+/// Refuses a study with too many cases; the message names the field at `path`.
+pub(crate) fn case_count(path: &str, factors: &[usize]) -> Result<(), Refusal> {
     let cases: f64 = factors.iter().map(|&factor| factor as f64).product();
     if cases <= CASES as f64 {
         return Ok(());
     }
-    let found = format!(
-        "{}, which makes {cases:.3e} cases and would take {}",
-        field.as_written(),
-        memory(cases * BYTES_PER_CASE as f64)
-    );
-    Err(field.refuse(found, format!("at most {CASES} cases")))
+    let bytes = memory(cases * BYTES_PER_CASE as f64);
+    let more = format!(", which makes {cases:.3e} cases and would take {bytes}");
+    Err(Refusal::written_and(
+        path,
+        more,
+        format!("at most {CASES} cases"),
+    ))
+}
+
+/// As [`case_count`], about a field that was looked up.
+pub(crate) fn cases(field: &Field<'_>, factors: &[usize]) -> Result<(), InputError> {
+    case_count("", factors).map_err(|refusal| field.locate(refusal))
 }
 
 /// The message for a sweep with too many cases: found and allowed number.

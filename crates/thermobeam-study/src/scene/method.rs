@@ -1,14 +1,18 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
-use convergence_study::{Form, InputError, Key, Section, internal::input::POSITIVE};
-use thermobeam::dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE};
+use convergence_study::{
+    file::{Count, Number, Refusal},
+    internal::input::POSITIVE,
+};
+use thermobeam::dg::DgStepping;
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::SCHEMES;
-use thermobeam::solve::{Solver, Stopping};
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
+use thermobeam::solve::{Settings, Solver, Stopping};
 
-use super::{limits, tables};
+use super::file::{MeshTable, SolverKeys, TimeTable};
+use super::limits;
 
 /// The value of `time.scheme` for elements of any degree and dG(q).
 pub const DG: &str = "dg";
@@ -24,50 +28,6 @@ const GROWTH: f64 = 1.5;
 
 /// Default first step, in units of the time scale of an impact's peak.
 const RESTART: f64 = 0.2;
-
-const T_END: Key = Key::new("t_end", Form::Positive, "final time");
-
-/// The keys of `[time]` for a one-step scheme, beside [`tables::STEPPING_KEYS`].
-pub(super) const ONE_STEP_KEYS: [Key; 2] = [
-    Key::new("dt", Form::Positive, "time step; it divides t_end"),
-    T_END,
-];
-
-/// The keys of `[time]` for dG.
-pub(super) const DG_KEYS: [Key; 8] = [
-    Key::new(
-        "scheme",
-        Form::Choice(|| vec![DG]),
-        "elements of any degree, dG(q) in time",
-    ),
-    Key::new("degree", Form::Count(0), "degree q in time").or("2"),
-    Key::new("dt", Form::Positive, "the largest step").or("0.02, at most t_end"),
-    Key::new(
-        "restart_dt",
-        Form::Positive,
-        "the first step, at the start and after each contact event",
-    )
-    .or("a fifth of the time scale of an impact"),
-    Key::new(
-        "growth",
-        Form::Number,
-        "factor of the steps in between, at least 1",
-    )
-    .or("1.5"),
-    T_END,
-    Key::new(
-        "tolerance",
-        Form::Positive,
-        "the increment at which an iteration ends",
-    )
-    .or("1e-14"),
-    Key::new(
-        "max_iterations",
-        Form::Count(1),
-        "iterations after which a step fails",
-    )
-    .or("100"),
-];
 
 /// How a scene is stepped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -146,153 +106,148 @@ impl Method {
         }
     }
 
-    /// `mesh.degree`. One-step schemes use linear elements; higher degrees must fit into memory.
-    pub(super) fn degree(&self, root: &Section<'_>, mesh: &Mesh) -> Result<usize, InputError> {
-        let section = root.section("mesh")?;
-        let get = |key: &str| section.as_ref().and_then(|section| section.get(key));
+    /// The degree of the elements. One-step schemes use linear elements; higher degrees must fit
+    /// into memory.
+    pub(super) fn degree(&self, table: &MeshTable, mesh: &Mesh) -> Result<usize, Refusal> {
+        let degree = table.degree.map(Count::get);
         let Some(stepping) = self.dg() else {
-            let refused = get("degree").filter(|field| field.count(1..=1).is_err());
             let allowed = "1, or time.scheme = \"dg\" for elements of higher degree";
-            return refused.map_or(
-                Ok(1),
-                |field| Err(field.refuse(field.as_written(), allowed)),
-            );
-        };
-        let degree = get("degree").map_or(Ok(DEGREE), |field| field.count(1..=MAX_DEGREE))?;
-        if let Some(field) = get("nodes").or_else(|| get("elements")) {
-            let shortest = mesh
-                .nodes()
-                .windows(2)
-                .map(|x| x[1] - x[0])
-                .fold(f64::INFINITY, f64::min);
-            let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest {
-                1
-            } else {
-                mesh.elements()
+            return match degree {
+                None | Some(1) => Ok(1),
+                Some(_) => Err(Refusal::written("degree", allowed)),
             };
-            limits::any_order_memory(&field, mesh.elements(), lengths, degree, stepping.degree)?;
-        }
+        };
+        let degree = degree.unwrap_or(DEGREE);
+        let shortest = mesh
+            .nodes()
+            .windows(2)
+            .map(|x| x[1] - x[0])
+            .fold(f64::INFINITY, f64::min);
+        let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest {
+            1
+        } else {
+            mesh.elements()
+        };
+        let path = if table.nodes.is_some() {
+            "nodes"
+        } else {
+            "elements"
+        };
+        limits::memory_of_dg(path, mesh.elements(), lengths, degree, stepping.degree)?;
         Ok(degree)
     }
 }
 
-/// The table `[time]`: the method, and t_end.
-///
-/// # Errors
-/// An unknown scheme is reported first, since the keys depend on it.
-pub(super) fn read(
-    root: &Section<'_>,
-    beam: &Beam,
-    obstacles: Option<&Obstacles>,
-) -> Result<(Method, f64), InputError> {
-    let names: Vec<_> = SCHEMES
-        .iter()
-        .map(|scheme| (scheme.name, false))
-        .chain([(DG, true)])
-        .collect();
-    let scheme = root.section("time")?.and_then(|time| time.get("scheme"));
-    let is_dg = scheme.map_or(Ok(false), |field| field.choice(&names))?;
-    let expected = if is_dg {
-        "a table with scheme and t_end"
-    } else {
-        "a table with dt and t_end"
-    };
-    let time = root.require("time", expected)?.section()?;
-    if is_dg {
-        dg(&time, beam, obstacles)
-    } else {
-        one_step(&time)
+impl TimeTable {
+    /// The method, and t_end.
+    pub(super) fn method(
+        &self,
+        beam: &Beam,
+        obstacles: Option<&Obstacles>,
+    ) -> Result<(Method, f64), Refusal> {
+        let scheme = match self.scheme.map(|scheme| scheme.value) {
+            None => Some(EULER_CRANK_NICOLSON),
+            Some(scheme) => scheme,
+        };
+        let keys = SolverKeys {
+            solver: self.solver,
+            tolerance: self.tolerance,
+            max_iterations: self.max_iterations,
+            iterations: self.iterations,
+        };
+        let foreign = match scheme {
+            Some(_) => [
+                ("degree", self.degree.is_some()),
+                ("restart_dt", self.restart_dt.is_some()),
+                ("growth", self.growth.is_some()),
+            ]
+            .to_vec(),
+            None => [
+                ("solver", self.solver.is_some()),
+                ("iterations", self.iterations.is_some()),
+            ]
+            .to_vec(),
+        };
+        if let Some((key, _)) = foreign.iter().find(|(_, is_there)| *is_there) {
+            let (found, allowed) = match scheme {
+                Some(scheme) => (scheme.name, format!("{key} with scheme = \"{DG}\" alone")),
+                None => (DG, format!("{key} with a one-step scheme alone")),
+            };
+            return Err(Refusal::new(*key, format!("scheme = \"{found}\""), allowed));
+        }
+        let t_end = self.t_end.get();
+        let method = match scheme {
+            Some(scheme) => Method::OneStep(Stepping {
+                scheme,
+                settings: keys.over(Settings::default())?,
+                dt: self.dividing_dt()?,
+                loaded: false,
+            }),
+            None => Method::Dg(self.dg(beam, obstacles)?),
+        };
+        Ok((method, t_end))
     }
-}
 
-/// A one-step scheme, and t_end.
-fn one_step(time: &Section<'_>) -> Result<(Method, f64), InputError> {
-    time.allow(&convergence_keys::names(&[
-        &ONE_STEP_KEYS,
-        &tables::STEPPING_KEYS,
-    ]))?;
-    let (dt, t_end) = time_steps(time)?;
-    let (scheme, settings) = (tables::scheme(time)?, tables::settings(time)?);
-    Ok((
-        Method::OneStep(Stepping {
-            scheme,
-            settings,
+    /// The step of a one-step scheme; it must divide t_end.
+    fn dividing_dt(&self) -> Result<f64, Refusal> {
+        // Each of dt, t_end and their quotient is rounded once.
+        const SLACK: f64 = 4.0 * f64::EPSILON;
+        let t_end = self.t_end.get();
+        let dt = self
+            .dt
+            .ok_or_else(|| Refusal::missing("dt", POSITIVE))?
+            .get();
+        let quotient = t_end / dt;
+        if quotient > limits::STEPS as f64 {
+            let found = format!("{dt:?}, which is {quotient:.3e} steps for t_end = {t_end:?}");
+            let allowed = format!("at most {:e} steps", limits::STEPS as f64);
+            return Err(Refusal::new("dt", found, allowed));
+        }
+        let steps = quotient.round();
+        if steps >= 1.0 && (steps * dt - t_end).abs() <= SLACK * t_end {
+            return Ok(dt);
+        }
+        let candidates =
+            [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
+        let [low, high] = candidates;
+        let (steps, nearest) = if (low.1 - dt).abs() <= (high.1 - dt).abs() {
+            low
+        } else {
+            high
+        };
+        let found = format!("{dt:?}, which is {quotient} steps for t_end = {t_end:?}");
+        let allowed =
+            format!("a dt that divides t_end, the nearest being {nearest:?} ({steps} steps)");
+        Err(Refusal::new("dt", found, allowed))
+    }
+
+    /// The steps of dG(q).
+    fn dg(&self, beam: &Beam, obstacles: Option<&Obstacles>) -> Result<DgStepping, Refusal> {
+        let t_end = self.t_end.get();
+        let defaults = default_stepping(beam, obstacles, t_end);
+        let dt = self.dt.map_or(defaults.dt, Number::get);
+        if self.dt.is_some() {
+            limits::steps_to("dt", t_end, dt, limits::STEPS)?;
+        }
+        let restart_dt = match self.restart_dt.map(Number::get) {
+            Some(restart) if restart > dt => {
+                let allowed = format!("a number > 0 and at most dt = {dt:?}");
+                return Err(Refusal::written("restart_dt", allowed));
+            }
+            Some(restart) => restart,
+            None => first_step(beam, obstacles, dt),
+        };
+        Ok(DgStepping {
+            degree: self.degree.map_or(defaults.degree, Count::get),
             dt,
-            loaded: false,
-        }),
-        t_end,
-    ))
-}
-
-/// dt and t_end; dt must divide t_end.
-fn time_steps(time: &Section<'_>) -> Result<(f64, f64), InputError> {
-    // Each of dt, t_end and their quotient is rounded once.
-    const SLACK: f64 = 4.0 * f64::EPSILON;
-    let t_end = time.positive("t_end")?;
-    let field = time.require("dt", POSITIVE)?;
-    let dt = field.positive()?;
-    let quotient = t_end / dt;
-    if quotient > limits::STEPS as f64 {
-        let found = format!("{dt:?}, which is {quotient:.3e} steps for t_end = {t_end:?}");
-        return Err(field.refuse(found, format!("at most {:e} steps", limits::STEPS as f64)));
+            restart_dt,
+            growth: self.growth.map_or(GROWTH, Number::get),
+            tolerance: self.tolerance.map_or(defaults.tolerance, Number::get),
+            max_iterations: self
+                .max_iterations
+                .map_or(defaults.max_iterations, Count::get),
+        })
     }
-    let steps = quotient.round();
-    if steps >= 1.0 && (steps * dt - t_end).abs() <= SLACK * t_end {
-        return Ok((dt, t_end));
-    }
-    let candidates =
-        [quotient.floor().max(1.0), quotient.ceil()].map(|steps| (steps, t_end / steps));
-    let [low, high] = candidates;
-    let (steps, nearest) = if (low.1 - dt).abs() <= (high.1 - dt).abs() {
-        low
-    } else {
-        high
-    };
-    let found = format!("{dt:?}, which is {quotient} steps for t_end = {t_end:?}");
-    Err(field.refuse(
-        found,
-        format!("a dt that divides t_end, the nearest being {nearest:?} ({steps} steps)"),
-    ))
-}
-
-/// dG(q), and t_end.
-fn dg(
-    time: &Section<'_>,
-    beam: &Beam,
-    obstacles: Option<&Obstacles>,
-) -> Result<(Method, f64), InputError> {
-    time.allow(&convergence_keys::names(&[&DG_KEYS]))?;
-    let t_end = time.positive("t_end")?;
-    let defaults = default_stepping(beam, obstacles, t_end);
-    let or = |key: &str, default: f64| time.get(key).map_or(Ok(default), |field| field.positive());
-    let count = |key: &str, default: usize, allowed| {
-        time.get(key)
-            .map_or(Ok(default), |field| field.count(allowed))
-    };
-    let dt = or("dt", defaults.dt)?;
-    if let Some(field) = time.get("dt") {
-        limits::steps_until(&field, t_end, dt, limits::STEPS)?;
-    }
-    let restart_dt = match time.get("restart_dt") {
-        Some(field) => field
-            .number_where(&format!("a number > 0 and at most dt = {dt:?}"), |h| {
-                h > 0.0 && h <= dt
-            })?,
-        None => first_step(beam, obstacles, dt),
-    };
-    let growth = match time.get("growth") {
-        Some(field) => field.number_where("a finite number >= 1", |growth| growth >= 1.0)?,
-        None => GROWTH,
-    };
-    let stepping = DgStepping {
-        degree: count("degree", defaults.degree, 0..=MAX_TIME_DEGREE)?,
-        dt,
-        restart_dt,
-        growth,
-        tolerance: or("tolerance", defaults.tolerance)?,
-        max_iterations: count("max_iterations", defaults.max_iterations, 1..=usize::MAX)?,
-    };
-    Ok((Method::Dg(stepping), t_end))
 }
 
 /// The steps of a scene that specifies none.
@@ -369,7 +324,11 @@ mod tests {
                 "time.restart_dt: found 0.2; expected a number > 0 and at most dt = 0.1",
             ),
             ("", "growth = 0.5", "time.growth"),
-            ("", "solver = \"newton\"", "unknown key `solver`"),
+            (
+                "",
+                "solver = \"newton\"",
+                "time.solver: found scheme = \"dg\"",
+            ),
             ("", "dt = -1", "time.dt"),
             (
                 "",

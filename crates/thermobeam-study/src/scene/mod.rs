@@ -36,6 +36,7 @@
 //! t_end = 10.0
 //! ```
 
+pub(crate) mod file;
 pub(crate) mod limits;
 mod method;
 mod sections;
@@ -49,14 +50,19 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::one_step::Stepping;
 use thermobeam::parameters::{Beam, Obstacles};
 
+pub use file::SceneFile;
 pub use method::{DG, Method};
-pub use sections::KEYS;
+pub(crate) use sections::INITIAL;
 pub use tables::Coefficients;
 
 use crate::expression::Expression;
 
 use convergence_judge::text::number::counted;
-use convergence_study::{Field, InputError, Section, internal::input};
+use convergence_study::{
+    Field, InputError, Section,
+    file::{Refusal, within},
+    internal::input,
+};
 
 /// Initial data (1.2), functions of x; `None` is 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -136,24 +142,29 @@ impl Scene {
     }
 
     fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
-        root.allow_only(&KEYS, &[])?;
-        Self::from_tables(root, name)
+        Self::new(root.read()?, name).map_err(|refusal| root.locate(refusal))
     }
 
-    /// The scene given by the tables in a section, which may hold other keys.
-    pub(crate) fn from_tables(root: &Section<'_>, name: String) -> Result<Self, InputError> {
-        let Coefficients { beam, obstacles } = Coefficients::read(root)?;
-        let (method, t_end) = method::read(root, &beam, obstacles.as_ref())?;
-        let mesh = sections::mesh(root, method.default_elements())?;
-        let degree = method.degree(root, &mesh)?;
-        let initial = Initial::read(root, &beam, &mesh)?;
-        let is_listed = root
-            .section("mesh")?
-            .is_some_and(|section| section.get("nodes").is_some());
-        let listed = if is_listed {
-            mesh.nodes().to_vec()
-        } else {
-            vec![]
+    /// The scene that a file describes.
+    ///
+    /// # Errors
+    /// Values that do not go together.
+    pub(crate) fn new(file: SceneFile, name: String) -> Result<Self, Refusal> {
+        let Coefficients { beam, obstacles } =
+            Coefficients::new(&file.beam, file.obstacles.as_ref())?;
+        let (method, t_end) = file
+            .time
+            .method(&beam, obstacles.as_ref())
+            .map_err(within("time"))?;
+        let mesh = file
+            .mesh
+            .mesh(method.default_elements())
+            .map_err(within("mesh"))?;
+        let degree = method.degree(&file.mesh, &mesh).map_err(within("mesh"))?;
+        let initial = Initial::new(&file.initial, &beam, &mesh).map_err(within("initial"))?;
+        let listed = match file.mesh.nodes {
+            Some(_) => mesh.nodes().to_vec(),
+            None => vec![],
         };
         Ok(Self {
             name,

@@ -2,13 +2,14 @@
 //! mesh, the stepping keys.
 
 use thermobeam::mesh::{Mesh, MeshError};
-use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thermobeam::scheme::{self, Scheme};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
+use super::file::{BeamTable, Given, ObstacleTable};
 use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
-use convergence_study::{Field, Form, InputError, Key, Misread, Section};
+use convergence_study::{Field, Form, InputError, Key, Misread, Section, file::Refusal};
 
 /// The keys of `[beam]`.
 pub(crate) const BEAM_KEYS: [Key; 5] = [
@@ -101,25 +102,48 @@ impl Coefficients {
         Self::names().filter(move |name| self.get_mut(name) != other.get_mut(name))
     }
 
-    /// The tables `[beam]` and `[obstacles]`, each key with its default; obstacles need a table.
-    pub(crate) fn read(root: &Section<'_>) -> Result<Self, InputError> {
-        let obstacles = root.get("obstacles").map(|_| Obstacles::default());
-        let mut read = Self {
+    /// The coefficients of the tables `[beam]` and `[obstacles]`.
+    ///
+    /// # Errors
+    /// One is out of its range.
+    pub(crate) fn new(
+        beam: &BeamTable,
+        obstacles: Option<&ObstacleTable>,
+    ) -> Result<Self, Refusal> {
+        let mut new = Self {
             beam: Beam::default(),
-            obstacles,
+            obstacles: obstacles.map(|_| Obstacles::default()),
         };
-        for (table, keys) in [("beam", &BEAM_KEYS[..]), ("obstacles", &OBSTACLE_KEYS)] {
-            let Some(section) = root.section(table)? else {
-                continue;
-            };
-            for Key { name, .. } in keys {
-                if let (Some(field), Some(value)) = (section.get(name), read.get_mut(name)) {
-                    *value = field.number()?;
-                }
-            }
-            read.check(&section)?;
+        new.set(beam.given());
+        if let Some(obstacles) = obstacles {
+            new.set(obstacles.given());
         }
-        Ok(read)
+        new.beam
+            .validate()
+            .map_err(|error| out_of_range("beam", error))?;
+        if let Some(obstacles) = &new.obstacles {
+            obstacles
+                .validate()
+                .map_err(|error| out_of_range("obstacles", error))?;
+        }
+        Ok(new)
+    }
+
+    fn set<const N: usize>(&mut self, given: Given<N>) {
+        for (name, value) in given {
+            if let (Some(coefficient), Some(value)) = (self.get_mut(name), value) {
+                *coefficient = value.get();
+            }
+        }
+    }
+
+    /// The tables `[beam]` and `[obstacles]` of a document.
+    pub(crate) fn read(root: &Section<'_>) -> Result<Self, InputError> {
+        let beam = root.section("beam")?;
+        let beam = beam.map_or(Ok(BeamTable::default()), |beam| beam.read())?;
+        let obstacles = root.section("obstacles")?;
+        let obstacles = obstacles.map(|obstacles| obstacles.read()).transpose()?;
+        Self::new(&beam, obstacles.as_ref()).map_err(|refusal| root.locate(refusal))
     }
 
     /// Refuses what the solver would refuse, with the key of `section`.
@@ -222,47 +246,53 @@ pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
     Ok(settings)
 }
 
-/// A mesh whose nodes are given by the map in `field`.
+/// A coefficient that the solver would refuse.
+fn out_of_range(table: &str, error: ParameterError) -> Refusal {
+    Refusal::written(format!("{table}.{}", error.name), error.allowed)
+}
+
+/// A mesh whose nodes are given by the map at `path`.
+pub(crate) fn mapped(path: &str, mesh: Result<Mesh, MeshError>) -> Result<Mesh, Refusal> {
+    mesh.map_err(|error| {
+        let nodes = |index: usize, previous: f64, found: f64, allowed: &str| {
+            let before = index - 1;
+            let nodes = format!("nodes {before} and {index} at {previous:?} and {found:?}");
+            Refusal::new(path, nodes, allowed)
+        };
+        match error {
+            MeshError::Ends {
+                found, expected, ..
+            } => Refusal::new(
+                path,
+                format!("{found:?} at s = {expected}"),
+                "a map that takes 0 to 0 and 1 to 1",
+            ),
+            MeshError::NotIncreasing {
+                index,
+                previous,
+                found,
+            } => nodes(index, previous, found, "a map that increases strictly"),
+            MeshError::TooClose {
+                index,
+                previous,
+                found,
+            } => {
+                let allowed = "a map whose nodes are far enough apart: 1/h overflows";
+                nodes(index, previous, found, allowed)
+            }
+            MeshError::TooFew { elements } => {
+                Refusal::new(path, format!("{elements} elements"), "at least 1")
+            }
+        }
+    })
+}
+
+/// As [`mapped`], about a field that was looked up.
 pub(crate) fn checked_mesh(
     mesh: Result<Mesh, MeshError>,
     field: &Field<'_>,
 ) -> Result<Mesh, InputError> {
-    mesh.map_err(|error| match error {
-        MeshError::Ends {
-            found, expected, ..
-        } => field.refuse(
-            format!("{found:?} at s = {expected}"),
-            "a map that takes 0 to 0 and 1 to 1",
-        ),
-        MeshError::NotIncreasing {
-            index,
-            previous,
-            found,
-        } => {
-            let nodes = format!(
-                "nodes {} and {index} at {previous:?} and {found:?}",
-                index - 1
-            );
-            field.refuse(nodes, "a map that increases strictly")
-        }
-        MeshError::TooClose {
-            index,
-            previous,
-            found,
-        } => {
-            let nodes = format!(
-                "nodes {} and {index} at {previous:?} and {found:?}",
-                index - 1
-            );
-            field.refuse(
-                nodes,
-                "a map whose nodes are far enough apart: 1/h overflows",
-            )
-        }
-        MeshError::TooFew { elements } => {
-            field.refuse(format!("{elements} elements"), "at least 1")
-        }
-    })
+    mapped("", mesh).map_err(|refusal| field.locate(refusal))
 }
 
 /// A function of `variable`, finite on [0, end] with its derivatives up to `order`; a message

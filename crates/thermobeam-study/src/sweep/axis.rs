@@ -1,12 +1,14 @@
 //! The numbers of a scene that a sweep may vary, and the values of one of them.
 
-use convergence_study::{Field, InputError};
+use std::fmt::{self, Formatter};
+
+use convergence_study::file::{Count, Finite, Refusal, within};
+use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Value, json};
 
 use crate::scene::limits::SWEEP_VALUES;
-
-/// The tables that have numeric keys.
-pub(super) const TABLES: [&str; 4] = ["beam", "obstacles", "mesh", "time"];
 
 /// The keys whose values are whole numbers.
 const WHOLE: [&str; 4] = [
@@ -77,95 +79,165 @@ impl Axis {
     }
 }
 
-/// A key that varies, with the fields to name when a scene cannot have one of its values.
-pub(super) struct SweptKey<'a> {
-    pub(super) axis: Axis,
-    /// One for each value of a list; a range is named as a whole.
-    fields: Vec<Field<'a>>,
+/// What a file has under a key that varies.
+#[derive(Debug, Clone)]
+pub(super) enum Varied {
+    /// A list of numbers.
+    List(Vec<Finite>),
+    /// Evenly spaced numbers, both ends included.
+    Range(RangeTable),
 }
 
-impl<'a> SweptKey<'a> {
-    /// A list, or `{ from, to, count, scale }`.
-    pub(super) fn read(path: &'static str, field: Field<'a>) -> Result<Self, InputError> {
-        let of = |values, fields| Self {
+/// `{ from, to, count, scale }`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RangeTable {
+    from: Finite,
+    to: Finite,
+    count: Count<2, SWEEP_VALUES>,
+    #[serde(default)]
+    scale: Scale,
+}
+
+/// How the numbers of a range are spaced.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Scale {
+    #[default]
+    Linear,
+    Log,
+}
+
+impl<'de> Deserialize<'de> for Varied {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reads;
+        impl<'de> Visitor<'de> for Reads {
+            type Value = Varied;
+
+            fn expecting(&self, f: &mut Formatter<'_>) -> fmt::Result {
+                f.write_str(LIST)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Varied, A::Error> {
+                let mut values = vec![];
+                while let Some(value) = list.next_element()? {
+                    values.push(value);
+                }
+                Ok(Varied::List(values))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Varied, A::Error> {
+                RangeTable::deserialize(MapAccessDeserializer::new(map)).map(Varied::Range)
+            }
+        }
+        deserializer.deserialize_any(Reads)
+    }
+}
+
+const LIST: &str = "a list of at least one number, or { from, to, count }";
+
+/// A key that varies, with the field to name when a scene cannot have one of its values.
+#[derive(Debug)]
+pub(super) struct SweptKey {
+    pub(super) axis: Axis,
+    /// The field of the key in the file.
+    field: String,
+    /// Whether the values are listed, each with a field of its own.
+    is_listed: bool,
+}
+
+impl SweptKey {
+    /// * `field`: the dotted name of the key in the file.
+    pub(super) fn new(path: &'static str, varied: &Varied, field: String) -> Result<Self, Refusal> {
+        let (values, is_listed) = match varied {
+            Varied::List(values) if values.is_empty() => {
+                return Err(Refusal::written(field, LIST));
+            }
+            Varied::List(values) => {
+                let value = |(place, value): (usize, &Finite)| {
+                    number(value.get(), path, &format!("{field}[{place}]"))
+                };
+                (
+                    values
+                        .iter()
+                        .enumerate()
+                        .map(value)
+                        .collect::<Result<_, _>>()?,
+                    true,
+                )
+            }
+            Varied::Range(range) => (range.values(path).map_err(within(&field))?, false),
+        };
+        Ok(Self {
             axis: Axis {
                 path,
                 values,
                 stride: 1,
             },
-            fields,
-        };
-        if field.is_table() {
-            return Ok(of(range(&field, path)?, vec![field]));
-        }
-        let allowed = "a list of at least one number, or { from, to, count }";
-        let items = field.items(allowed)?;
-        if items.is_empty() {
-            return Err(field.refuse_as_written(allowed));
-        }
-        let values: Result<_, _> = items.iter().map(|item| number(item, path)).collect();
-        Ok(of(values?, items))
+            field,
+            is_listed,
+        })
     }
 
     /// The cases, of a grid in which all other keys have their first values, whose numbers a scene
     /// must accept: the ends of a range, every number of a list.
     pub(super) fn probed(&self) -> impl Iterator<Item = usize> {
         let (last, stride) = (self.axis.values.len() - 1, self.axis.stride);
-        let step = if self.fields.len() > 1 {
-            1
-        } else {
-            last.max(1)
-        };
+        let step = if self.is_listed { 1 } else { last.max(1) };
         (0..=last).step_by(step).map(move |place| place * stride)
     }
 
-    /// The field of a value.
-    pub(super) fn field(&self, place: usize) -> &Field<'a> {
-        &self.fields[place.min(self.fields.len() - 1)]
+    /// The field of a value; a range is named as a whole.
+    pub(super) fn field(&self, place: usize) -> String {
+        if self.is_listed {
+            format!("{}[{place}]", self.field)
+        } else {
+            self.field.clone()
+        }
     }
 }
 
-fn number(field: &Field<'_>, path: &str) -> Result<f64, InputError> {
-    if WHOLE.contains(&path) {
-        // The scene refuses larger numbers; these are exact as f64.
-        return Ok(field.count(0..=1 << 53)? as f64);
+/// A value of a key: some are whole numbers.
+fn number(value: f64, path: &str, field: &str) -> Result<f64, Refusal> {
+    // The scene refuses larger numbers; these are exact as f64.
+    const MOST: f64 = (1u64 << 53) as f64;
+    if WHOLE.contains(&path) && !(value.fract() == 0.0 && (0.0..=MOST).contains(&value)) {
+        return Err(Refusal::written(field, "a whole number >= 0"));
     }
     // -0 and 0 are the same value; adding 0 gives 0 for both.
-    field.number().map(|value| value + 0.0)
+    Ok(value + 0.0)
 }
 
-/// The values of `{ from, to, count, scale }`: evenly spaced, both ends included.
-fn range(field: &Field<'_>, path: &str) -> Result<Vec<f64>, InputError> {
-    let section = field.section()?;
-    section.allow(&["from", "to", "count", "scale"])?;
-    let is_log = section.get("scale").map_or(Ok(false), |field| {
-        field.choice(&[("linear", false), ("log", true)])
-    })?;
-    let from = number(&section.require("from", "a number")?, path)?;
-    let to = number(&section.require("to", "a number")?, path)?;
-    if is_log && from <= 0.0 {
-        return Err(section.refuse("from", format!("{from:?}"), "a number > 0, for a logarithm"));
+impl RangeTable {
+    /// The values.
+    fn values(&self, path: &str) -> Result<Vec<f64>, Refusal> {
+        let from = number(self.from.get(), path, "from")?;
+        let to = number(self.to.get(), path, "to")?;
+        let is_log = self.scale == Scale::Log;
+        if is_log && from <= 0.0 {
+            return Err(Refusal::written("from", "a number > 0, for a logarithm"));
+        }
+        if to <= from {
+            let allowed = format!("a number > {from:?}, which is from");
+            return Err(Refusal::written("to", allowed));
+        }
+        let count = self.count.get();
+        let mut values = vec![];
+        for place in 0..count {
+            let share = place as f64 / (count - 1) as f64;
+            let value = if is_log {
+                from * (to / from).powf(share)
+            } else {
+                from + (to - from) * share
+            };
+            values.push(if WHOLE.contains(&path) {
+                value.round()
+            } else {
+                nine_digits(value)
+            });
+        }
+        Ok(values)
     }
-    if to <= from {
-        let allowed = format!("a number > {from:?}, which is from");
-        return Err(section.refuse("to", format!("{to:?}"), allowed));
-    }
-    let count = section.count("count", 2..=SWEEP_VALUES)?;
-    let mut values = vec![];
-    for place in 0..count {
-        let share = place as f64 / (count - 1) as f64;
-        let value = if is_log {
-            from * (to / from).powf(share)
-        } else {
-            from + (to - from) * share
-        };
-        values.push(if WHOLE.contains(&path) {
-            value.round()
-        } else {
-            nine_digits(value)
-        });
-    }
-    Ok(values)
 }
 
 /// A number rounded to nine digits, on which the mathematical libraries of all machines agree.
@@ -176,44 +248,30 @@ fn nine_digits(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{KEYS, tables};
-    use convergence_study::Form;
+    use crate::scene::SceneFile;
+    use convergence_study::internal::input::schema;
 
+    /// A number that a scene can have and a sweep cannot vary would be missed; so would a whole
+    /// number that the sweep gives a point.
     #[test]
-    fn every_coefficient_can_be_varied() {
-        let names = |table: &str| -> Vec<&str> {
-            let paths = all_paths().filter_map(|path| path.split_once('.'));
-            paths
-                .filter(|path| path.0 == table)
-                .map(|path| path.1)
-                .collect()
-        };
-        assert_eq!(
-            names("beam"),
-            convergence_keys::names(&[&tables::BEAM_KEYS])
-        );
-        assert_eq!(
-            names("obstacles"),
-            convergence_keys::names(&[&tables::OBSTACLE_KEYS])
-        );
-    }
-
-    #[test]
-    fn whole_numbers_are_those_of_the_scene() {
-        let mut found = 0;
-        for table in KEYS {
-            let Form::Table(sets) = table.form else {
-                panic!("{}", table.name)
-            };
-            for key in sets.iter().copied().flatten().copied().flatten() {
-                let path = format!("{}.{}", table.name, key.name);
-                if all_paths().any(|known| known == path) {
-                    let is_whole = matches!(key.form, Form::Count(_));
-                    assert_eq!(WHOLE.contains(&&*path), is_whole, "{path}");
-                    found += 1;
+    fn every_number_of_a_scene_can_be_varied_and_whole_ones_stay_whole() {
+        let schema = schema::of::<SceneFile>();
+        let mut numbers = vec![];
+        for (table, keys) in schema["properties"].as_object().unwrap() {
+            for (name, key) in keys["properties"].as_object().unwrap() {
+                let is_whole = key["type"] == "integer";
+                if is_whole || key["type"] == "number" {
+                    numbers.push((format!("{table}.{name}"), is_whole));
                 }
             }
         }
-        assert!(found >= 17, "{found}");
+        // Only the fixed point has it, and the sweep's method is that of its scene.
+        numbers.retain(|(path, _)| path != "time.iterations");
+        let mut known: Vec<(String, bool)> = all_paths()
+            .map(|path| (path.to_owned(), WHOLE.contains(&path)))
+            .collect();
+        known.sort();
+        numbers.sort();
+        assert_eq!(known, numbers);
     }
 }

@@ -300,7 +300,13 @@ fn files_with_errors_are_refused() {
             "random-scenes-quick.toml",
             "[random]",
             "[energy]\n[random]",
-            "one of the tables",
+            "energy.scenes: missing",
+        ),
+        (
+            "random-scenes-quick.toml",
+            "[random]",
+            "[[case]]\nname = \"a\"\nclaim = \"b\"\nends = \"answer\"\ntime = { dt = 1, t_end = 1 }\n[random]",
+            "random: found a second table; expected one of the tables [energy]",
         ),
         (
             "energy-decay.toml",

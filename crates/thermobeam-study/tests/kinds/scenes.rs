@@ -171,7 +171,14 @@ fn every_key_of_a_scene_is_at_work_in_some_case() {
         let of_scheme: Vec<usize> = (1..cases.len())
             .filter(|&k| cases[k].contains("scheme = \"dg\"") == (scheme == "dg"))
             .collect();
+        let foreign = match scheme {
+            "dg" => &["solver", "iterations"][..],
+            _ => &["degree", "restart_dt", "growth"],
+        };
         for (table, key) in keys {
+            if table == "time" && foreign.contains(&&*key) {
+                continue;
+            }
             let left_out: Vec<String> = of_scheme
                 .iter()
                 .filter_map(|&k| without(&cases, k, &table, &key))

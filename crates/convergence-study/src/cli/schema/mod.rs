@@ -1,7 +1,7 @@
 //! `schema`: the JSON schema of a project's files, by which editors complete and check them.
 //!
-//! It is made from the keys that the readers allow. It is weaker where a reader compares values: a
-//! list whose numbers must increase is a list of numbers here.
+//! It is made from the structs that files are read into. It is weaker where a reader compares values:
+//! a list whose numbers must increase is a list of numbers here.
 
 mod page;
 
@@ -42,7 +42,7 @@ pub struct Arguments {
 pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let others = other_files(project);
     let schema = match others.iter().find(|(name, _)| *name == arguments.files) {
-        Some((name, set)) => of_tables_file(name, set),
+        Some((_, schema)) => schema.clone(),
         None if arguments.files == STUDIES => of_studies(project),
         None => {
             let names = others.iter().map(|(name, _)| *name);
@@ -58,14 +58,19 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     Ok(Verdict::Pass)
 }
 
-/// The files of a project that are no studies, by name, with the keys of their topmost table.
-pub fn other_files(project: &Project) -> Vec<(&'static str, Keys)> {
-    let manufacture = (MANUFACTURE, manufacture::FILE_KEYS);
-    project
+/// The files of a project that are no studies, by name, with their schemas.
+pub fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
+    let own = project
         .tables
         .iter()
-        .copied()
-        .chain([manufacture])
+        .map(|(name, schema)| (*name, schema()));
+    let manufacture = (MANUFACTURE, table(&[], manufacture::FILE_KEYS));
+    own.chain([manufacture])
+        .map(|(name, mut schema)| {
+            schema["$schema"] = json!(DIALECT);
+            schema["title"] = json!(format!("{name} files"));
+            (name, schema)
+        })
         .collect()
 }
 
@@ -82,8 +87,8 @@ pub fn of_studies(project: &Project) -> Value {
     if !names.contains(&DEFAULT_KIND) {
         study["required"] = json!(["id", "claim", "tier", "kind"]);
     }
-    let kinds = project.kinds.iter().filter(|row| !row.keys.is_empty());
-    let kinds: Vec<Value> = kinds.map(of_kind).collect();
+    let is_known = |row: &&KindRow| row.schema.is_some() || !row.keys.is_empty();
+    let kinds: Vec<Value> = project.kinds.iter().filter(is_known).map(of_kind).collect();
     json!({
         "$schema": DIALECT,
         "title": format!("study files of {}", project.name),
@@ -94,14 +99,12 @@ pub fn of_studies(project: &Project) -> Value {
     })
 }
 
-/// The schema of a file of a project that is no study, such as a mesh.
-///
-/// * `set`: the keys of its topmost table.
-pub fn of_tables_file(name: &str, set: Keys) -> Value {
-    let mut schema = table(&[], set);
-    schema["$schema"] = json!(DIALECT);
-    schema["title"] = json!(format!("{name} files"));
-    schema
+/// The tables of the files of a kind beside `[study]`.
+fn tables(row: &KindRow) -> Value {
+    match row.schema {
+        Some(schema) => schema(),
+        None => one_of(row.keys.iter().map(|set| table(&[], set)).collect()),
+    }
 }
 
 /// The tables of a file, if its kind is this one. A file without `kind` has the default one.
@@ -110,14 +113,15 @@ fn of_kind(row: &KindRow) -> Value {
     if row.name != DEFAULT_KIND {
         kind["required"] = json!(["kind"]);
     }
-    let any_table = Key {
-        form: Form::Table(&[]),
-        ..STUDY_TABLE
-    };
-    let sets = row.keys.iter().map(|set| table(&[any_table], set));
+    let mut tables = tables(row);
+    let add = |set: &mut Value| set["properties"][STUDY_TABLE.name] = json!({ "type": "object" });
+    match tables.get_mut("anyOf").and_then(Value::as_array_mut) {
+        Some(sets) => sets.iter_mut().for_each(add),
+        None => add(&mut tables),
+    }
     json!({
         "if": { "properties": { STUDY_TABLE.name: kind } },
-        "then": one_of(sets.collect()),
+        "then": tables,
     })
 }
 

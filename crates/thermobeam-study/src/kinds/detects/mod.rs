@@ -43,6 +43,7 @@ pub const ROW: KindRow = KindRow {
         Detects::<Convergence>::KEYS[0],
         Detects::<AnyOrder>::KEYS[0],
     ],
+    schema: None,
     read,
     why: "A check that cannot fail proves nothing. Each coefficient of the solver in turn is put off a little from that of the \
           sources, and each defect in turn is planted in the sources.",

@@ -94,6 +94,7 @@ impl ErrorSource for Frequencies {
             Form::Table(&[&[&KEYS]]),
             "frequencies and meshes",
         )]]],
+        schema: None,
         read: read_study::<Orders<Self>>,
         why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
               a scalar equation.",

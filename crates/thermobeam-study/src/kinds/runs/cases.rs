@@ -1,9 +1,11 @@
 //! The tables `[[case]]` of a study: scenes, each with a claim in words and the way its run ends.
 
-use std::collections::BTreeSet;
+use convergence_study::file::{Choice, Choices, Refusal, within};
 
-use crate::kinds::prelude::*;
-use crate::{run::RunError, scene::Scene};
+use crate::{
+    run::RunError,
+    scene::{Scene, SceneFile},
+};
 use thermobeam::error::{StepError, StepFailure};
 
 /// A scene of a table `[[case]]`.
@@ -17,50 +19,55 @@ pub(crate) struct ClaimedScene {
     pub(crate) scene: Scene,
 }
 
-/// The keys of a case, beside those of a scene and [`ENDS`].
-pub(crate) const NAMED: [Key; 2] = [
-    Key::new("name", Form::Text, "a name that no other case has"),
-    Key::new("claim", Form::Text, "the claim in words"),
-];
-
-/// The way the run of a case must end.
-pub(crate) const ENDS: Key = Key::new(
-    "ends",
-    Form::Choice(|| End::ALL.map(|(name, _)| name).to_vec()),
-    "how its run must end",
-);
-
 impl ClaimedScene {
-    /// Reads `claim`, `ends` and the tables of a scene.
-    pub(crate) fn read(section: &Section<'_>, name: String) -> Result<Self, InputError> {
-        let end = section.require("ends", "\"answer\" or an error")?;
+    /// The scene of a case, with its claim.
+    pub(crate) fn new(
+        (name, claim): (String, String),
+        ends: Choice<Ends>,
+        scene: SceneFile,
+    ) -> Result<Self, Refusal> {
         Ok(Self {
-            end: end.choice(&End::ALL)?,
-            scene: Scene::from_tables(section, name.clone())?,
-            claim: section.require("claim", "a text")?.text()?.to_owned(),
+            end: ends.value,
+            scene: Scene::new(scene, name.clone())?,
+            claim,
             name,
         })
     }
 }
 
-/// The tables `[[case]]`, each with a unique name.
-pub(crate) fn named_cases<C>(
-    root: &Section<'_>,
-    read: impl Fn(&Section<'_>, String) -> Result<C, InputError>,
-) -> Result<Vec<C>, InputError> {
-    let mut names = BTreeSet::new();
-    root.tables("case", "", |section| {
-        let name = section.require("name", "a text")?.text()?.to_owned();
-        let case = read(section, name.clone())?;
-        if names.insert(name.clone()) {
-            return Ok(case);
+/// The cases of tables `[[case]]`, each with a unique name.
+pub(crate) fn named_cases<T, C>(
+    tables: Vec<T>,
+    new: impl Fn(T) -> Result<C, Refusal>,
+    name: impl Fn(&C) -> &str,
+) -> Result<Vec<C>, Refusal> {
+    let mut cases: Vec<C> = vec![];
+    for (place, table) in tables.into_iter().enumerate() {
+        let path = format!("case[{place}]");
+        let case = new(table).map_err(within(&path))?;
+        if cases.iter().any(|earlier| name(earlier) == name(&case)) {
+            let found = format!("a second \"{}\"", name(&case));
+            let allowed = "a name that no other case has";
+            return Err(Refusal::new(format!("{path}.name"), found, allowed));
         }
-        Err(section.refuse(
-            "name",
-            format!("a second \"{name}\""),
-            "a name that no other case has",
-        ))
-    })
+        cases.push(case);
+    }
+    if cases.is_empty() {
+        return Err(Refusal::written("case", "at least one table [[case]]"));
+    }
+    Ok(cases)
+}
+
+/// The ways a run can end.
+#[derive(Debug)]
+pub(crate) enum Ends {}
+
+impl Choices for Ends {
+    type Value = End;
+
+    fn all() -> Vec<(&'static str, End)> {
+        End::ALL.to_vec()
+    }
 }
 
 /// How a run ends.

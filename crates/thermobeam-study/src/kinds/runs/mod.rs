@@ -24,7 +24,7 @@ use convergence_study::{
 /// A list of runs, and what is claimed of them.
 pub trait Runs: Sized + Send + Sync {
     /// The keys of its files, as in [`KindRow`].
-    const KEYS: &'static [Keys];
+    const KEYS: &'static [Keys] = &[];
     /// What distinguishes a run from the others.
     type Run: Clone + PartialEq + Send + Sync;
     /// What a run shows.

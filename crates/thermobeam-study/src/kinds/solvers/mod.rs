@@ -56,6 +56,7 @@ pub use step::FixedPointStep;
 pub const ROW: KindRow = KindRow {
     name: "solvers",
     keys: Solvers::KEYS,
+    schema: None,
     read: read_study::<Solvers>,
     why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
           it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \

@@ -6,7 +6,11 @@ use crate::kinds::prelude::*;
 use crate::{
     expression::{Expression, Variable},
     kinds::settings::{ActiveTerms, Exercise, Integration, Nodes, axis_in_words},
-    scene::{limits, tables},
+    scene::{
+        file::{Formula, OfS},
+        limits::{self, Elements},
+        tables,
+    },
 };
 use convergence_judge::judge::random::SplitMix;
 use thermobeam::{
@@ -65,6 +69,25 @@ impl Layout {
             } => Nodes::Perturbed,
             _ => Nodes::Uniform,
         }
+    }
+
+    /// Nodes at the images of a map, which is checked on every mesh.
+    pub(crate) fn new(
+        map: Option<&Formula<OfS>>,
+        elements: &[Elements],
+        perturbation: Option<Perturbation>,
+    ) -> Result<Self, Refusal> {
+        let mut layout = Self {
+            perturbation,
+            map: None,
+        };
+        if let Some(map) = map {
+            layout.map = Some(map.parse("map", 1.0, 0)?);
+            for elements in elements {
+                tables::mapped("map", layout.mesh(elements.get()))?;
+            }
+        }
+        Ok(layout)
     }
 
     /// The key `map`, checked on every mesh.

@@ -112,6 +112,7 @@ impl ErrorSource for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
         keys: &[&[&LOADED, &RUNS], &[&FREE, &RUNS]],
+        schema: None,
         read: read_study::<Orders<Self>>,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \

@@ -98,6 +98,7 @@ impl ErrorSource for Convergence {
             constant::CONSTANT,
             EXPECT,
         ]]],
+        schema: None,
         read: read_study::<Orders<Self>>,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \

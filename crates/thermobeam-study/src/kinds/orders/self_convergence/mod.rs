@@ -159,6 +159,7 @@ impl ErrorSource for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
         keys: &[&[&KEYS]],
+        schema: None,
         read: read_study::<Orders<Self>>,
         why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
               the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",

@@ -115,6 +115,7 @@ impl ErrorSource for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
         keys: &[&[&KEYS]],
+        schema: None,
         read: read_study::<Orders<Self>>,
         why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
               in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \

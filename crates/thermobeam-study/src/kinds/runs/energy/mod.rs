@@ -28,18 +28,16 @@ mod bound;
 pub mod one_by_one;
 pub mod random;
 
-use super::{RunStudy, Runs};
+use super::RunStudy;
 use crate::kinds::prelude::*;
 use convergence_study::Study;
+use one_by_one::listed;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/energy",
-    keys: &[
-        one_by_one::EnergyRuns::KEYS[0],
-        one_by_one::EnergyRuns::KEYS[1],
-        random::RandomScenes::KEYS[0],
-    ],
+    keys: &[],
+    schema: Some(schema::of::<EnergyFile>),
     read,
     why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
           Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
@@ -50,13 +48,40 @@ pub const ROW: KindRow = KindRow {
               very step in which it happens. Run the scene named alone.",
 };
 
+/// A study of the energy, by one of three tables.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct EnergyFile {
+    /// beams, and how they are run
+    energy: Option<listed::EnergyTable>,
+    /// scenes, and what is claimed of their runs
+    case: Option<Vec<listed::CaseTable>>,
+    /// random scenes, in lanes
+    random: Option<random::RandomTable>,
+}
+
+impl EnergyFile {
+    /// Its table, as a file may have only one of them.
+    fn only_table(&self) -> Result<&'static str, Refusal> {
+        let allowed = "one of the tables [energy], [[case]] and [random]";
+        match [
+            self.energy.is_some(),
+            self.case.is_some(),
+            self.random.is_some(),
+        ] {
+            [true, false, false] => Ok("energy"),
+            [false, true, false] => Ok("case"),
+            [false, false, true] => Ok("random"),
+            [false, false, false] => Err(Refusal::missing("energy", allowed)),
+            [true, true, _] => Err(Refusal::new("case", "a second table", allowed)),
+            [_, _, true] => Err(Refusal::new("random", "a second table", allowed)),
+        }
+    }
+}
+
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    match only_table(
-        root,
-        ["energy", "case", "random"],
-        "one of the tables [energy], [[case]] and [random]",
-    )? {
+    match described(root, |file: EnergyFile| file.only_table())? {
         "random" => read_study::<RunStudy<random::RandomScenes>>(header, root, folder),
         _ => read_study::<RunStudy<one_by_one::EnergyRuns>>(header, root, folder),
     }

@@ -16,7 +16,7 @@
 //! seed = 1
 //! ```
 
-use super::beams::wild;
+use super::{EnergyFile, beams::wild};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
@@ -87,26 +87,37 @@ pub struct Batch {
     pub scenes: Vec<[f64; 3]>,
 }
 
-const RANDOM: Keys = &[&[
-    Key::new("batches", Form::Count(1), "batches of random scenes"),
-    Key::new("steps", Form::Count(1), "steps of each scene"),
-    Key::new("seed", Form::Count(0), "of the random scenes"),
-]];
+/// The table `[random]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RandomTable {
+    /// batches of random scenes
+    batches: Count<1, 100_000>,
+    /// steps of each scene
+    steps: Count<1, { limits::STEPS }>,
+    /// of the random scenes
+    seed: Count<0, { u32::MAX as usize }>,
+}
 
 impl Runs for RandomScenes {
-    const KEYS: &'static [Keys] =
-        &[&[&[Key::new("random", Form::Table(&[RANDOM]), "random scenes")]]];
-
     /// Number of the batch.
     type Run = usize;
     type Shown = Batch;
 
     fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let section = root.table("random", RANDOM)?;
-        Ok(Self {
-            batches: section.count("batches", 1..=100_000)?,
-            steps: section.count("steps", 1..=limits::STEPS)?,
-            seed: section.count("seed", 0..=u32::MAX as usize)? as u64,
+        described(root, |file: EnergyFile| {
+            let RandomTable {
+                batches,
+                steps,
+                seed,
+            } = file
+                .random
+                .ok_or_else(|| Refusal::missing("random", "random scenes"))?;
+            Ok(Self {
+                batches: batches.get(),
+                steps: steps.get(),
+                seed: seed.get() as u64,
+            })
         })
     }
 

@@ -49,6 +49,7 @@ use judge::{OfScene, events};
 pub const ROW: KindRow = KindRow {
     name: "runs/exact-experiments",
     keys: ExactExperiments::KEYS,
+    schema: None,
     read: read_study::<RunStudy<ExactExperiments>>,
     why: "Elements of high degree and dG(q), with contact located to round-off, converge so fast that some hundred steps give ten \
           digits. Two discretisations that share neither mesh nor degrees nor steps make different errors.",

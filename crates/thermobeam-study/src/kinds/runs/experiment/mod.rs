@@ -70,6 +70,7 @@ pub use trace::Trace;
 pub const ROW: KindRow = KindRow {
     name: "runs/experiment",
     keys: Experiments::KEYS,
+    schema: None,
     read: read_study::<RunStudy<Experiments>>,
     why: "Section 5 of the paper says what its seven experiments show. Each statement is a condition on a run of ours.",
     judged: "One check a statement, with the numbers. Where a statement does not hold as printed, the check says what holds. \

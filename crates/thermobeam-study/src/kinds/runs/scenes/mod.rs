@@ -58,6 +58,7 @@ use crate::{
 use contact::ContactCount;
 use convergence_judge::text::number::short_text;
 use convergence_study::NamedNumber;
+use file::{CaseTable, ScenesFile};
 use shown::{STEADY, listed, unsolved};
 
 pub use shown::{COUNTS, NUMBERS, Shown};
@@ -65,7 +66,8 @@ pub use shown::{COUNTS, NUMBERS, Shown};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/scenes",
-    keys: Scenes::KEYS,
+    keys: &[],
+    schema: Some(schema::of::<ScenesFile>),
     read: read_study::<RunStudy<Scenes>>,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
@@ -131,19 +133,14 @@ struct Most {
 const CHOSEN: &str = "chosen_u_tip";
 
 impl Runs for Scenes {
-    const KEYS: &'static [Keys] = &[&[&[Key::new(
-        "case",
-        Form::List(&Form::Table(file::CASE)),
-        "scenes, and what their runs must answer",
-    )]]];
-
     /// Number of the scene.
     type Run = usize;
     type Shown = Shown;
 
     fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        Ok(Self {
-            scenes: named_cases(root, Whole::read)?,
+        described(root, |file: ScenesFile| {
+            let scenes = named_cases(file.case, CaseTable::whole, |whole| &whole.case.name)?;
+            Ok(Self { scenes })
         })
     }
 

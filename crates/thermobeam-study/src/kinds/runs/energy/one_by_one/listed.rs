@@ -5,121 +5,95 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::{
         runs::{
-            cases::{ClaimedScene, ENDS, End, NAMED},
+            cases::{ClaimedScene, End, Ends},
             energy::{beams::smooth, bound::Stability},
             watch::SOLVED,
         },
         settings::Nodes,
-        tables::{Layout, MAP},
+        tables::Layout,
     },
     run::simulate,
-    scene::{self, Scene, limits, tables},
+    scene::{
+        Scene, SceneFile,
+        file::{
+            BeamTable, Formula, InitialTable, MeshTable, ObstacleTable, OfS, Schemes, TimeTable,
+        },
+        limits::{self, Elements},
+        tables,
+    },
 };
 use thermobeam::{
     mesh::Mesh,
     one_step::{Problem, Stepping},
-    scheme::SCHEMES,
     solve::{Settings, Solver, Stopping},
 };
 
-/// The keys of `[energy]`.
-pub(super) const ENERGY: [Key; 9] = [
-    Key::new(
-        "scenes",
-        Form::List(&Form::Text),
-        "scene files, relative to this file",
-    ),
-    Key::new(
-        "schemes",
-        Form::List(&Form::Choice(|| SCHEMES.map(|scheme| scheme.name).to_vec())),
-        "the schemes, each applied to all beams",
-    ),
-    Key::new("elements", Form::Count(1), "number of elements"),
-    MAP,
-    Key::new("dt", Form::Positive, "time step"),
-    Key::new("steps", Form::Count(1), "number of steps"),
-    Key::new("random", Form::Count(0), "random beams in addition").or("0"),
-    Key::new("seed", Form::Count(0), "of the random beams").or("0"),
-    Key::new(
-        "tolerance",
-        Form::Positive,
-        "part of the energy by which it may rise or its balance be off",
-    ),
-];
+/// The table `[energy]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::kinds::runs::energy) struct EnergyTable {
+    /// scene files, relative to this file
+    scenes: Vec<String>,
+    /// the schemes, each applied to all beams
+    schemes: Vec<Choice<Schemes>>,
+    /// number of elements
+    elements: Elements,
+    /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
+    map: Option<Formula<OfS>>,
+    /// time step
+    dt: Positive,
+    /// number of steps
+    steps: Count<1, { limits::STEPS }>,
+    /// random beams in addition
+    #[serde(default)]
+    random: u64,
+    /// of the random beams
+    #[serde(default)]
+    seed: u64,
+    /// part of the energy by which it may rise or its balance be off
+    tolerance: Positive,
+}
 
-/// The keys of `[[case]]`.
-pub(super) const CASE: Keys = &[
-    &NAMED,
-    &[ENDS],
-    &scene::KEYS,
-    &[
-        Key::new(
-            "drift",
-            Form::Positive,
-            "part of the energy by which a beam without losses may drift",
-        )
-        .or("not checked"),
-        Key::new(
-            "stability",
-            Form::Boolean,
-            "the bound of Corollary 3.2 is checked",
-        )
-        .or("false"),
-    ],
-];
-
-/// The runs of `[energy]`: every scene, then every random beam, by each scheme in turn.
-pub(super) fn runs(section: &Section<'_>, folder: &Path) -> Result<Vec<EnergyRun>, InputError> {
-    let names = SCHEMES.map(|scheme| (scheme.name, scheme));
-    let schemes = section.list(
-        "schemes",
-        "a list of at least one scheme",
-        |item| item.choice(&names),
-        |list| !list.is_empty(),
-    )?;
-    let random = count(section, "random")?;
-    if let Some(field) = section.get("random") {
-        limits::cases(&field, &[random, schemes.len()])?;
-    }
-    let seed = count(section, "seed")? as u64;
-    let field = section.require("elements", "a number of elements")?;
-    let elements = tables::elements(&field)?;
-    let mesh = Layout::read(section, &[elements], None)?.mesh(elements);
-    let mesh = tables::checked_mesh(mesh, &field)?;
-    let dt = section.positive("dt")?;
-    let tolerance = section.positive("tolerance")?;
-    let steps = section.count("steps", 1..=limits::STEPS)?;
-    let scenes = section.list(
-        "scenes",
-        "a list of scene files beside this one",
-        |item| Scene::read(item.file(folder)?),
-        |_| true,
-    )?;
-    let mut runs = vec![];
-    for beam in beams(scenes, &mesh, random as u64, seed) {
-        for &scheme in &schemes {
-            runs.push(EnergyRun {
-                name: format!("{}, {}", beam.name, scheme.name),
-                nodes: Nodes::of_mesh(&beam.problem.mesh),
-                problem: beam.problem.clone(),
-                stepping: Stepping {
-                    scheme,
-                    settings: solved(Settings::default()),
-                    dt,
-                    loaded: false,
-                },
-                steps,
-                claim: "the energy falls and its balance closes".to_owned(),
-                end: End::Answer,
-                share: Some(tolerance),
-                drift: None,
-                is_bounded: false,
-                // Random beams and further schemes would crowd the figures.
-                is_drawn: beam.is_scene && scheme == schemes[0],
-            });
+impl EnergyTable {
+    /// The runs: every scene, then every random beam, by each scheme in turn.
+    pub(super) fn runs(&self, folder: &Path) -> Result<Vec<EnergyRun>, Refusal> {
+        if self.schemes.is_empty() {
+            return Err(Refusal::written("schemes", "a list of at least one scheme"));
         }
+        limits::case_count("random", &[self.random as usize, self.schemes.len()])?;
+        let layout = Layout::new(self.map.as_ref(), &[self.elements], None)?;
+        let mesh = tables::mapped("elements", layout.mesh(self.elements.get()))?;
+        let mut scenes = vec![];
+        for (place, name) in self.scenes.iter().enumerate() {
+            let file = named_file(&format!("scenes[{place}]"), name, folder)?;
+            scenes.push(Scene::read(file)?);
+        }
+        let mut runs = vec![];
+        for beam in beams(scenes, &mesh, self.random, self.seed) {
+            for (place, scheme) in self.schemes.iter().enumerate() {
+                runs.push(EnergyRun {
+                    name: format!("{}, {}", beam.name, scheme.name),
+                    nodes: Nodes::of_mesh(&beam.problem.mesh),
+                    problem: beam.problem.clone(),
+                    stepping: Stepping {
+                        scheme: scheme.value,
+                        settings: solved(Settings::default()),
+                        dt: self.dt.get(),
+                        loaded: false,
+                    },
+                    steps: self.steps.get(),
+                    claim: "the energy falls and its balance closes".to_owned(),
+                    end: End::Answer,
+                    share: Some(self.tolerance.get()),
+                    drift: None,
+                    is_bounded: false,
+                    // Random beams and further schemes would crowd the figures.
+                    is_drawn: beam.is_scene && place == 0,
+                });
+            }
+        }
+        Ok(runs)
     }
-    Ok(runs)
 }
 
 /// A beam of the table, on its mesh.
@@ -151,13 +125,6 @@ fn beams(scenes: Vec<Scene>, mesh: &Mesh, random: u64, seed: u64) -> Vec<EnergyB
     beams
 }
 
-/// A number that may be left out, which is 0.
-fn count(section: &Section<'_>, key: &str) -> Result<usize, InputError> {
-    section
-        .get(key)
-        .map_or(Ok(0), |field| field.count(0..=usize::MAX))
-}
-
 /// The balance holds for the exact solution of a step only.
 fn solved(settings: Settings) -> Settings {
     Settings {
@@ -166,43 +133,78 @@ fn solved(settings: Settings) -> Settings {
     }
 }
 
-/// A run of `[[case]]`.
-pub(super) fn case(section: &Section<'_>, name: String) -> Result<EnergyRun, InputError> {
-    let ClaimedScene {
-        name,
-        claim,
-        end,
-        scene,
-    } = ClaimedScene::read(section, name)?;
-    let mut stepping = scene
-        .one_step()
-        .map_err(|error| section.refuse("time.scheme", "dg", error.to_string()))?;
-    if stepping.settings.solver == Solver::Newton {
-        stepping.settings = solved(stepping.settings);
+/// A table `[[case]]`: a scene, and what is claimed of its run.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(in crate::kinds::runs::energy) struct CaseTable {
+    /// a name that no other case has
+    name: String,
+    /// the claim in words
+    claim: String,
+    /// how its run must end
+    ends: Choice<Ends>,
+    /// part of the energy by which a beam without losses may drift; without it, it is not checked
+    drift: Option<Positive>,
+    /// the bound of Corollary 3.2 is checked
+    #[serde(default)]
+    stability: bool,
+    /// as in a scene
+    #[serde(default)]
+    beam: BeamTable,
+    /// as in a scene
+    obstacles: Option<ObstacleTable>,
+    /// as in a scene
+    #[serde(default)]
+    initial: InitialTable,
+    /// as in a scene
+    #[serde(default)]
+    mesh: MeshTable,
+    /// as in a scene
+    time: TimeTable,
+}
+
+impl CaseTable {
+    /// The run.
+    pub(super) fn run(self) -> Result<EnergyRun, Refusal> {
+        let scene = SceneFile {
+            beam: self.beam,
+            obstacles: self.obstacles,
+            initial: self.initial,
+            mesh: self.mesh,
+            time: self.time,
+        };
+        let ClaimedScene {
+            name,
+            claim,
+            end,
+            scene,
+        } = ClaimedScene::new((self.name, self.claim), self.ends, scene)?;
+        let mut stepping = scene
+            .one_step()
+            .map_err(|error| Refusal::new("time.scheme", "dg", error.to_string()))?;
+        if stepping.settings.solver == Solver::Newton {
+            stepping.settings = solved(stepping.settings);
+        }
+        if self.stability && Stability::of(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
+            let found = "a beam for which Corollary 3.2 states nothing";
+            return Err(Refusal::new(
+                "stability",
+                found,
+                "rho > 0 or beta > -0.7116",
+            ));
+        }
+        Ok(EnergyRun {
+            name,
+            nodes: Nodes::of_scene(&scene),
+            problem: simulate::problem(&scene),
+            stepping,
+            steps: scene.steps(),
+            claim,
+            end,
+            share: None,
+            drift: self.drift.map(Positive::get),
+            is_bounded: self.stability,
+            is_drawn: false,
+        })
     }
-    let is_bounded = section
-        .get("stability")
-        .map_or(Ok(false), |field| field.boolean())?;
-    if is_bounded && Stability::of(&scene.beam, scene.obstacles.as_ref(), 1.0).is_none() {
-        let allowed = "rho > 0 or beta > -0.7116";
-        return Err(section.refuse(
-            "stability",
-            "a beam for which Corollary 3.2 states nothing",
-            allowed,
-        ));
-    }
-    let drift = section.get("drift").map(|field| field.positive());
-    Ok(EnergyRun {
-        name,
-        nodes: Nodes::of_scene(&scene),
-        problem: simulate::problem(&scene),
-        stepping,
-        steps: scene.steps(),
-        claim,
-        end,
-        share: None,
-        drift: drift.transpose()?,
-        is_bounded,
-        is_drawn: false,
-    })
 }

@@ -30,9 +30,10 @@
 //! ```
 
 mod drawn;
-mod listed;
+pub(super) mod listed;
 mod recorder;
 
+use super::EnergyFile;
 use recorder::Recorder;
 
 use crate::kinds::prelude::*;
@@ -134,38 +135,28 @@ impl EnergyHistory {
 }
 
 impl Runs for EnergyRuns {
-    const KEYS: &'static [Keys] = &[
-        &[&[Key::new(
-            "energy",
-            Form::Table(&[&[&listed::ENERGY]]),
-            "beams, and how they are run",
-        )]],
-        &[&[Key::new(
-            "case",
-            Form::List(&Form::Table(&[listed::CASE])),
-            "scenes, and what is claimed of their runs",
-        )]],
-    ];
-
     /// Number of the run.
     type Run = usize;
     type Shown = EnergyHistory;
 
     fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        if let Some(energy) = root.section("energy")? {
-            let runs = listed::runs(&energy, folder)?;
-            let histories = true;
-            return Ok(Self { runs, histories });
-        }
-        let mut runs = named_cases(root, listed::case)?;
-        let is_claimed = runs.iter().any(|run| run.drift.is_some());
-        // The drift of cases that claim a bound; of all where none does.
-        for run in &mut runs {
-            run.is_drawn = !run.is_bounded && (run.drift.is_some() || !is_claimed);
-        }
-        Ok(Self {
-            runs,
-            histories: false,
+        described(root, |file: EnergyFile| {
+            if let Some(energy) = file.energy {
+                let runs = energy.runs(folder).map_err(within("energy"))?;
+                let histories = true;
+                return Ok(Self { runs, histories });
+            }
+            let cases = file.case.unwrap_or_default();
+            let mut runs = named_cases(cases, listed::CaseTable::run, |run| &run.name)?;
+            let is_claimed = runs.iter().any(|run| run.drift.is_some());
+            // The drift of cases that claim a bound; of all where none does.
+            for run in &mut runs {
+                run.is_drawn = !run.is_bounded && (run.drift.is_some() || !is_claimed);
+            }
+            Ok(Self {
+                runs,
+                histories: false,
+            })
         })
     }
 

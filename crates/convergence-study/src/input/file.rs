@@ -1,0 +1,367 @@
+//! A table of a file as a struct: serde reads it, and an error names file, line, column, field, what
+//! was found and what is allowed. What a struct cannot say, a condition between fields or an
+//! expression that must be parsed, is a [`Refusal`], which names its field.
+//!
+//! Where something stands is looked up by its path in the document. So a file must not be read by
+//! way of `flatten`, `untagged` or `tag`, which lose the path.
+
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::{Complaint, Field, InputError, Misread, Section, schema, shorten};
+use crate::text::names::nearest;
+use crate::text::visible;
+
+/// Why a file that was read is refused: at which field, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal(Box<Reason>);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Reason {
+    /// At a field of the table, by its dotted name.
+    Field { path: String, wrong: Wrong },
+    /// In another file, which the field names.
+    File(InputError),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Wrong {
+    /// The value as it is written, and these words after it.
+    Written { more: String, allowed: String },
+    /// Something else.
+    Other { offset: usize, complaint: Complaint },
+}
+
+impl Refusal {
+    /// What was found at a field, in words, and what is allowed.
+    ///
+    /// * `path`: the field's dotted name in the struct, such as `refine.steps[1]`.
+    pub fn new(
+        path: impl Into<String>,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Self {
+        let (found, allowed) = (found.into(), allowed.into());
+        Self::of(path, 0, Complaint::NotAllowed { found, allowed })
+    }
+
+    /// The value of a field as it is written, and what is allowed.
+    pub fn written(path: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self::written_and(path, "", allowed)
+    }
+
+    /// The value of a field as it is written with more words about it, and what is allowed.
+    pub fn written_and(
+        path: impl Into<String>,
+        more: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Self {
+        let (more, allowed) = (more.into(), allowed.into());
+        Self(Box::new(Reason::Field {
+            path: path.into(),
+            wrong: Wrong::Written { more, allowed },
+        }))
+    }
+
+    /// A field that must be there.
+    pub fn missing(path: impl Into<String>, allowed: &str) -> Self {
+        Self::invalid(path, format!("missing; expected {allowed}"))
+    }
+
+    /// A field with a message of its own.
+    pub fn invalid(path: impl Into<String>, reason: impl Into<String>) -> Self {
+        let reason = reason.into();
+        Self::of(path, 0, Complaint::Invalid { reason })
+    }
+
+    /// A text that a parser refuses, at a place in it.
+    pub fn misread(path: impl Into<String>, Misread { offset, reason }: Misread) -> Self {
+        Self::of(path, offset, Complaint::Invalid { reason })
+    }
+
+    /// A key that the table does not have.
+    pub fn unknown(path: &str, known: &[&str]) -> Self {
+        let name = path.rsplit('.').next().unwrap_or(path);
+        let complaint = Complaint::UnknownKey {
+            found: shorten(name),
+            suggestion: nearest(name, known.iter().copied()).map(str::to_owned),
+            allowed: known.join(", "),
+        };
+        Self::of(path, 0, complaint)
+    }
+
+    /// The error about a value that was looked up.
+    pub(super) fn about(self, field: &Field<'_>) -> InputError {
+        match *self.0 {
+            Reason::File(error) => error,
+            Reason::Field { wrong, .. } => match wrong {
+                Wrong::Written { more, allowed } => {
+                    field.refuse(field.as_written() + &more, allowed)
+                }
+                Wrong::Other { offset, complaint } => field.complain(offset, complaint),
+            },
+        }
+    }
+
+    fn of(path: impl Into<String>, offset: usize, complaint: Complaint) -> Self {
+        Self(Box::new(Reason::Field {
+            path: path.into(),
+            wrong: Wrong::Other { offset, complaint },
+        }))
+    }
+}
+
+impl From<InputError> for Refusal {
+    fn from(error: InputError) -> Self {
+        Self(Box::new(Reason::File(error)))
+    }
+}
+
+/// Puts the name of a table before that of a refused field, for `map_err`.
+pub fn within(table: &str) -> impl Fn(Refusal) -> Refusal {
+    move |refusal| match *refusal.0 {
+        Reason::Field { path, wrong } => Refusal(Box::new(Reason::Field {
+            path: joined(table, &path),
+            wrong,
+        })),
+        Reason::File(_) => refusal,
+    }
+}
+
+/// The file that a field names, in a folder.
+///
+/// # Errors
+/// There is none.
+pub fn named_file(path: &str, name: &str, folder: &Path) -> Result<PathBuf, Refusal> {
+    let file = folder.join(name);
+    match fs::metadata(&file) {
+        Ok(_) => Ok(file),
+        Err(error) => Err(Refusal::written_and(
+            path,
+            format!(", but {}: {error}", visible::path(&file)),
+            "the name of a file, relative to this file's folder",
+        )),
+    }
+}
+
+/// A field of a table that has been looked up: its value, if it is there, and the place to name.
+struct Found<'a> {
+    value: Option<&'a Spanned<DeValue<'a>>>,
+    key: Range<usize>,
+}
+
+impl Found<'_> {
+    fn start(&self) -> usize {
+        self.value
+            .map_or(self.key.start, |value| value.span().start)
+    }
+}
+
+impl<'a> Section<'a> {
+    /// The table as a struct.
+    ///
+    /// # Errors
+    /// A key that is unknown or missing, or a value that is not allowed.
+    pub fn read<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, InputError> {
+        self.read_beside(&[])
+    }
+
+    /// The table as a struct that does not have these keys, which were read before.
+    pub(crate) fn read_beside<T: DeserializeOwned + JsonSchema>(
+        &self,
+        known: &[&str],
+    ) -> Result<T, InputError> {
+        let mut table = self.table.clone();
+        for key in known {
+            table.remove(*key);
+        }
+        let table = toml::Deserializer::from(Spanned::new(self.span.clone(), table));
+        serde_path_to_error::deserialize(table).map_err(|error| {
+            let path = match error.path().to_string() {
+                root if root == "." => String::new(),
+                path => path,
+            };
+            self.misfit(path, error.inner().message(), &schema::of::<T>())
+        })
+    }
+
+    /// An error of this table.
+    pub fn locate(&self, refusal: Refusal) -> InputError {
+        let (path, wrong) = match *refusal.0 {
+            Reason::Field { path, wrong } => (path, wrong),
+            Reason::File(error) => return error,
+        };
+        let found = self.find(&path);
+        let (offset, complaint) = match wrong {
+            Wrong::Written { more, allowed } => {
+                let found = self.written(&found) + &more;
+                (0, Complaint::NotAllowed { found, allowed })
+            }
+            Wrong::Other { offset, complaint } => (offset, complaint),
+        };
+        self.error_at(&found, &path, offset, complaint)
+    }
+
+    /// The byte of the text at which a field begins.
+    pub fn start_of(&self, path: &str) -> usize {
+        self.find(path).start()
+    }
+
+    /// What serde says about a value, in the words of this project.
+    fn misfit(&self, path: String, message: &str, schema: &Value) -> InputError {
+        let found = self.find(&path);
+        let allowed = |path: &str| {
+            schema::at(schema, path).map_or("another value".to_owned(), schema::allowed)
+        };
+        let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+        let complaint = match problem.split(' ').next() {
+            Some("missing") => {
+                let path = joined(&path, quoted(problem).next().unwrap_or_default());
+                let meaning = schema::at(schema, &path)
+                    .and_then(|schema| schema["description"].as_str())
+                    .map_or(String::new(), |meaning| {
+                        format!(": {}", meaning.replace('\n', " "))
+                    });
+                let reason = format!("missing; expected {}{meaning}", allowed(&path));
+                return self.error_at(&found, &path, 0, Complaint::Invalid { reason });
+            }
+            Some("unknown") if problem.starts_with("unknown field") => {
+                let at_key = Found {
+                    value: None,
+                    ..found
+                };
+                let name = self.raw(&at_key).trim_matches(['"', '\'']);
+                let complaint = Complaint::UnknownKey {
+                    found: shorten(name),
+                    suggestion: nearest(name, quoted(expected)).map(str::to_owned),
+                    allowed: quoted(expected).collect::<Vec<_>>().join(", "),
+                };
+                return self.error_at(&at_key, &path, 0, complaint);
+            }
+            Some("found") => Complaint::Invalid {
+                reason: message.to_owned(),
+            },
+            _ => {
+                let allowed = allowed(&path);
+                let name = self.text_of(&found).unwrap_or_default();
+                let meant = nearest(name, allowed.split('"').skip(1).step_by(2));
+                let hint = meant.map(|name| format!(" (did you mean \"{name}\"?)"));
+                let found = self.written(&found) + &hint.unwrap_or_default();
+                Complaint::NotAllowed { found, allowed }
+            }
+        };
+        self.error_at(&found, &path, 0, complaint)
+    }
+
+    /// A field by its dotted name; of one that is missing, the place of the table that lacks it.
+    fn find(&self, path: &str) -> Found<'a> {
+        let mut found = Found {
+            value: None,
+            key: self.span.clone(),
+        };
+        let mut table = Some(self.table);
+        let mut rest = path;
+        while !rest.is_empty() {
+            let step = match (table, found.value.map(Spanned::get_ref)) {
+                (Some(table), _) => key_of(table, rest),
+                (None, Some(DeValue::Array(items))) => item_of(items, rest),
+                _ => None,
+            };
+            let Some((key, value, below)) = step else {
+                // A key that is missing: its table.
+                let key = found.value.map_or(found.key, Spanned::span);
+                return Found { value: None, key };
+            };
+            table = value.get_ref().as_table();
+            found = Found {
+                value: Some(value),
+                key,
+            };
+            rest = below;
+        }
+        found
+    }
+
+    fn error_at(
+        &self,
+        found: &Found<'_>,
+        path: &str,
+        offset: usize,
+        complaint: Complaint,
+    ) -> InputError {
+        let start = found.start();
+        // A text with escapes differs from the file; the place is then its first byte.
+        let inside = self
+            .text_of(found)
+            .filter(|_| offset > 0)
+            .map_or(0, |text| {
+                self.raw(found).find(text).map_or(0, |start| start + offset)
+            });
+        let path = joined(&self.path, path);
+        let path = Some(path).filter(|path| !path.is_empty());
+        self.source.error(start + inside, path, complaint)
+    }
+
+    fn text_of<'f>(&self, found: &Found<'f>) -> Option<&'f str> {
+        found.value?.get_ref().as_str()
+    }
+
+    fn raw(&self, found: &Found<'_>) -> &'a str {
+        let span = found.value.map_or(found.key.clone(), Spanned::span);
+        self.source.text.get(span).unwrap_or("")
+    }
+
+    fn written(&self, found: &Found<'_>) -> String {
+        let raw = shorten(self.raw(found));
+        match found.value.map(Spanned::get_ref) {
+            None => "nothing".to_owned(),
+            Some(DeValue::Table(table)) if table.is_empty() => "an empty table".to_owned(),
+            Some(DeValue::Table(_)) => "a table".to_owned(),
+            Some(DeValue::Array(_)) => format!("the list {raw}"),
+            Some(DeValue::String(_)) => format!("the text {raw}"),
+            Some(_) => raw,
+        }
+    }
+}
+
+/// A step of a path: where its key stands, its value, and the path below it.
+type Step<'a, 'p> = (Range<usize>, &'a Spanned<DeValue<'a>>, &'p str);
+
+/// The key of a table with which a path begins.
+fn key_of<'a, 'p>(table: &'a DeTable<'a>, path: &'p str) -> Option<Step<'a, 'p>> {
+    // A name of the user's may have a dot.
+    table.iter().find_map(|(key, value)| {
+        let rest = path.strip_prefix(key.get_ref().as_ref())?;
+        let below = rest.strip_prefix('.').unwrap_or(rest);
+        let is_end = rest.is_empty() || rest.starts_with(['.', '[']);
+        is_end.then(|| (key.span(), value, below))
+    })
+}
+
+/// The item of a list with which a path begins, such as `[1].x`.
+fn item_of<'a, 'p>(items: &'a DeArray<'a>, path: &'p str) -> Option<Step<'a, 'p>> {
+    let (index, rest) = path.strip_prefix('[')?.split_once(']')?;
+    let item = items.get(index.parse::<usize>().ok()?)?;
+    Some((item.span(), item, rest.strip_prefix('.').unwrap_or(rest)))
+}
+
+fn joined(table: &str, name: &str) -> String {
+    let dot = if table.is_empty() || name.is_empty() || name.starts_with('[') {
+        ""
+    } else {
+        "."
+    };
+    format!("{table}{dot}{name}")
+}
+
+/// The names in backticks.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}

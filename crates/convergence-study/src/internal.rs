@@ -112,7 +112,7 @@ pub mod study {
             FIRST, Looks, Next, conclude, is_settled, next, next_by_time,
         };
         #[cfg(feature = "files")]
-        pub use crate::study::until_decided::{budget, is_auto};
+        pub use crate::study::until_decided::{budget, budget_of, is_auto};
     }
 }
 #[cfg(feature = "reports")]

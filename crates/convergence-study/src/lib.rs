@@ -154,7 +154,7 @@ pub use crate::{
             Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
         },
     },
-    study::{FromFile, KindRow, described, read_claim, read_study},
+    study::{FromFile, KindRow, Order, described, read_claim, read_study},
 };
 
 /// What structs of files are made of: numbers of a range, names of a choice, lists of levels; and
@@ -162,8 +162,8 @@ pub use crate::{
 #[cfg(feature = "files")]
 pub mod file {
     pub use crate::input::{
-        Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range, Refusal,
-        named_file, within,
+        AllowedText, Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range,
+        Refusal, Texts, named_file, within,
     };
 }
 

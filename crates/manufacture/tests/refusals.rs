@@ -204,7 +204,7 @@ fn the_grammar_is_refused_with_remedies() {
     let deep = format!("{}T{}", "(".repeat(300), ")".repeat(300));
     let message = refusal(&plane("T = \"x*y\"", "", &format!("a = \"{deep}\"")));
     assert!(
-        message.contains("at most 256 nested operations"),
+        message.contains("at most 96 nested operations"),
         "{message}"
     );
 }
@@ -244,7 +244,7 @@ fn long_chains_of_definitions_are_read_or_refused() {
     crate::files::check(&file(40, "F*F/2"));
     let message = refusal(&file(400, "F + 1"));
     assert!(
-        message.contains("at most 256 definitions one inside the other"),
+        message.contains("at most 96 definitions one inside the other"),
         "{message}"
     );
 }

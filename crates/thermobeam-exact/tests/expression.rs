@@ -308,7 +308,7 @@ fn deep_nesting_is_rejected_without_stack_overflow() {
     ] {
         contains_in_order(
             &rejection(&text),
-            &["expected at most 256 nested operations"],
+            &["expected at most 96 nested operations"],
         );
     }
     contains_in_order(

@@ -97,10 +97,12 @@ pub(super) fn complaint(schema: &Value, value: &Value, path: &str) -> Option<Str
 }
 
 fn in_list(rule: &Value, value: &Value, path: &str) -> Option<String> {
+    // A list of a fixed length has a rule for each item.
+    let rule_of = |k: usize| rule.get(k).unwrap_or(rule);
     let items = value.as_array().into_iter().flatten().enumerate();
     items
         .into_iter()
-        .find_map(|(k, item)| complaint(rule, item, &format!("{path}[{k}]")))
+        .find_map(|(k, item)| complaint(rule_of(k), item, &format!("{path}[{k}]")))
 }
 
 fn in_table(rules: &Value, value: &Value, path: &str) -> Option<String> {

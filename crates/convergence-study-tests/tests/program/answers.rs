@@ -163,7 +163,7 @@ fn without_a_tolerance_it_is_that_of_rates() {
     assert!(
         status == Some(2)
             && err.contains(
-                "s.toml:14:13: expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5"
+                "s.toml:14:13: expect[0].tolerance: found 0.5; expected a finite number > 0 and < 0.5"
             ),
         "{err}"
     );

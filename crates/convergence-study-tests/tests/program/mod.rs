@@ -281,7 +281,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "tolerance = 0.05",
             "tolerance = 0.5",
-            "expect[0].tolerance: found 0.5; expected a number > 0 and < 0.5",
+            "expect[0].tolerance: found 0.5; expected a finite number > 0 and < 0.5",
         ),
         (
             "kind = \"program\"",

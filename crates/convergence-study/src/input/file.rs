@@ -35,8 +35,11 @@ enum Reason {
 enum Wrong {
     /// The value as it is written, and these words after it.
     Written { more: String, allowed: String },
-    /// Something else.
-    Other { offset: usize, complaint: Complaint },
+    /// Something else; of a text that a parser refuses with the place in it.
+    Other {
+        offset: Option<usize>,
+        complaint: Complaint,
+    },
 }
 
 impl Refusal {
@@ -49,7 +52,7 @@ impl Refusal {
         allowed: impl Into<String>,
     ) -> Self {
         let (found, allowed) = (found.into(), allowed.into());
-        Self::of(path, 0, Complaint::NotAllowed { found, allowed })
+        Self::of(path, None, Complaint::NotAllowed { found, allowed })
     }
 
     /// The value of a field as it is written, and what is allowed.
@@ -78,12 +81,12 @@ impl Refusal {
     /// A field with a message of its own.
     pub fn invalid(path: impl Into<String>, reason: impl Into<String>) -> Self {
         let reason = reason.into();
-        Self::of(path, 0, Complaint::Invalid { reason })
+        Self::of(path, None, Complaint::Invalid { reason })
     }
 
     /// A text that a parser refuses, at a place in it.
     pub fn misread(path: impl Into<String>, Misread { offset, reason }: Misread) -> Self {
-        Self::of(path, offset, Complaint::Invalid { reason })
+        Self::of(path, Some(offset), Complaint::Invalid { reason })
     }
 
     /// A key that the table does not have.
@@ -94,7 +97,7 @@ impl Refusal {
             suggestion: nearest(name, known.iter().copied()).map(str::to_owned),
             allowed: known.join(", "),
         };
-        Self::of(path, 0, complaint)
+        Self::of(path, None, complaint)
     }
 
     /// The error about a value that was looked up.
@@ -105,12 +108,12 @@ impl Refusal {
                 Wrong::Written { more, allowed } => {
                     field.refuse(field.as_written() + &more, allowed)
                 }
-                Wrong::Other { offset, complaint } => field.complain(offset, complaint),
+                Wrong::Other { complaint, .. } => field.complain(0, complaint),
             },
         }
     }
 
-    fn of(path: impl Into<String>, offset: usize, complaint: Complaint) -> Self {
+    fn of(path: impl Into<String>, offset: Option<usize>, complaint: Complaint) -> Self {
         Self(Box::new(Reason::Field {
             path: path.into(),
             wrong: Wrong::Other { offset, complaint },
@@ -174,7 +177,7 @@ impl<'a> Section<'a> {
     }
 
     /// The table as a struct that does not have these keys, which were read before.
-    pub(crate) fn read_beside<T: DeserializeOwned + JsonSchema>(
+    pub fn read_beside<T: DeserializeOwned + JsonSchema>(
         &self,
         known: &[&str],
     ) -> Result<T, InputError> {
@@ -202,7 +205,7 @@ impl<'a> Section<'a> {
         let (offset, complaint) = match wrong {
             Wrong::Written { more, allowed } => {
                 let found = self.written(&found) + &more;
-                (0, Complaint::NotAllowed { found, allowed })
+                (None, Complaint::NotAllowed { found, allowed })
             }
             Wrong::Other { offset, complaint } => (offset, complaint),
         };
@@ -230,7 +233,7 @@ impl<'a> Section<'a> {
                         format!(": {}", meaning.replace('\n', " "))
                     });
                 let reason = format!("missing; expected {}{meaning}", allowed(&path));
-                return self.error_at(&found, &path, 0, Complaint::Invalid { reason });
+                return self.error_at(&found, &path, None, Complaint::Invalid { reason });
             }
             Some("unknown") if problem.starts_with("unknown field") => {
                 let at_key = Found {
@@ -243,7 +246,7 @@ impl<'a> Section<'a> {
                     suggestion: nearest(name, quoted(expected)).map(str::to_owned),
                     allowed: quoted(expected).collect::<Vec<_>>().join(", "),
                 };
-                return self.error_at(&at_key, &path, 0, complaint);
+                return self.error_at(&at_key, &path, None, complaint);
             }
             Some("found") => Complaint::Invalid {
                 reason: message.to_owned(),
@@ -257,7 +260,7 @@ impl<'a> Section<'a> {
                 Complaint::NotAllowed { found, allowed }
             }
         };
-        self.error_at(&found, &path, 0, complaint)
+        self.error_at(&found, &path, None, complaint)
     }
 
     /// A field by its dotted name; of one that is missing, the place of the table that lacks it.
@@ -293,20 +296,16 @@ impl<'a> Section<'a> {
         &self,
         found: &Found<'_>,
         path: &str,
-        offset: usize,
+        offset: Option<usize>,
         complaint: Complaint,
     ) -> InputError {
-        let start = found.start();
         // A text with escapes differs from the file; the place is then its first byte.
-        let inside = self
-            .text_of(found)
-            .filter(|_| offset > 0)
-            .map_or(0, |text| {
-                self.raw(found).find(text).map_or(0, |start| start + offset)
-            });
+        let text = self.text_of(found).zip(offset);
+        let inside = text.and_then(|(text, offset)| Some(self.raw(found).find(text)? + offset));
+        let start = found.start() + inside.unwrap_or(0);
         let path = joined(&self.path, path);
         let path = Some(path).filter(|path| !path.is_empty());
-        self.source.error(start + inside, path, complaint)
+        self.source.error(start, path, complaint)
     }
 
     fn text_of<'f>(&self, found: &Found<'f>) -> Option<&'f str> {

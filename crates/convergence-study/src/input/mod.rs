@@ -33,7 +33,9 @@ use crate::text::visible;
 
 pub(crate) use crate::text::visible::visible;
 pub use file::{Refusal, named_file, within};
-pub use ranges::{Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range};
+pub use ranges::{
+    AllowedText, Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range, Texts,
+};
 pub(crate) use values::shorten;
 pub use values::{Field, Misread, POSITIVE, Section};
 

@@ -110,6 +110,12 @@ impl<const LEAST: usize, const MOST: usize> Count<LEAST, MOST> {
     }
 }
 
+impl<const LEAST: usize, const MOST: usize> From<Count<LEAST, MOST>> for usize {
+    fn from(count: Count<LEAST, MOST>) -> Self {
+        count.0
+    }
+}
+
 impl<const LEAST: usize, const MOST: usize> Display for Count<LEAST, MOST> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
@@ -139,6 +145,51 @@ impl<const LEAST: usize, const MOST: usize> JsonSchema for Count<LEAST, MOST> {
             schema.insert("maximum".to_owned(), json!(MOST));
         }
         schema
+    }
+}
+
+/// Which texts are allowed.
+pub trait Texts {
+    /// What is allowed, in words.
+    const ALLOWED: &'static str;
+
+    /// Whether a text is.
+    fn has(text: &str) -> bool;
+}
+
+/// A text that is allowed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AllowedText<T>(String, PhantomData<T>);
+
+impl<T> AllowedText<T> {
+    /// The text.
+    pub fn get(self) -> String {
+        self.0
+    }
+}
+
+impl<'de, T: Texts> Deserialize<'de> for AllowedText<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        if T::has(&text) {
+            Ok(Self(text, PhantomData))
+        } else {
+            Err(not_allowed())
+        }
+    }
+}
+
+impl<T: Texts> JsonSchema for AllowedText<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        std::any::type_name::<Self>().into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "title": T::ALLOWED })
     }
 }
 

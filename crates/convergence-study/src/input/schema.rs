@@ -96,7 +96,7 @@ pub(crate) fn allowed(schema: &Value) -> String {
         Some("integer") => range("a whole number"),
         Some("string") => "a text in quotes".to_owned(),
         Some("boolean") => "true or false".to_owned(),
-        Some("array") if schema["items"]["type"] == "object" => "tables".to_owned(),
+        Some("array") if schema["items"]["type"] == "object" => "a list of tables".to_owned(),
         Some("array") => format!("a list, each {}", allowed(&schema["items"])),
         _ => "a table".to_owned(),
     }

@@ -1,402 +1,366 @@
 //! Study files of programs. `begin/study.toml` is one, `program.md` of the book describes them.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use super::Program;
 use super::answer::Expectation;
 use super::command::filled;
-use super::refine::{self, CaseParameter, refine};
-use crate::input::{Field, Form, InputError, Key, Section, visible};
-use crate::judge::claims::Bound;
-use crate::judge::claims::order_of_factor;
+use super::refine::{CaseParameter, RefineTable};
+use crate::input::{AllowedText, Number, POSITIVE, Positive, Range, Refusal, visible, within};
+use crate::judge::claims::{Bound, order_of_factor};
 use crate::judge::verdict::{Floor, WIDEST_TOLERANCE};
-use crate::study::{Claim, Header, read_claim};
+use crate::study::{Claim, Constant, Lines, ORDER, Order};
 use crate::text::number::plain_text;
 
-/// The keys of the file.
-pub(super) const KEYS: [Key; 3] = [
-    Key::new("program", Form::Table(&[&[&PROGRAM]]), "what is run"),
-    Key::new(
-        "refine",
-        Form::Table(refine::KEYS),
-        "the resolutions at which it is run",
-    ),
-    Key::new(
-        "expect",
-        Form::List(&Form::Table(&[
-            &[&[ERROR], &ORDER],
-            &[&[ERROR], &FACTOR],
-            &[&[ERROR, EXACT]],
-            &[&[VALUE], &[RATE, TOLERANCE]],
-        ])),
-        "an error or a value, and what is claimed of it",
-    ),
-];
+/// A study of a program.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ProgramFile {
+    /// what is run
+    program: ProgramTable,
+    /// the resolutions at which it is run
+    refine: RefineTable,
+    /// an error or a value, and what is claimed of it
+    expect: Vec<ExpectTable>,
+}
 
-const PROGRAM: [Key; 7] = [
-    Key::new(
-        "command",
-        Form::List(&Form::Text),
-        "the program and its arguments, without a shell; `{n}`, `{h}`, `{steps}`, `{dt}`, `{level}` stand for the resolution, \
-         without them the program reads it as JSON from standard input",
-    ),
-    Key::new(
-        "directory",
-        Form::Text,
-        "the folder in which it runs, relative to that of this file",
-    )
-    .or("\".\""),
-    Key::new(
-        "env",
-        Form::Named(&[], &Form::Text),
-        "variables of the program's environment, beside those of the harness",
-    )
-    .or("none"),
-    Key::new(
-        "manufacture",
-        Form::Text,
-        "the file of `manufacture` from whose module with `--variants` the program takes its solution, for `--where`; relative to this file",
-    )
-    .or("none"),
-    Key::new(
-        "time_limit",
-        Form::Positive,
-        "the time limit of a case in seconds",
-    )
-    .or("600"),
-    Key::new(
-        "floor",
-        Form::Positive,
-        "a thousand times the round-off: fine levels with errors up to it are dropped",
-    )
-    .or("none"),
-    Key::new(
-        "scale",
-        Form::Positive,
-        "the size of the solution, which says what may be round-off",
-    )
-    .or("1"),
-];
-const ERROR: Key = Key::new(
-    "error",
-    Form::Text,
-    "the name of an error that the program answers",
-);
-const VALUE: Key = Key::new(
-    "value",
-    Form::Text,
-    "the name of a value without exact solution that it answers: judged by the differences of its levels",
-);
-const EXACT: Key = Key::new("exact", Form::Positive, "no error is larger");
-const RATE: Key = Key::new(
-    "order",
-    Form::OneOf(&[Form::Positive, Form::Text]),
-    "the order, or the least order as \">= 1\"; of a grid: in h",
-);
-const TOLERANCE: Key = Key::new(
-    "tolerance",
-    Form::Positive,
-    "how far the rate may be from the order",
-)
-.or("0.25, at most half of the order, a quarter of a least one");
-const ORDER: [Key; 4] = [
-    RATE,
-    Key::new("order_dt", Form::Positive, "of a grid: the order in dt").or("order"),
-    Key::new(
-        "constant",
-        Form::List(&Form::Positive),
-        "the ends of the C of error = C h^order",
-    )
-    .or(""),
-    TOLERANCE,
-];
-const FACTOR: [Key; 2] = [
-    Key::new(
-        "factor",
-        Form::OneOf(&[Form::Positive, Form::Text]),
-        "by which the error falls with each degree, n being the degree, or at least, as \">= 5\"",
-    ),
-    TOLERANCE,
-];
+/// The table `[program]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ProgramTable {
+    /// the program and its arguments, without a shell; `{n}`, `{h}`, `{steps}`, `{dt}`, `{level}`
+    /// stand for the resolution, without them the program reads it as JSON from standard input
+    #[schemars(extend("title" = COMMAND))]
+    command: Vec<String>,
+    /// the folder in which it runs, relative to that of this file, which it is without it
+    directory: Option<String>,
+    /// variables of the program's environment, beside those of the harness
+    #[serde(default)]
+    env: BTreeMap<String, String>,
+    /// the file of `manufacture` from whose module with `--variants` the program takes its solution,
+    /// for `--where`; relative to this file
+    manufacture: Option<String>,
+    /// the time limit of a case in seconds; without it 600
+    #[schemars(extend("title" = SECONDS))]
+    time_limit: Option<Positive>,
+    /// a thousand times the round-off: fine levels with errors up to it are dropped; without it none
+    floor: Option<Positive>,
+    /// the size of the solution, which says what may be round-off
+    #[schemars(extend("default" = 1))]
+    scale: Option<Positive>,
+}
 
-/// What is known of round-off.
-fn floor(section: &Section<'_>) -> Result<Floor, InputError> {
-    let number = |key: &str, default: f64| {
-        section
-            .get(key)
-            .map_or(Ok(default), |field| field.positive())
-    };
-    let [floor, scale] = [number("floor", 0.0)?, number("scale", 1.0)?];
-    // Both are finite and positive.
-    let floor = Floor::new(floor).and_then(|floor| floor.of_scale(scale));
-    Ok(floor.unwrap_or_default())
+const COMMAND: &str = "a list of the program and its arguments, each a text in quotes";
+const SECONDS: &str = "a number of seconds > 0";
+
+/// A table `[[expect]]`: an error or a value, with an order or a factor, or an error that is exact.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ExpectTable {
+    /// the name of an error that the program answers
+    error: Option<AllowedText<Lines>>,
+    /// the name of a value without exact solution that it answers: judged by the differences of its
+    /// levels
+    value: Option<AllowedText<Lines>>,
+    /// the order, or the least order; of a grid: in h
+    order: Option<Order>,
+    /// of a grid: the order in dt; without it that in h
+    order_dt: Option<Positive>,
+    /// by which the error falls with each degree, n being the degree
+    factor: Option<Order>,
+    /// no error is larger
+    exact: Option<Positive>,
+    /// the ends of the C of error = C h^order
+    #[schemars(extend("title" = "two numbers > 0, the smaller first"))]
+    constant: Option<Constant>,
+    /// how far the rate may be from the order; without it 0.25, at most half of the order, a quarter
+    /// of a least one
+    tolerance: Option<Number<Narrow>>,
+}
+
+/// Tolerances of a rate.
+#[derive(Debug, Clone, Copy)]
+enum Narrow {}
+
+impl Range for Narrow {
+    const ENDS: &'static [(&'static str, f64)] = &[
+        ("exclusiveMinimum", 0.0),
+        ("exclusiveMaximum", WIDEST_TOLERANCE),
+    ];
 }
 
 /// The default time limit of a case.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
 
-pub(super) fn read(
-    _header: &Header,
-    root: &Section<'_>,
-    folder: &Path,
-) -> Result<Program, InputError> {
-    let section = root
-        .require("program", "a table with the command")?
-        .section()?;
-    let directory = directory(&section, folder)?;
-    let refine = refine(root)?;
-    let words = words(&section, &refine.resolutions()[0].parameters)?;
-    let time_limit = section.get("time_limit").map_or(Ok(TIME_LIMIT), |field| {
-        let allowed = "a number of seconds > 0";
-        let seconds = field.number_where(allowed, |seconds| seconds > 0.0)?;
-        Duration::try_from_secs_f64(seconds).map_err(|_| field.refuse_as_written(allowed))
-    })?;
-    let expect = expectations(root, refine.grid)?;
-    Ok(Program {
-        words,
-        directory,
-        variables: variables(&section)?,
-        time_limit,
-        floor: floor(&section)?,
-        refine,
-        expect,
-        manufactured: manufactured(&section, folder)?,
-        most_levels: None,
-    })
-}
-
-/// The file of `manufacture`; it is read when its variants are needed.
-fn manufactured(section: &Section<'_>, folder: &Path) -> Result<Option<PathBuf>, InputError> {
-    let Some(field) = section.get("manufacture") else {
-        return Ok(None);
-    };
-    let path = folder.join(field.text()?);
-    if path.is_file() {
-        return Ok(Some(path));
-    }
-    let found = format!(
-        "{}, but {} is no file",
-        field.as_written(),
-        visible(&path.display().to_string())
-    );
-    Err(field.refuse(found, "a file of `manufacture`, relative to this file"))
-}
-
-/// The folder in which the program runs, as an absolute path: the program's name is relative to it,
-/// too.
-fn directory(section: &Section<'_>, folder: &Path) -> Result<PathBuf, InputError> {
-    let here = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let Some(field) = section.get("directory") else {
-        return here
-            .canonicalize()
-            .map_err(|error| section.refuse("directory", error.to_string(), "a folder"));
-    };
-    let path = here.join(field.text()?);
-    let absolute = path.canonicalize().ok().filter(|path| path.is_dir());
-    absolute.ok_or_else(|| {
-        let found = format!(
-            "{}, but {} is no folder",
-            field.as_written(),
-            visible(&path.display().to_string())
-        );
-        field.refuse(found, "a folder, relative to that of this file")
-    })
-}
-
-/// The table `env`: texts by name.
-fn variables(section: &Section<'_>) -> Result<Vec<(String, String)>, InputError> {
-    let Some(env) = section.section("env")? else {
-        return Ok(vec![]);
-    };
-    let mut variables = vec![];
-    for name in env.keys() {
-        let field = env.require(name, "a text in quotes")?;
-        if name.is_empty() || name.contains(['=', '\0']) {
-            let allowed = "a name of a variable, without `=`";
-            return Err(field.refuse(format!("the name \"{}\"", visible(name)), allowed));
-        }
-        let value = field.text()?;
-        if value.contains('\0') {
-            return Err(field.refuse_as_written("a text without the character 0"));
-        }
-        variables.push((name.to_owned(), value.to_owned()));
-    }
-    Ok(variables)
-}
-
-fn words(section: &Section<'_>, values: &[CaseParameter]) -> Result<Vec<String>, InputError> {
-    let allowed = "a list of the program and its arguments, each a text in quotes";
-    let field = section.require("command", allowed)?;
-    let items = field.items(allowed)?;
-    let first = items
-        .first()
-        .ok_or_else(|| field.refuse_as_written(allowed))?;
-    if first.text().is_ok_and(str::is_empty) {
-        return Err(first.refuse_as_written("the name of a program"));
-    }
-    let word = |item: &Field<'_>| {
-        if item.text()?.contains('\0') {
-            return Err(item.refuse_as_written("a text without the character 0"));
-        }
-        item.parsed("a text in quotes", |text| {
-            filled(text, values).map(|_| text.to_owned())
+impl ProgramFile {
+    /// The study.
+    ///
+    /// * `folder`: the folder of the file.
+    pub(super) fn program(self, folder: &Path) -> Result<Program, Refusal> {
+        let refine = self.refine.refine().map_err(within("refine"))?;
+        let expect = expectations(self.expect, refine.grid)?;
+        let table = self.program;
+        let in_program = within("program");
+        let seconds = table
+            .time_limit
+            .map(|limit| Duration::try_from_secs_f64(limit.get()));
+        let time_limit = seconds.unwrap_or(Ok(TIME_LIMIT));
+        Ok(Program {
+            directory: table.directory(folder).map_err(&in_program)?,
+            words: table
+                .words(&refine.resolutions()[0].parameters)
+                .map_err(&in_program)?,
+            floor: table.floor(),
+            time_limit: time_limit
+                .map_err(|_| in_program(Refusal::written("time_limit", SECONDS)))?,
+            manufactured: table.manufactured(folder).map_err(&in_program)?,
+            variables: table.variables().map_err(&in_program)?,
+            refine,
+            expect,
+            most_levels: None,
         })
-    };
-    items.iter().map(word).collect()
+    }
 }
 
-fn expectations(root: &Section<'_>, grid: bool) -> Result<Vec<Expectation>, InputError> {
-    let mut names: Vec<(String, bool)> = vec![];
-    let read = |section: &Section<'_>| {
-        let expectation = expectation(section, grid)?;
-        let name = (expectation.name.clone(), expectation.is_value);
-        if names.contains(&name) {
-            let found = format!("\"{}\" a second time", visible(&expectation.name));
-            return Err(section.refuse(expectation.what(), found, "each name once"));
-        }
-        names.push(name);
-        Ok(expectation)
-    };
-    let expectations = root.tables("expect", " with error or value, and order", read)?;
-    let by_degree = expectations
-        .iter()
-        .filter(|expectation| expectation.by_degree)
-        .count();
-    let of_rates = expectations
-        .iter()
-        .filter(|expectation| expectation.exact.is_none())
-        .count();
-    if by_degree > 0 && by_degree < of_rates {
-        return Err(root.refuse(
-            "expect",
-            "factor in some tables and order in others",
-            "one of the two in all of a study",
-        ));
+impl ProgramTable {
+    /// What is known of round-off.
+    fn floor(&self) -> Floor {
+        let floor = self.floor.map_or(0.0, Positive::get);
+        let scale = self.scale.map_or(1.0, Positive::get);
+        // Both are finite and positive.
+        let floor = Floor::new(floor).and_then(|floor| floor.of_scale(scale));
+        floor.unwrap_or_default()
     }
-    Ok(expectations)
+
+    /// The file of `manufacture`; it is read when its variants are needed.
+    fn manufactured(&self, folder: &Path) -> Result<Option<PathBuf>, Refusal> {
+        let Some(name) = &self.manufacture else {
+            return Ok(None);
+        };
+        let path = folder.join(name);
+        if path.is_file() {
+            return Ok(Some(path));
+        }
+        let more = format!(", but {} is no file", visible(&path.display().to_string()));
+        let allowed = "a file of `manufacture`, relative to this file";
+        Err(Refusal::written_and("manufacture", more, allowed))
+    }
+
+    /// The folder in which the program runs, as an absolute path: the program's name is relative to
+    /// it, too.
+    fn directory(&self, folder: &Path) -> Result<PathBuf, Refusal> {
+        let here = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        let Some(name) = &self.directory else {
+            return here
+                .canonicalize()
+                .map_err(|error| Refusal::new("directory", error.to_string(), "a folder"));
+        };
+        let path = here.join(name);
+        let absolute = path.canonicalize().ok().filter(|path| path.is_dir());
+        absolute.ok_or_else(|| {
+            let more = format!(
+                ", but {} is no folder",
+                visible(&path.display().to_string())
+            );
+            let allowed = "a folder, relative to that of this file";
+            Refusal::written_and("directory", more, allowed)
+        })
+    }
+
+    /// The variables of `env`.
+    fn variables(self) -> Result<Vec<(String, String)>, Refusal> {
+        for (name, value) in &self.env {
+            let path = format!("env.{name}");
+            if name.is_empty() || name.contains(['=', '\0']) {
+                let found = format!("the name \"{}\"", visible(name));
+                return Err(Refusal::new(
+                    path,
+                    found,
+                    "a name of a variable, without `=`",
+                ));
+            }
+            if value.contains('\0') {
+                return Err(Refusal::written(path, WITHOUT_ZERO));
+            }
+        }
+        Ok(self.env.into_iter().collect())
+    }
+
+    /// The words of the command, whose placeholders have values.
+    fn words(&self, values: &[CaseParameter]) -> Result<Vec<String>, Refusal> {
+        match self.command.first().map(String::as_str) {
+            None => return Err(Refusal::written("command", COMMAND)),
+            Some("") => return Err(Refusal::written("command[0]", "the name of a program")),
+            Some(_) => {}
+        }
+        for (place, word) in self.command.iter().enumerate() {
+            let path = format!("command[{place}]");
+            if word.contains('\0') {
+                return Err(Refusal::written(path, WITHOUT_ZERO));
+            }
+            filled(word, values).map_err(|misread| Refusal::misread(path, misread))?;
+        }
+        Ok(self.command.clone())
+    }
 }
+
+const WITHOUT_ZERO: &str = "a text without the character 0";
 
 /// * `grid`: whether h and dt are refined independently; each error then has two orders.
-fn expectation(section: &Section<'_>, grid: bool) -> Result<Expectation, InputError> {
-    let (name, is_value) = match section.get("value") {
-        Some(value) if section.get("error").is_some() => {
-            return Err(value.refuse(
-                "value beside error",
-                "one of the two in each table [[expect]]",
-            ));
+fn expectations(tables: Vec<ExpectTable>, grid: bool) -> Result<Vec<Expectation>, Refusal> {
+    let mut expectations: Vec<Expectation> = vec![];
+    for (place, table) in tables.into_iter().enumerate() {
+        let path = format!("expect[{place}]");
+        let expectation = table.expectation(grid).map_err(within(&path))?;
+        let is_same = |earlier: &Expectation| {
+            (&earlier.name, earlier.is_value) == (&expectation.name, expectation.is_value)
+        };
+        if expectations.iter().any(is_same) {
+            let found = format!("\"{}\" a second time", visible(&expectation.name));
+            let path = format!("{path}.{}", expectation.what());
+            return Err(Refusal::new(path, found, "each name once"));
         }
-        Some(value) if grid => {
-            return Err(value.refuse(
-                "value with grid = true",
-                "error, the only one that a grid judges",
-            ));
-        }
-        Some(value) => (
-            name(&value, "the name of a value that the program answers")?,
-            true,
-        ),
-        None => {
-            let allowed = "the name of an error that the program answers, or `value` with the name of a value";
-            (name(&section.require("error", allowed)?, allowed)?, false)
-        }
-    };
-    let (claim, by_degree, exact) = claimed(section, grid || is_value)?;
-    let time = match section.get("order_dt") {
-        Some(field) if !grid => {
-            return Err(field.refuse("order_dt without grid = true", "order alone"));
-        }
-        Some(field) => field.positive()?,
-        None => claim.order,
-    };
-    Ok(Expectation {
-        name,
-        is_value,
-        claim,
-        time,
-        by_degree,
-        exact,
-    })
-}
-
-/// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error that
-/// should vanish.
-///
-/// * `plain`: whether only an order can be claimed, as for values and grids.
-fn claimed(section: &Section<'_>, plain: bool) -> Result<(Claim, bool, Option<f64>), InputError> {
-    let claims = ["order", "factor", "exact"].map(|key| section.get(key));
-    let other = claims[1..]
+        expectations.push(expectation);
+    }
+    let of_rates = expectations
         .iter()
-        .flatten()
-        .next()
-        .cloned()
-        .or(section.get("constant"));
-    if let Some(field) = other.filter(|_| plain) {
-        return Err(field.refuse_as_written("order alone, for values and on a grid"));
-    }
-    if let [_, Some(field), Some(_)] | [Some(_), Some(field), _] | [Some(_), _, Some(field)] =
-        &claims
-    {
-        return Err(field.refuse_as_written("one of order, factor and exact"));
-    }
-    if let [_, _, Some(field)] = &claims {
-        if let Some(key) = ["tolerance", "constant"]
-            .into_iter()
-            .find(|key| section.get(key).is_some())
-        {
-            return Err(section.refuse(key, format!("{key} beside exact"), "exact alone"));
-        }
-        // There is no rate for a tolerance to apply to.
-        return Ok((
-            Claim::usual(1.0, Bound::Both),
-            false,
-            Some(field.positive()?),
-        ));
-    }
-    if let Some(field) = claims[0].as_ref().filter(|_| plain) {
-        field.positive()?;
-    }
-    let key = if claims[1].is_some() {
-        "factor"
+        .filter(|expected| expected.exact.is_none());
+    let by_degree = of_rates
+        .clone()
+        .filter(|expected| expected.by_degree)
+        .count();
+    if expectations.is_empty() {
+        let allowed = "at least one table [[expect]] with error or value, and order";
+        Err(Refusal::written("expect", allowed))
+    } else if by_degree > 0 && by_degree < of_rates.count() {
+        let found = "factor in some tables and order in others";
+        let allowed = "one of the two in all of a study";
+        Err(Refusal::new("expect", found, allowed))
     } else {
-        "order"
-    };
-    let mut claim = read_claim(section, key)?;
-    if let Some(field) = &claims[1] {
-        if claim.order <= 1.0 {
-            return Err(field.refuse_as_written("a factor > 1, by which the error falls a degree"));
-        }
-        // No scheme gains an order over the degree: any larger factor may be right.
-        let is_least = claim.bound.is_least();
-        let bound = if is_least {
-            Bound::AnyAbove
-        } else {
-            Bound::Both
-        };
-        claim = Claim {
-            constant: claim.constant,
-            ..Claim::usual(order_of_factor(claim.order), bound)
-        };
+        Ok(expectations)
     }
-    if let Some(field) = section.get("tolerance") {
-        let most = WIDEST_TOLERANCE.min(claim.order);
-        let narrow = format!("a number > 0 and < {}", plain_text(most));
-        claim.tolerance = field.number_where(&narrow, |number| number > 0.0 && number < most)?;
-    }
-    Ok((claim, claims[1].is_some(), None))
 }
 
-/// A name as in answers, without control characters.
-fn name(field: &Field<'_>, allowed: &str) -> Result<String, InputError> {
-    let name = field.text()?;
-    let is_name = !name.is_empty() && !name.contains(char::is_control);
-    if is_name {
-        Ok(name.to_owned())
-    } else {
-        Err(field.refuse_as_written(allowed))
+impl ExpectTable {
+    fn expectation(self, grid: bool) -> Result<Expectation, Refusal> {
+        let is_value = self.value.is_some();
+        if is_value && grid {
+            let allowed = "error, the only one that a grid judges";
+            return Err(Refusal::new("value", "value with grid = true", allowed));
+        }
+        let (claim, by_degree, exact) = self.claimed(grid || is_value)?;
+        if self.order_dt.is_some() && !grid {
+            return Err(Refusal::new(
+                "order_dt",
+                "order_dt without grid = true",
+                "order alone",
+            ));
+        }
+        let name = match (self.error, self.value) {
+            (Some(_), Some(_)) => {
+                let allowed = "one of the two in each table [[expect]]";
+                return Err(Refusal::new("value", "value beside error", allowed));
+            }
+            (None, None) => {
+                let allowed = "the name of an error that the program answers, or `value` with the name of a value";
+                return Err(Refusal::missing("error", allowed));
+            }
+            (Some(name), None) | (None, Some(name)) => name.get(),
+        };
+        Ok(Expectation {
+            name,
+            is_value,
+            time: self.order_dt.map_or(claim.order, Positive::get),
+            claim,
+            by_degree,
+            exact,
+        })
+    }
+
+    /// The claim: a rate over steps, or over degrees if the flag is true; or the bound of an error
+    /// that should vanish.
+    ///
+    /// * `plain`: whether only an order can be claimed, as for values and grids.
+    fn claimed(&self, plain: bool) -> Result<(Claim, bool, Option<f64>), Refusal> {
+        let others = [
+            ("factor", self.factor.is_some()),
+            ("exact", self.exact.is_some()),
+            ("constant", self.constant.is_some()),
+        ];
+        let mut others = others.iter().filter(|(_, is_there)| *is_there);
+        if let Some((key, _)) = others.next().filter(|_| plain) {
+            return Err(Refusal::written(
+                *key,
+                "order alone, for values and on a grid",
+            ));
+        }
+        let one = "one of order, factor and exact";
+        match (self.order, self.factor, self.exact) {
+            (_, Some(_), Some(_)) | (Some(_), _, Some(_)) => Err(Refusal::written("exact", one)),
+            (Some(_), Some(_), None) => Err(Refusal::written("factor", one)),
+            (None, None, None) => Err(Refusal::missing("order", ORDER)),
+            (None, None, Some(exact)) => {
+                let beside = [
+                    ("tolerance", self.tolerance.is_some()),
+                    ("constant", self.constant.is_some()),
+                ];
+                if let Some((key, _)) = beside.iter().find(|(_, is_there)| *is_there) {
+                    return Err(Refusal::new(
+                        *key,
+                        format!("{key} beside exact"),
+                        "exact alone",
+                    ));
+                }
+                // There is no rate for a tolerance to apply to.
+                Ok((Claim::usual(1.0, Bound::Both), false, Some(exact.get())))
+            }
+            (Some(order), None, None) => {
+                if plain && order.bound != Bound::Both {
+                    return Err(Refusal::written("order", POSITIVE));
+                }
+                Ok((
+                    self.with_tolerance(order.claim(self.constant, None)?)?,
+                    false,
+                    None,
+                ))
+            }
+            (None, Some(factor), None) => {
+                if self.constant.is_some() {
+                    let allowed = "two numbers > 0, the smaller first, beside order";
+                    return Err(Refusal::written("constant", allowed));
+                }
+                if factor.order <= 1.0 {
+                    let allowed = "a factor > 1, by which the error falls a degree";
+                    return Err(Refusal::written("factor", allowed));
+                }
+                // No scheme gains an order over the degree: any larger factor may be right.
+                let bound = if factor.bound.is_least() {
+                    Bound::AnyAbove
+                } else {
+                    Bound::Both
+                };
+                let claim = Claim::usual(order_of_factor(factor.order), bound);
+                Ok((self.with_tolerance(claim)?, true, None))
+            }
+        }
+    }
+
+    fn with_tolerance(&self, claim: Claim) -> Result<Claim, Refusal> {
+        let tolerance = self.tolerance.map_or(claim.tolerance, Number::get);
+        if self.tolerance.is_some() && tolerance >= claim.order {
+            let most = WIDEST_TOLERANCE.min(claim.order);
+            let allowed = format!("a number > 0 and < {}", plain_text(most));
+            return Err(Refusal::written("tolerance", allowed));
+        }
+        Ok(Claim { tolerance, ..claim })
     }
 }

@@ -29,16 +29,17 @@ mod values;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::input::{InputError, Keys, Section};
+use crate::input::{InputError, Keys, Section, schema};
 use crate::judge::verdict::Floor;
 use crate::project::{Project, Template};
 use crate::run::time_limit;
 use crate::study::until_decided::Next;
 use crate::study::{
-    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study,
+    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, described, read_study,
 };
 use answer::Expectation;
 use command::{Invocation, filled};
+use file::ProgramFile;
 use refine::Refine;
 
 pub(crate) use answer::Answer;
@@ -47,8 +48,8 @@ pub(crate) use refine::RefinedCase;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "program",
-    keys: Program::KEYS,
-    schema: None,
+    keys: &[],
+    schema: Some(schema::of::<ProgramFile>),
     read: read_study::<Program>,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
@@ -115,14 +116,10 @@ pub(crate) struct Program {
 const VARIANT: &str = "MANUFACTURE_VARIANT";
 
 impl FromFile for Program {
-    const KEYS: &'static [Keys] = &[&[&file::KEYS]];
+    const KEYS: &'static [Keys] = &[];
 
-    fn from_document(
-        header: &Header,
-        root: &Section<'_>,
-        folder: &Path,
-    ) -> Result<Self, InputError> {
-        file::read(header, root, folder)
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        described(root, |file: ProgramFile| file.program(folder))
     }
 }
 

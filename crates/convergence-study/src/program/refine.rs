@@ -1,54 +1,43 @@
 //! The table `[refine]`: the resolutions at which a program is run.
 
-use crate::input::{Field, Form, InputError, Key, Keys, Section};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::input::{Count, Counts, Positive, Refusal};
 use crate::study::{Axis, Refinement, until_decided};
 use crate::text::named::NamedNumber;
 
-/// The keys of the table: a list in space, or in time, or one of each.
-pub(super) const KEYS: &[Keys] = &[
-    &[&[N], &TIME, &LEVELS],
-    &[&[H], &TIME, &LEVELS],
-    &[&[STEPS], &LEVELS],
-    &[&[DT], &LEVELS],
-];
-const COUNTED: Form = Form::OneOf(&[Form::List(&Form::Count(1)), Form::Choice(|| vec!["auto"])]);
-const N: Key = Key::new(
-    "n",
-    COUNTED,
-    "cells, increasing: h = 1/n; `\"auto\"`: doubled until it is decided",
-);
-const H: Key = Key::new("h", Form::List(&Form::Positive), "mesh widths, decreasing");
-const STEPS: Key = Key::new(
-    "steps",
-    COUNTED,
-    "time steps, increasing: dt = 1/steps; `\"auto\"` as for n",
-);
-const DT: Key = Key::new(
-    "dt",
-    Form::List(&Form::Positive),
-    "lengths of time steps, decreasing",
-);
-const TIME: [Key; 2] = [STEPS.or(""), DT.or("")];
-const LEVELS: [Key; 2] = [
-    Key::new(
-        "grid",
-        Form::Boolean,
-        "all pairs of a list in space and one in time, instead of both together",
-    )
-    .or("false"),
-    Key::new(
-        "budget",
-        Form::Positive,
-        "with `\"auto\"`: seconds for all levels",
-    )
-    .or("60"),
-];
+/// The table `[refine]`: a list in space, or in time, or one of each.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RefineTable {
+    /// cells, increasing: h = 1/n; "auto": doubled until it is decided
+    #[schemars(extend("title" = COUNTS))]
+    n: Option<Counts<Whole>>,
+    /// mesh widths, decreasing, in place of n
+    #[schemars(extend("title" = "a list of decreasing numbers > 0"))]
+    h: Option<Vec<Positive>>,
+    /// time steps, increasing: dt = 1/steps; "auto" as for n
+    #[schemars(extend("title" = COUNTS))]
+    steps: Option<Counts<Whole>>,
+    /// lengths of time steps, decreasing, in place of steps
+    #[schemars(extend("title" = "a list of decreasing numbers > 0"))]
+    dt: Option<Vec<Positive>>,
+    /// all pairs of a list in space and one in time, instead of both together
+    #[serde(default)]
+    grid: bool,
+    /// with "auto": seconds for all levels; without it 60
+    #[schemars(extend("title" = "a number of seconds > 0"))]
+    budget: Option<Positive>,
+}
+
+const COUNTS: &str = "a list of increasing whole numbers >= 1, or \"auto\"";
+
+/// A count; up to the largest every whole number is a floating-point number.
+type Whole = Count<1, { 1 << 53 }>;
 
 /// A number passed to a case, by its name.
 pub(crate) type CaseParameter = (&'static str, f64);
-
-/// Largest count of cells or steps: up to it every whole number is a floating-point number.
-const LARGEST_COUNT: usize = 1 << 53;
 
 /// Most cases of a study: each is a process.
 const MOST_CASES: usize = 10_000;
@@ -238,115 +227,128 @@ impl RefinedCase {
     }
 }
 
-/// Reads `[refine]`.
-pub(super) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
-    let lists = "a list n or h, and dt or steps where time is refined";
-    let section = root
-        .require("refine", &format!("a table with {lists}"))?
-        .section()?;
-    let space = one_of(&section, "n", "h")?;
-    let time = one_of(&section, "steps", "dt")?;
-    let grid = section
-        .get("grid")
-        .map_or(Ok(false), |field| field.boolean())?;
-    let lengths =
-        [&space, &time].map(|sequence| sequence.as_ref().map(|sequence| sequence.values.len()));
-    match (lengths, grid) {
-        ([None, None], _) => return Err(section.missing("n", lists)),
-        ([Some(h), Some(dt)], false) if h != dt => {
-            let key = time.as_ref().map_or("dt", |time| time.name);
-            let found = format!("{dt} values beside {h}");
-            return Err(section.refuse(
-                key,
-                found,
-                "lists of the same length, or grid = true for all pairs",
-            ));
+impl RefineTable {
+    /// The sequences.
+    ///
+    /// # Errors
+    /// Lists that do not go together.
+    pub(super) fn refine(&self) -> Result<Refine, Refusal> {
+        let space = one_of(("n", &self.n), ("h", &self.h))?;
+        let time = one_of(("steps", &self.steps), ("dt", &self.dt))?;
+        let lengths =
+            [&space, &time].map(|sequence| sequence.as_ref().map(|sequence| sequence.values.len()));
+        match (lengths, self.grid) {
+            ([None, None], _) => {
+                let lists = "a list n or h, and dt or steps where time is refined";
+                return Err(Refusal::missing("n", lists));
+            }
+            ([Some(h), Some(dt)], false) if h != dt => {
+                let key = time.as_ref().map_or("dt", |time| time.name);
+                let allowed = "lists of the same length, or grid = true for all pairs";
+                return Err(Refusal::new(
+                    key,
+                    format!("{dt} values beside {h}"),
+                    allowed,
+                ));
+            }
+            ([Some(h), Some(dt)], true) if h.saturating_mul(dt) > MOST_CASES => {
+                let found = format!("{h} times {dt} cases");
+                return Err(Refusal::new("grid", found, format!("at most {MOST_CASES}")));
+            }
+            ([Some(_), None] | [None, Some(_)], true) => {
+                let allowed = "true only with a list in space and one in time";
+                return Err(Refusal::new("grid", "true beside one list", allowed));
+            }
+            _ => {}
         }
-        ([Some(h), Some(dt)], true) if h.saturating_mul(dt) > MOST_CASES => {
-            return Err(section.refuse(
-                "grid",
-                format!("{h} times {dt} cases"),
-                format!("at most {MOST_CASES}"),
-            ));
-        }
-        ([Some(_), None] | [None, Some(_)], true) => {
-            return Err(section.refuse(
-                "grid",
-                "true beside one list",
-                "true only with a list in space and one in time",
-            ));
-        }
-        _ => {}
+        let counts = [("n", &self.n), ("steps", &self.steps)];
+        let lists = counts
+            .iter()
+            .filter_map(|(key, counts)| Some((*key, *counts.as_ref()? == Counts::Auto)));
+        let lists: Vec<_> = lists.collect();
+        let budget = until_decided::budget_of(&lists, self.grid, self.budget, BUDGET)?;
+        Ok(Refine {
+            space,
+            time,
+            grid: self.grid,
+            budget,
+        })
     }
-    let budget = until_decided::budget(
-        &section,
-        &["n", "steps"],
-        grid,
-        BUDGET,
-        "a number of seconds > 0",
-    )?;
-    Ok(Refine {
-        space,
-        time,
-        grid,
-        budget,
-    })
 }
 
 /// The list under one of two names, from coarse to fine: increasing counts, or decreasing steps;
 /// using both names is refused.
 fn one_of(
-    section: &Section<'_>,
-    count: &'static str,
-    step: &'static str,
-) -> Result<Option<Sequence>, InputError> {
-    const COUNTS: &str = "a list of increasing whole numbers >= 1, or \"auto\"";
-    let number = |item: &Field<'_>| Ok(item.count(1..=LARGEST_COUNT)? as f64);
-    let positive = |item: &Field<'_>| {
-        item.number_where("a number > 0", |value| {
-            value > 0.0 && value.recip().is_finite()
-        })
-    };
-    let (field, name, values) = match (section.get(count), section.get(step)) {
+    (count, counts): (&'static str, &Option<Counts<Whole>>),
+    (step, steps): (&'static str, &Option<Vec<Positive>>),
+) -> Result<Option<Sequence>, Refusal> {
+    let (name, values): (_, Vec<f64>) = match (counts, steps) {
         (None, None) => return Ok(None),
-        (Some(_), Some(field)) => {
-            return Err(field.refuse(
+        (Some(_), Some(_)) => {
+            let allowed = format!("one of the two: {count} or {step}");
+            return Err(Refusal::new(
+                step,
                 format!("{step} beside {count}"),
-                format!("one of the two: {count} or {step}"),
+                allowed,
             ));
         }
-        (Some(field), None) if until_decided::is_auto(&field) => (
-            field,
-            count,
-            until_decided::FIRST.map(|count| count as f64).into(),
-        ),
-        (Some(field), None) if field.items(COUNTS)?.is_empty() => {
-            return Err(field.refuse_as_written(COUNTS));
+        (Some(Counts::One(_)), None) => return Err(Refusal::written(count, COUNTS)),
+        (Some(Counts::Auto), None) => {
+            (count, until_decided::FIRST.map(|count| count as f64).into())
         }
-        (Some(field), None) => (field, count, section.increasing(count, 1, number)?),
-        (None, Some(field)) => (field, step, section.decreasing(step, 1, positive)?),
+        (Some(Counts::List(counts)), None) => (
+            count,
+            counts.iter().map(|count| count.get() as f64).collect(),
+        ),
+        (None, Some(steps)) => (step, decreasing(step, steps)?),
     };
     if values.len() > MOST_CASES {
-        return Err(field.refuse(
-            format!("{} values", values.len()),
-            format!("at most {MOST_CASES}"),
-        ));
+        let found = format!("{} values", values.len());
+        return Err(Refusal::new(name, found, format!("at most {MOST_CASES}")));
     }
     Ok(Some(Sequence { name, values }))
+}
+
+/// Steps, coarse to fine.
+fn decreasing(path: &str, steps: &[Positive]) -> Result<Vec<f64>, Refusal> {
+    if steps.is_empty() {
+        return Err(Refusal::written(path, "a list of decreasing numbers > 0"));
+    }
+    let mut before = f64::INFINITY;
+    for (place, step) in steps.iter().map(|step| step.get()).enumerate() {
+        let item = || format!("{path}[{place}]");
+        if !step.recip().is_finite() {
+            return Err(Refusal::written(
+                item(),
+                "a number > 0, whose inverse is finite",
+            ));
+        }
+        if step >= before {
+            let allowed = format!("a number < {before}, the level before");
+            return Err(Refusal::written(item(), allowed));
+        }
+        before = step;
+    }
+    Ok(steps.iter().map(|step| step.get()).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::parse;
+    use crate::input::{parse, within};
+
+    #[derive(Deserialize, JsonSchema)]
+    struct File {
+        refine: RefineTable,
+    }
 
     fn read(text: &str) -> Result<Refine, String> {
-        let read = |root: &Section<'_>| {
-            root.section("refine")?
-                .map_or(Ok(()), |section| section.allow_only(&[], KEYS))?;
-            refine(root)
-        };
-        parse(&format!("[refine]\n{text}\n"), "a.toml", read).map_err(|error| error.to_string())
+        let read = parse(&format!("[refine]\n{text}\n"), "a.toml", |root| {
+            let file: File = root.read()?;
+            let refine = file.refine.refine().map_err(within("refine"));
+            refine.map_err(|refusal| root.locate(refusal))
+        });
+        read.map_err(|error| error.to_string())
     }
 
     fn parameters(text: &str) -> Vec<String> {
@@ -417,7 +419,10 @@ mod tests {
                 "h = [0.1, 0.2]",
                 "refine.h[1]: found 0.2; expected a number < 0.1, the level before",
             ),
-            ("h = [inf]", "refine.h[0]: found inf; expected a number > 0"),
+            (
+                "h = [inf]",
+                "refine.h[0]: found inf; expected a finite number > 0",
+            ),
             (
                 "n = [8]\nh = [0.1]",
                 "refine.h: found h beside n; expected one of the two: n or h",

@@ -2,16 +2,22 @@
 //! `[study]` of every file, and the claims of files about an error: `order = 2` or
 //! `order = ">= 2"`, optionally with `constant = [0.9, 1.1]`.
 
+use std::borrow::Cow;
+use std::fmt::{self, Formatter};
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
-use serde::de::DeserializeOwned;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::{self, DeserializeOwned, Deserializer, IntoDeserializer, Unexpected, Visitor};
 use serde_json::Value;
 
 use super::erased::{Described, Study, boxed_study};
 use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
-use crate::input::{self, Field, Form, InputError, Key, Keys, Refusal, Section};
+use crate::input::{
+    self, AllowedText, Choice, Choices, Field, Form, InputError, Key, Keys, Number, Positive,
+    Range, Refusal, Section, Texts, schema,
+};
 use crate::interval::Interval;
 use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::text::visible;
@@ -24,7 +30,7 @@ pub fn described<F: DeserializeOwned + JsonSchema, T>(
     root: &Section<'_>,
     build: impl FnOnce(F) -> Result<T, Refusal>,
 ) -> Result<T, InputError> {
-    let file = root.read_beside(&[STUDY_TABLE.name])?;
+    let file = root.read_beside(&[STUDY])?;
     build(file).map_err(|refusal| root.locate(refusal))
 }
 
@@ -285,6 +291,9 @@ impl<K: FromFile> Described<K> {
     }
 }
 
+/// The table `[study]` beside the keys of a kind.
+const STUDY_TABLE: Key = Key::new(STUDY, Form::Named(&[], &Form::Text), "");
+
 /// Refuses the keys that a file of a kind may not have; none if no set is declared.
 pub fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
     if sets.is_empty() {
@@ -295,103 +304,194 @@ pub fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
 }
 
 /// The table that every study file has.
-pub(crate) const STUDY_TABLE: Key = Key::new(
-    "study",
-    Form::Table(&[&[&HEADER]]),
-    "what the study is about",
-);
+pub(crate) const STUDY: &str = "study";
 
-const HEADER: [Key; 6] = [
-    Key::new(
-        "id",
-        Form::Text,
-        "its name, which no other study has: lowercase letters, digits, `.` and `-`",
-    ),
-    Key::new("claim", Form::Text, "the claim in one line of text"),
-    Key::new(
-        "tier",
-        Form::Choice(|| Tier::ALL.map(Tier::name).to_vec()),
-        "`full`: only when everything is verified",
-    ),
-    Key::new(
-        "kind",
-        Form::Text,
-        "which kind of study it is: the other tables depend on it",
-    )
-    .or("\"orders/manufactured\", if the project has that kind"),
-    Key::new("group", Form::Text, "under which reports list it").or("the kind"),
-    Key::new(
-        "guard",
-        Form::Positive,
-        "the relative change, from 1e-6 to 0.1, that the baseline tolerates of its numbers, if their own tolerance is less: for programs that scatter",
-    )
-    .or("1e-6 for errors, 1e-4 for rates"),
-];
+/// The table `[study]`: what a study is about.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct StudyTable {
+    /// its name, which no other study has
+    id: AllowedText<Names>,
+    /// the claim
+    claim: AllowedText<Lines>,
+    /// "full": only when everything is verified
+    tier: Choice<Tiers>,
+    /// which kind of study it is, on which the other tables depend; without it
+    /// "orders/manufactured", if the project has that kind
+    kind: Option<AllowedText<Kinds>>,
+    /// under which reports list it; without it the kind
+    group: Option<AllowedText<Lines>>,
+    /// the relative change that the baseline tolerates of its numbers, if their own tolerance is
+    /// less: for programs that scatter; without it 1e-6 for errors, 1e-4 for rates
+    guard: Option<Number<Guard>>,
+}
+
+/// The schema of the table `[study]`.
+pub(crate) fn study_schema() -> Value {
+    schema::of::<StudyTable>()
+}
+
+#[derive(Debug, Clone)]
+enum Names {}
+
+impl Texts for Names {
+    const ALLOWED: &'static str = NAME;
+
+    fn has(text: &str) -> bool {
+        is_name(text)
+    }
+}
+
+#[derive(Debug, Clone)]
+enum Kinds {}
+
+impl Texts for Kinds {
+    const ALLOWED: &'static str = KIND;
+
+    fn has(text: &str) -> bool {
+        is_kind(text)
+    }
+}
+
+/// One line of text: it is printed to terminals and logs.
+#[derive(Debug, Clone)]
+pub(crate) enum Lines {}
+
+impl Texts for Lines {
+    const ALLOWED: &'static str = "one line of text without control characters";
+
+    fn has(text: &str) -> bool {
+        !text.trim().is_empty() && !text.contains(char::is_control)
+    }
+}
+
+#[derive(Debug)]
+enum Tiers {}
+
+impl Choices for Tiers {
+    type Value = Tier;
+
+    fn all() -> Vec<(&'static str, Tier)> {
+        Tier::ALL.map(|tier| (tier.name(), tier)).to_vec()
+    }
+}
+
+/// A looser guard hides what it should show; a tighter one than that of errors changes nothing.
+#[derive(Debug, Clone, Copy)]
+enum Guard {}
+
+impl Range for Guard {
+    const ENDS: &'static [(&'static str, f64)] = &[("minimum", 1e-6), ("maximum", 0.1)];
+}
 
 impl Header {
     /// Reads `[study]` of a document, and records every value of the document.
     pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
-        let study = root
-            .require("study", "a table with id, claim and tier")?
-            .section()?;
-        study.allow_only(&HEADER, &[])?;
-        let tiers = Tier::ALL.map(|tier| (tier.name(), tier));
-        let kind = if study.get("kind").is_some() {
-            name(&study, "kind", is_kind, KIND)?
-        } else {
-            DEFAULT_KIND.to_owned()
-        };
+        let missing = || Refusal::missing(STUDY, "a table with id, claim and tier");
+        let study = root.section(STUDY)?;
+        let study = study.ok_or_else(|| root.locate(missing()))?;
+        let table: StudyTable = study.read()?;
+        let kind = table.kind.map_or(DEFAULT_KIND.to_owned(), AllowedText::get);
         Ok(Self {
-            id: name(&study, "id", is_name, NAME)?,
-            claim: line(&study, "claim")?,
-            tier: study
-                .require("tier", "\"quick\" or \"full\"")?
-                .choice(&tiers)?,
-            group: if study.get("group").is_some() {
-                line(&study, "group")?
-            } else {
-                kind.clone()
-            },
+            id: table.id.get(),
+            claim: table.claim.get(),
+            tier: table.tier.value,
+            group: table.group.map_or(kind.clone(), AllowedText::get),
             kind,
-            guard: study.get("guard").map(|field| guard(&field)).transpose()?,
+            guard: table.guard.map(Number::get),
             settings: root.settings(),
             cases: vec![],
         })
     }
 }
 
-/// A looser guard hides what it should show; a tighter one than that of errors changes nothing.
-fn guard(field: &Field<'_>) -> Result<f64, InputError> {
-    field.number_where("a number from 1e-6 to 0.1", |guard| {
-        (1e-6..=0.1).contains(&guard)
-    })
+/// The order that a study claims of an error, or a number written in the same way: a number, or a
+/// text such as `">= 2"`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Order {
+    /// The order.
+    pub order: f64,
+    /// Whether it is the least one.
+    pub bound: Bound,
 }
 
-fn name(
-    study: &Section<'_>,
-    key: &str,
-    is_allowed: fn(&str) -> bool,
-    allowed: &str,
-) -> Result<String, InputError> {
-    let field = study.require(key, allowed)?;
-    let text = field.text()?;
-    if is_allowed(text) {
-        Ok(text.to_owned())
-    } else {
-        Err(field.refuse_as_written(allowed))
+/// The two ends of a constant, the smaller first.
+pub(crate) type Constant = [Positive; 2];
+
+impl Order {
+    /// The claim.
+    ///
+    /// * `constant`: the ends of the C of error = C h^order.
+    /// * `tolerance`: how far the rate may be from the order; without it as usual.
+    ///
+    /// # Errors
+    /// The ends are not ascending.
+    pub fn claim(
+        self,
+        constant: Option<Constant>,
+        tolerance: Option<Positive>,
+    ) -> Result<Claim, Refusal> {
+        let ends = constant.map(|ends| ends.map(Positive::get));
+        if ends.is_some_and(|[low, high]| low >= high) {
+            let allowed = "two numbers > 0, the smaller first, beside order";
+            return Err(Refusal::written("constant", allowed));
+        }
+        let usual = Claim::usual(self.order, self.bound);
+        Ok(Claim {
+            constant: ends.map(|[low, high]| Interval { low, high }),
+            tolerance: tolerance.map_or(usual.tolerance, Positive::get),
+            ..usual
+        })
     }
 }
 
-/// One line of text, without control characters: it is printed to terminals and logs.
-fn line(study: &Section<'_>, key: &str) -> Result<String, InputError> {
-    let allowed = "one line of text without control characters";
-    let field = study.require(key, allowed)?;
-    let text = field.text()?;
-    let is_line = !text.trim().is_empty() && !text.contains(char::is_control);
-    if is_line {
-        Ok(text.to_owned())
-    } else {
-        Err(field.refuse_as_written(allowed))
+/// What an order may be, in words.
+pub(crate) const ORDER: &str =
+    "a number > 0, or a text such as \">= 2\", or \">= 2..\" for any higher rate";
+
+impl<'de> Deserialize<'de> for Order {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reads;
+        impl Visitor<'_> for Reads {
+            type Value = Order;
+
+            fn expecting(&self, f: &mut Formatter<'_>) -> fmt::Result {
+                f.write_str(ORDER)
+            }
+
+            fn visit_f64<E: de::Error>(self, order: f64) -> Result<Order, E> {
+                let order = Positive::deserialize(order.into_deserializer())?.get();
+                let bound = Bound::Both;
+                Ok(Order { order, bound })
+            }
+
+            fn visit_i64<E: de::Error>(self, order: i64) -> Result<Order, E> {
+                self.visit_f64(order as f64)
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Order, E> {
+                let least = order_from_text(text).filter(|(_, bound)| bound.is_least());
+                let (order, bound) =
+                    least.ok_or_else(|| E::invalid_value(Unexpected::Str(text), &self))?;
+                Ok(Order { order, bound })
+            }
+        }
+        deserializer.deserialize_any(Reads)
+    }
+}
+
+impl JsonSchema for Order {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "order".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let number = Positive::json_schema(generator);
+        json_schema!({ "title": ORDER, "anyOf": [number, { "type": "string" }] })
     }
 }
 

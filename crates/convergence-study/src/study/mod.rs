@@ -29,10 +29,14 @@ pub(crate) use erased::Plan;
 pub use erased::{Described, Study, boxed_study};
 
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, STEPS, first_repeated, levels};
-#[cfg(feature = "command-line")]
-pub(crate) use file::STUDY_TABLE;
+#[cfg(feature = "reports")]
+pub(crate) use file::{Constant, Lines, ORDER};
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, StudyFile, allow_only, described, read_claim, read_study};
+pub use file::{
+    FromFile, KindRow, Order, StudyFile, allow_only, described, read_claim, read_study,
+};
+#[cfg(feature = "command-line")]
+pub(crate) use file::{STUDY, study_schema};
 pub use header::{Header, Tier};
 pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};

@@ -11,7 +11,7 @@
 //! number of levels keeps it so.
 
 #[cfg(feature = "files")]
-use crate::input::{Field, InputError, Section};
+use crate::input::{Field, InputError, Positive, Refusal, Section};
 use crate::judge::verdict::{Reason, Verdict};
 use crate::study::outcome::{NamedRate, Outcome};
 use crate::study::over_levels::Levels;
@@ -228,6 +228,40 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
         .zip(enough)
         .filter(|(_, enough)| *enough < all)
         .collect()
+}
+
+/// The budget of a study; `None` if no list is left to the study.
+///
+/// * `lists`: the keys that are refined, each with whether it is `"auto"`: all are, or none.
+/// * `usual`: the default budget.
+///
+/// # Errors
+/// Only some lists are `"auto"`, `"auto"` beside `grid = true`, or a budget without it.
+#[cfg(feature = "files")]
+pub fn budget_of(
+    lists: &[(&str, bool)],
+    grid: bool,
+    budget: Option<Positive>,
+    usual: f64,
+) -> Result<Option<f64>, Refusal> {
+    let Some((auto, _)) = lists.iter().find(|(_, is_auto)| *is_auto) else {
+        return match budget {
+            None => Ok(None),
+            Some(_) => Err(Refusal::new(
+                "budget",
+                "a budget beside lists",
+                "lists alone, or \"auto\" in their place",
+            )),
+        };
+    };
+    if let Some((listed, _)) = lists.iter().find(|(_, is_auto)| !is_auto) {
+        let more = " beside \"auto\"";
+        return Err(Refusal::written_and(*listed, more, "\"auto\" for both"));
+    }
+    if grid {
+        return Err(Refusal::written(*auto, "lists where grid = true"));
+    }
+    Ok(Some(budget.map_or(usual, Positive::get)))
 }
 
 /// Whether a list of counts is left to the study.

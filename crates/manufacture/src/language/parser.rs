@@ -7,8 +7,8 @@ use super::tree::{Binary, Relation, Tree, TreeKind};
 
 /// Largest number of operations one inside the other, where the operands of a sum or a product
 /// without brackets stand beside each other. Parsing and evaluating are recursive: this bounds
-/// their stack.
-pub const MAX_DEPTH: usize = 256;
+/// their stack, to less than a thread of 1 MB has in a build without optimisation.
+pub const MAX_DEPTH: usize = 96;
 
 /// Largest height of the syntax tree, in which a sum of n terms has the height n. Walks that print,
 /// compare and drop it are recursive with small frames; its evaluation goes along sums in a loop.

@@ -1,4 +1,4 @@
-use convergence_study::internal::cli::schema::{of_studies, of_tables_file, other_files, text};
+use convergence_study::internal::cli::schema::{of_studies, other_files, text};
 use convergence_study_tests::output;
 use thermobeam_cli::project;
 
@@ -123,7 +123,7 @@ fn the_schemas_are_printed() {
     let project = project("thermobeam");
     let others = other_files(&project);
     let made = |files: &str| match others.iter().find(|(name, _)| *name == files) {
-        Some((name, set)) => text(&of_tables_file(name, set)),
+        Some((_, schema)) => text(schema),
         None => text(&of_studies(&project)),
     };
     for (files, title) in [

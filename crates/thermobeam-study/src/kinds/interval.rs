@@ -1,6 +1,7 @@
 //! An interval of a parameter, as studies sample it.
 
 use super::prelude::*;
+use convergence_study::file::Finite;
 
 /// Two ends, ascending; positive on a logarithmic scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +12,30 @@ pub(crate) struct SampledInterval {
 }
 
 impl SampledInterval {
+    /// The interval with these ends.
+    ///
+    /// # Errors
+    /// They do not ascend, or one is not positive on a logarithmic scale.
+    pub(crate) fn new(
+        path: &str,
+        ends: [Finite; 2],
+        is_logarithmic: bool,
+    ) -> Result<Self, Refusal> {
+        let [low, high] = ends.map(Finite::get);
+        if low < high && (!is_logarithmic || low > 0.0) {
+            return Ok(Self {
+                low,
+                high,
+                is_logarithmic,
+            });
+        }
+        let positive = if is_logarithmic { " > 0" } else { "" };
+        Err(Refusal::written(
+            path,
+            format!("two ascending numbers{positive}"),
+        ))
+    }
+
     /// # Errors
     /// The key is not a list of two ascending numbers, or one is not positive on a logarithmic
     /// scale.

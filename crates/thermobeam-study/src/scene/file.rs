@@ -227,6 +227,14 @@ pub(crate) struct SolverKeys {
 }
 
 impl SolverKeys {
+    /// Whether there is any.
+    pub(crate) fn are_given(&self) -> bool {
+        self.solver.is_some()
+            || self.tolerance.is_some()
+            || self.max_iterations.is_some()
+            || self.iterations.is_some()
+    }
+
     /// The settings that the keys change.
     ///
     /// # Errors
@@ -274,12 +282,20 @@ pub(crate) trait Of {
 #[derive(Debug, Clone)]
 pub(crate) enum OfX {}
 
+/// Functions of t.
+#[derive(Debug, Clone)]
+pub(crate) enum OfT {}
+
 /// Functions of s.
 #[derive(Debug, Clone)]
 pub(crate) enum OfS {}
 
 impl Of for OfX {
     const VARIABLE: Variable = Variable::X;
+}
+
+impl Of for OfT {
+    const VARIABLE: Variable = Variable::T;
 }
 
 impl Of for OfS {

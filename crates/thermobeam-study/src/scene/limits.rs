@@ -90,6 +90,12 @@ impl Elements {
     }
 }
 
+impl From<Elements> for usize {
+    fn from(elements: Elements) -> Self {
+        elements.0
+    }
+}
+
 impl Display for Elements {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
@@ -151,17 +157,6 @@ pub(crate) fn memory_of_dg(
     Err(Refusal::written_and(path, more, allowed))
 }
 
-/// As [`memory_of_dg`], about a field that was looked up.
-pub(crate) fn any_order_memory(
-    field: &Field<'_>,
-    elements: usize,
-    lengths: usize,
-    p: usize,
-    q: usize,
-) -> Result<(), InputError> {
-    memory_of_dg("", elements, lengths, p, q).map_err(|refusal| field.locate(refusal))
-}
-
 /// The memory of a run with `elements` elements, in words.
 pub(crate) fn memory_of_elements(elements: f64) -> String {
     memory(elements * BYTES_PER_ELEMENT as f64)
@@ -188,17 +183,16 @@ pub(crate) fn steps_until(
     steps_to("", t_end, dt, most).map_err(|refusal| field.locate(refusal))
 }
 
-/// Refuses a mesh that is too fine for a dense method; the message names `field`.
-pub(crate) fn dense(field: &Field<'_>, elements: usize) -> Result<(), InputError> {
+/// Refuses a mesh that is too fine for a dense method; the message names the field at `path`.
+pub(crate) fn dense(path: &str, elements: usize) -> Result<(), Refusal> {
     if elements <= DENSE_ELEMENTS {
         return Ok(());
     }
     let bytes = memory(6.0 * (2.0 * elements as f64).powi(2) * 8.0);
     let found = format!("{elements}, whose modes would take {bytes}");
-    Err(field.refuse(
-        found,
-        format!("at most {DENSE_ELEMENTS}, where time is isolated by the modes of the mesh"),
-    ))
+    let allowed =
+        format!("at most {DENSE_ELEMENTS}, where time is isolated by the modes of the mesh");
+    Err(Refusal::new(path, found, allowed))
 }
 
 /// Refuses a study with too many cases; the message names the field at `path`.
@@ -214,11 +208,6 @@ pub(crate) fn case_count(path: &str, factors: &[usize]) -> Result<(), Refusal> {
         more,
         format!("at most {CASES} cases"),
     ))
-}
-
-/// As [`case_count`], about a field that was looked up.
-pub(crate) fn cases(field: &Field<'_>, factors: &[usize]) -> Result<(), InputError> {
-    case_count("", factors).map_err(|refusal| field.locate(refusal))
 }
 
 /// The message for a sweep with too many cases: found and allowed number.

@@ -3,8 +3,6 @@
 
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
-use thermobeam::scheme::{self, Scheme};
-use thermobeam::solve::{Settings, Solver, Stopping};
 
 use super::file::{BeamTable, Given, ObstacleTable};
 use crate::expression::{Expression, Variable};
@@ -30,13 +28,6 @@ pub(crate) const BEAM_KEYS: [Key; 5] = [
     Key::new("theta_a", Form::Number, "the temperature θ_A at x = 0").or("0.0"),
 ];
 
-/// The keys of `[obstacles]`.
-pub(crate) const OBSTACLE_KEYS: [Key; 3] = [
-    Key::new("epsilon", Form::Number, "the normal compliance ε").or("1e-3"),
-    Key::new("g1", Form::Number, "the lower obstacle").or("-0.01"),
-    Key::new("g2", Form::Number, "the upper obstacle").or("0.1"),
-];
-
 /// The table `[beam]`.
 pub(crate) const BEAM: Key = Key::new(
     "beam",
@@ -44,14 +35,6 @@ pub(crate) const BEAM: Key = Key::new(
     "the coefficients of the equations (1.1)",
 )
 .or("each of its keys has a default");
-
-/// The table `[obstacles]`.
-pub(crate) const OBSTACLES: Key = Key::new(
-    "obstacles",
-    Form::Table(&[&[&OBSTACLE_KEYS]]),
-    "the obstacles at the free end, (1.3)",
-)
-.or("no obstacles");
 
 /// The coefficients of (1.1) and (1.3), which files and negative controls address by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,12 +46,13 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
+    /// The names of those of the obstacles.
+    pub(crate) const OF_OBSTACLES: [&str; 3] = ["epsilon", "g1", "g2"];
+
     /// All names, those of the obstacles last.
     pub(crate) fn names() -> impl Iterator<Item = &'static str> + Clone {
-        BEAM_KEYS
-            .into_iter()
-            .chain(OBSTACLE_KEYS)
-            .map(|key| key.name)
+        let beam = BEAM_KEYS.into_iter().map(|key| key.name);
+        beam.chain(Self::OF_OBSTACLES)
     }
 
     /// The coefficient with that name; `None` if it belongs to obstacles and there are none.
@@ -118,15 +102,17 @@ impl Coefficients {
         if let Some(obstacles) = obstacles {
             new.set(obstacles.given());
         }
-        new.beam
-            .validate()
-            .map_err(|error| out_of_range("beam", error))?;
-        if let Some(obstacles) = &new.obstacles {
-            obstacles
-                .validate()
-                .map_err(|error| out_of_range("obstacles", error))?;
-        }
+        new.checked(["beam", "obstacles"])?;
         Ok(new)
+    }
+
+    /// Refuses what the solver would refuse, with the key of one of the two tables.
+    pub(crate) fn checked(&self, [beam, obstacles]: [&str; 2]) -> Result<(), Refusal> {
+        self.beam
+            .validate()
+            .map_err(|error| out_of_range(beam, error))?;
+        let checked = self.obstacles.map_or(Ok(()), |own| own.validate());
+        checked.map_err(|error| out_of_range(obstacles, error))
     }
 
     fn set<const N: usize>(&mut self, given: Given<N>) {
@@ -145,105 +131,6 @@ impl Coefficients {
         let obstacles = obstacles.map(|obstacles| obstacles.read()).transpose()?;
         Self::new(&beam, obstacles.as_ref()).map_err(|refusal| root.locate(refusal))
     }
-
-    /// Refuses what the solver would refuse, with the key of `section`.
-    pub(crate) fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
-        let obstacles = self
-            .obstacles
-            .map_or(Ok(()), |obstacles| obstacles.validate());
-        self.beam
-            .validate()
-            .and(obstacles)
-            .map_err(|error| match section.get(error.name) {
-                Some(field) => field.refuse_as_written(error.allowed),
-                None => section.refuse(error.name, format!("{:?}", error.found), error.allowed),
-            })
-    }
-}
-
-/// The keys of [`scheme()`] and [`settings`].
-pub(crate) const STEPPING_KEYS: [Key; 5] = [
-    Key::new(
-        "scheme",
-        Form::Choice(|| scheme::SCHEMES.map(|scheme| scheme.name).to_vec()),
-        "the one-step scheme",
-    )
-    .or("\"euler-crank-nicolson\""),
-    Key::new(
-        "solver",
-        Form::Choice(|| Solver::ALL.map(Solver::name).to_vec()),
-        "how a step is solved",
-    )
-    .or("\"newton\""),
-    Key::new(
-        "tolerance",
-        Form::Positive,
-        "the increment at which an iteration ends",
-    )
-    .or("1e-10"),
-    Key::new(
-        "max_iterations",
-        Form::Count(1),
-        "iterations after which a step fails",
-    )
-    .or("100"),
-    Key::new(
-        "iterations",
-        Form::Count(1),
-        "of the fixed point in each step, in place of tolerance and max_iterations",
-    )
-    .or(""),
-];
-
-/// The key `scheme`.
-pub(crate) fn scheme(section: &Section<'_>) -> Result<Scheme, InputError> {
-    let schemes = scheme::SCHEMES.map(|scheme| (scheme.name, scheme));
-    section
-        .get("scheme")
-        .map_or(Ok(scheme::EULER_CRANK_NICOLSON), |field| {
-            field.choice(&schemes)
-        })
-}
-
-/// The keys `solver`, `tolerance` and `max_iterations`, or `iterations`, which excludes both.
-pub(crate) fn settings(section: &Section<'_>) -> Result<Settings, InputError> {
-    let mut settings = Settings::default();
-    if let Some(field) = section.get("solver") {
-        settings.solver = field.choice(&Solver::ALL.map(|solver| (solver.name(), solver)))?;
-    }
-    if let Some(field) = section.get("iterations") {
-        let tested = ["tolerance", "max_iterations"]
-            .into_iter()
-            .find(|key| section.get(key).is_some());
-        if let Some(key) = tested {
-            return Err(section.refuse(
-                key,
-                "a second rule for the end of the iteration",
-                "`iterations` alone",
-            ));
-        }
-        if settings.solver != Solver::FixedPoint {
-            return Err(field.refuse(
-                format!("solver \"{}\"", settings.solver.name()),
-                "the solver \"fixed-point\" beside it",
-            ));
-        }
-        settings.stopping = Stopping::Iterations(field.count(1..=usize::MAX)?);
-        return Ok(settings);
-    }
-    if let Stopping::Converged {
-        tolerance,
-        max_iterations,
-    } = &mut settings.stopping
-    {
-        if let Some(field) = section.get("tolerance") {
-            *tolerance = field.positive()?;
-        }
-        if let Some(field) = section.get("max_iterations") {
-            *max_iterations = field.count(1..=usize::MAX)?;
-        }
-    }
-    Ok(settings)
 }
 
 /// A coefficient that the solver would refuse.

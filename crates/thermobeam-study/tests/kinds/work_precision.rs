@@ -256,7 +256,7 @@ fn mistakes_are_named() {
         ("observations = 16".to_owned(), "exactly one of"),
         (
             solution.replace("observations = 16", ""),
-            "a number of times",
+            "work-precision.observations: missing",
         ),
         (format!("{solution}t_end = 1"), "t_end beside solution"),
         (format!("{solution}zeta = 1"), "zeta without vibration"),
@@ -271,11 +271,11 @@ fn mistakes_are_named() {
         ),
         (
             format!("{solution}{}", runs.replace("[8, 16]", "[8, 160000]")),
-            "found 1280000 element-steps; expected at most 1000000",
+            "1280000 element-steps; expected at most 1000000",
         ),
         (
             format!("{solution}{runs}nodes = [0, 1]"),
-            "unknown key `nodes`; expected method, grading, runs",
+            "runs[0].nodes: found nodes of the method \"midpoint\"",
         ),
         (
             format!("{solution}{dg}runs = [[10, 1]]"),
@@ -287,7 +287,7 @@ fn mistakes_are_named() {
         ),
         (
             format!("{solution}{dg}runs = [[10, 1, 0.02]]\ngrading = 2"),
-            "unknown key `grading`; expected method, nodes, runs",
+            "runs[0].grading: found grading of the method \"dg\"",
         ),
         (
             format!(
@@ -306,7 +306,7 @@ fn mistakes_are_named() {
             "a number for each method but the last",
         ),
         (
-            format!("{solution}{runs}[[reference]]\nnodes = [0, 1]"),
+            format!("{solution}{runs}[[reference]]\nnodes = [0, 1]\nruns = [10, 1, 0.1]"),
             "reference without scene",
         ),
         (

@@ -13,8 +13,8 @@ use crate::input::{Form, Key, Keys};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::KindRow;
-use crate::study::STUDY_TABLE;
 use crate::study::header::DEFAULT_KIND;
+use crate::study::{STUDY, study_schema};
 
 pub use page::page;
 
@@ -81,7 +81,7 @@ pub fn text(schema: &Value) -> String {
 
 /// The schema of the study files of a project.
 pub fn of_studies(project: &Project) -> Value {
-    let mut study = property(&STUDY_TABLE);
+    let mut study = study_schema();
     let names: Vec<&str> = project.kinds.iter().map(|row| row.name).collect();
     study["properties"]["kind"]["enum"] = json!(names);
     if !names.contains(&DEFAULT_KIND) {
@@ -93,8 +93,8 @@ pub fn of_studies(project: &Project) -> Value {
         "$schema": DIALECT,
         "title": format!("study files of {}", project.name),
         "type": "object",
-        "properties": { STUDY_TABLE.name: study },
-        "required": [STUDY_TABLE.name],
+        "properties": { STUDY: study },
+        "required": [STUDY],
         "allOf": kinds,
     })
 }
@@ -114,13 +114,13 @@ fn of_kind(row: &KindRow) -> Value {
         kind["required"] = json!(["kind"]);
     }
     let mut tables = tables(row);
-    let add = |set: &mut Value| set["properties"][STUDY_TABLE.name] = json!({ "type": "object" });
+    let add = |set: &mut Value| set["properties"][STUDY] = json!({ "type": "object" });
     match tables.get_mut("anyOf").and_then(Value::as_array_mut) {
         Some(sets) => sets.iter_mut().for_each(add),
         None => add(&mut tables),
     }
     json!({
-        "if": { "properties": { STUDY_TABLE.name: kind } },
+        "if": { "properties": { STUDY: kind } },
         "then": tables,
     })
 }

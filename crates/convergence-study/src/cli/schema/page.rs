@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::{STUDY_TABLE, other_files, property, tables};
+use super::{STUDY, other_files, study_schema, tables};
 use crate::input::schema::allowed;
 use crate::project::{Project, Term};
 use crate::study::KindRow;
@@ -21,12 +21,7 @@ pub fn page(project: &Project) -> String {
         places: BTreeMap::new(),
     };
     page.text.push_str("\n## Every study\n");
-    page.table(
-        "Every study",
-        STUDY_TABLE.name,
-        &property(&STUDY_TABLE),
-        false,
-    );
+    page.table("Every study", STUDY, &study_schema(), false);
     for row in project.kinds {
         page.kind(row);
     }

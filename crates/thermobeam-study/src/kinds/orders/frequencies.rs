@@ -25,12 +25,15 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::{
         settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration},
-        tables::{Layout, MAP, claim, increasing, level_of_mesh},
+        tables::{Layout, level_of_mesh},
     },
-    scene::{limits, tables},
+    scene::{
+        file::{Degree, Formula, OfS},
+        limits::{self, Elements},
+    },
 };
 use convergence_judge::{text::number::min_or_nan, time_limit::Patience};
-use thermobeam::dg::MAX_DEGREE;
+use convergence_study::{Order, file};
 
 /// Bound on the frequency equation at the exact frequencies, in rounding errors of its terms.
 ///
@@ -54,47 +57,74 @@ pub struct Frequencies {
     claim: Claim,
 }
 
-const KEYS: [Key; 7] = [
-    Key::new(
-        "count",
-        Form::Count(1),
-        "frequencies that are computed, from the lowest",
-    ),
-    Key::new(
-        "elements",
-        Form::List(&Form::Count(1)),
-        "numbers of elements, increasing",
-    ),
-    Key::new(
-        "order",
-        Form::OneOf(&[Form::Positive, Form::Text]),
-        "the order, or the least order as \">= 1\"",
-    ),
-    Key::new(
-        "tolerance",
-        Form::Positive,
-        "how far a rate may be from the order",
-    )
-    .or("0.25, at most half of the order, a quarter of a least one"),
-    Key::new(
-        "first",
-        Form::Count(1),
-        "the first frequency whose rate is judged",
-    )
-    .or("1"),
-    Key::new("degree", Form::Count(1), "degree p of the elements").or("1"),
-    MAP,
-];
+/// A study of frequencies as it is written.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct FrequenciesFile {
+    /// frequencies and meshes
+    frequencies: FrequenciesTable,
+}
+
+/// The table `[frequencies]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct FrequenciesTable {
+    /// frequencies that are computed, from the lowest
+    count: Count<1, { limits::MODES }>,
+    /// numbers of elements, increasing
+    elements: file::Levels<Elements>,
+    /// the order, or the least order
+    order: Order,
+    /// the ends of the C of error = C h^order
+    #[schemars(extend("title" = "two numbers > 0, the smaller first"))]
+    constant: Option<[Positive; 2]>,
+    /// how far a rate may be from the order; without it 0.25, at most half of the order, a quarter of
+    /// a least one
+    tolerance: Option<Positive>,
+    /// the first frequency whose rate is judged
+    #[schemars(extend("default" = 1))]
+    first: Option<Count<1>>,
+    /// degree p of the elements
+    #[schemars(extend("default" = 1))]
+    degree: Option<Degree>,
+    /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
+    map: Option<Formula<OfS>>,
+}
+
+impl FrequenciesTable {
+    fn frequencies(&self) -> Result<Frequencies, Refusal> {
+        let elements: Vec<usize> = self
+            .elements
+            .iter()
+            .map(|elements| elements.get())
+            .collect();
+        let [count, degree] = [self.count.get(), self.degree.map_or(1, Count::get)];
+        // A mesh has twice as many frequencies, but the upper ones are not approximations.
+        if count > elements[0] * degree {
+            let allowed = format!("a whole number >= 1 and <= {}", elements[0] * degree);
+            return Err(Refusal::written("count", allowed));
+        }
+        let first = self.first.map_or(1, Count::get);
+        if first > count {
+            let allowed = format!("a whole number >= 1 and <= {count}");
+            return Err(Refusal::written("first", allowed));
+        }
+        Ok(Frequencies {
+            first,
+            count,
+            degree,
+            layout: Layout::new(self.map.as_ref(), &elements, None)?,
+            elements,
+            claim: self.order.claim(self.constant, self.tolerance)?,
+        })
+    }
+}
 
 impl ErrorSource for Frequencies {
     const ROW: KindRow = KindRow {
         name: "orders/frequencies",
-        keys: &[&[&[Key::new(
-            "frequencies",
-            Form::Table(&[&[&KEYS]]),
-            "frequencies and meshes",
-        )]]],
-        schema: None,
+        keys: &[],
+        schema: Some(schema::of::<FrequenciesFile>),
         read: read_study::<Orders<Self>>,
         why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
               a scalar equation.",
@@ -109,23 +139,10 @@ impl ErrorSource for Frequencies {
     type Found = Vec<f64>;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let section = root.table("frequencies", &[&KEYS])?;
-        let allowed = "a list of increasing whole numbers >= 1";
-        let elements = increasing(&section, "elements", allowed, 1, tables::elements)?;
-        let degree = section
-            .get("degree")
-            .map_or(Ok(1), |field| field.count(1..=MAX_DEGREE))?;
-        // A mesh has twice as many frequencies, but the upper ones are not approximations.
-        let count = section.count("count", 1..=(elements[0] * degree).min(limits::MODES))?;
-        Ok(Self {
-            first: section
-                .get("first")
-                .map_or(Ok(1), |field| field.count(1..=count))?,
-            count,
-            degree,
-            layout: Layout::read(&section, &elements, None)?,
-            elements,
-            claim: claim(&section)?,
+        described(root, |file: FrequenciesFile| {
+            file.frequencies
+                .frequencies()
+                .map_err(within("frequencies"))
         })
     }
 

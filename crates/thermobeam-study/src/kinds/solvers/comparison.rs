@@ -6,7 +6,7 @@ use convergence_study::internal::{
     study::readings,
 };
 
-use super::{SolverResult, SolverTask, positive_numbers, results};
+use super::{SolverResult, SolverTask, numbers, results};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
@@ -17,13 +17,47 @@ use crate::{
         settings::{ActiveTerms, ItemMethod},
     },
     run::ObservableMotion,
-    scene::{Scene, limits, tables},
+    scene::{
+        Scene,
+        limits::{self, Elements},
+    },
 };
 use thermobeam::mesh::Mesh;
 
 /// The table `[comparison]`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub(super) struct ComparisonTable {
+    /// a scene file, relative to this file
+    scene: String,
+    /// number of elements
+    elements: Elements,
+    // Each step is a point of a figure.
+    /// number of steps
+    steps: Count<1, { limits::RECORDED_STEPS }>,
+    /// η*, at which the fixed point ends
+    tolerances: Vec<Positive>,
+}
+
+impl ComparisonTable {
+    pub(super) fn comparison(&self, folder: &Path) -> Result<Comparison, Refusal> {
+        let scene = Scene::read(named_file("scene", &self.scene, folder)?)?;
+        if let Err(error) = scene.one_step() {
+            let allowed = "a scene by a one-step scheme";
+            return Err(Refusal::written_and("scene", format!(": {error}"), allowed));
+        }
+        Ok(Comparison {
+            scene,
+            elements: self.elements.get(),
+            steps: self.steps.get(),
+            tolerances: numbers("tolerances", &self.tolerances)?,
+        })
+    }
+}
+
+/// A scene by both solvers.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Comparison {
     scene: Scene,
     elements: usize,
     steps: usize,
@@ -45,33 +79,9 @@ pub struct Agreement {
     pub contact: Vec<(f64, f64)>,
 }
 
-pub(super) const KEYS: [Key; 4] = [
-    Key::new("scene", Form::Text, "a scene file, relative to this file"),
-    Key::new("elements", Form::Count(1), "number of elements"),
-    Key::new("steps", Form::Count(1), "number of steps"),
-    Key::new(
-        "tolerances",
-        Form::List(&Form::Positive),
-        "η*, at which the fixed point ends",
-    ),
-];
-
-impl ComparisonTable {
+impl Comparison {
     pub(super) fn terms(&self) -> ActiveTerms {
         ActiveTerms::of(&self.scene.beam, self.scene.obstacles.as_ref())
-    }
-
-    pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        Ok(Self {
-            scene: Scene::read_one_step(
-                &section.require("scene", "a scene file beside this one")?,
-                folder,
-            )?,
-            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
-            // Each step is a point of a figure.
-            steps: section.count("steps", 1..=limits::RECORDED_STEPS)?,
-            tolerances: positive_numbers(section, "tolerances")?,
-        })
     }
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {

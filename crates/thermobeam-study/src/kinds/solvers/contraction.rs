@@ -5,7 +5,7 @@ use std::fmt;
 use convergence_study::{Coverage, internal::study::readings};
 
 use super::{
-    SolverResult, SolverTask, positive_numbers, results,
+    SolverResult, SolverTask, numbers, results,
     spectrum::spectral_radius,
     step::{by_fixed_point, factors},
 };
@@ -14,7 +14,7 @@ use crate::{
     figures,
     kinds::settings::{ActiveTerms, ItemMethod},
     run::{driver::Driver, run_to},
-    scene::{limits, tables},
+    scene::limits::{self, Elements},
 };
 use thermobeam::{
     mesh::{Mesh, MeshError},
@@ -46,6 +46,35 @@ const LINEAR: f64 = 1e-3;
 const PRESSED: f64 = 0.12;
 
 /// The table `[contraction]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ContractionTable {
+    /// number of elements
+    elements: Elements,
+    /// time steps
+    dt: Vec<Positive>,
+    /// normal compliances
+    epsilon: Vec<Positive>,
+    /// viscosities
+    zeta: Vec<Positive>,
+}
+
+impl ContractionTable {
+    pub(super) fn grid(&self) -> Result<ContractionGrid, Refusal> {
+        let dt = numbers("dt", &self.dt)?;
+        let epsilon = numbers("epsilon", &self.epsilon)?;
+        let zeta = numbers("zeta", &self.zeta)?;
+        limits::case_count("dt", &[dt.len(), epsilon.len(), zeta.len()])?;
+        Ok(ContractionGrid {
+            elements: self.elements.get(),
+            dt,
+            epsilon,
+            zeta,
+        })
+    }
+}
+
+/// The combinations of the table `[contraction]`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ContractionGrid {
     elements: usize,
@@ -54,31 +83,7 @@ pub(super) struct ContractionGrid {
     zeta: Vec<f64>,
 }
 
-pub(super) const KEYS: [Key; 4] = [
-    Key::new("elements", Form::Count(1), "number of elements"),
-    Key::new("dt", Form::List(&Form::Positive), "time steps"),
-    Key::new("epsilon", Form::List(&Form::Positive), "normal compliances"),
-    Key::new("zeta", Form::List(&Form::Positive), "viscosities"),
-];
-
 impl ContractionGrid {
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let dt = positive_numbers(section, "dt")?;
-        let epsilon = positive_numbers(section, "epsilon")?;
-        let zeta = positive_numbers(section, "zeta")?;
-        limits::cases(
-            &section.require("dt", "a list")?,
-            &[dt.len(), epsilon.len(), zeta.len()],
-        )?;
-        let elements = tables::elements(&section.require("elements", "a number of elements")?)?;
-        Ok(Self {
-            elements,
-            dt,
-            epsilon,
-            zeta,
-        })
-    }
-
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let cost = self.elements as f64 * ITERATIONS as f64;
         let mut cases = vec![];

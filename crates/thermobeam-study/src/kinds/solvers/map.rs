@@ -29,9 +29,10 @@ use crate::{
         runs::watch::{Watched, Worst, watched},
         settings::ActiveTerms,
     },
-    scene::{limits, tables},
+    scene::limits::{self, Elements},
 };
 use convergence_judge::text::number::plain_text;
+use convergence_study::file::{Choices, Finite};
 use thermobeam::{
     mesh::{Mesh, MeshError},
     one_step::{InitialValues, Problem},
@@ -60,6 +61,79 @@ const FAR: f64 = 4.0;
 const CONSECUTIVE: usize = 8;
 
 /// The table `[map]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MapTable {
+    /// the second parameter, beside dt
+    over: Choice<MapParameters>,
+    /// the shortest and the longest step
+    #[schemars(extend("title" = "two ascending numbers > 0"))]
+    dt: [Finite; 2],
+    /// the ends of the second parameter
+    #[schemars(extend("title" = "two ascending numbers"))]
+    range: [Finite; 2],
+    /// points in each direction
+    points: Count<2, { limits::MAP_POINTS }>,
+    /// values on which the boundary is searched
+    lines: Vec<Finite>,
+    /// number of elements
+    elements: Elements,
+    /// steps of a run
+    steps: Count<1, { limits::STEPS }>,
+    /// relative distance allowed between measured and predicted boundary
+    agreement: Positive,
+}
+
+/// The second parameters of a map.
+#[derive(Debug)]
+pub(super) enum MapParameters {}
+
+impl Choices for MapParameters {
+    type Value = MapParameter;
+
+    fn all() -> Vec<(&'static str, MapParameter)> {
+        MapParameter::ALL.to_vec()
+    }
+}
+
+impl MapTable {
+    pub(super) fn map(&self) -> Result<Map, Refusal> {
+        let over = self.over.value;
+        let range = SampledInterval::new("range", self.range, !over.is_linear())?;
+        let is_width = over == MapParameter::Width;
+        if is_width {
+            check_width("range", range.low)?;
+        }
+        for (place, value) in self.lines.iter().map(|line| line.get()).enumerate() {
+            let path = format!("lines[{place}]");
+            // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
+            let fits = value > 0.0
+                || over == MapParameter::Beta
+                || (over == MapParameter::Zeta && value == 0.0);
+            if !fits {
+                return Err(Refusal::written(path, "a value of the parameter"));
+            }
+            if is_width {
+                check_width(&path, value)?;
+            }
+        }
+        if self.lines.is_empty() {
+            return Err(Refusal::written("lines", "a list of at least one number"));
+        }
+        Ok(Map {
+            over,
+            dt: SampledInterval::new("dt", self.dt, true)?,
+            range,
+            points: self.points.get(),
+            lines: self.lines.iter().map(|line| line.get()).collect(),
+            elements: self.elements.get(),
+            steps: self.steps.get(),
+            agreement: self.agreement.get(),
+        })
+    }
+}
+
+/// Both solvers over two parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Map {
     pub(super) over: MapParameter,
@@ -102,73 +176,7 @@ impl MapParameter {
     }
 }
 
-pub(super) const KEYS: [Key; 8] = [
-    Key::new(
-        "over",
-        Form::Choice(|| MapParameter::ALL.map(|(name, _)| name).to_vec()),
-        "the second parameter, beside dt",
-    ),
-    Key::new(
-        "dt",
-        Form::List(&Form::Positive),
-        "the shortest and the longest step",
-    ),
-    Key::new(
-        "range",
-        Form::List(&Form::Number),
-        "the ends of the second parameter",
-    ),
-    Key::new("points", Form::Count(2), "points in each direction"),
-    Key::new(
-        "lines",
-        Form::List(&Form::Number),
-        "values on which the boundary is searched",
-    ),
-    Key::new("elements", Form::Count(1), "number of elements"),
-    Key::new("steps", Form::Count(1), "steps of a run"),
-    Key::new(
-        "agreement",
-        Form::Positive,
-        "relative distance allowed between measured and predicted boundary",
-    ),
-];
-
 impl Map {
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let over = section
-            .require("over", "a second parameter")?
-            .choice(&MapParameter::ALL)?;
-        let range = SampledInterval::read(section, "range", !over.is_linear())?;
-        if over == MapParameter::Width {
-            check_width(&section.require("range", "a range")?, range.low)?;
-        }
-        let line = |item: &Field<'_>| {
-            // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
-            let fits = |value: f64| {
-                value > 0.0
-                    || over == MapParameter::Beta
-                    || (over == MapParameter::Zeta && value == 0.0)
-            };
-            let value = item.number_where("a value of the parameter", fits)?;
-            if over == MapParameter::Width {
-                check_width(item, value)?;
-            }
-            Ok(value)
-        };
-        Ok(Self {
-            over,
-            dt: SampledInterval::read(section, "dt", true)?,
-            range,
-            points: section.count("points", 2..=limits::MAP_POINTS)?,
-            lines: section.list("lines", "a list of at least one number", line, |list| {
-                !list.is_empty()
-            })?,
-            elements: tables::elements(&section.require("elements", "a number of elements")?)?,
-            steps: section.count("steps", 1..=limits::STEPS)?,
-            agreement: section.positive("agreement")?,
-        })
-    }
-
     /// The time steps of every row.
     pub(super) fn time_steps(&self) -> Vec<f64> {
         self.dt.values(self.points)
@@ -254,17 +262,15 @@ fn axial_force(problem: &Problem) -> f64 {
 }
 
 /// Refuses a mesh width if the mesh does not fit into memory.
-fn check_width(field: &Field<'_>, width: f64) -> Result<(), InputError> {
+fn check_width(path: &str, width: f64) -> Result<(), Refusal> {
     let elements = (1.0 / width).round();
     if elements <= limits::ELEMENTS as f64 {
         return Ok(());
     }
-    let found = format!(
-        "{}: the finest mesh would take {}",
-        field.as_written(),
-        limits::memory_of_elements(elements)
-    );
-    Err(field.refuse(found, format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64)))
+    let bytes = limits::memory_of_elements(elements);
+    let more = format!(": the finest mesh would take {bytes}");
+    let allowed = format!("h >= {:.1e}", 1.0 / limits::ELEMENTS as f64);
+    Err(Refusal::written_and(path, more, allowed))
 }
 
 /// Both solvers with one time step.

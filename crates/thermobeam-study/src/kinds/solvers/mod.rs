@@ -41,10 +41,10 @@ mod step;
 
 use super::prelude::*;
 use crate::kinds::settings::{ActiveTerms, Exercise, Integration};
-use comparison::ComparisonTable;
-use contraction::ContractionGrid;
+use comparison::{Comparison, ComparisonTable};
+use contraction::{ContractionGrid, ContractionTable};
 use convergence_study::internal::study::{header::SettingWords, readings};
-use map::Map;
+use map::{Map, MapTable};
 
 pub use super::runs::side_by_side::SolverComparison;
 pub use comparison::Agreement;
@@ -55,8 +55,8 @@ pub use step::FixedPointStep;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "solvers",
-    keys: Solvers::KEYS,
-    schema: None,
+    keys: &[],
+    schema: Some(schema::of::<SolversFile>),
     read: read_study::<Solvers>,
     why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
           it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \
@@ -72,7 +72,7 @@ pub const ROW: KindRow = KindRow {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solvers {
     contraction: Option<ContractionGrid>,
-    comparison: Option<ComparisonTable>,
+    comparison: Option<Comparison>,
     map: Option<Map>,
 }
 
@@ -126,63 +126,49 @@ fn results<R>(
     ran.iter().filter_map(|ran| part(ran.ok()?)).collect()
 }
 
-const CONTRACTION: Key = Key::new(
-    "contraction",
-    Form::Table(&[&[&contraction::KEYS]]),
-    "measured contraction against the spectral radius",
-);
-const COMPARISON: Key = Key::new(
-    "comparison",
-    Form::Table(&[&[&comparison::KEYS]]),
-    "the fixed point against Newton",
-);
-const MAP_TABLE: Key = Key::new(
-    "map",
-    Form::Table(&[&[&map::KEYS]]),
-    "where the fixed point converges",
-);
+/// A study of the two solvers as it is written: at least one part.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct SolversFile {
+    /// measured contraction against the spectral radius
+    contraction: Option<ContractionTable>,
+    /// the fixed point against Newton
+    comparison: Option<ComparisonTable>,
+    /// where the fixed point converges
+    map: Option<MapTable>,
+}
 
 impl FromFile for Solvers {
-    const KEYS: &'static [Keys] = &[
-        &[&[CONTRACTION, COMPARISON.or("none"), MAP_TABLE.or("none")]],
-        &[&[COMPARISON, MAP_TABLE.or("none")]],
-        &[&[MAP_TABLE]],
-    ];
+    const KEYS: &'static [Keys] = &[];
 
     fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let parts = ["contraction", "comparison", "map"];
-        if parts.iter().all(|part| root.get(part).is_none()) {
-            let allowed = format!(
-                "at least one table for kind \"{}\": {}",
-                ROW.name,
-                parts.join(", ")
-            );
-            return Err(root.missing(parts[0], &allowed));
-        }
-        let contraction = root.section(parts[0])?;
-        let comparison = root.section(parts[1])?;
-        let map = root.section(parts[2])?;
-        Ok(Self {
-            contraction: contraction
-                .as_ref()
-                .map(ContractionGrid::read)
-                .transpose()?,
-            comparison: comparison
-                .map(|section| ComparisonTable::read(&section, folder))
-                .transpose()?,
-            map: map.as_ref().map(Map::read).transpose()?,
+        described(root, |file: SolversFile| {
+            let contraction = file.contraction.map(|table| table.grid()).transpose();
+            let comparison = file.comparison.map(|table| table.comparison(folder));
+            let map = file.map.map(|table| table.map()).transpose();
+            let study = Self {
+                contraction: contraction.map_err(within("contraction"))?,
+                comparison: comparison.transpose().map_err(within("comparison"))?,
+                map: map.map_err(within("map"))?,
+            };
+            if study.contraction.is_none() && study.comparison.is_none() && study.map.is_none() {
+                let allowed = format!(
+                    "at least one table for kind \"{}\": contraction, comparison, map",
+                    ROW.name
+                );
+                return Err(Refusal::missing("contraction", &allowed));
+            }
+            Ok(study)
         })
     }
 }
 
-/// A list of at least one number > 0.
-fn positive_numbers(section: &Section<'_>, key: &str) -> Result<Vec<f64>, InputError> {
-    section.list(
-        key,
-        "a list of at least one number > 0",
-        Field::positive,
-        |list| !list.is_empty(),
-    )
+/// At least one number > 0.
+fn numbers(path: &str, list: &[Positive]) -> Result<Vec<f64>, Refusal> {
+    if list.is_empty() {
+        return Err(Refusal::written(path, "a list of at least one number > 0"));
+    }
+    Ok(list.iter().map(|number| number.get()).collect())
 }
 
 /// The part of the study to which a case belongs.
@@ -200,7 +186,7 @@ impl Kind for Solvers {
         let mut terms = ActiveTerms::default();
         for part in [
             self.contraction.as_ref().map(|grid| grid.terms(case)),
-            self.comparison.as_ref().map(ComparisonTable::terms),
+            self.comparison.as_ref().map(Comparison::terms),
             self.map.as_ref().map(Map::terms),
         ] {
             terms = terms.or(part.unwrap_or_default());
@@ -214,7 +200,7 @@ impl Kind for Solvers {
             .iter()
             .flat_map(ContractionGrid::cases)
             .collect();
-        cases.extend(self.comparison.iter().flat_map(ComparisonTable::cases));
+        cases.extend(self.comparison.iter().flat_map(Comparison::cases));
         cases.extend(self.map.iter().flat_map(Map::cases));
         cases
     }
@@ -236,7 +222,7 @@ impl Kind for Solvers {
 
     fn judge(&self, ran: &[Ran<SolverTask, SolverResult>]) -> Outcome {
         let contraction = self.contraction.iter().map(|grid| grid.judge(ran));
-        let comparison = self.comparison.iter().map(|_| ComparisonTable::judge(ran));
+        let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
         let map = self.map.iter().map(|map| map.judge(ran));
         let parts = contraction.chain(comparison).chain(map);
         let completion = completion_check(ran, |found| readings::not_finite(&found.readings()));

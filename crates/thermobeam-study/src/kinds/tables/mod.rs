@@ -3,107 +3,108 @@
 
 mod refine;
 
-use convergence_study::{Term, internal::input::POSITIVE};
-use thermobeam::{
-    dg::{DgStepping, MAX_DEGREE, MAX_TIME_DEGREE},
-    parameters::Beam,
+use convergence_study::{
+    Order, Term,
+    file::{Choices, Finite},
 };
+use thermobeam::{dg::DgStepping, parameters::Beam};
 
 use super::prelude::*;
 use crate::{
     exact::{
-        function::Factor,
         norm::Norm,
         solution::{Manufactured, Product},
     },
-    expression::Variable,
-    scene::{Coefficients, Method, Scene, limits, resampled, tables},
+    scene::{
+        Coefficients, Method, Scene,
+        file::{BeamTable, Degree, Formula, Given, Growth, OfT, OfX, TimeDegree},
+        limits::{self, Elements},
+        resampled,
+    },
 };
 
 pub use refine::{Layout, Perturbation, Refine};
-pub(crate) use refine::{MAP, REFINE, increasing, level_of_mesh, mean_width, nested, refine};
+pub(crate) use refine::{MAP, RefineTable, increasing, level_of_mesh, mean_width};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;
 
-/// The table `[exact]`.
-pub(crate) const EXACT: Key = Key::new(
-    "exact",
-    Form::Table(&[&[&[
-        Key::new("u", PRODUCTS, "displacement; each x(0) = 0").or("0"),
-        Key::new("phi", PRODUCTS, "rotation; each x(0) = 0").or("0"),
-        Key::new(
-            "theta",
-            PRODUCTS,
-            "temperature; theta_a at x = 0, 0 at x = 1",
-        )
-        .or("0"),
-    ]]]),
-    "the exact solution: of each field a sum of products",
-);
-const PRODUCTS: Form = Form::List(&Form::Table(&[&[&[
-    Key::new("x", Form::Text, "a function of x"),
-    Key::new("t", Form::Text, "a function of t"),
-]]]));
+/// The table `[exact]`: of each field a sum of products.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExactTable {
+    /// displacement; each x(0) = 0
+    u: Option<Vec<ProductTable>>,
+    /// rotation; each x(0) = 0
+    phi: Option<Vec<ProductTable>>,
+    /// temperature; theta_a at x = 0, 0 at x = 1
+    theta: Option<Vec<ProductTable>>,
+}
 
-/// The table `[exact]`: for each field a sum of products of a function of x and a function of t.
-pub(crate) fn manufactured(
-    root: &Section<'_>,
-    beam: &Beam,
-    t_end: f64,
-) -> Result<Manufactured, InputError> {
-    let allowed = "a table with at least one of u, phi, theta";
-    let section = root.require("exact", allowed)?.section()?;
-    let exact = Manufactured {
-        u: products(&section, "u", t_end)?,
-        phi: products(&section, "phi", t_end)?,
-        theta: products(&section, "theta", t_end)?,
-    };
-    if exact.u.is_empty() && exact.phi.is_empty() && exact.theta.is_empty() {
-        return Err(root.refuse("exact", "an empty table", allowed));
+/// A product of an exact solution.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ProductTable {
+    /// a function of x
+    x: Formula<OfX>,
+    /// a function of t
+    t: Formula<OfT>,
+}
+
+impl ExactTable {
+    /// The exact solution, which meets the boundary conditions until `t_end`.
+    pub(crate) fn manufactured(&self, beam: &Beam, t_end: f64) -> Result<Manufactured, Refusal> {
+        let exact = Manufactured {
+            u: products("u", &self.u, t_end)?,
+            phi: products("phi", &self.phi, t_end)?,
+            theta: products("theta", &self.theta, t_end)?,
+        };
+        if exact.u.is_empty() && exact.phi.is_empty() && exact.theta.is_empty() {
+            return Err(Refusal::written(
+                "",
+                "a table with at least one of u, phi, theta",
+            ));
+        }
+        for end in [[0.0, beam.theta_a], [1.0, 0.0]] {
+            meets(&exact.theta, end, t_end)?;
+        }
+        Ok(exact)
     }
-    for end in [[0.0, beam.theta_a], [1.0, 0.0]] {
-        meets(&section, &exact.theta, end, t_end)?;
-    }
-    Ok(exact)
 }
 
 /// The products of a field, if any; u and φ vanish at x = 0.
-fn products(section: &Section<'_>, key: &str, t_end: f64) -> Result<Vec<Product>, InputError> {
-    let allowed = "a list of at least one { x = \"...\", t = \"...\" }";
-    let product = |item: &Field<'_>| {
-        let section = item.section()?;
-        let factor = |key: &str, variable: Variable, end: f64| {
-            let field =
-                section.require(key, &format!("a function of {} in quotes", variable.name()))?;
-            Ok::<Factor, InputError>(tables::function(&field, variable, end, DERIVATIVES)?.into())
-        };
+fn products(
+    field: &str,
+    tables: &Option<Vec<ProductTable>>,
+    t_end: f64,
+) -> Result<Vec<Product>, Refusal> {
+    if tables.as_ref().is_some_and(Vec::is_empty) {
+        let allowed = "a list of at least one { x = \"...\", t = \"...\" }";
+        return Err(Refusal::written(field, allowed));
+    }
+    let mut products = vec![];
+    for (place, table) in tables.iter().flatten().enumerate() {
+        let path = |name: &str| format!("{field}[{place}].{name}");
         let product = Product {
-            x: factor("x", Variable::X, 1.0)?,
-            t: factor("t", Variable::T, t_end)?,
+            x: table.x.parse(&path("x"), 1.0, DERIVATIVES)?.into(),
+            t: table.t.parse(&path("t"), t_end, DERIVATIVES)?.into(),
         };
         let found = product.x.eval(0.0);
-        if key != "theta" && found.abs() > product.x.roundoff(1.0) {
-            return Err(section.refuse(
-                "x",
-                format!("{found:?} at x = 0"),
+        if field != "theta" && found.abs() > product.x.roundoff(1.0) {
+            let found = format!("{found:?} at x = 0");
+            return Err(Refusal::new(
+                path("x"),
+                found,
                 "0 at x = 0, the clamped end",
             ));
         }
-        Ok(product)
-    };
-    section.get(key).map_or(Ok(vec![]), |_| {
-        section.list(key, allowed, product, |list| !list.is_empty())
-    })
+        products.push(product);
+    }
+    Ok(products)
 }
 
 /// θ(x, t) = `expected` at an end of the beam, at some times, up to round-off.
-fn meets(
-    section: &Section<'_>,
-    theta: &[Product],
-    [x, expected]: [f64; 2],
-    t_end: f64,
-) -> Result<(), InputError> {
+fn meets(theta: &[Product], [x, expected]: [f64; 2], t_end: f64) -> Result<(), Refusal> {
     // Unlikely to be a multiple of the period of a study.
     const TIMES: u32 = 7;
     // The error of X is proportional to X and amplified by T, and vice versa.
@@ -123,11 +124,8 @@ fn meets(
             } else {
                 "0 at x = 1"
             };
-            return Err(section.refuse(
-                "theta",
-                found,
-                format!("theta = {expected:?}: it must be {end} at all times"),
-            ));
+            let allowed = format!("theta = {expected:?}: it must be {end} at all times");
+            return Err(Refusal::new("theta", found, allowed));
         }
     }
     Ok(())
@@ -202,23 +200,71 @@ pub(crate) const CLAIM_KEYS: [Key; 3] = [
     .or("0.25, at most half of the order, a quarter of a least one"),
 ];
 
-/// The tables `[[expect]]` with norms.
-pub(crate) const EXPECT: Key = Key::new(
-    "expect",
-    Form::List(&Form::Table(&[&[
-        &[Key::new(
-            "norm",
-            Form::Choice(|| Norm::ALL.map(Norm::name).to_vec()),
-            "the norm of the error",
-        )],
-        &CLAIM_KEYS,
-    ]])),
-    "the orders claimed, each norm once",
-);
+/// A table `[[expect]]`: the order claimed of a norm.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExpectNorm {
+    /// the norm of the error
+    norm: Choice<NormNames>,
+    /// the order, or the least order
+    order: Order,
+    /// the ends of the C of error = C h^order
+    #[schemars(extend("title" = "two numbers > 0, the smaller first"))]
+    constant: Option<[Positive; 2]>,
+    /// how far the rate may be from the order; without it 0.25, at most half of the order, a quarter
+    /// of a least one
+    tolerance: Option<Positive>,
+}
 
-/// All tables `[[expect]]`: the norms and their orders.
-pub(crate) fn expectations(root: &Section<'_>) -> Result<Vec<(Norm, Claim)>, InputError> {
-    claims(root, "norm", &Norm::ALL.map(|norm| (norm.name(), norm)))
+/// The norms.
+#[derive(Debug)]
+pub(crate) enum NormNames {}
+
+impl Choices for NormNames {
+    type Value = Norm;
+
+    fn all() -> Vec<(&'static str, Norm)> {
+        Norm::ALL.map(|norm| (norm.name(), norm)).to_vec()
+    }
+}
+
+/// The norms of tables `[[expect]]` and their orders.
+pub(crate) fn expected_norms(tables: &[ExpectNorm]) -> Result<Vec<(Norm, Claim)>, Refusal> {
+    claimed_once("norm", tables, |table| {
+        let claim = table.order.claim(table.constant, table.tolerance);
+        (table.norm.name, table.norm.value, claim)
+    })
+}
+
+/// What tables `[[expect]]` claim, each quantity once.
+///
+/// * `key`: the key of the quantity; `claim`: its name, the quantity and what is claimed of it.
+pub(crate) fn claimed_once<T, Q>(
+    key: &str,
+    tables: &[T],
+    claim: impl Fn(&T) -> (&'static str, Q, Result<Claim, Refusal>),
+) -> Result<Vec<(Q, Claim)>, Refusal> {
+    let mut known = vec![];
+    let mut claims = vec![];
+    for (place, table) in tables.iter().enumerate() {
+        let path = format!("expect[{place}]");
+        let (name, quantity, claim) = claim(table);
+        if known.contains(&name) {
+            let found = format!("\"{name}\" a second time");
+            return Err(Refusal::new(
+                format!("{path}.{key}"),
+                found,
+                format!("each {key} once"),
+            ));
+        }
+        known.push(name);
+        claims.push((quantity, claim.map_err(within(&path))?));
+    }
+    if claims.is_empty() {
+        let allowed = format!("at least one table [[expect]] with {key}, order and tolerance");
+        return Err(Refusal::written("expect", allowed));
+    }
+    Ok(claims)
 }
 
 /// An order with its tolerance.
@@ -265,54 +311,80 @@ pub(crate) fn claims<T: Copy>(
 }
 
 /// The table `[control]`.
-pub(crate) const CONTROL: Key = Key::new(
-    "control",
-    Form::Table(&[&[
-        &convergence_keys::all_or(tables::BEAM_KEYS, "the value of the sources"),
-        &convergence_keys::all_or(tables::OBSTACLE_KEYS, "the value of the sources"),
-    ]]),
-    "coefficients in which the solver differs from the sources: the study must fail",
-)
-.or("none");
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ControlTable {
+    /// the viscosity ζ
+    zeta: Option<Finite>,
+    /// the thermal coupling a
+    a: Option<Finite>,
+    /// the factor ρ of ‖u_x‖² in the axial force
+    rho: Option<Finite>,
+    /// the axial force β of the straight beam
+    beta: Option<Finite>,
+    /// the temperature θ_A at x = 0
+    theta_a: Option<Finite>,
+    /// the normal compliance ε
+    epsilon: Option<Finite>,
+    /// the lower obstacle
+    g1: Option<Finite>,
+    /// the upper obstacle
+    g2: Option<Finite>,
+}
 
-/// The table `[control]`: coefficients in which the solver differs from `theory`; without the table
-/// they are equal.
-pub(crate) fn control(
-    root: &Section<'_>,
+impl ControlTable {
+    fn given(&self) -> Given<8> {
+        [
+            ("zeta", self.zeta),
+            ("a", self.a),
+            ("rho", self.rho),
+            ("beta", self.beta),
+            ("theta_a", self.theta_a),
+            ("epsilon", self.epsilon),
+            ("g1", self.g1),
+            ("g2", self.g2),
+        ]
+    }
+}
+
+/// The coefficients of a solver that differs from `theory` by the table `[control]`; without the
+/// table they are equal.
+pub(crate) fn controlled(
+    table: Option<&ControlTable>,
     theory: Coefficients,
-) -> Result<Coefficients, InputError> {
-    let Some(section) = root.section("control")? else {
+) -> Result<Coefficients, Refusal> {
+    let Some(table) = table else {
         return Ok(theory);
     };
-    let names: Vec<&str> = Coefficients::names().collect();
     let mut solver = theory;
-    for name in names {
-        let Some(field) = section.get(name) else {
+    for (name, value) in table.given() {
+        let Some(value) = value.map(Finite::get) else {
             continue;
         };
-        let value = field.number()?;
+        let path = format!("control.{name}");
         let Some(coefficient) = solver.get_mut(name) else {
-            let found = format!("{} without a table [obstacles]", field.as_written());
-            return Err(field.refuse(
-                found,
-                convergence_keys::names(&[&tables::BEAM_KEYS]).join(", "),
+            let names = BeamTable::default()
+                .given()
+                .map(|(name, _)| name)
+                .join(", ");
+            return Err(Refusal::written_and(
+                path,
+                " without a table [obstacles]",
+                names,
             ));
         };
         // A control that changes nothing would pass where it has to fail.
         if *coefficient == value {
-            let found = format!("{}, which is the value of the sources", field.as_written());
-            return Err(field.refuse(found, "another value"));
+            let more = ", which is the value of the sources";
+            return Err(Refusal::written_and(path, more, "another value"));
         }
         *coefficient = value;
     }
     if solver == theory {
-        return Err(root.refuse(
-            "control",
-            "an empty table",
-            "a table that changes at least one coefficient",
-        ));
+        let allowed = "a table that changes at least one coefficient";
+        return Err(Refusal::written("control", allowed));
     }
-    solver.check(&section)?;
+    solver.checked(["control", "control"])?;
     Ok(solver)
 }
 
@@ -419,36 +491,60 @@ impl Discretisation {
 
     /// Reads a table that has [`DISCRETISATION_KEYS`], and possibly others, for runs to `t_end`.
     pub(crate) fn read(section: &Section<'_>, t_end: f64) -> Result<Self, InputError> {
-        let field = section.require("dt", POSITIVE)?;
-        let dt = field.positive()?;
-        limits::steps_until(&field, t_end, dt, limits::STEPS)?;
-        let restart = format!("a number > 0 and at most dt = {dt:?}");
-        let growth = "a finite number >= 1";
-        let field = section.require("elements", "a whole number >= 1")?;
-        let elements = tables::elements(&field)?;
-        let degree = section.count("degree", 1..=MAX_DEGREE)?;
-        let time_degree = section.count("time_degree", 0..=MAX_TIME_DEGREE)?;
+        let own = convergence_keys::names(&[&DISCRETISATION_KEYS]);
+        let others: Vec<&str> = section.keys().filter(|key| !own.contains(key)).collect();
+        let table: DiscretisationTable = section.read_beside(&others)?;
+        table
+            .discretisation(t_end)
+            .map_err(|refusal| section.locate(refusal))
+    }
+}
+
+/// A table of a discretisation of any order.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DiscretisationTable {
+    /// number of elements
+    elements: Elements,
+    /// degree p in space
+    degree: Degree,
+    /// degree q in time
+    time_degree: TimeDegree,
+    /// the largest step
+    dt: Positive,
+    /// the first step, at the start and after each contact event
+    restart_dt: Positive,
+    /// factor of the steps in between, at least 1
+    growth: Growth,
+}
+
+impl DiscretisationTable {
+    /// For runs to `t_end`.
+    fn discretisation(&self, t_end: f64) -> Result<Discretisation, Refusal> {
+        let [dt, restart_dt] = [self.dt, self.restart_dt].map(Positive::get);
+        limits::steps_to("dt", t_end, dt, limits::STEPS)?;
+        if restart_dt > dt {
+            let allowed = format!("a number > 0 and at most dt = {dt:?}");
+            return Err(Refusal::written("restart_dt", allowed));
+        }
+        let [elements, degree] = [self.elements.get(), self.degree.get()];
         // Elements of different lengths need more memory.
-        limits::any_order_memory(&field, elements, 1, degree, time_degree)?;
-        Ok(Self {
+        limits::memory_of_dg("elements", elements, 1, degree, self.time_degree.get())?;
+        Ok(Discretisation {
             elements,
             degree,
             stepping: DgStepping {
-                degree: time_degree,
+                degree: self.time_degree.get(),
                 dt,
-                restart_dt: section
-                    .require("restart_dt", &restart)?
-                    .number_where(&restart, |h| h > 0.0 && h <= dt)?,
-                growth: section
-                    .require("growth", growth)?
-                    .number_where(growth, |value| value >= 1.0)?,
+                restart_dt,
+                growth: self.growth.get(),
                 ..DgStepping::default()
             },
         })
     }
 }
 
-/// A list of two tables.
+/// The two discretisations of a list of tables.
 ///
 /// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both
 ///   must have; otherwise the two must differ in elements and degree.
@@ -459,6 +555,18 @@ pub(crate) fn discretisations(
     elements: Option<usize>,
     t_end: f64,
 ) -> Result<[Discretisation; 2], InputError> {
+    let one = |item: &Field<'_>| item.section()?.read();
+    let list = root.list(key, "two tables", one, |_| true)?;
+    two_discretisations(&list, key, elements, t_end).map_err(|refusal| root.locate(refusal))
+}
+
+/// As [`discretisations`], of tables that were read.
+pub(crate) fn two_discretisations(
+    tables: &[DiscretisationTable],
+    key: &str,
+    elements: Option<usize>,
+    t_end: f64,
+) -> Result<[Discretisation; 2], Refusal> {
     let differing = match elements {
         None => "that differ in elements, degree, time_degree and dt".to_owned(),
         Some(n) => format!(
@@ -466,12 +574,14 @@ pub(crate) fn discretisations(
         ),
     };
     let allowed = format!("two tables [[{key}]] {differing}");
-    let one = |item: &Field<'_>| {
-        let section = item.section()?;
-        Discretisation::read(&section, t_end)
+    let mut list = vec![];
+    for (place, table) in tables.iter().enumerate() {
+        let path = format!("{key}[{place}]");
+        list.push(table.discretisation(t_end).map_err(within(&path))?);
+    }
+    let [one, other] = list[..] else {
+        return Err(Refusal::written(key, allowed));
     };
-    let list = root.list(key, &allowed, one, |list| list.len() == 2)?;
-    let (one, other) = (list[0], list[1]);
     let steps = [
         ("time_degree", one.stepping.degree == other.stepping.degree),
         ("dt", one.stepping.dt == other.stepping.dt),
@@ -486,20 +596,21 @@ pub(crate) fn discretisations(
         [space, steps].concat()
     };
     if let Some((same, _)) = same.iter().find(|(_, is_same)| *is_same) {
-        return Err(root.refuse(key, format!("two with the same {same}"), allowed));
+        return Err(Refusal::new(
+            key,
+            format!("two with the same {same}"),
+            allowed,
+        ));
     }
-    match elements.and_then(|n| {
-        [one, other]
-            .into_iter()
-            .find(|how| (how.elements, how.degree) != (n, 1))
-    }) {
+    let is_of_mesh =
+        |how: &Discretisation| elements.is_none_or(|n| (how.elements, how.degree) == (n, 1));
+    match [one, other].into_iter().find(|how| !is_of_mesh(how)) {
         Some(Discretisation {
             elements, degree, ..
-        }) => Err(root.refuse(
-            key,
-            format!("{elements} elements of degree {degree}"),
-            allowed,
-        )),
+        }) => {
+            let found = format!("{elements} elements of degree {degree}");
+            Err(Refusal::new(key, found, allowed))
+        }
         None => Ok([one, other]),
     }
 }

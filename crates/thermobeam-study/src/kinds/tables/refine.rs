@@ -1,13 +1,17 @@
 //! The table `[refine]`: the meshes and time steps of a study.
 
-use convergence_study::{Refinement, internal::study::until_decided};
+use convergence_study::{
+    Refinement,
+    file::{Choices, Counts, Number, Range},
+    internal::study::until_decided,
+};
 
 use crate::kinds::prelude::*;
 use crate::{
     expression::{Expression, Variable},
     kinds::settings::{ActiveTerms, Exercise, Integration, Nodes, axis_in_words},
     scene::{
-        file::{Formula, OfS},
+        file::{Formula, OfS, Schemes, SolverKeys, Solvers},
         limits::{self, Elements},
         tables,
     },
@@ -16,7 +20,7 @@ use convergence_judge::judge::random::SplitMix;
 use thermobeam::{
     mesh::{Mesh, MeshError},
     one_step::Stepping,
-    scheme::Scheme,
+    scheme::{EULER_CRANK_NICOLSON, Scheme},
     solve::Settings,
 };
 
@@ -74,7 +78,7 @@ impl Layout {
     /// Nodes at the images of a map, which is checked on every mesh.
     pub(crate) fn new(
         map: Option<&Formula<OfS>>,
-        elements: &[Elements],
+        elements: &[usize],
         perturbation: Option<Perturbation>,
     ) -> Result<Self, Refusal> {
         let mut layout = Self {
@@ -83,8 +87,8 @@ impl Layout {
         };
         if let Some(map) = map {
             layout.map = Some(map.parse("map", 1.0, 0)?);
-            for elements in elements {
-                tables::mapped("map", layout.mesh(elements.get()))?;
+            for &elements in elements {
+                tables::mapped("map", layout.mesh(elements))?;
             }
         }
         Ok(layout)
@@ -247,174 +251,167 @@ pub(crate) const MAP: Key = Key::new(
 )
 .or("\"s\"");
 
-const LEVELS: Form = Form::OneOf(&[
-    Form::Count(1),
-    Form::List(&Form::Count(1)),
-    Form::Choice(|| vec!["auto"]),
-]);
-
 /// The table `[refine]`.
-pub(crate) const REFINE: Key = Key::new(
-    "refine",
-    Form::Table(&[
-        &[&KEYS, &tables::STEPPING_KEYS],
-        &[&KEYS, &PERTURBED, &tables::STEPPING_KEYS],
-    ]),
-    "the meshes and steps of the runs",
-);
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RefineTable {
+    /// what is refined
+    axis: Choice<Axes>,
+    /// the error of the other axis is removed exactly
+    #[serde(default)]
+    isolate: bool,
+    /// numbers of elements, increasing, or "auto": doubled until it is decided; one number where time
+    /// is refined
+    elements: Counts<Elements>,
+    /// numbers of steps, as elements; one number where space is refined
+    steps: Counts<Count<1, { limits::STEPS }>>,
+    /// all pairs of elements and steps, where the axis is both
+    #[serde(default)]
+    grid: bool,
+    /// final time
+    t_end: Positive,
+    /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
+    map: Option<Formula<OfS>>,
+    /// with "auto": elements times steps of all levels; without it 1e7
+    budget: Option<Positive>,
+    /// part of half an element by which nodes are displaced at random, below 1
+    perturb: Option<Number<BelowOne>>,
+    /// of the displacements; without it 0
+    seed: Option<Count<0>>,
+    /// the one-step scheme
+    #[schemars(extend("default" = EULER_CRANK_NICOLSON.name))]
+    scheme: Option<Choice<Schemes>>,
+    /// how a step is solved; without it by "newton"
+    solver: Option<Choice<Solvers>>,
+    /// the increment at which an iteration ends; without it 1e-10
+    tolerance: Option<Positive>,
+    /// iterations after which a step fails
+    #[schemars(extend("default" = 100))]
+    max_iterations: Option<Count<1>>,
+    /// of the fixed point in each step, in place of tolerance and max_iterations
+    iterations: Option<Count<1>>,
+}
 
-const PERTURBED: [Key; 2] = [
-    Key::new(
-        "perturb",
-        Form::Number,
-        "part of half an element by which nodes are displaced at random, below 1",
-    ),
-    Key::new("seed", Form::Count(0), "of the displacements").or("0"),
-];
+/// What can be refined.
+#[derive(Debug)]
+pub(crate) enum Axes {}
 
-const KEYS: [Key; 8] = [
-    Key::new(
-        "axis",
-        Form::Choice(|| Axis::ALL.map(Axis::name).to_vec()),
-        "what is refined",
-    ),
-    Key::new(
-        "isolate",
-        Form::Boolean,
-        "the error of the other axis is removed exactly",
-    )
-    .or("false"),
-    Key::new(
-        "elements",
-        LEVELS,
-        "numbers of elements, increasing, or `\"auto\"`: doubled until it is decided; one number where time is refined",
-    ),
-    Key::new(
-        "steps",
-        LEVELS,
-        "numbers of steps, as elements; one number where space is refined",
-    ),
-    Key::new(
-        "grid",
-        Form::Boolean,
-        "all pairs of elements and steps, where the axis is both",
-    )
-    .or("false"),
-    Key::new("t_end", Form::Positive, "final time"),
-    MAP,
-    Key::new(
-        "budget",
-        Form::Positive,
-        "with `\"auto\"`: elements times steps of all levels",
-    )
-    .or("1e7"),
-];
+impl Choices for Axes {
+    type Value = Axis;
 
-/// The table `[refine]`.
-pub(crate) fn refine(root: &Section<'_>) -> Result<Refine, InputError> {
-    let section = root
-        .require("refine", "a table with axis, elements, steps and t_end")?
-        .section()?;
-    let axis = section.require("axis", "\"space\", \"time\", \"both\"")?;
-    let axis = axis.choice(&Axis::ALL.map(|axis| (axis.name(), axis)))?;
-    let elements = levels(
-        &section,
-        "elements",
-        axis,
-        axis != Axis::Time,
-        tables::elements,
-    )?;
-    let grid = flag(
-        &section,
-        "grid",
-        axis == Axis::Both,
-        "true only where the axis is \"both\"",
-    )?;
-    let node_steps = "a number of elements times time steps > 0";
-    let refine = Refine {
-        axis,
-        budget: until_decided::budget(&section, &["elements", "steps"], grid, BUDGET, node_steps)?,
-        isolate: flag(
-            &section,
-            "isolate",
-            axis != Axis::Both,
-            "false where the axis is \"both\"",
-        )?,
-        steps: levels(&section, "steps", axis, axis != Axis::Space, |field| {
-            field.count(1..=limits::STEPS)
-        })?,
-        grid,
-        t_end: section.positive("t_end")?,
-        layout: Layout::read(&section, &elements, perturbation(&section)?)?,
-        elements,
-        scheme: tables::scheme(&section)?,
-        settings: tables::settings(&section)?,
-    };
-    if axis == Axis::Both {
-        check_pairs(&section, &refine)?;
+    fn all() -> Vec<(&'static str, Axis)> {
+        Axis::ALL.map(|axis| (axis.name(), axis)).to_vec()
     }
-    Ok(refine)
+}
+
+/// The range of the numbers from 0 that are below 1.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum BelowOne {}
+
+impl Range for BelowOne {
+    const ENDS: &'static [(&'static str, f64)] = &[("minimum", 0.0), ("exclusiveMaximum", 1.0)];
+}
+
+impl RefineTable {
+    /// What is refined, and how.
+    ///
+    /// # Errors
+    /// Values that do not go together.
+    pub(crate) fn refine(&self) -> Result<Refine, Refusal> {
+        let axis = self.axis.value;
+        let elements = levels("elements", &self.elements, axis, axis != Axis::Time)?;
+        let steps = levels("steps", &self.steps, axis, axis != Axis::Space)?;
+        if self.grid && axis != Axis::Both {
+            return Err(Refusal::written(
+                "grid",
+                "true only where the axis is \"both\"",
+            ));
+        }
+        if self.isolate && axis == Axis::Both {
+            return Err(Refusal::written(
+                "isolate",
+                "false where the axis is \"both\"",
+            ));
+        }
+        let autos = [
+            ("elements", self.elements == Counts::Auto),
+            ("steps", self.steps == Counts::Auto),
+        ];
+        let refined = match axis {
+            Axis::Space => &autos[..1],
+            Axis::Time => &autos[1..],
+            Axis::Both => &autos[..],
+        };
+        let perturbation = match (self.perturb, self.seed) {
+            (None, Some(_)) => {
+                let more = " without perturb";
+                return Err(Refusal::written_and("seed", more, "perturb beside it"));
+            }
+            (perturb, seed) => perturb.map(|amount| Perturbation {
+                amount: amount.get(),
+                seed: seed.map_or(0, Count::get) as u64,
+            }),
+        };
+        let keys = SolverKeys {
+            solver: self.solver,
+            tolerance: self.tolerance,
+            max_iterations: self.max_iterations,
+            iterations: self.iterations,
+        };
+        let refine = Refine {
+            axis,
+            budget: until_decided::budget_of(refined, self.grid, self.budget, BUDGET)?,
+            isolate: self.isolate,
+            grid: self.grid,
+            t_end: self.t_end.get(),
+            layout: Layout::new(self.map.as_ref(), &elements, perturbation)?,
+            elements,
+            steps,
+            scheme: self
+                .scheme
+                .map_or(EULER_CRANK_NICOLSON, |scheme| scheme.value),
+            settings: keys.over(Settings::default())?,
+        };
+        check_pairs(&refine)?;
+        Ok(refine)
+    }
 }
 
 /// Refuses lists of both axes that make too many runs, or no pairs.
-fn check_pairs(section: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
+fn check_pairs(refine: &Refine) -> Result<(), Refusal> {
     let [elements, steps] = [refine.elements.len(), refine.steps.len()];
     if refine.grid {
-        limits::cases(&section.require("elements", "a list")?, &[elements, steps])
-    } else if elements != steps {
+        limits::case_count("elements", &[elements, steps])
+    } else if refine.axis == Axis::Both && elements != steps {
         let found = format!("{steps} numbers of steps for {elements} of elements");
         let allowed = "lists of the same length, or grid = true for all combinations";
-        Err(section.refuse("steps", found, allowed))
+        Err(Refusal::new("steps", found, allowed))
     } else {
         Ok(())
     }
 }
 
-/// A key that may be true only if `possible`.
-fn flag(
-    section: &Section<'_>,
-    key: &str,
-    possible: bool,
-    allowed: &str,
-) -> Result<bool, InputError> {
-    let Some(field) = section.get(key) else {
-        return Ok(false);
-    };
-    let value = field.boolean()?;
-    if value && !possible {
-        Err(field.refuse_as_written(allowed))
-    } else {
-        Ok(value)
-    }
-}
-
 /// An increasing list if the key is refined, otherwise one number.
-fn levels(
-    section: &Section<'_>,
+fn levels<T: Copy + Into<usize>>(
     key: &str,
+    counts: &Counts<T>,
     axis: Axis,
-    refined: bool,
-    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
-) -> Result<Vec<usize>, InputError> {
-    let what = if refined {
-        "a list of increasing whole numbers >= 1, or \"auto\""
-    } else {
-        "a single whole number >= 1"
-    };
-    let allowed = format!("{what}, because axis = \"{}\"", axis.name());
-    let field = section.require(key, &allowed)?;
-    if refined && until_decided::is_auto(&field) {
-        return Ok(until_decided::FIRST.into());
+    is_refined: bool,
+) -> Result<Vec<usize>, Refusal> {
+    match counts {
+        Counts::Auto if is_refined => Ok(until_decided::FIRST.into()),
+        Counts::List(list) if is_refined => Ok(list.iter().map(|&level| level.into()).collect()),
+        &Counts::One(level) if !is_refined => Ok(vec![level.into()]),
+        _ => {
+            let what = if is_refined {
+                "a list of increasing whole numbers >= 1, or \"auto\""
+            } else {
+                "a single whole number >= 1"
+            };
+            let allowed = format!("{what}, because axis = \"{}\"", axis.name());
+            Err(Refusal::written(key, allowed))
+        }
     }
-    if !refined {
-        let single = if field.is_list() {
-            Err(field.refuse_as_written(allowed))
-        } else {
-            read(&field)
-        };
-        return Ok(vec![single?]);
-    }
-    increasing(section, key, &allowed, 1, read)
 }
 
 /// A list of at least `least` increasing levels.
@@ -431,32 +428,4 @@ pub(crate) fn increasing(
         read,
         (relation, |before, level| level > before),
     )
-}
-
-/// A list of at least two levels, each a multiple of its predecessor.
-pub(crate) fn nested(
-    section: &Section<'_>,
-    key: &str,
-    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
-) -> Result<Vec<usize>, InputError> {
-    let allowed = "a list of at least two whole numbers, each a multiple of the one before";
-    section.multiples(key, allowed, read)
-}
-
-fn perturbation(section: &Section<'_>) -> Result<Option<Perturbation>, InputError> {
-    let (seed, perturb) = (section.get("seed"), section.get("perturb"));
-    if let (Some(seed), None) = (&seed, &perturb) {
-        return Err(seed.refuse(
-            format!("{} without perturb", seed.as_written()),
-            "perturb beside it",
-        ));
-    }
-    let Some(field) = perturb else {
-        return Ok(None);
-    };
-    let amount = field.number_where("a number >= 0 and < 1", |amount| {
-        (0.0..1.0).contains(&amount)
-    })?;
-    let seed = seed.map_or(Ok(0), |seed| seed.count(0..=usize::MAX))? as u64;
-    Ok(Some(Perturbation { amount, seed }))
 }

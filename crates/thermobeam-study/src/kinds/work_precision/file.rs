@@ -2,7 +2,10 @@
 
 use std::sync::OnceLock;
 
-use convergence_study::Tier;
+use convergence_study::{
+    Tier,
+    file::{Choices, Finite},
+};
 
 use super::{
     ROW, Target, WorkPrecision,
@@ -13,109 +16,117 @@ use crate::{
     error::{ErrorMeasure, free_vibration},
     kinds::orders::{Orders, manufactured::Convergence},
     run::family::Family,
-    scene::Scene,
+    scene::{
+        Scene,
+        file::{Degree, TimeDegree},
+    },
 };
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
-/// The keys of the problem, which is a solution, a scene or a vibration.
-const PROBLEM: &[Keys] = &[
-    &[&[OBSERVATIONS, SOLUTION]],
-    &[&[OBSERVATIONS, SCENE, T_END]],
-    &[&[OBSERVATIONS, T_END], &FREE],
-];
-const OBSERVATIONS: Key = Key::new(
-    "observations",
-    Form::Count(1),
-    "times at which errors are measured",
-);
-const SOLUTION: Key = Key::new(
-    "solution",
-    Form::Text,
-    "a study file of kind orders/manufactured: its exact solution",
-);
-const SCENE: Key = Key::new(
-    "scene",
-    Form::Text,
-    "a scene file; errors are distances to the reference",
-);
-const T_END: Key = Key::new("t_end", Form::Positive, "final time");
-const FREE: [Key; 2] = [
-    Key::new(
-        "vibration",
-        Form::List(&Form::Count(0)),
-        "modes from 0, each released from a tip displacement of 0.1",
-    ),
-    Key::new("zeta", Form::Positive, "the viscosity ζ"),
-];
-const KEYS: [Key; 4] = [
-    Key::new("work-precision", Form::Table(PROBLEM), "the problem"),
-    Key::new(
-        "reference",
-        Form::List(&Form::Table(&[&[&REFERENCE]])),
-        "two different runs by dG, for a scene",
-    )
-    .or("none"),
-    Key::new(
-        "runs",
-        Form::List(&Form::Table(&[&[&BY_DG], &[&ONE_STEP]])),
-        "the runs of each method",
-    ),
-    Key::new(
-        "target",
-        Form::List(&Form::Table(&[&[&TARGET]])),
-        "an error, and the ratios of work claimed there",
-    ),
-];
-const NODES: Key = Key::new(
-    "nodes",
-    Form::List(&Form::Number),
-    "the nodes, increasing from 0 to 1",
-);
-const REFERENCE: [Key; 2] = [NODES, Key::new("runs", Form::List(&Form::Number), DEGREES)];
-const PAIRS: Form = Form::List(&Form::List(&Form::Number));
-const BY_DG: [Key; 3] = [
-    Key::new("method", Form::Choice(|| named(false)), "dG"),
-    NODES,
-    Key::new(
-        "runs",
-        PAIRS,
-        "a list of [degree p, degree q, largest step]",
-    ),
-];
-const ONE_STEP: [Key; 3] = [
-    Key::new("method", Form::Choice(|| named(true)), "a one-step method"),
-    Key::new("grading", Form::Positive, "the nodes are s^grading").or("1"),
-    Key::new(
-        "runs",
-        PAIRS,
-        "a list of [elements, steps], steps multiples of observations",
-    ),
-];
-const TARGET: [Key; 4] = [
-    Key::new(
-        "norm",
-        Form::Choice(|| ErrorMeasure::ALL.map(ErrorMeasure::name).to_vec()),
-        "how the error is measured",
-    ),
-    Key::new("error", Form::Positive, "the error"),
-    Key::new(
-        "methods",
-        Form::List(&Form::Choice(|| METHODS.map(|method| method.name).to_vec())),
-        "at least two, the dearest first",
-    ),
-    Key::new(
-        "times",
-        Form::List(&Form::Positive),
-        "how many times dearer each is than the next",
-    ),
-];
+/// A study of work against errors, as it is written.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WorkPrecisionFile {
+    /// the problem: a solution, a scene or a vibration
+    #[serde(rename = "work-precision")]
+    problem: ProblemTable,
+    /// two different runs by dG, for a scene
+    reference: Option<Vec<ReferenceTable>>,
+    /// the runs of each method, at least one table
+    #[serde(default)]
+    runs: Vec<RunsTable>,
+    /// an error, and the ratios of work claimed there, at least one table
+    #[serde(default)]
+    target: Vec<TargetTable>,
+}
 
-/// The names of the one-step methods, or of the others.
-fn named(one_step: bool) -> Vec<&'static str> {
-    let methods = METHODS
-        .iter()
-        .filter(|method| method.one_step.is_some() == one_step);
-    methods.map(|method| method.name).collect()
+/// The table `[work-precision]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ProblemTable {
+    /// times at which errors are measured
+    observations: Count<1, 10_000>,
+    /// a study file of kind orders/manufactured: its exact solution
+    solution: Option<String>,
+    /// a scene file; errors are distances to the reference
+    scene: Option<String>,
+    /// modes from 0, each released from a tip displacement of 0.1
+    vibration: Option<Vec<Count<0, 1000>>>,
+    /// of a vibration: the viscosity ζ
+    zeta: Option<Positive>,
+    /// of a scene or a vibration: final time
+    t_end: Option<Positive>,
+}
+
+/// A run by dG: [degree p, degree q, largest step].
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[schemars(extend("title" = DEGREES))]
+struct DgRun(Degree, TimeDegree, Positive);
+
+/// A table `[[reference]]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ReferenceTable {
+    /// the nodes, increasing from 0 to 1
+    nodes: Vec<Finite>,
+    /// degree p, degree q, largest step
+    runs: DgRun,
+}
+
+/// A table `[[runs]]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct RunsTable {
+    /// the method
+    method: Choice<Methods>,
+    /// of dG: the nodes, increasing from 0 to 1
+    nodes: Option<Vec<Finite>>,
+    /// of a one-step method: the nodes are s^grading; without it 1
+    grading: Option<Positive>,
+    /// a list of [degree p, degree q, largest step] of dG, or of [elements, steps] of a one-step
+    /// method, steps multiples of observations
+    runs: Vec<Vec<Finite>>,
+}
+
+/// A table `[[target]]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TargetTable {
+    /// how the error is measured
+    norm: Choice<Measures>,
+    /// the error
+    error: Positive,
+    /// at least two, the dearest first
+    methods: Vec<Choice<Methods>>,
+    /// how many times dearer each is than the next
+    #[serde(default)]
+    times: Vec<Positive>,
+}
+
+/// The methods.
+#[derive(Debug)]
+enum Methods {}
+
+impl Choices for Methods {
+    type Value = NamedMethod;
+
+    fn all() -> Vec<(&'static str, NamedMethod)> {
+        METHODS.map(|method| (method.name, method)).to_vec()
+    }
+}
+
+/// The measures of errors.
+#[derive(Debug)]
+enum Measures {}
+
+impl Choices for Measures {
+    type Value = ErrorMeasure;
+
+    fn all() -> Vec<(&'static str, ErrorMeasure)> {
+        ErrorMeasure::ALL
+            .map(|measure| (measure.name(), measure))
+            .to_vec()
+    }
 }
 
 const DEGREES: &str = "[degree p, degree q, largest step]";
@@ -124,228 +135,292 @@ const QUICK: usize = 1_000_000;
 const FULL: usize = 10_000_000;
 
 impl FromFile for WorkPrecision {
-    const KEYS: &'static [Keys] = &[&[&KEYS]];
+    const KEYS: &'static [Keys] = &[];
 
     fn from_document(
         header: &Header,
         root: &Section<'_>,
         folder: &Path,
     ) -> Result<Self, InputError> {
-        let section = root
-            .require(ROW.name, "a table with observations and the problem")?
-            .section()?;
-        let observations = section
-            .require("observations", "a number of times")?
-            .count(1..=10_000)?;
-        let family = problem(&section, folder)?;
         let most = if header.tier == Tier::Quick {
             QUICK
         } else {
             FULL
         };
-        let trials = root.list(
-            "runs",
-            "at least one table [[runs]]",
-            |item| trials(&item.section()?, observations, most),
-            |list| !list.is_empty(),
-        )?;
-        Ok(Self {
-            reference: reference(root, family.exact().is_none())?,
-            family,
-            observations,
-            computed: OnceLock::new(),
-            trials: trials.concat(),
-            targets: root.list(
-                "target",
-                "at least one table [[target]]",
-                |item| target(&item.section()?),
-                |list| !list.is_empty(),
-            )?,
-        })
+        described(root, |file: WorkPrecisionFile| file.study(folder, most))
     }
 }
 
-/// The runs of one table.
-fn trials(
-    section: &Section<'_>,
-    observations: usize,
-    most: usize,
-) -> Result<Vec<Trial>, InputError> {
-    let methods = METHODS.map(|method| (method.name, method));
-    let method = section
-        .require("method", "the name of a method")?
-        .choice(&methods)?;
-    let resolutions = if method.one_step.is_some() {
-        grids(section, observations, most)?
-    } else {
-        let nodes = nodes(section)?;
-        let run = |item: &Field<'_>| dg(item, &nodes);
-        let allowed = format!("a list of {DEGREES}");
-        section.list("runs", &allowed, run, |list| !list.is_empty())?
-    };
-    let trial = |resolution| Trial { method, resolution };
-    Ok(resolutions.into_iter().map(trial).collect())
+impl WorkPrecisionFile {
+    /// * `most`: element-steps of a run.
+    fn study(&self, folder: &Path, most: usize) -> Result<WorkPrecision, Refusal> {
+        let observations = self.problem.observations.get();
+        let family = self.problem.family(folder).map_err(within(ROW.name))?;
+        let mut trials = vec![];
+        for (place, table) in self.runs.iter().enumerate() {
+            let path = format!("runs[{place}]");
+            trials.extend(table.trials(observations, most).map_err(within(&path))?);
+        }
+        let mut targets = vec![];
+        for (place, table) in self.target.iter().enumerate() {
+            targets.push(
+                table
+                    .target()
+                    .map_err(within(&format!("target[{place}]")))?,
+            );
+        }
+        let reference = self.reference(family.exact().is_none())?;
+        for (table, is_empty) in [("runs", trials.is_empty()), ("target", targets.is_empty())] {
+            if is_empty {
+                return Err(Refusal::written(
+                    table,
+                    format!("at least one table [[{table}]]"),
+                ));
+            }
+        }
+        Ok(WorkPrecision {
+            reference,
+            family,
+            observations,
+            computed: OnceLock::new(),
+            trials,
+            targets,
+        })
+    }
+
+    /// Two runs by dG for a scene; none where there is an exact solution.
+    fn reference(&self, is_needed: bool) -> Result<Option<[Trial; 2]>, Refusal> {
+        let tables = match (&self.reference, is_needed) {
+            (None, false) => return Ok(None),
+            (Some(_), false) => {
+                let found = "reference without scene";
+                return Err(Refusal::new("reference", found, "reference beside scene"));
+            }
+            (tables, true) => tables.as_deref().unwrap_or_default(),
+        };
+        let method = METHODS[METHODS.len() - 1];
+        let mut trials = vec![];
+        for (place, table) in tables.iter().enumerate() {
+            let path = format!("reference[{place}].nodes");
+            let resolution = table.runs.resolution(&nodes(&path, &table.nodes)?);
+            trials.push(Trial { method, resolution });
+        }
+        match <[Trial; 2]>::try_from(trials) {
+            Ok([one, other]) if one != other => Ok(Some([one, other])),
+            _ => Err(Refusal::written(
+                "reference",
+                "two different tables [[reference]]",
+            )),
+        }
+    }
 }
 
-fn grids(
-    section: &Section<'_>,
-    observations: usize,
-    most: usize,
-) -> Result<Vec<Resolution>, InputError> {
-    let grading = section
-        .get("grading")
-        .map_or(Ok(1.0), |field| field.positive())?;
-    let allowed = format!("a list of [elements, steps], steps multiples of {observations}");
-    let run = |item: &Field<'_>| {
-        let [elements, steps] = item
-            .items(&allowed)?
-            .try_into()
-            .map_err(|_| item.refuse_as_written(&allowed))?;
-        let elements = elements.count(1..=most)?;
-        let steps = steps.count(1..=most)?;
-        if !steps.is_multiple_of(observations) {
-            return Err(item.refuse_as_written(&allowed));
+impl RunsTable {
+    /// The runs of the table.
+    fn trials(&self, observations: usize, most: usize) -> Result<Vec<Trial>, Refusal> {
+        let method = self.method.value;
+        let is_one_step = method.one_step.is_some();
+        let foreign = [
+            ("nodes", self.nodes.is_some() && is_one_step),
+            ("grading", self.grading.is_some() && !is_one_step),
+        ];
+        if let Some((key, _)) = foreign.iter().find(|(_, is_there)| *is_there) {
+            let found = format!("{key} of the method \"{}\"", method.name);
+            let allowed = "nodes for dG, grading for a one-step method";
+            return Err(Refusal::new(*key, found, allowed));
         }
-        if elements * steps > most {
+        let nodes = match &self.nodes {
+            Some(list) => nodes("nodes", list)?,
+            None if is_one_step => vec![],
+            None => return Err(Refusal::missing("nodes", NODES)),
+        };
+        let mut trials = vec![];
+        for (place, run) in self.runs.iter().enumerate() {
+            let path = format!("runs[{place}]");
+            let numbers: Vec<f64> = run.iter().map(|number| number.get()).collect();
+            let resolution = if is_one_step {
+                self.grid(&path, &numbers, observations, most)?
+            } else {
+                by_dg(&path, &numbers, &nodes)?
+            };
+            trials.push(Trial { method, resolution });
+        }
+        if trials.is_empty() {
+            return Err(Refusal::written("runs", "a list of at least one run"));
+        }
+        Ok(trials)
+    }
+
+    /// A run by a one-step method: elements and steps.
+    fn grid(
+        &self,
+        path: &str,
+        numbers: &[f64],
+        observations: usize,
+        most: usize,
+    ) -> Result<Resolution, Refusal> {
+        let counts: Vec<usize> = numbers.iter().filter_map(|&number| count(number)).collect();
+        let is_run = |steps: &usize| steps.is_multiple_of(observations) && !counts.contains(&0);
+        let (2, &[elements, steps]) = (numbers.len(), &counts[..]) else {
+            return Err(Refusal::written(path, pairs(observations)));
+        };
+        if !is_run(&steps) {
+            return Err(Refusal::written(path, pairs(observations)));
+        }
+        let all = elements.saturating_mul(steps);
+        if all > most {
             let limit = format!("at most {most} element-steps in this tier");
-            return Err(item.refuse(format!("{} element-steps", elements * steps), limit));
+            return Err(Refusal::written_and(
+                path,
+                format!(", {all} element-steps"),
+                limit,
+            ));
         }
         Ok(Resolution::OneStep(UniformGrid {
-            grading,
+            grading: self.grading.map_or(1.0, Positive::get),
             elements,
             steps,
         }))
-    };
-    section.list("runs", &allowed, run, |list| !list.is_empty())
+    }
 }
 
-fn nodes(section: &Section<'_>) -> Result<Vec<f64>, InputError> {
-    let allowed = "an increasing list of numbers from 0 to 1";
-    section.list(
-        "nodes",
-        allowed,
-        |item| item.number(),
-        |list: &[f64]| increases(list) && list.first() == Some(&0.0) && list.last() == Some(&1.0),
-    )
+/// What a run by a one-step method is.
+fn pairs(observations: usize) -> String {
+    format!("[elements, steps], steps multiples of {observations}")
 }
 
 /// A run by dG.
-fn dg(item: &Field<'_>, nodes: &[f64]) -> Result<Resolution, InputError> {
-    let [p, q, dt] = item
-        .items(DEGREES)?
-        .try_into()
-        .map_err(|_| item.refuse_as_written(DEGREES))?;
-    let degrees = Degrees {
-        p: p.count(1..=MAX_DEGREE)?,
-        q: q.count(0..=MAX_TIME_DEGREE)?,
-        dt: dt.positive()?,
+fn by_dg(path: &str, numbers: &[f64], nodes: &[f64]) -> Result<Resolution, Refusal> {
+    let &[p, q, dt] = numbers else {
+        return Err(Refusal::written(path, DEGREES));
     };
+    let refused = |at: usize, allowed: &str| Refusal::written(format!("{path}[{at}]"), allowed);
+    let degree = |at: usize, degree: f64, range: std::ops::RangeInclusive<usize>| {
+        let allowed = format!("a degree from {} to {}", range.start(), range.end());
+        let degree = count(degree).filter(|degree| range.contains(degree));
+        degree.ok_or_else(|| refused(at, &allowed))
+    };
+    let degrees = Degrees {
+        p: degree(0, p, 1..=MAX_DEGREE)?,
+        q: degree(1, q, 0..=MAX_TIME_DEGREE)?,
+        dt,
+    };
+    if dt <= 0.0 {
+        return Err(refused(2, "a step > 0"));
+    }
     Ok(Resolution::Dg {
         nodes: nodes.to_vec(),
         degrees,
     })
 }
 
-/// Two runs by dG for a scene; none where there is an exact solution.
-fn reference(root: &Section<'_>, is_needed: bool) -> Result<Option<[Trial; 2]>, InputError> {
-    if !is_needed {
-        return match root.get("reference") {
-            Some(field) => Err(field.refuse("reference without scene", "reference beside scene")),
-            None => Ok(None),
-        };
-    }
-    let dg_row = METHODS[METHODS.len() - 1];
-    let run = |item: &Field<'_>| {
-        let section = item.section()?;
-        let resolution = dg(&section.require("runs", DEGREES)?, &nodes(&section)?)?;
-        Ok(Trial {
-            method: dg_row,
-            resolution,
-        })
-    };
-    let allowed = "two different tables [[reference]]";
-    let differ = |list: &[Trial]| list.len() == 2 && list[0] != list[1];
-    let two = root.list("reference", allowed, run, differ)?;
-    Ok(two.try_into().ok())
+/// A whole number of the size of a count.
+fn count(number: f64) -> Option<usize> {
+    let is_count = number.fract() == 0.0 && (0.0..=1e15).contains(&number);
+    is_count.then_some(number as usize)
 }
 
-/// The problem.
-fn problem(section: &Section<'_>, folder: &Path) -> Result<Family, InputError> {
-    if let (Some(field), None) = (section.get("zeta"), section.get("vibration")) {
-        return Err(field.refuse("zeta without vibration", "zeta beside vibration"));
+const NODES: &str = "an increasing list of numbers from 0 to 1";
+
+fn nodes(path: &str, nodes: &[Finite]) -> Result<Vec<f64>, Refusal> {
+    let nodes: Vec<f64> = nodes.iter().map(|node| node.get()).collect();
+    if increases(&nodes) && nodes.first() == Some(&0.0) && nodes.last() == Some(&1.0) {
+        return Ok(nodes);
     }
-    match (
-        section.get("solution"),
-        section.get("scene"),
-        section.get("vibration"),
-    ) {
-        (Some(file), None, None) => {
-            if let Some(field) = section.get("t_end") {
-                return Err(field.refuse(
-                    "t_end beside solution",
-                    "no t_end: it is that of the solution",
-                ));
-            }
-            let Orders(Convergence {
-                exact,
-                theory,
-                refine,
-                ..
-            }) = Orders::read(file.file(folder)?)?;
-            Ok(Family::of_solution(
-                exact,
-                theory.beam,
-                theory.obstacles,
-                refine.t_end,
-            ))
+    Err(Refusal::written(path, NODES))
+}
+
+impl DgRun {
+    fn resolution(self, nodes: &[f64]) -> Resolution {
+        let Self(p, q, dt) = self;
+        Resolution::Dg {
+            nodes: nodes.to_vec(),
+            degrees: Degrees {
+                p: p.get(),
+                q: q.get(),
+                dt: dt.get(),
+            },
         }
-        (None, Some(file), None) => Ok(Family::of_scene(&Scene {
-            t_end: section.positive("t_end")?,
-            ..Scene::read(file.file(folder)?)?
-        })),
-        (None, None, Some(_)) => vibration(section),
-        _ => Err(section.missing("solution", "exactly one of solution, scene and vibration")),
     }
 }
 
-/// The lowest modes, each released from a tip displacement of 0.1.
-fn vibration(section: &Section<'_>) -> Result<Family, InputError> {
-    const AMPLITUDE: f64 = 0.1;
-    let allowed = "a list of at least one mode, numbered from 0";
-    let mode = |item: &Field<'_>| Ok((item.count(0..=1000)?, AMPLITUDE));
-    let modes = section.list("vibration", allowed, mode, |modes| !modes.is_empty())?;
-    let zeta = section.positive("zeta")?;
-    let t_end = section.positive("t_end")?;
-    let exact = free_vibration::vibration(&modes, zeta);
-    let exact = exact.map_err(|error| section.refuse("zeta", error.to_string(), "a viscosity"))?;
-    Ok(Family::of_free_solution(
-        exact,
-        free_vibration::beam(zeta),
-        t_end,
-    ))
+impl ProblemTable {
+    /// The problem.
+    fn family(&self, folder: &Path) -> Result<Family, Refusal> {
+        if self.zeta.is_some() && self.vibration.is_none() {
+            let found = "zeta without vibration";
+            return Err(Refusal::new("zeta", found, "zeta beside vibration"));
+        }
+        let t_end = || {
+            let t_end = self.t_end.map(Positive::get);
+            t_end.ok_or_else(|| Refusal::missing("t_end", "a finite number > 0: final time"))
+        };
+        match (&self.solution, &self.scene, &self.vibration) {
+            (Some(name), None, None) => {
+                if self.t_end.is_some() {
+                    let allowed = "no t_end: it is that of the solution";
+                    return Err(Refusal::new("t_end", "t_end beside solution", allowed));
+                }
+                let file = named_file("solution", name, folder)?;
+                let Orders(Convergence {
+                    exact,
+                    theory,
+                    refine,
+                    ..
+                }) = Orders::read(file)?;
+                let (beam, obstacles) = (theory.beam, theory.obstacles);
+                Ok(Family::of_solution(exact, beam, obstacles, refine.t_end))
+            }
+            (None, Some(name), None) => Ok(Family::of_scene(&Scene {
+                t_end: t_end()?,
+                ..Scene::read(named_file("scene", name, folder)?)?
+            })),
+            (None, None, Some(modes)) => self.vibration(modes, t_end()?),
+            _ => {
+                let allowed = "exactly one of solution, scene and vibration";
+                Err(Refusal::missing("solution", allowed))
+            }
+        }
+    }
+
+    /// The modes, each released from a tip displacement of 0.1.
+    fn vibration(&self, modes: &[Count<0, 1000>], t_end: f64) -> Result<Family, Refusal> {
+        const AMPLITUDE: f64 = 0.1;
+        if modes.is_empty() {
+            let allowed = "a list of at least one mode, numbered from 0";
+            return Err(Refusal::written("vibration", allowed));
+        }
+        let modes: Vec<_> = modes.iter().map(|mode| (mode.get(), AMPLITUDE)).collect();
+        let zeta = self.zeta.map(Positive::get);
+        let zeta =
+            zeta.ok_or_else(|| Refusal::missing("zeta", "a finite number > 0: the viscosity"))?;
+        let exact = free_vibration::vibration(&modes, zeta)
+            .map_err(|error| Refusal::new("zeta", error.to_string(), "a viscosity"))?;
+        Ok(Family::of_free_solution(
+            exact,
+            free_vibration::beam(zeta),
+            t_end,
+        ))
+    }
 }
 
-fn target(section: &Section<'_>) -> Result<Target, InputError> {
-    let measures = ErrorMeasure::ALL.map(|measure| (measure.name(), measure));
-    let methods = METHODS.map(|method| (method.name, method));
-    let once = |list: &[NamedMethod]| {
-        list.len() > 1 && (1..list.len()).all(|k| !list[..k].contains(&list[k]))
-    };
-    let methods = section.list(
-        "methods",
-        "at least two different methods, the dearest first",
-        |item| item.choice(&methods),
-        once,
-    )?;
-    let fits = |list: &[f64]| list.len() + 1 == methods.len();
-    let allowed =
-        "a number for each method but the last: how many times dearer it is than the next";
-    Ok(Target {
-        measure: section
-            .require("norm", "the name of a norm")?
-            .choice(&measures)?,
-        error: section.positive("error")?,
-        times: section.list("times", allowed, |item| item.positive(), fits)?,
-        methods,
-    })
+impl TargetTable {
+    fn target(&self) -> Result<Target, Refusal> {
+        let methods: Vec<NamedMethod> = self.methods.iter().map(|method| method.value).collect();
+        if methods.len() < 2 || (1..methods.len()).any(|k| methods[..k].contains(&methods[k])) {
+            let allowed = "at least two different methods, the dearest first";
+            return Err(Refusal::written("methods", allowed));
+        }
+        if self.times.len() + 1 != methods.len() {
+            let allowed =
+                "a number for each method but the last: how many times dearer it is than the next";
+            return Err(Refusal::written("times", allowed));
+        }
+        Ok(Target {
+            measure: self.norm.value,
+            error: self.error.get(),
+            times: self.times.iter().map(|times| times.get()).collect(),
+            methods,
+        })
+    }
 }

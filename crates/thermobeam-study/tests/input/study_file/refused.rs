@@ -27,7 +27,7 @@ fn a_wrong_header_is_named() {
         ),
         (
             "[study]\nid = 3",
-            &["2:6: study.id: found 3; expected a text"],
+            &["2:6: study.id: found 3; expected 1 to 100 lowercase"],
         ),
         (
             "[study]\nid = \"a\"",
@@ -39,7 +39,7 @@ fn a_wrong_header_is_named() {
         ),
         (
             "[study]\nid = \"a\"\nclaim = \"b\"",
-            &["study.tier: missing; expected \"quick\" or \"full\""],
+            &["study.tier: missing; expected \"quick\", \"full\""],
         ),
         (
             "[study]\nid = \"a\"\nclaim = \"b\"\ntier = \"fast\"",
@@ -64,26 +64,26 @@ fn a_wrong_header_is_named() {
 fn a_missing_table_or_an_unknown_one_is_named() {
     says(
         &refusal(&[STUDY, EXACT, EXPECT]),
-        &["s.toml:1:1: refine: missing; expected a table with axis"],
+        &["s.toml:1:1: refine: missing; expected a table: the meshes and steps"],
     );
     says(
         &refusal(&[STUDY, REFINE, EXPECT]),
-        &["1:1: exact: missing; expected a table with at least one of u, phi"],
+        &["1:1: exact: missing; expected a table: the exact solution"],
     );
     says(
         &refusal(&[STUDY, EXACT, REFINE]),
-        &["1:1: expect: missing; expected at least one table [[expect]]"],
+        &["1:1: expect: missing; expected a list of tables: the orders claimed"],
     );
     says(
         &refusal(&[STUDY, "[expects]\n"]),
         &["5:2: expects: unknown key `expects`, did you mean `expect`?"],
     );
     says(
-        &refusal(&[STUDY, "[beam]\nzeta = -1\n"]),
+        &refusal(&[STUDY, "[beam]\nzeta = -1\n", EXACT, REFINE, EXPECT]),
         &["6:8: beam.zeta: found -1"],
     );
     says(
-        &refusal(&[STUDY, "[obstacles]\ng2 = -1\n"]),
+        &refusal(&[STUDY, "[obstacles]\ng2 = -1\n", EXACT, REFINE, EXPECT]),
         &["6:6: obstacles.g2: found -1"],
     );
 }
@@ -181,7 +181,7 @@ fn a_refinement_that_breaks_a_rule_is_named() {
         ),
         (
             "axis = \"space\"\nsteps = 2",
-            &["refine.elements: missing; expected a list of increasing whole numbers"],
+            &["refine.elements: missing; expected a whole number >= 1"],
         ),
         (
             "axis = \"space\"\nelements = 4\nsteps = 2",
@@ -192,15 +192,18 @@ fn a_refinement_that_breaks_a_rule_is_named() {
         ),
         (
             "axis = \"space\"\nelements = []\nsteps = 2",
-            &["refine.elements: found the list []; expected a list"],
+            &[
+                "refine.elements: found the list []; expected a whole number",
+                "a list of at least 1",
+            ],
         ),
         (
             "axis = \"space\"\nelements = [4, 4]\nsteps = 2",
-            &["refine.elements[1]: found 4; expected a whole number > 4"],
+            &["refine.elements[1]: found 4; expected a number > 4, the level before"],
         ),
         (
             "axis = \"space\"\nelements = [8, 4]\nsteps = 2",
-            &["refine.elements[1]: found 4; expected a whole number > 8"],
+            &["refine.elements[1]: found 4; expected a number > 8, the level before"],
         ),
         (
             "axis = \"space\"\nelements = [0, 4]\nsteps = 2",
@@ -251,7 +254,7 @@ fn a_refinement_that_breaks_a_rule_is_named() {
         ),
         (
             "perturb = 1",
-            &["refine.perturb: found 1; expected a number >= 0 and < 1"],
+            &["refine.perturb: found 1; expected a finite number >= 0 and < 1"],
         ),
         (
             "seed = 1",
@@ -348,7 +351,7 @@ fn an_expectation_that_breaks_a_rule_is_named() {
         ),
         (
             "expect = 1\n",
-            &["1:10: expect: found 1; expected at least one table [[expect]]"],
+            &["1:10: expect: found 1; expected a list of tables"],
         ),
         (
             "expect = [{}]\n",
@@ -364,7 +367,7 @@ fn an_expectation_that_breaks_a_rule_is_named() {
         ),
         (
             "expect = [{ norm = \"shear\", order = 0 }]\n",
-            &["expect[0].order: found 0; expected a finite number > 0"],
+            &["expect[0].order: found 0; expected a number > 0"],
         ),
         (
             "expect = [{ norm = \"shear\", order = 1, tolerance = 0 }]\n",

@@ -38,17 +38,21 @@ use crate::{
     exact::{any_order::ErrorMeter, defect::Defect, solution::Manufactured},
     kinds::{
         settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration, MANUFACTURED},
-        tables::{EXACT, Layout, control, manufactured, mean_width},
+        tables::{ControlTable, ExactTable, Layout, controlled, mean_width},
     },
     run::{dg::DgMotion, run_to},
-    scene::{Coefficients, limits, tables},
+    scene::{
+        Coefficients,
+        file::{BeamTable, ObstacleTable},
+        limits,
+    },
 };
 use convergence_study::{
     Floor, Refinement,
     internal::study::over_levels::{ErrorColumn, Levels},
 };
 pub use runs::AnyOrderRun;
-use runs::{Over, RUN, RUNS, RunsOfDegree, series};
+use runs::{Over, RunTable, RunsOfDegree, SeriesTable};
 
 /// Points inside a step at which errors are measured: not the Gauss or Radau points, where errors
 /// are smaller.
@@ -94,25 +98,95 @@ pub struct AnyOrder {
     series: Vec<RunsOfDegree>,
 }
 
-const LOADED: [Key; 3] = [tables::BEAM, tables::OBSTACLES, EXACT];
-const FREE: [Key; 1] = [Key::new(
-    "vibration",
-    Form::Table(&[&[&[
-        Key::new("zeta", Form::Positive, "the viscosity ζ"),
-        Key::new(
-            "modes",
-            Form::List(&Form::Count(1)),
-            "the modes, each released from a tip displacement of 0.1",
-        ),
-    ]]]),
-    "a free vibration in place of an exact solution with loads",
-)];
+/// A study of orders as it is written: an exact solution with loads, or a free vibration.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct AnyOrderFile {
+    /// the coefficients of the equations (1.1), beside exact
+    beam: Option<BeamTable>,
+    /// the obstacles at the free end, (1.3), beside exact; without the table there are none
+    obstacles: Option<ObstacleTable>,
+    /// the exact solution: of each field a sum of products
+    exact: Option<ExactTable>,
+    /// a free vibration in place of an exact solution with loads
+    vibration: Option<VibrationTable>,
+    /// what is refined, and what all series share
+    run: RunTable,
+    /// runs that are judged together
+    series: Vec<SeriesTable>,
+    /// coefficients in which the solver differs from the sources: the study must fail
+    control: Option<ControlTable>,
+}
+
+/// The table `[vibration]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct VibrationTable {
+    /// the viscosity ζ
+    zeta: Positive,
+    /// the modes from 1, each released from a tip displacement of 0.1
+    modes: Vec<Count<1, { limits::MODES }>>,
+}
+
+impl AnyOrderFile {
+    /// The beam and its motion.
+    fn problem(&self, t_end: f64) -> Result<(Coefficients, Manufactured), Refusal> {
+        let Some(vibration) = &self.vibration else {
+            let beam = self.beam.clone().unwrap_or_default();
+            let theory = Coefficients::new(&beam, self.obstacles.as_ref())?;
+            let allowed = "a table with at least one of u, phi, theta, or [vibration] in its place";
+            let exact = self.exact.as_ref();
+            let exact = exact.ok_or_else(|| Refusal::missing("exact", allowed))?;
+            let exact = exact.manufactured(&theory.beam, t_end);
+            return Ok((theory, exact.map_err(within("exact"))?));
+        };
+        let others = [
+            ("beam", self.beam.is_some()),
+            ("obstacles", self.obstacles.is_some()),
+            ("exact", self.exact.is_some()),
+        ];
+        if let Some((table, _)) = others.iter().find(|(_, is_there)| *is_there) {
+            let found = format!("[{table}] beside [vibration]");
+            return Err(Refusal::new(*table, found, "one of the two"));
+        }
+        vibration.free().map_err(within("vibration"))
+    }
+
+    /// The study.
+    fn study(&self) -> Result<AnyOrder, Refusal> {
+        let run = &self.run;
+        run.check().map_err(within("run"))?;
+        let t_end = run.t_end.get();
+        let (theory, exact) = self.problem(t_end)?;
+        let mut series = vec![];
+        for (place, table) in self.series.iter().enumerate() {
+            let path = format!("series[{place}]");
+            series.push(table.runs(run).map_err(within(&path))?);
+        }
+        if series.is_empty() {
+            return Err(Refusal::written("series", "at least one table [[series]]"));
+        }
+        let runs = series.iter().flat_map(|series| &series.runs);
+        let elements: Vec<usize> = runs.map(|run| run.elements).collect();
+        Ok(AnyOrder {
+            theory,
+            solver: controlled(self.control.as_ref(), theory)?,
+            defect: None,
+            exact,
+            loaded: self.vibration.is_none(),
+            layout: Layout::new(run.map.as_ref(), &elements, None).map_err(within("run"))?,
+            t_end,
+            over: run.over.value,
+            series,
+        })
+    }
+}
 
 impl ErrorSource for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
-        keys: &[&[&LOADED, &RUNS], &[&FREE, &RUNS]],
-        schema: None,
+        keys: &[],
+        schema: Some(schema::of::<AnyOrderFile>),
         read: read_study::<Orders<Self>>,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
@@ -127,43 +201,7 @@ impl ErrorSource for AnyOrder {
     type Found = JudgedErrors;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let vibration = root.section("vibration")?;
-        let problem: &[Key] = if vibration.is_some() { &FREE } else { &LOADED };
-        root.allow(&[&["study"], &convergence_keys::names(&[problem, &RUNS])[..]].concat())?;
-        let run = root
-            .require("run", "a table with over, t_end, degrees and steps")?
-            .section()?;
-        let overs = [
-            ("space", Over::Space),
-            ("time", Over::Time),
-            ("degree", Over::Degree),
-        ];
-        let over = run
-            .require("over", "\"space\", \"time\" or \"degree\"")?
-            .choice(&overs)?;
-        run.allow(&convergence_keys::names(&[&RUN, over.keys().of_run]))?;
-        let t_end = run.positive("t_end")?;
-        let (theory, exact) = match &vibration {
-            Some(section) => free(section)?,
-            None => {
-                let theory = Coefficients::read(root)?;
-                (theory, manufactured(root, &theory.beam, t_end)?)
-            }
-        };
-        let series = root.tables("series", "", |section| series(&run, over, section))?;
-        let runs = series.iter().flat_map(|series| &series.runs);
-        let elements: Vec<usize> = runs.map(|run| run.elements).collect();
-        Ok(Self {
-            theory,
-            solver: control(root, theory)?,
-            defect: None,
-            exact,
-            loaded: vibration.is_none(),
-            layout: Layout::read(&run, &elements, None)?,
-            t_end,
-            over,
-            series,
-        })
+        described(root, |file: AnyOrderFile| file.study())
     }
 
     fn exercise(&self) -> Exercise {
@@ -255,21 +293,25 @@ impl ErrorSource for AnyOrder {
     }
 }
 
-/// Free vibrations: the beam with exact modes, and the modes, each released from a tip displacement
-/// of 0.1.
-fn free(section: &Section<'_>) -> Result<(Coefficients, Manufactured), InputError> {
-    const AMPLITUDE: f64 = 0.1;
-    let zeta = section.positive("zeta")?;
-    let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
-    let mode = |item: &Field<'_>| Ok((item.count(1..=limits::MODES)? - 1, AMPLITUDE));
-    let modes = section.list("modes", &allowed, mode, |modes| !modes.is_empty())?;
-    let refused = |_| section.refuse("modes", "modes without a motion", allowed);
-    let theory = Coefficients {
-        beam: free_vibration::beam(zeta),
-        obstacles: None,
-    };
-    let exact = free_vibration::vibration(&modes, zeta).map_err(refused)?;
-    Ok((theory, exact))
+impl VibrationTable {
+    /// Free vibrations: the beam with exact modes, and the modes.
+    fn free(&self) -> Result<(Coefficients, Manufactured), Refusal> {
+        const AMPLITUDE: f64 = 0.1;
+        let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
+        let modes = self.modes.iter().map(|mode| (mode.get() - 1, AMPLITUDE));
+        let modes: Vec<_> = modes.collect();
+        if modes.is_empty() {
+            return Err(Refusal::written("modes", allowed));
+        }
+        let zeta = self.zeta.get();
+        let theory = Coefficients {
+            beam: free_vibration::beam(zeta),
+            obstacles: None,
+        };
+        let exact = free_vibration::vibration(&modes, zeta);
+        let exact = exact.map_err(|_| Refusal::new("modes", "modes without a motion", allowed))?;
+        Ok((theory, exact))
+    }
 }
 
 fn root_of_squares(errors: [f64; 5]) -> f64 {

@@ -1,39 +1,78 @@
 //! The runs of a study of any order: what is refined, and how a file lists it.
 
+use std::fmt::Display;
+
 use crate::kinds::prelude::*;
-use crate::{
-    kinds::tables::{CONTROL, MAP, increasing},
-    scene::tables,
+use crate::scene::{
+    file::{Degree, Formula, OfS, TimeDegree},
+    limits::Elements,
 };
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
+use convergence_study::file::{Choices, Levels, Number, Range};
 
 /// Steps of a run: at high degree a few hundred reach round-off.
-const MOST_STEPS: usize = 100_000;
+type StepCount = Count<1, 100_000>;
 
-/// The tables of runs.
-pub(super) const RUNS: [Key; 3] = [
-    Key::new(
-        "run",
-        Form::Table(&[
-            &[&RUN, Over::Space.keys().of_run],
-            &[&RUN, Over::Time.keys().of_run],
-            &[&RUN, Over::Degree.keys().of_run],
-        ]),
-        "what is refined, and what all series share",
-    ),
-    Key::new(
-        "series",
-        Form::List(&Form::Table(&[
-            &[Over::Space.keys().of_series],
-            &[Over::Time.keys().of_series],
-            &[Over::Degree.keys().of_series],
-        ])),
-        "runs that are judged together",
-    ),
-    CONTROL,
-];
-/// What all series share.
-pub(super) const RUN: [Key; 2] = [Key::new("t_end", Form::Positive, "final time"), MAP];
+/// The table `[run]`: what is refined, and what all series share.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RunTable {
+    /// what is refined
+    pub(super) over: Choice<Overs>,
+    /// final time
+    pub(super) t_end: Positive,
+    /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
+    pub(super) map: Option<Formula<OfS>>,
+    /// over time: degree p of the elements
+    degree: Option<Degree>,
+    /// over space and degree: degree q in time
+    time_degree: Option<TimeDegree>,
+    /// over time and degree: number of elements
+    elements: Option<Elements>,
+    /// over space and degree: number of steps
+    steps: Option<StepCount>,
+}
+
+/// A table `[[series]]`: runs that are judged together.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SeriesTable {
+    /// over space: degree p of the elements
+    degree: Option<Degree>,
+    /// over time: degree q in time
+    time_degree: Option<TimeDegree>,
+    /// over space: numbers of elements
+    elements: Option<Levels<Elements, 3>>,
+    /// over time: numbers of steps
+    steps: Option<Levels<StepCount, 3>>,
+    /// over degree: degrees p of the elements
+    degrees: Option<Levels<Degree, 3>>,
+    /// over space and time: how far a rate may be from the order
+    tolerance: Option<Positive>,
+    /// over degree: by which the error falls with each degree, above 1
+    factor: Option<Number<AboveOne>>,
+}
+
+/// The range of the numbers > 1.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum AboveOne {}
+
+impl Range for AboveOne {
+    const ENDS: &'static [(&'static str, f64)] = &[("exclusiveMinimum", 1.0)];
+}
+
+/// What can be refined.
+#[derive(Debug)]
+pub(super) enum Overs {}
+
+impl Choices for Overs {
+    type Value = Over;
+
+    fn all() -> Vec<(&'static str, Over)> {
+        [Over::Space, Over::Time, Over::Degree]
+            .map(|over| (over.in_words(), over))
+            .to_vec()
+    }
+}
 
 /// What is refined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,114 +118,99 @@ pub(super) struct RunsOfDegree {
     pub(super) tolerance: f64,
 }
 
-const OVER_SPACE: Key = Key::new("over", Form::Choice(|| vec!["space"]), "what is refined");
-const OVER_TIME: Key = Key::new("over", Form::Choice(|| vec!["time"]), "what is refined");
-const OVER_DEGREE: Key = Key::new("over", Form::Choice(|| vec!["degree"]), "what is refined");
-const LEVELS: Form = Form::List(&Form::Count(1));
-const DEGREE: Key = Key::new("degree", Form::Count(1), "degree p of the elements");
-const TIME_DEGREE: Key = Key::new("time_degree", Form::Count(0), "degree q in time");
-const ELEMENTS: Key = Key::new("elements", Form::Count(1), "number of elements");
-const STEPS: Key = Key::new("steps", Form::Count(1), "number of steps");
-const MESHES: Key = Key::new("elements", LEVELS, "numbers of elements, at least three");
-const STEP_COUNTS: Key = Key::new("steps", LEVELS, "numbers of steps, at least three");
-const DEGREES: Key = Key::new(
-    "degrees",
-    LEVELS,
-    "degrees p of the elements, at least three",
-);
-const TOLERANCE: Key = Key::new(
-    "tolerance",
-    Form::Positive,
-    "how far a rate may be from the order",
-);
-const FACTOR: Key = Key::new(
-    "factor",
-    Form::Number,
-    "by which the error falls with each degree, above 1",
-);
+/// A key, whether it is given, and over what it must be: nowhere else may it be.
+type Needed = (&'static str, bool, &'static [Over]);
 
-/// Keys of the file that depend on what is refined.
-pub(super) struct LevelKeys {
-    /// The list of levels, in a table `[[series]]`.
-    levels: &'static str,
-    /// The criterion, there too.
-    criterion: &'static str,
-    /// The keys of that table.
-    pub(super) of_series: &'static [Key],
-    /// What all series share, in `[run]`.
-    pub(super) of_run: &'static [Key],
-}
-
-impl Over {
-    pub(super) const fn keys(self) -> LevelKeys {
-        match self {
-            Over::Space => LevelKeys {
-                levels: "elements",
-                criterion: "tolerance",
-                of_series: &[MESHES, DEGREE, TOLERANCE],
-                of_run: &[OVER_SPACE, TIME_DEGREE, STEPS],
-            },
-            Over::Time => LevelKeys {
-                levels: "steps",
-                criterion: "tolerance",
-                of_series: &[STEP_COUNTS, TIME_DEGREE, TOLERANCE],
-                of_run: &[OVER_TIME, DEGREE, ELEMENTS],
-            },
-            Over::Degree => LevelKeys {
-                levels: "degrees",
-                criterion: "factor",
-                of_series: &[DEGREES, FACTOR],
-                of_run: &[OVER_DEGREE, TIME_DEGREE, ELEMENTS, STEPS],
-            },
+/// Refuses keys of a table that do not belong to what is refined.
+fn only(keys: &[Needed], over: Over) -> Result<(), Refusal> {
+    for (key, is_given, overs) in keys {
+        let name = over.in_words();
+        if *is_given && !overs.contains(&over) {
+            let found = format!("{key} with over = \"{name}\"");
+            let overs: Vec<String> = overs
+                .iter()
+                .map(|over| format!("\"{}\"", over.in_words()))
+                .collect();
+            let allowed = format!("{key} only with over = {}", overs.join(" or "));
+            return Err(Refusal::new(*key, found, allowed));
+        }
+        if !is_given && overs.contains(&over) {
+            return Err(Refusal::missing(
+                *key,
+                &format!("it where over = \"{name}\""),
+            ));
         }
     }
+    Ok(())
 }
 
-/// A table `[[series]]`, and the settings that all series share.
-pub(super) fn series(
-    run: &Section<'_>,
-    over: Over,
-    section: &Section<'_>,
-) -> Result<RunsOfDegree, InputError> {
-    let keys = over.keys();
-    section.allow(&convergence_keys::names(&[keys.of_series]))?;
-    let allowed = "a list of at least three increasing whole numbers";
-    let levels = increasing(section, keys.levels, allowed, 3, |item| {
-        count(keys.levels, item)
-    })?;
-    let mut runs = vec![];
-    for level in levels {
-        let number = |key: &str| {
-            let is_one_of = |keys: &[Key]| keys.iter().any(|known| known.name == key);
-            let table = if is_one_of(keys.of_run) {
-                run
-            } else if is_one_of(keys.of_series) && key != keys.levels {
-                section
-            } else {
-                return Ok(level);
-            };
-            count(key, &table.require(key, "a whole number")?)
+impl RunTable {
+    /// Refuses keys that do not belong to what is refined.
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        let keys: [Needed; 4] = [
+            ("degree", self.degree.is_some(), &[Over::Time]),
+            (
+                "time_degree",
+                self.time_degree.is_some(),
+                &[Over::Space, Over::Degree],
+            ),
+            (
+                "elements",
+                self.elements.is_some(),
+                &[Over::Time, Over::Degree],
+            ),
+            ("steps", self.steps.is_some(), &[Over::Space, Over::Degree]),
+        ];
+        only(&keys, self.over.value)
+    }
+}
+
+impl SeriesTable {
+    /// The runs, with what all series share.
+    pub(super) fn runs(&self, run: &RunTable) -> Result<RunsOfDegree, Refusal> {
+        let over = run.over.value;
+        let keys: [Needed; 7] = [
+            ("elements", self.elements.is_some(), &[Over::Space]),
+            ("steps", self.steps.is_some(), &[Over::Time]),
+            ("degrees", self.degrees.is_some(), &[Over::Degree]),
+            ("degree", self.degree.is_some(), &[Over::Space]),
+            ("time_degree", self.time_degree.is_some(), &[Over::Time]),
+            (
+                "tolerance",
+                self.tolerance.is_some(),
+                &[Over::Space, Over::Time],
+            ),
+            ("factor", self.factor.is_some(), &[Over::Degree]),
+        ];
+        only(&keys, over)?;
+        let levels = match over {
+            Over::Space => counts(&self.elements),
+            Over::Time => counts(&self.steps),
+            Over::Degree => counts(&self.degrees),
         };
-        runs.push(AnyOrderRun {
-            degree: number("degree")?,
-            time_degree: number("time_degree")?,
-            elements: number("elements")?,
-            steps: number("steps")?,
-        });
+        let degree = self.degree.or(run.degree).map(Count::get);
+        let time_degree = self.time_degree.or(run.time_degree).map_or(0, Count::get);
+        // What is refined is in neither table.
+        let of = |level| AnyOrderRun {
+            degree: degree.unwrap_or(level),
+            time_degree,
+            elements: run.elements.map_or(level, Elements::get),
+            steps: run.steps.map_or(level, Count::get),
+        };
+        let tolerance = self.tolerance.map(Positive::get);
+        Ok(RunsOfDegree {
+            runs: levels.into_iter().map(of).collect(),
+            tolerance: tolerance
+                .or(self.factor.map(Number::get))
+                .unwrap_or(f64::NAN),
+        })
     }
-    let least = if over == Over::Degree { 1.0 } else { 0.0 };
-    let allowed = format!("a finite number > {least}");
-    let tolerance = section
-        .require(keys.criterion, &allowed)?
-        .number_where(&allowed, |value| value > least)?;
-    Ok(RunsOfDegree { runs, tolerance })
 }
 
-fn count(key: &str, field: &Field<'_>) -> Result<usize, InputError> {
-    match key {
-        "elements" => tables::elements(field),
-        "steps" => field.count(1..=MOST_STEPS),
-        "time_degree" => field.count(0..=MAX_TIME_DEGREE),
-        _ => field.count(1..=MAX_DEGREE),
-    }
+fn counts<T: Copy + Display + Into<usize>>(levels: &Option<Levels<T, 3>>) -> Vec<usize> {
+    levels
+        .iter()
+        .flat_map(|levels| levels.iter())
+        .map(|&level| level.into())
+        .collect()
 }

@@ -15,16 +15,12 @@ use crate::{
 use thermobeam::{mesh::MeshError, scheme::EULER_CRANK_NICOLSON};
 
 /// The table `[constant]`.
-pub(super) const CONSTANT: Key = Key::new(
-    "constant",
-    Form::Table(&[&[&[Key::new(
-        "within",
-        Form::Positive,
-        "how far measured over predicted may be from 1, at the finest level",
-    )]]]),
-    "the constant of the norm of (3.14) is computed before the runs and judged",
-)
-.or("not judged");
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ConstantTable {
+    /// how far measured over predicted may be from 1, at the finest level
+    within: Positive,
+}
 
 /// Steps by which the equations of the error of order dt are integrated, a unit of time.
 ///
@@ -33,23 +29,22 @@ pub(super) const CONSTANT: Key = Key::new(
 /// and 1e-2.
 const STEPS: f64 = 1024.0;
 
-/// Reads the table `[constant]`: how far measured over predicted may be from 1.
-///
-/// # Errors
-/// A table where no constant is known: a coupled study, a mesh that is not uniform, another scheme.
-pub(super) fn read(root: &Section<'_>, refine: &Refine) -> Result<Option<f64>, InputError> {
-    let Some(section) = root.section("constant")? else {
-        return Ok(None);
-    };
-    let is_uniform = refine.layout == Layout::default();
-    let is_papers = refine.scheme.name == EULER_CRANK_NICOLSON.name;
-    if refine.isolates(Axis::Space) && is_uniform || refine.isolates(Axis::Time) && is_papers {
-        section.positive("within").map(Some)
-    } else {
+impl ConstantTable {
+    /// How far measured over predicted may be from 1.
+    ///
+    /// # Errors
+    /// A table where no constant is known: a coupled study, a mesh that is not uniform, another
+    /// scheme.
+    pub(super) fn within(&self, refine: &Refine) -> Result<f64, Refusal> {
+        let is_uniform = refine.layout == Layout::default();
+        let is_papers = refine.scheme.name == EULER_CRANK_NICOLSON.name;
+        if refine.isolates(Axis::Space) && is_uniform || refine.isolates(Axis::Time) && is_papers {
+            return Ok(self.within.get());
+        }
         let found = "a study whose constant is not known";
         let allowed =
             "a study that isolates space on uniform meshes, or time by euler-crank-nicolson";
-        Err(root.refuse("constant", found, allowed))
+        Err(Refusal::new("constant", found, allowed))
     }
 }
 

@@ -55,16 +55,40 @@ use crate::{
         orders::planted::untested::untested,
         settings::{ActiveTerms, Exercise, MANUFACTURED},
         tables::{
-            CONTROL, EXACT, EXPECT, REFINE, Refine, control, expectations, manufactured,
-            mean_width, refine,
+            ControlTable, ExactTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms,
+            mean_width,
         },
     },
-    scene::{Coefficients, tables},
+    scene::{
+        Coefficients,
+        file::{BeamTable, ObstacleTable},
+    },
 };
 pub use design::Prepared;
 
 /// Preparing the space vectors of a mesh costs as much as this many steps.
 const PREPARATION: f64 = 50.0;
+
+/// A study of errors against a manufactured solution.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ManufacturedFile {
+    /// the coefficients of the equations (1.1)
+    #[serde(default)]
+    beam: BeamTable,
+    /// the obstacles at the free end, (1.3); without the table there are none
+    obstacles: Option<ObstacleTable>,
+    /// the exact solution: of each field a sum of products
+    exact: ExactTable,
+    /// the meshes and steps of the runs
+    refine: RefineTable,
+    /// coefficients in which the solver differs from the sources: the study must fail
+    control: Option<ControlTable>,
+    /// the constant of the norm of (3.14) is computed before the runs and judged
+    constant: Option<constant::ConstantTable>,
+    /// the orders claimed, each norm once
+    expect: Vec<ExpectNorm>,
+}
 
 /// A convergence study, validated.
 #[derive(Debug, Clone)]
@@ -89,16 +113,8 @@ pub struct Convergence {
 impl ErrorSource for Convergence {
     const ROW: KindRow = KindRow {
         name: "orders/manufactured",
-        keys: &[&[&[
-            tables::BEAM,
-            tables::OBSTACLES,
-            EXACT,
-            REFINE,
-            CONTROL,
-            constant::CONSTANT,
-            EXPECT,
-        ]]],
-        schema: None,
+        keys: &[],
+        schema: Some(schema::of::<ManufacturedFile>),
         read: read_study::<Orders<Self>>,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
@@ -116,27 +132,31 @@ impl ErrorSource for Convergence {
     type Found = Norms;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let theory = Coefficients::read(root)?;
-        let refine = refine(root)?;
-        let exact = manufactured(root, &theory.beam, refine.t_end)?;
-        let solver = control(root, theory)?;
-        let expect = expectations(root)?;
-        if refine.grid
-            && expect
-                .iter()
-                .any(|(_, claim)| *claim != Claim::new(claim.order, claim.tolerance))
-        {
-            let allowed = "orders alone, for a grid has one in h and in dt";
-            return Err(root.refuse("expect", "a least order or a constant", allowed));
-        }
-        Ok(Self {
-            constant: constant::read(root, &refine)?,
-            theory,
-            solver,
-            exact,
-            refine,
-            expect,
-            formulas: None,
+        described(root, |file: ManufacturedFile| {
+            let theory = Coefficients::new(&file.beam, file.obstacles.as_ref())?;
+            let refine = file.refine.refine().map_err(within("refine"))?;
+            let exact = file.exact.manufactured(&theory.beam, refine.t_end);
+            let expect = expected_norms(&file.expect)?;
+            let is_order =
+                |(_, claim): &(Norm, Claim)| *claim == Claim::new(claim.order, claim.tolerance);
+            if refine.grid && !expect.iter().all(is_order) {
+                let allowed = "orders alone, for a grid has one in h and in dt";
+                return Err(Refusal::new(
+                    "expect",
+                    "a least order or a constant",
+                    allowed,
+                ));
+            }
+            let constant = file.constant.map(|constant| constant.within(&refine));
+            Ok(Self {
+                constant: constant.transpose()?,
+                theory,
+                solver: controlled(file.control.as_ref(), theory)?,
+                exact: exact.map_err(within("exact"))?,
+                refine,
+                expect,
+                formulas: None,
+            })
         })
     }
 

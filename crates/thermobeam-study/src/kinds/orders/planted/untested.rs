@@ -2,7 +2,7 @@
 
 use super::plantable::{Detector, Plantable, verdict};
 use crate::kinds::prelude::*;
-use crate::scene::{Coefficients, tables};
+use crate::scene::Coefficients;
 use convergence_study::Untested;
 use thermobeam::{motion::TipRange, parameters::Obstacles};
 
@@ -36,9 +36,7 @@ pub(in crate::kinds) fn untested<S: Plantable>(
             Some(true) => continue,
             Some(false) => contact(theory.obstacles, key, range_of_the_tip())
                 .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
-            None if tables::OBSTACLE_KEYS.iter().any(|known| known.name == key)
-                && theory.obstacles.is_none() =>
-            {
+            None if Coefficients::OF_OBSTACLES.contains(&key) && theory.obstacles.is_none() => {
                 "there are no obstacles".to_owned()
             }
             None => "it is zero".to_owned(),

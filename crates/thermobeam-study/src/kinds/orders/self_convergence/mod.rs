@@ -57,16 +57,24 @@ use crate::{
     error::reference::fine_mesh,
     kinds::{
         settings::{CONTACT, Exercise, Integration, axis_in_words},
-        tables::{
-            CLAIM_KEYS, DISCRETISATIONS, Discretisation, Refine, claims, discretisations, nested,
-        },
+        tables::{Discretisation, DiscretisationTable, Refine, claimed_once, two_discretisations},
     },
-    scene::{Method, Scene, limits, resampled, tables},
+    scene::{
+        Method, Scene,
+        file::{Schemes, SolverKeys, Solvers},
+        limits::{self, Elements},
+        resampled,
+    },
+};
+use convergence_study::{
+    Order,
+    file::{Choices, Counts, Levels},
 };
 use observable::Observable;
 use thermobeam::{
     mesh::{Mesh, MeshError},
     one_step::Stepping,
+    solve::{Settings, Stopping},
 };
 
 /// A study of rates without an exact solution.
@@ -93,73 +101,154 @@ pub struct SelfConvergence {
     claims: Vec<(&'static Observable, Claim)>,
 }
 
-const KEYS: [Key; 4] = [
-    Key::new("scene", Form::Table(&[&[&SCENE]]), "the beam"),
-    Key::new(
-        "refine",
-        Form::Table(&[&[&LEVELS, &STEPPING]]),
-        "the levels",
-    ),
-    Key {
-        name: "reference",
-        ..DISCRETISATIONS
-    },
-    Key::new(
-        "expect",
-        Form::List(&Form::Table(&[&[
-            &[Key::new(
-                "quantity",
-                Form::Choice(observable::names),
-                "what is compared",
-            )],
-            &CLAIM_KEYS,
-        ]])),
-        "the orders claimed, each quantity once",
-    ),
-];
-const SCENE: [Key; 1] = [Key::new(
-    "file",
-    Form::Text,
-    "a scene file, relative to this file",
-)];
-const STEPPING: [Key; 5] = convergence_keys::all_or(tables::STEPPING_KEYS, "that of the scene");
-const COUNTS: Form = Form::OneOf(&[Form::Count(1), Form::List(&Form::Count(1))]);
-const LEVELS: [Key; 7] = [
-    Key::new(
-        "axis",
-        Form::Choice(|| vec!["time", "both"]),
-        "what is refined",
-    ),
-    Key::new(
-        "elements",
-        COUNTS,
-        "numbers of elements, each a multiple of the one before; one number where time is refined",
-    ),
-    Key::new(
-        "steps",
-        Form::List(&Form::Count(1)),
-        "numbers of steps, each a multiple of the one before",
-    ),
-    Key::new("t_end", Form::Positive, "final time").or("that of the scene"),
-    Key::new(
-        "samples",
-        Form::Count(1),
-        "times at which runs are compared",
-    ),
-    Key::new(
-        "every_step",
-        Form::Boolean,
-        "differences are the largest over every step of a level, not over the samples",
-    )
-    .or("false"),
-    Key::new("contact", Form::Boolean, "the tip must meet an obstacle").or("false"),
-];
+/// A study of rates without an exact solution, as it is written.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct SelfConvergenceFile {
+    /// the beam
+    scene: SceneTable,
+    /// the levels
+    refine: LevelsTable,
+    /// the two discretisations by dG that are compared
+    reference: Vec<DiscretisationTable>,
+    /// the orders claimed, each quantity once
+    expect: Vec<ExpectTable>,
+}
+
+/// The table `[scene]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct SceneTable {
+    /// a scene file, relative to this file
+    file: String,
+}
+
+/// The table `[refine]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct LevelsTable {
+    /// what is refined
+    axis: Choice<TimeOrBoth>,
+    /// numbers of elements, each a multiple of the one before; one number where time is refined
+    elements: Counts<Elements>,
+    /// numbers of steps, each a multiple of the one before
+    steps: Levels<Count<1, { limits::STEPS }>, 2>,
+    /// final time; without it that of the scene
+    t_end: Option<Positive>,
+    /// times at which runs are compared
+    samples: Count<1, 1000>,
+    /// differences are the largest over every step of a level, not over the samples
+    #[serde(default)]
+    every_step: bool,
+    /// the tip must meet an obstacle
+    #[serde(default)]
+    contact: bool,
+    /// the one-step scheme; without it that of the scene
+    scheme: Option<Choice<Schemes>>,
+    /// how a step is solved; without it and the following keys as in the scene
+    solver: Option<Choice<Solvers>>,
+    /// the increment at which an iteration ends
+    tolerance: Option<Positive>,
+    /// iterations after which a step fails
+    max_iterations: Option<Count<1>>,
+    /// of the fixed point in each step, in place of tolerance and max_iterations
+    iterations: Option<Count<1>>,
+}
+
+/// What can be refined.
+#[derive(Debug)]
+enum TimeOrBoth {}
+
+impl Choices for TimeOrBoth {
+    type Value = Axis;
+
+    fn all() -> Vec<(&'static str, Axis)> {
+        vec![("time", Axis::Time), ("both", Axis::Both)]
+    }
+}
+
+/// A table `[[expect]]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ExpectTable {
+    /// what is compared
+    quantity: Choice<observable::Quantities>,
+    /// the order, or the least order
+    order: Order,
+    /// the ends of the C of error = C h^order
+    #[schemars(extend("title" = "two numbers > 0, the smaller first"))]
+    constant: Option<[Positive; 2]>,
+    /// how far the rate may be from the order; without it 0.25
+    tolerance: Option<Positive>,
+}
+
+impl SelfConvergenceFile {
+    fn study(&self, folder: &Path) -> Result<SelfConvergence, Refusal> {
+        let scene = Scene::read(named_file("scene.file", &self.scene.file, folder)?)?;
+        let one_step = scene.one_step().map_err(|error| {
+            Refusal::new(
+                "scene.file",
+                error.to_string(),
+                "a scene by a one-step scheme",
+            )
+        })?;
+        let refine = &self.refine;
+        let axis = refine.axis.value;
+        let in_refine = within("refine");
+        let (levels, power) = refine.levels().map_err(&in_refine)?;
+        let t_end = refine.t_end.map_or(scene.t_end, Positive::get);
+        let stepping = refine.stepping(one_step).map_err(&in_refine)?;
+        if refine.contact && scene.obstacles.is_none() {
+            let found = "true, of a scene without obstacles";
+            let allowed = "false, or a scene with obstacles";
+            return Err(Refusal::new("refine.contact", found, allowed));
+        }
+        let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
+        Ok(SelfConvergence {
+            axis,
+            levels,
+            order_in_time: stepping.scheme.order * power,
+            references: two_discretisations(&self.reference, "reference", of_mesh, t_end)?,
+            t_end,
+            samples: refine.samples.get(),
+            every_step: refine.every_step,
+            contact: refine.contact,
+            claims: self.claims(axis, stepping.settings.stopping)?,
+            scene: Scene {
+                method: Method::OneStep(stepping),
+                ..scene
+            },
+        })
+    }
+
+    /// What is claimed of quantities that the refinement tells apart.
+    fn claims(
+        &self,
+        axis: Axis,
+        stopping: Stopping,
+    ) -> Result<Vec<(&'static Observable, Claim)>, Refusal> {
+        let known: Vec<&str> = Observable::all(axis, stopping)
+            .map(|known| known.name)
+            .collect();
+        for (place, table) in self.expect.iter().enumerate() {
+            if !known.contains(&table.quantity.name) {
+                let names: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
+                let path = format!("expect[{place}].quantity");
+                return Err(Refusal::written(path, names.join(", ")));
+            }
+        }
+        claimed_once("quantity", &self.expect, |table| {
+            let claim = table.order.claim(table.constant, table.tolerance);
+            (table.quantity.name, table.quantity.value, claim)
+        })
+    }
+}
 
 impl ErrorSource for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
-        keys: &[&[&KEYS]],
-        schema: None,
+        keys: &[],
+        schema: Some(schema::of::<SelfConvergenceFile>),
         read: read_study::<Orders<Self>>,
         why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
               the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
@@ -173,44 +262,7 @@ impl ErrorSource for SelfConvergence {
     type Found = Traced;
 
     fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        let named = root.table("scene", &[&SCENE])?;
-        let file = named.require("file", "the path of a scene, from this file's folder")?;
-        let scene = Scene::read(file.file(folder)?)?;
-        let one_step = scene
-            .one_step()
-            .map_err(|error| file.refuse(error.to_string(), "a scene by a one-step scheme"))?;
-        let section = root.table("refine", &[&LEVELS, &STEPPING])?;
-        let axes = [("time", Axis::Time), ("both", Axis::Both)];
-        let axis = section
-            .require("axis", "\"time\", \"both\"")?
-            .choice(&axes)?;
-        let samples = section.count("samples", 1..=1000)?;
-        let (levels, power) = levels(&section, axis, samples)?;
-        let t_end = section
-            .get("t_end")
-            .map_or(Ok(scene.t_end), |field| field.positive())?;
-        let stepping = stepping(&section, one_step)?;
-        let observables: Vec<_> = Observable::all(axis, stepping.settings.stopping)
-            .map(|observable| (observable.name, observable))
-            .collect();
-        let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
-        Ok(Self {
-            axis,
-            levels,
-            order_in_time: stepping.scheme.order * power,
-            references: discretisations(root, "reference", of_mesh, t_end)?,
-            t_end,
-            samples,
-            every_step: section
-                .get("every_step")
-                .map_or(Ok(false), |field| field.boolean())?,
-            contact: contact(&section, &scene)?,
-            claims: claims(root, "quantity", &observables)?,
-            scene: Scene {
-                method: Method::OneStep(stepping),
-                ..scene
-            },
-        })
+        described(root, |file: SelfConvergenceFile| file.study(folder))
     }
 
     fn exercise(&self) -> Exercise {
@@ -289,63 +341,74 @@ impl ErrorSource for SelfConvergence {
     }
 }
 
-/// The method of the scene, with what `[refine]` says of it.
-fn stepping(section: &Section<'_>, of_scene: Stepping) -> Result<Stepping, InputError> {
-    let mut stepping = of_scene;
-    if section.get("scheme").is_some() {
-        stepping.scheme = tables::scheme(section)?;
+impl LevelsTable {
+    /// The method of the scene, with what the table says of it.
+    fn stepping(&self, of_scene: Stepping) -> Result<Stepping, Refusal> {
+        let mut stepping = of_scene;
+        stepping.scheme = self.scheme.map_or(stepping.scheme, |scheme| scheme.value);
+        let keys = SolverKeys {
+            solver: self.solver,
+            tolerance: self.tolerance,
+            max_iterations: self.max_iterations,
+            iterations: self.iterations,
+        };
+        if keys.are_given() {
+            stepping.settings = keys.over(Settings::default())?;
+        }
+        Ok(stepping)
     }
-    let keys = ["solver", "tolerance", "max_iterations", "iterations"];
-    if keys.iter().any(|key| section.get(key).is_some()) {
-        stepping.settings = tables::settings(section)?;
+
+    /// The levels, coarse to fine, and the power of h that dt is proportional to if both are
+    /// refined.
+    fn levels(&self) -> Result<(Vec<(usize, usize)>, f64), Refusal> {
+        let steps: Vec<usize> = self.steps.iter().map(|steps| steps.get()).collect();
+        multiples("steps", &steps)?;
+        let (elements, power) = match (&self.elements, self.axis.value) {
+            (Counts::One(elements), Axis::Time) => (vec![elements.get(); steps.len()], 1),
+            (_, Axis::Time) => {
+                return Err(Refusal::written("elements", "a single whole number >= 1"));
+            }
+            (Counts::List(elements), _) => {
+                let elements: Vec<usize> = elements.iter().map(|elements| elements.get()).collect();
+                multiples("elements", &elements)?;
+                let finer = ratios(&elements);
+                let is_power = |power: &u32| {
+                    let shorter = finer.iter().map(|ratio| ratio.pow(*power));
+                    shorter.eq(ratios(&steps))
+                };
+                let Some(power) = [1, 2].into_iter().find(is_power) else {
+                    let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
+                    return Err(Refusal::written("steps", allowed));
+                };
+                (elements, power)
+            }
+            _ => return Err(Refusal::written("elements", NESTED)),
+        };
+        let samples = self.samples.get();
+        if !steps[0].is_multiple_of(samples) {
+            let found = format!("{} steps", steps[0]);
+            let allowed = format!("a multiple of samples = {samples}");
+            return Err(Refusal::new("steps", found, allowed));
+        }
+        Ok((elements.into_iter().zip(steps).collect(), f64::from(power)))
     }
-    Ok(stepping)
 }
 
-fn contact(section: &Section<'_>, scene: &Scene) -> Result<bool, InputError> {
-    let contact = section
-        .get("contact")
-        .map_or(Ok(false), |field| field.boolean())?;
-    if contact && scene.obstacles.is_none() {
-        return Err(section.refuse(
-            "contact",
-            "true, of a scene without obstacles",
-            "false, or a scene with obstacles",
-        ));
-    }
-    Ok(contact)
-}
+const NESTED: &str = "a list of at least two whole numbers, each a multiple of the one before";
 
-/// The levels, coarse to fine, and the power of h that dt is proportional to if both are refined.
-fn levels(
-    section: &Section<'_>,
-    axis: Axis,
-    samples: usize,
-) -> Result<(Vec<(usize, usize)>, f64), InputError> {
-    let steps = nested(section, "steps", |item| item.count(1..=limits::STEPS))?;
-    let (elements, power) = if axis == Axis::Time {
-        let one = tables::elements(&section.require("elements", "a single whole number >= 1")?)?;
-        (vec![one; steps.len()], 1)
-    } else {
-        let elements = nested(section, "elements", tables::elements)?;
-        let finer = ratios(&elements);
-        let is_power = |power: &u32| {
-            let shorter = finer.iter().map(|ratio| ratio.pow(*power));
-            shorter.eq(ratios(&steps))
-        };
-        let Some(power) = [1, 2].into_iter().find(is_power) else {
-            let allowed = "as many as elements, multiplied from level to level by the factor of the elements, or by its square";
-            return Err(section
-                .require("steps", allowed)?
-                .refuse_as_written(allowed));
-        };
-        (elements, power)
-    };
-    if !steps[0].is_multiple_of(samples) {
-        let found = format!("{} steps", steps[0]);
-        return Err(section.refuse("steps", found, format!("a multiple of samples = {samples}")));
+/// Refuses levels that are not multiples of their predecessors.
+fn multiples(path: &str, levels: &[usize]) -> Result<(), Refusal> {
+    if levels.len() < 2 {
+        return Err(Refusal::written(path, NESTED));
     }
-    Ok((elements.into_iter().zip(steps).collect(), f64::from(power)))
+    let mut pairs = levels.windows(2);
+    match pairs.position(|pair| !pair[1].is_multiple_of(pair[0])) {
+        None => Ok(()),
+        Some(place) => {
+            let allowed = format!("a multiple of {}, the level before", levels[place]);
+            Err(Refusal::written(format!("{path}[{}]", place + 1), allowed))
+        }
+    }
 }
 
 /// By how much each level is finer than its predecessor.

@@ -3,6 +3,7 @@
 use super::Traced;
 use crate::kinds::prelude::*;
 use crate::{error::reference::distance_of_curves, exact::norm::Norm};
+use convergence_study::file::Choices;
 use thermobeam::solve::{Level, Stopping};
 
 /// A difference of two runs, the second on a mesh that is the first's or nested in it; each the
@@ -67,12 +68,19 @@ static OBSERVABLES: [Observable; 7] = [
     },
 ];
 
-/// The names of all.
-pub(super) fn names() -> Vec<&'static str> {
-    OBSERVABLES
-        .iter()
-        .map(|observable| observable.name)
-        .collect()
+/// All of them, by name.
+#[derive(Debug)]
+pub(super) enum Quantities {}
+
+impl Choices for Quantities {
+    type Value = &'static Observable;
+
+    fn all() -> Vec<(&'static str, &'static Observable)> {
+        OBSERVABLES
+            .iter()
+            .map(|observable| (observable.name, observable))
+            .collect()
+    }
 }
 
 pub(super) const TIP: Observable = Observable {

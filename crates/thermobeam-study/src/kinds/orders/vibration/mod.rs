@@ -20,12 +20,17 @@ use crate::{
     },
     kinds::{
         settings::{ActiveTerms, Exercise, FREE_VIBRATIONS},
-        tables::{CONTROL, EXPECT, REFINE, Refine, control, expectations, mean_width, refine},
+        tables::{
+            ControlTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms, mean_width,
+        },
     },
     run::{ObservableMotion, driver::Driver},
-    scene::{Coefficients, limits, tables},
+    scene::{Coefficients, file::BeamTable, limits},
 };
-use convergence_study::internal::chart::{self, Chart};
+use convergence_study::{
+    file::Finite,
+    internal::chart::{self, Chart},
+};
 use modes::Modes;
 use thermobeam::{one_step::Problem, solve::Level};
 use thermobeam_exact::vibration::Mode;
@@ -63,59 +68,53 @@ pub struct Vibrated {
     pub tip: Vec<(f64, f64)>,
 }
 
-const KEYS: [Key; 6] = [
-    Key::new(
-        "beam",
-        Form::Table(&[&[&LINEAR]]),
-        "the coefficients of a linear beam, whose damped modes are exact",
-    ),
-    Key::new(
-        "mode",
-        Form::List(&Form::Table(MODE)),
-        "the modes of the beam that move",
-    ),
-    Key::new(
-        "heat",
-        Form::List(&Form::Table(&[&[&HEAT]])),
-        "the modes of the temperature",
-    )
-    .or("none"),
-    REFINE,
-    CONTROL,
-    EXPECT,
-];
-const INDEX: Key = Key::new("index", Form::Count(1), "number of the mode, from 1");
-const LINEAR: [Key; 5] = [
-    tables::BEAM_KEYS[0],
-    Key::new("a", Form::Number, "0, written out"),
-    Key::new("rho", Form::Number, "0, written out"),
-    tables::BEAM_KEYS[3],
-    tables::BEAM_KEYS[4],
-];
-const MODE: &[Keys] = &[
-    &[&[INDEX, AMPLITUDE, VELOCITY.or("0")]],
-    &[&[INDEX, VELOCITY]],
-];
-const AMPLITUDE: Key = Key::new(
-    "amplitude",
-    Form::Number,
-    "displacement of the tip at t = 0",
-);
-const VELOCITY: Key = Key::new("velocity", Form::Number, "velocity of the tip at t = 0");
-const HEAT: [Key; 2] = [
-    INDEX,
-    Key::new(
-        "amplitude",
-        Form::Number,
-        "of the temperature at t = 0, not 0",
-    ),
-];
+/// A study of damped vibrations.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct VibrationFile {
+    /// the coefficients of a linear beam, whose damped modes are exact: a = rho = 0, written out
+    #[serde(default)]
+    beam: BeamTable,
+    /// the modes of the beam that move
+    mode: Vec<ModeTable>,
+    /// the modes of the temperature
+    #[serde(default)]
+    heat: Vec<HeatTable>,
+    /// the meshes and steps of the runs
+    refine: RefineTable,
+    /// coefficients in which the solver differs from the sources: the study must fail
+    control: Option<ControlTable>,
+    /// the orders claimed, each norm once
+    expect: Vec<ExpectNorm>,
+}
+
+/// A table `[[mode]]`: an amplitude, a velocity, or both.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ModeTable {
+    /// number of the mode, from 1
+    index: Count<1, { limits::MODES }>,
+    /// displacement of the tip at t = 0
+    amplitude: Option<Finite>,
+    /// velocity of the tip at t = 0
+    velocity: Option<Finite>,
+}
+
+/// A table `[[heat]]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct HeatTable {
+    /// number of the mode, from 1
+    index: Count<1, { limits::MODES }>,
+    /// of the temperature at t = 0, not 0
+    amplitude: Finite,
+}
 
 impl ErrorSource for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
-        keys: &[&[&KEYS]],
-        schema: None,
+        keys: &[],
+        schema: Some(schema::of::<VibrationFile>),
         read: read_study::<Orders<Self>>,
         why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
               in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
@@ -130,19 +129,18 @@ impl ErrorSource for Vibration {
     type Found = Vibrated;
 
     fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        let theory = linear_beam(root)?;
-        let refine = refine(root)?;
-        bounded(root, &refine)?;
-        let modes = modes(root, &refine)?;
-        let heat = heat(root, &refine)?;
-        let solver = control(root, theory)?;
-        Ok(Self {
-            theory,
-            solver,
-            modes,
-            heat,
-            refine,
-            expect: expectations(root)?,
+        described(root, |file: VibrationFile| {
+            let theory = linear_beam(&file.beam)?;
+            let refine = file.refine.refine().map_err(within("refine"))?;
+            bounded(&refine).map_err(within("refine"))?;
+            Ok(Self {
+                theory,
+                solver: controlled(file.control.as_ref(), theory)?,
+                modes: modes(&file.mode, &refine)?,
+                heat: heat(&file.heat, &refine)?,
+                refine,
+                expect: expected_norms(&file.expect)?,
+            })
         })
     }
 
@@ -263,8 +261,8 @@ fn closed_form(runs: &Runs<Vibration>) -> Check {
 }
 
 /// The beam, which must have exact modes.
-fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
-    let theory = Coefficients::read(root)?;
+fn linear_beam(table: &BeamTable) -> Result<Coefficients, Refusal> {
+    let theory = Coefficients::new(table, None)?;
     let beam = theory.beam;
     for (key, value) in [
         ("a", beam.a),
@@ -275,10 +273,11 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
         if value != 0.0 {
             let allowed =
                 "0, written out: damped modes are exact for a = rho = beta = theta_a = 0 only";
-            let section = root
-                .require("beam", "a table with zeta, a = 0 and rho = 0")?
-                .section()?;
-            return Err(section.refuse(key, format!("{value:?}"), allowed));
+            return Err(Refusal::new(
+                format!("beam.{key}"),
+                format!("{value:?}"),
+                allowed,
+            ));
         }
     }
     Ok(theory)
@@ -286,73 +285,71 @@ fn linear_beam(root: &Section<'_>) -> Result<Coefficients, InputError> {
 
 /// Limits the steps, since the tip is kept at each, and the elements, since a dense method finds
 /// the modes of a mesh.
-fn bounded(root: &Section<'_>, refine: &Refine) -> Result<(), InputError> {
-    let section = root.require("refine", "a table")?.section()?;
-    let steps = section.require("steps", "a number")?;
-    let elements = section.require("elements", "a number")?;
+fn bounded(refine: &Refine) -> Result<(), Refusal> {
     if refine.budget.is_some() {
         let auto = if refine.axis == Axis::Time {
-            &steps
+            "steps"
         } else {
-            &elements
+            "elements"
         };
-        return Err(auto.refuse_as_written("a list: a study of vibrations adds no levels"));
+        let allowed = "a list: a study of vibrations adds no levels";
+        return Err(Refusal::written(auto, allowed));
     }
     for &level in &refine.steps {
-        limits::steps_until(
-            &steps,
-            refine.t_end,
-            refine.dt(level),
-            limits::RECORDED_STEPS,
-        )?;
+        let dt = refine.dt(level);
+        limits::steps_to("steps", refine.t_end, dt, limits::RECORDED_STEPS)?;
     }
     if refine.isolates(Axis::Time) {
-        limits::dense(&elements, refine.elements[0])
+        limits::dense("elements", refine.elements[0])
     } else {
         Ok(())
     }
 }
 
-/// The indices of modes: a study that starts from the modes of its mesh has only `of_mesh` of them.
-fn indices(refine: &Refine, of_mesh: usize) -> std::ops::RangeInclusive<usize> {
-    1..=if refine.isolates(Axis::Time) {
-        of_mesh.min(limits::MODES)
-    } else {
-        limits::MODES
+/// Refuses a mode that the mesh does not have, if a study starts from the modes of its mesh.
+fn is_of_mesh(path: &str, index: usize, refine: &Refine, of_mesh: usize) -> Result<(), Refusal> {
+    if !refine.isolates(Axis::Time) || index <= of_mesh {
+        return Ok(());
     }
+    let allowed = format!("a whole number >= 1 and <= {of_mesh}");
+    Err(Refusal::written(format!("{path}.index"), allowed))
 }
 
-fn modes(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, InputError> {
-    root.tables("mode", " with index and amplitude or velocity", |section| {
-        let index = section.count("index", indices(refine, 2 * refine.elements[0]))? - 1;
-        let number = |key: &str| section.get(key).map_or(Ok(0.0), |field| field.number());
-        let start = [number("amplitude")?, number("velocity")?];
+fn modes(tables: &[ModeTable], refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, Refusal> {
+    let mut modes = vec![];
+    for (place, table) in tables.iter().enumerate() {
+        let path = format!("mode[{place}]");
+        let index = table.index.get();
+        is_of_mesh(&path, index, refine, 2 * refine.elements[0])?;
+        let number = |number: Option<Finite>| number.map_or(0.0, Finite::get);
+        let start = [table.amplitude, table.velocity].map(number);
         if start == [0.0, 0.0] {
             let allowed = "an amplitude or a velocity other than 0";
-            return Err(section.refuse("amplitude", "a mode that does not move", allowed));
+            let path = format!("{path}.amplitude");
+            return Err(Refusal::new(path, "a mode that does not move", allowed));
         }
-        Ok((index, start))
-    })
+        modes.push((index - 1, start));
+    }
+    if modes.is_empty() {
+        let allowed = "at least one table [[mode]] with index and amplitude or velocity";
+        return Err(Refusal::written("mode", allowed));
+    }
+    Ok(modes)
 }
 
-fn heat(root: &Section<'_>, refine: &Refine) -> Result<Vec<(usize, f64)>, InputError> {
-    let read = |item: &Field<'_>| {
-        let section = item.section()?;
-        let allowed = "a finite number other than 0";
-        let k = section.count(
-            "index",
-            indices(refine, refine.elements[0].saturating_sub(1).max(1)),
-        )?;
-        Ok((
-            k,
-            section
-                .require("amplitude", allowed)?
-                .number_where(allowed, |value| value != 0.0)?,
-        ))
-    };
-    let allowed = "tables [[heat]] with index and amplitude";
-    root.get("heat")
-        .map_or(Ok(vec![]), |_| root.list("heat", allowed, read, |_| true))
+fn heat(tables: &[HeatTable], refine: &Refine) -> Result<Vec<(usize, f64)>, Refusal> {
+    let mut heat = vec![];
+    for (place, table) in tables.iter().enumerate() {
+        let path = format!("heat[{place}]");
+        let of_mesh = refine.elements[0].saturating_sub(1).max(1);
+        is_of_mesh(&path, table.index.get(), refine, of_mesh)?;
+        if table.amplitude.get() == 0.0 {
+            let path = format!("{path}.amplitude");
+            return Err(Refusal::written(path, "a finite number other than 0"));
+        }
+        heat.push((table.index.get(), table.amplitude.get()));
+    }
+    Ok(heat)
 }
 
 impl Vibration {

@@ -61,7 +61,7 @@ impl EnergyTable {
             return Err(Refusal::written("schemes", "a list of at least one scheme"));
         }
         limits::case_count("random", &[self.random as usize, self.schemes.len()])?;
-        let layout = Layout::new(self.map.as_ref(), &[self.elements], None)?;
+        let layout = Layout::new(self.map.as_ref(), &[self.elements.get()], None)?;
         let mesh = tables::mapped("elements", layout.mesh(self.elements.get()))?;
         let mut scenes = vec![];
         for (place, name) in self.scenes.iter().enumerate() {

@@ -12,7 +12,7 @@
 //! `δε` to R1, which shows only where ε < 2δ/|J''|: a gradient off by 1e-5 has a rate of 1.999 at
 //! the steps 0.1, 0.05, 0.025, 0.0125. So the steps go down to the noise of J, and beside the order
 //! stands the size: the quotients `(J(m + εd) - J(m))/ε = J' + J'' ε/2 + ...` are a polynomial in ε
-//! but for noise, and [their value at ε = 0](extrapolate) is J' with a bar. The second derivative is
+//! but for noise, and their value at ε = 0 is J' with a bar. The second derivative is
 //! that of `(J(m + εd) - 2 J(m) + J(m - εd))/ε²`, a polynomial in ε².
 //!
 //! Three things make a remainder say nothing about its order, and levels end before them:

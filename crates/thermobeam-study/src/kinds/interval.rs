@@ -36,29 +36,6 @@ impl SampledInterval {
         ))
     }
 
-    /// # Errors
-    /// The key is not a list of two ascending numbers, or one is not positive on a logarithmic
-    /// scale.
-    pub(crate) fn read(
-        section: &Section<'_>,
-        key: &str,
-        is_logarithmic: bool,
-    ) -> Result<Self, InputError> {
-        let allowed = if is_logarithmic {
-            "two ascending numbers > 0"
-        } else {
-            "two ascending numbers"
-        };
-        let fits =
-            |ends: &[f64]| ends.len() == 2 && increases(ends) && (!is_logarithmic || ends[0] > 0.0);
-        let ends = section.list(key, allowed, Field::number, fits)?;
-        Ok(Self {
-            low: ends[0],
-            high: ends[1],
-            is_logarithmic,
-        })
-    }
-
     /// Values from the first end to the last, equally spaced on its scale.
     ///
     /// * `points`: at least 2.

@@ -8,7 +8,7 @@ pub(crate) use convergence_study::internal::input::schema;
 pub(crate) use convergence_study::{
     Axis, Case, CaseFailure, Check, Claim, Field, Figure, Form, FromFile, Header, InputError, Key,
     Keys, Kind, KindRow, NamedRate, Outcome, Quantity, Ran, Reading, Section, Subject, Table,
-    Verdict, completion_check, described, read_claim, read_study,
+    Verdict, completion_check, described, read_study,
 };
 
 pub(crate) use schemars::JsonSchema;

@@ -52,7 +52,6 @@ use thermobeam::parameters::{Beam, Obstacles};
 
 pub use file::SceneFile;
 pub use method::{DG, Method};
-pub(crate) use sections::INITIAL;
 pub use tables::Coefficients;
 
 use crate::expression::Expression;

@@ -1,9 +1,6 @@
 //! The mesh of a scene, and its initial data with their conditions.
 
-use convergence_study::{
-    Form, InputError, Key, Section,
-    file::{Finite, Refusal, within},
-};
+use convergence_study::file::{Finite, Refusal};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::Beam;
 
@@ -11,27 +8,6 @@ use super::file::{Formula, InitialTable, MeshTable, OfX};
 use super::{Initial, tables};
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
-
-/// The table `[initial]`.
-const INITIAL: Key = Key::new(
-    "initial",
-    Form::Table(&[&[&INITIAL_KEYS]]),
-    "the initial data, functions of x",
-)
-.or("all 0");
-
-const INITIAL_KEYS: [Key; 5] = [
-    Key::new("u", Form::Text, "displacement; 0 at x = 0").or("\"0\""),
-    Key::new("u_t", Form::Text, "velocity; 0 at x = 0").or("\"0\""),
-    Key::new("phi", Form::Text, "rotation; 0 at x = 0").or("\"0\""),
-    Key::new("phi_t", Form::Text, "rate of rotation; 0 at x = 0").or("\"0\""),
-    Key::new(
-        "theta",
-        Form::Text,
-        "temperature; theta_a at x = 0, 0 at x = 1",
-    )
-    .or("\"0\""),
-];
 
 impl MeshTable {
     /// The mesh.
@@ -117,15 +93,6 @@ impl Initial {
             return Err(Refusal::new("theta", found, allowed));
         }
         Ok(initial)
-    }
-
-    /// The table `[initial]` of a document.
-    pub(crate) fn read(root: &Section<'_>, beam: &Beam, mesh: &Mesh) -> Result<Self, InputError> {
-        let table = root.section("initial")?;
-        let table = table.map_or(Ok(InitialTable::default()), |table| table.read())?;
-        Self::new(&table, beam, mesh)
-            .map_err(within("initial"))
-            .map_err(|refusal| root.locate(refusal))
     }
 }
 

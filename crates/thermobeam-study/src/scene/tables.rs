@@ -5,36 +5,8 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 
 use super::file::{BeamTable, Given, ObstacleTable};
-use crate::expression::{Expression, Variable};
 pub(crate) use crate::scene::limits::elements;
-use convergence_study::{Field, Form, InputError, Key, Misread, Section, file::Refusal};
-
-/// The keys of `[beam]`.
-pub(crate) const BEAM_KEYS: [Key; 5] = [
-    Key::new("zeta", Form::Number, "the viscosity ζ").or("0.1"),
-    Key::new("a", Form::Number, "the thermal coupling a").or("0.017"),
-    Key::new(
-        "rho",
-        Form::Number,
-        "the factor ρ of ‖u_x‖² in the axial force",
-    )
-    .or("1.0"),
-    Key::new(
-        "beta",
-        Form::Number,
-        "the axial force β of the straight beam",
-    )
-    .or("0.0"),
-    Key::new("theta_a", Form::Number, "the temperature θ_A at x = 0").or("0.0"),
-];
-
-/// The table `[beam]`.
-pub(crate) const BEAM: Key = Key::new(
-    "beam",
-    Form::Table(&[&[&BEAM_KEYS]]),
-    "the coefficients of the equations (1.1)",
-)
-.or("each of its keys has a default");
+use convergence_study::file::Refusal;
 
 /// The coefficients of (1.1) and (1.3), which files and negative controls address by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,13 +18,15 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
+    /// The names of those of the beam.
+    pub(crate) const OF_BEAM: [&str; 5] = ["zeta", "a", "rho", "beta", "theta_a"];
+
     /// The names of those of the obstacles.
     pub(crate) const OF_OBSTACLES: [&str; 3] = ["epsilon", "g1", "g2"];
 
     /// All names, those of the obstacles last.
     pub(crate) fn names() -> impl Iterator<Item = &'static str> + Clone {
-        let beam = BEAM_KEYS.into_iter().map(|key| key.name);
-        beam.chain(Self::OF_OBSTACLES)
+        Self::OF_BEAM.into_iter().chain(Self::OF_OBSTACLES)
     }
 
     /// The coefficient with that name; `None` if it belongs to obstacles and there are none.
@@ -122,15 +96,6 @@ impl Coefficients {
             }
         }
     }
-
-    /// The tables `[beam]` and `[obstacles]` of a document.
-    pub(crate) fn read(root: &Section<'_>) -> Result<Self, InputError> {
-        let beam = root.section("beam")?;
-        let beam = beam.map_or(Ok(BeamTable::default()), |beam| beam.read())?;
-        let obstacles = root.section("obstacles")?;
-        let obstacles = obstacles.map(|obstacles| obstacles.read()).transpose()?;
-        Self::new(&beam, obstacles.as_ref()).map_err(|refusal| root.locate(refusal))
-    }
 }
 
 /// A coefficient that the solver would refuse.
@@ -172,37 +137,4 @@ pub(crate) fn mapped(path: &str, mesh: Result<Mesh, MeshError>) -> Result<Mesh, 
             }
         }
     })
-}
-
-/// As [`mapped`], about a field that was looked up.
-pub(crate) fn checked_mesh(
-    mesh: Result<Mesh, MeshError>,
-    field: &Field<'_>,
-) -> Result<Mesh, InputError> {
-    mapped("", mesh).map_err(|refusal| field.locate(refusal))
-}
-
-/// A function of `variable`, finite on [0, end] with its derivatives up to `order`; a message
-/// points into the text.
-pub(crate) fn function(
-    field: &Field<'_>,
-    variable: Variable,
-    end: f64,
-    order: usize,
-) -> Result<Expression, InputError> {
-    let expected = format!(
-        "a function of {} in quotes, such as \"1 - {}\"",
-        variable.name(),
-        variable.name()
-    );
-    let function = field.parsed(&expected, |text| {
-        Expression::parse(text, variable).map_err(|error| Misread {
-            offset: error.offset,
-            reason: format!("{}\n{}", error.problem, error.excerpt()),
-        })
-    })?;
-    function
-        .check_finite(end, order)
-        .map_err(|found| field.invalid(found.to_string()))?;
-    Ok(function)
 }

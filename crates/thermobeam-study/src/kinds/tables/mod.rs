@@ -24,7 +24,7 @@ use crate::{
 };
 
 pub use refine::{Layout, Perturbation, Refine};
-pub(crate) use refine::{MAP, RefineTable, increasing, level_of_mesh, mean_width};
+pub(crate) use refine::{RefineTable, level_of_mesh, mean_width};
 
 /// The sources hold second derivatives, in space and in time.
 const DERIVATIVES: usize = 2;
@@ -179,27 +179,6 @@ const fn term(norm: Norm, text: &'static str) -> Term {
     }
 }
 
-/// The keys of a claim, beside that of its quantity.
-pub(crate) const CLAIM_KEYS: [Key; 3] = [
-    Key::new(
-        "order",
-        Form::OneOf(&[Form::Positive, Form::Text]),
-        "the order, or the least order as \">= 1\"",
-    ),
-    Key::new(
-        "constant",
-        Form::List(&Form::Positive),
-        "the ends of the C of error = C h^order",
-    )
-    .or(""),
-    Key::new(
-        "tolerance",
-        Form::Positive,
-        "how far the rate may be from the order",
-    )
-    .or("0.25, at most half of the order, a quarter of a least one"),
-];
-
 /// A table `[[expect]]`: the order claimed of a norm.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -265,49 +244,6 @@ pub(crate) fn claimed_once<T, Q>(
         return Err(Refusal::written("expect", allowed));
     }
     Ok(claims)
-}
-
-/// An order with its tolerance.
-pub(crate) fn claim(section: &Section<'_>) -> Result<Claim, InputError> {
-    let claim = read_claim(section, "order")?;
-    let tolerance = match section.get("tolerance") {
-        Some(field) => field.positive()?,
-        None => claim.tolerance,
-    };
-    Ok(Claim { tolerance, ..claim })
-}
-
-/// All tables `[[expect]]`: of what which order, each once.
-///
-/// * `key`: the key of the quantity; `choices`: its allowed values.
-pub(crate) fn claims<T: Copy>(
-    root: &Section<'_>,
-    key: &str,
-    choices: &[(&'static str, T)],
-) -> Result<Vec<(T, Claim)>, InputError> {
-    let names = choices
-        .iter()
-        .map(|(name, _)| format!("\"{name}\""))
-        .collect::<Vec<_>>()
-        .join(", ");
-    let mut known = vec![];
-    root.tables(
-        "expect",
-        &format!(" with {key}, order and tolerance"),
-        |section| {
-            let field = section.require(key, &names)?;
-            let (of, name) = (field.choice(choices)?, field.text()?);
-            if known.contains(&name) {
-                return Err(section.refuse(
-                    key,
-                    format!("\"{name}\" a second time"),
-                    format!("each {key} once"),
-                ));
-            }
-            known.push(name);
-            Ok((of, claim(section)?))
-        },
-    )
 }
 
 /// The table `[control]`.
@@ -487,16 +423,6 @@ impl Discretisation {
     pub fn cost(&self, t_end: f64) -> f64 {
         COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end
             / self.stepping.dt
-    }
-
-    /// Reads a table that has [`DISCRETISATION_KEYS`], and possibly others, for runs to `t_end`.
-    pub(crate) fn read(section: &Section<'_>, t_end: f64) -> Result<Self, InputError> {
-        let own = convergence_keys::names(&[&DISCRETISATION_KEYS]);
-        let others: Vec<&str> = section.keys().filter(|key| !own.contains(key)).collect();
-        let table: DiscretisationTable = section.read_beside(&others)?;
-        table
-            .discretisation(t_end)
-            .map_err(|refusal| section.locate(refusal))
     }
 }
 

@@ -8,7 +8,7 @@ use convergence_study::{
 
 use crate::kinds::prelude::*;
 use crate::{
-    expression::{Expression, Variable},
+    expression::Expression,
     kinds::settings::{ActiveTerms, Exercise, Integration, Nodes, axis_in_words},
     scene::{
         file::{Formula, OfS, Schemes, SolverKeys, Solvers},
@@ -89,25 +89,6 @@ impl Layout {
             layout.map = Some(map.parse("map", 1.0, 0)?);
             for &elements in elements {
                 tables::mapped("map", layout.mesh(elements))?;
-            }
-        }
-        Ok(layout)
-    }
-
-    /// The key `map`, checked on every mesh.
-    pub(crate) fn read(
-        section: &Section<'_>,
-        elements: &[usize],
-        perturbation: Option<Perturbation>,
-    ) -> Result<Self, InputError> {
-        let mut layout = Self {
-            perturbation,
-            map: None,
-        };
-        if let Some(field) = section.get("map") {
-            layout.map = Some(tables::function(&field, Variable::S, 1.0, 0)?);
-            for &elements in elements {
-                tables::checked_mesh(layout.mesh(elements), &field)?;
             }
         }
         Ok(layout)
@@ -242,14 +223,6 @@ impl Refine {
 
 /// Default budget in node-steps of a study that adds levels: a quarter of a second.
 const BUDGET: f64 = 1e7;
-
-/// The keys that place the nodes of meshes.
-pub(crate) const MAP: Key = Key::new(
-    "map",
-    Form::Text,
-    "a function of s that places the nodes: 0 at 0, 1 at 1",
-)
-.or("\"s\"");
 
 /// The table `[refine]`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -412,20 +385,4 @@ fn levels<T: Copy + Into<usize>>(
             Err(Refusal::written(key, allowed))
         }
     }
-}
-
-/// A list of at least `least` increasing levels.
-pub(crate) fn increasing(
-    section: &Section<'_>,
-    key: &str,
-    allowed: &str,
-    least: usize,
-    read: impl Fn(&Field<'_>) -> Result<usize, InputError>,
-) -> Result<Vec<usize>, InputError> {
-    let relation = "a whole number >";
-    section.sequence(
-        (key, allowed, least),
-        read,
-        (relation, |before, level| level > before),
-    )
 }

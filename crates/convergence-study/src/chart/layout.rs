@@ -172,8 +172,9 @@ fn notes(chart: &Chart, curves: &[Curve<'_>]) -> Vec<String> {
         .iter()
         .filter(|at| is_finite(at) && has_place(at))
         .count();
-    if finite < values.len() {
-        let points = counted(values.len() - finite, "non-finite point");
+    let not_finite = (values.len() - finite).saturating_sub(chart.missing);
+    if not_finite > 0 {
+        let points = counted(not_finite, "non-finite point");
         notes.push(format!("{points} not drawn"));
     }
     if shown < finite {

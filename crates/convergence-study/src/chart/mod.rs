@@ -74,6 +74,11 @@ impl Table {
             .push((name.into(), values.into_iter().collect()));
     }
 
+    /// Whether it has a column of that name.
+    pub fn has(&self, name: &str) -> bool {
+        self.columns.iter().any(|(own, _)| own == name)
+    }
+
     /// The numbers of the column of that name; none if there is no such column.
     fn column(&self, name: &str) -> &[f64] {
         let found = self.columns.iter().find(|(own, _)| own == name);
@@ -275,6 +280,8 @@ pub struct Chart {
     pub slopes: Vec<f64>,
     /// Lines under the legend, before that on omitted points.
     pub notes: Vec<String>,
+    /// Points that the table lacks, which the notes name.
+    pub missing: usize,
     /// Whether it is one of several [`panels`], which are less high.
     pub is_panel: bool,
     /// Whether its series are named in another panel.

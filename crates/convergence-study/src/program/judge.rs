@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::answer::{Answer, Expectation};
 use super::{CaseRun, Program, refine, values};
-use crate::chart::{self, Chart, Series, Table};
+use crate::chart::{self, Chart, Series};
 use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
 use crate::study::grid::{Grid, GridColumn};
@@ -319,7 +319,7 @@ const WORK: &str = "work, as the program counts it";
 fn work_precision(levels: &Levels, ran: &[CaseRun]) -> Option<Figure> {
     let work = |ran: &CaseRun| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
     let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
-    let mut table = Table::from(&levels.errors()[..]);
+    let mut table = levels.rows();
     table.push(WORK, work);
     let claimed = levels
         .columns

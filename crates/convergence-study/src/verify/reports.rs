@@ -110,7 +110,18 @@ impl Reports {
                 .publish(files)
                 .and_then(|()| failing.as_ref().map_or(Ok(()), ReportFolder::clear)),
         };
-        published.map_err(|error| self.unwritable(&error))
+        published
+            .and_then(|()| self.ignore())
+            .map_err(|error| self.unwritable(&error))
+    }
+
+    /// Tells git what each run makes anew, unless the folder says already what to ignore.
+    fn ignore(&self) -> io::Result<()> {
+        let ignored = self.root.join(".gitignore");
+        if ignored.exists() {
+            return Ok(());
+        }
+        atomic::write(&ignored, IGNORED)
     }
 
     /// Waits for other processes that write here, and then blocks them until the file is dropped.
@@ -126,13 +137,7 @@ impl Reports {
 
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
-        let ignored = self.root.join(".gitignore");
-        atomic::prepare_folder(&self.root)
-            .and_then(|()| match ignored.exists() {
-                true => Ok(()),
-                false => atomic::write(&ignored, IGNORED),
-            })
-            .map_err(|error| self.unwritable(&error))
+        atomic::prepare_folder(&self.root).map_err(|error| self.unwritable(&error))
     }
 
     /// Removes what killed runs have left, and sets aside what programs read. The caller must hold

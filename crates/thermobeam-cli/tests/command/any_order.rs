@@ -121,7 +121,11 @@ fn bad_input_is_refused_with_file_and_field() {
             "time.restart_dt: found 0.02; expected a number > 0 and at most dt = 0.01",
         ),
         ("", "growth = 0.9", "time.growth: found 0.9"),
-        ("", "solver = \"newton\"", "unknown key `solver`"),
+        (
+            "",
+            "solver = \"newton\"",
+            "time.solver: found scheme = \"dg\"",
+        ),
     ] {
         let scene = folder.file("bad.toml", &thrown(mesh, time));
         let out = folder.path("out");

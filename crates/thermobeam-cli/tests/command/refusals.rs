@@ -29,7 +29,7 @@ const REFUSED: [(&str, &str); 85] = [
     ("run bytes", BYTES),
     (
         "run empty",
-        "empty:1:1: time: missing; expected a table with dt and t_end",
+        "empty:1:1: time: missing; expected a table: the method, its steps",
     ),
     ("run rates.csv", "rates.csv:1:2: not valid TOML"),
     (

@@ -33,6 +33,19 @@ impl Levels {
         labels
     }
 
+    /// The points of claimed errors that are not drawn since their levels have no result.
+    fn points_without_result(&self) -> usize {
+        let claimed = self.columns.iter().filter(|column| column.claim.is_some());
+        let levels = 0..self.refinements.len();
+        let lacks = |column: &super::ErrorColumn| {
+            let levels = levels.clone();
+            levels
+                .filter(|level| result_at(&column.errors, *level).is_none())
+                .count()
+        };
+        claimed.map(lacks).sum()
+    }
+
     /// The judged errors, each with the line of its rate if that is known, and triangles for the
     /// orders claimed.
     ///
@@ -46,16 +59,35 @@ impl Levels {
         caption: String,
         rates: &[NamedRate],
     ) -> Figure {
-        let chart = self.chart(subject, rates);
+        let without = self.without_result();
+        let chart = Chart {
+            notes: without
+                .iter()
+                .map(|label| format!("{label}: no result"))
+                .collect(),
+            missing: self.points_without_result(),
+            ..self.chart(subject, rates)
+        };
         let has_line = chart.series.iter().any(|series| series.law.is_some());
         let lines = if has_line { LINES } else { "" };
-        let without = self.without_result();
         let missing = if without.is_empty() {
             String::new()
         } else {
             format!(" No result: {}.", without.join("; "))
         };
         Figure::new(what, caption + lines + &missing, chart.svg())
+    }
+
+    /// The rows that a report lists, with a column for each claimed error: NaN if no level has it.
+    pub(crate) fn rows(&self) -> Table {
+        let mut table = Table::from(&self.errors()[..]);
+        for column in self.columns.iter().filter(|column| column.claim.is_some()) {
+            if !table.has(&column.name) {
+                let lacking = self.refinements.iter().map(|_| f64::NAN);
+                table.push(&column.name, lacking);
+            }
+        }
+        table
     }
 
     /// A series for each error with a claim.
@@ -89,7 +121,7 @@ impl Levels {
             title,
             series,
             ..Chart::new(
-                Table::from(&self.errors()[..]),
+                self.rows(),
                 chart::Axis::log(self.axis.label()),
                 chart::Axis::log(self.measured),
             )
@@ -125,11 +157,12 @@ impl From<&[LevelErrors]> for Table {
     fn from(levels: &[LevelErrors]) -> Self {
         let steps = levels.iter().map(|level| level.step.unwrap_or(f64::NAN));
         let mut table = Self::new([(STEP, steps.collect())]);
-        for error in levels.first().into_iter().flat_map(|level| &level.errors) {
-            table.push(
-                &error.name,
-                levels.iter().map(|level| level.error(&error.name)),
-            );
+        // A level without a result lacks the errors of the others.
+        for error in levels.iter().flat_map(|level| &level.errors) {
+            if !table.has(&error.name) {
+                let values = levels.iter().map(|level| level.error(&error.name));
+                table.push(&error.name, values);
+            }
         }
         table
     }

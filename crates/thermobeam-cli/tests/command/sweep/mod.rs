@@ -236,7 +236,7 @@ fn a_bad_sweep_file_is_named_with_line_and_field_and_nothing_is_written() {
         ("[grid]\n", &["sweep.toml:3:1: grid", "beam.beta"]),
         (
             "[grid]\nbeam.betta = [1]",
-            &["sweep.toml:4:6: grid.beam.betta", "`beta`"],
+            &["sweep.toml:4:14: grid.beam.betta", "`beta`"],
         ),
         (
             "[grid]\nbeam.beta = 1",

@@ -197,16 +197,20 @@ pub fn verify(
     Baseline::read(&request.baseline())?;
     let works = Works::read(&request.works())?;
     let reports = Reports::of(&request.reports, request.scope.name());
+    let is_used = request.bless || reports.is_used();
     reports.prepare()?;
-    locked(request, &reports, || {
+    let begin = || {
         // If the lock of the baseline is not held, another process may be writing it.
         if request.bless || request.reports_of_project().shares_its_lock(&reports) {
             atomic::remove_leftovers(&request.baseline())?;
         }
         reports.begin()
-    })?;
+    };
+    if is_used {
+        locked(request, &reports, begin)?;
+    }
     let verification = run_and_write(project, studies, request, &reports, works, progress);
-    if verification.is_err() {
+    if is_used && verification.is_err() {
         // The error of the run says more than one of putting back.
         let _ = locked(request, &reports, || reports.accepted.put_back(&NEWEST));
     }

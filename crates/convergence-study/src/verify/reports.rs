@@ -135,6 +135,12 @@ impl Reports {
         own.is_some() && own == other
     }
 
+    /// Whether a run has been here: then there is something to set aside, or to tidy.
+    pub(super) fn is_used(&self) -> bool {
+        let has = |name: &&str| self.accepted.folder.join(name).exists();
+        self.local().exists() || NEWEST.iter().any(has)
+    }
+
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
         atomic::prepare_folder(&self.root).map_err(|error| self.unwritable(&error))

@@ -34,7 +34,7 @@ const REFUSED: [(&str, &str); 85] = [
     ("run rates.csv", "rates.csv:1:2: not valid TOML"),
     (
         "run sweep.toml",
-        "unknown key `sweep`; expected beam, obstacles",
+        "sweep.toml:3:2: grid: unknown key `grid`; expected beam, obstacles",
     ),
     (
         "run scene.toml scene.toml",

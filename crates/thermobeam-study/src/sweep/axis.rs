@@ -1,8 +1,10 @@
 //! The numbers of a scene that a sweep may vary, and the values of one of them.
 
+use std::borrow::Cow;
 use std::fmt::{self, Formatter};
 
 use convergence_study::file::{Count, Finite, Refusal, within};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
@@ -131,6 +133,20 @@ impl<'de> Deserialize<'de> for Varied {
             }
         }
         deserializer.deserialize_any(Reads)
+    }
+}
+
+impl JsonSchema for Varied {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "numbers".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "title": LIST, "anyOf": [{ "type": "array" }, { "type": "object" }] })
     }
 }
 

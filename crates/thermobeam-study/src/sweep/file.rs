@@ -25,10 +25,8 @@ struct SweepFile {
     #[schemars(with = "Option<BTreeMap<String, BTreeMap<String, f64>>>")]
     _set: Option<IgnoredAny>,
     /// keys that vary: every combination, the last key running fastest
-    #[schemars(with = "Option<BTreeMap<String, BTreeMap<String, f64>>>")]
     grid: Option<Tables>,
     /// keys that vary: case i has number i of each key
-    #[schemars(with = "Option<BTreeMap<String, BTreeMap<String, f64>>>")]
     list: Option<Tables>,
 }
 

@@ -109,7 +109,7 @@ const ENERGY: usize = 7;
 const CHANGE: usize = 8;
 const GAP: usize = 12;
 
-/// A row of `history.csv`, in the order of [`COLUMNS`].
+/// A row of `history.csv`, in the order of `COLUMNS`.
 pub type Row = [f64; COLUMNS.len()];
 
 /// What belongs to a run, as it was written and as it was computed.

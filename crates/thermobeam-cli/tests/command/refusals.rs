@@ -64,7 +64,7 @@ const REFUSED: [(&str, &str); 85] = [
     ("sweep studies", FOLDER),
     (
         "sweep scene.toml",
-        "unknown key `obstacles`; expected sweep, set, grid, list",
+        "scene.toml:2:2: initial: unknown key `initial`; expected sweep, set, grid, list",
     ),
     (
         "sweep sweep.toml --resume",

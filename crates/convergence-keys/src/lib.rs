@@ -65,18 +65,6 @@ impl Key {
     }
 }
 
-/// The same keys, all of which may be left out.
-///
-/// * `default`: what holds then, as for [`Key::or`].
-pub const fn all_or<const N: usize>(mut keys: [Key; N], default: &'static str) -> [Key; N] {
-    let mut place = 0;
-    while place < N {
-        keys[place] = keys[place].or(default);
-        place += 1;
-    }
-    keys
-}
-
 /// The names of keys.
 pub fn names(keys: &[&[Key]]) -> Vec<&'static str> {
     keys.iter().copied().flatten().map(|key| key.name).collect()

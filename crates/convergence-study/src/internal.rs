@@ -108,11 +108,11 @@ pub mod study {
         pub use crate::study::over_levels::{ErrorColumn, Levels, rate_table, summary};
     }
     pub mod until_decided {
+        #[cfg(feature = "files")]
+        pub use crate::study::until_decided::budget;
         pub use crate::study::until_decided::{
             FIRST, Looks, Next, conclude, is_settled, next, next_by_time,
         };
-        #[cfg(feature = "files")]
-        pub use crate::study::until_decided::{budget, budget_of, is_auto};
     }
 }
 #[cfg(feature = "reports")]

@@ -154,7 +154,7 @@ pub use crate::{
             Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
         },
     },
-    study::{FromFile, KindRow, Order, described, read_claim, read_study},
+    study::{FromFile, KindRow, Order, described, read_study},
 };
 
 /// What structs of files are made of: numbers of a range, names of a choice, lists of levels; and

@@ -7,7 +7,6 @@
 pub(crate) mod advice;
 mod file;
 mod keys;
-mod lists;
 mod ranges;
 pub(crate) mod schema;
 mod settings;

@@ -147,33 +147,6 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// The result of `parse` for a text; an error points into the text.
-    ///
-    /// * `expected`: what the text must be, for a value that is not a text.
-    pub fn parsed<T>(
-        &self,
-        expected: &str,
-        parse: impl FnOnce(&str) -> Result<T, Misread>,
-    ) -> Result<T, InputError> {
-        let text = self
-            .value
-            .as_str()
-            .ok_or_else(|| self.refuse_as_written(expected))?;
-        parse(text).map_err(|misread| {
-            // A text with escapes differs from the file; the place is then its first byte.
-            let inside = self
-                .raw()
-                .find(text)
-                .map_or(0, |start| start + misread.offset);
-            self.complain(
-                inside,
-                Complaint::Invalid {
-                    reason: misread.reason,
-                },
-            )
-        })
-    }
-
     /// An error about this value with a message of its own.
     pub fn invalid(&self, reason: impl Into<String>) -> InputError {
         self.complain(
@@ -223,11 +196,6 @@ impl<'a> Field<'a> {
             }
             _ => Err(self.refuse_as_written("a table")),
         }
-    }
-
-    /// The byte of the text at which it begins.
-    pub fn start(&self) -> usize {
-        self.span.start
     }
 
     /// The value as in the file, with its type if that is not obvious.
@@ -341,6 +309,29 @@ impl<'a> Section<'a> {
     /// The finite number > 0 of a key without a default.
     pub fn positive(&self, key: &str) -> Result<f64, InputError> {
         self.require(key, POSITIVE)?.positive()
+    }
+
+    /// The values of a list without a default, each by `read`.
+    ///
+    /// * `fits`: whether the list as a whole matches `allowed`.
+    pub fn list<T>(
+        &self,
+        key: &str,
+        allowed: &str,
+        read: impl FnMut(&Field<'a>) -> Result<T, InputError>,
+        fits: impl Fn(&[T]) -> bool,
+    ) -> Result<Vec<T>, InputError> {
+        let field = self.require(key, allowed)?;
+        let list = field
+            .items(allowed)?
+            .iter()
+            .map(read)
+            .collect::<Result<Vec<T>, InputError>>()?;
+        if fits(&list) {
+            Ok(list)
+        } else {
+            Err(field.refuse_as_written(allowed))
+        }
     }
 
     /// The error about a missing key.

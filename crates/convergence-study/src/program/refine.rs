@@ -266,7 +266,7 @@ impl RefineTable {
             .iter()
             .filter_map(|(key, counts)| Some((*key, *counts.as_ref()? == Counts::Auto)));
         let lists: Vec<_> = lists.collect();
-        let budget = until_decided::budget_of(&lists, self.grid, self.budget, BUDGET)?;
+        let budget = until_decided::budget(&lists, self.grid, self.budget, BUDGET)?;
         Ok(Refine {
             space,
             time,

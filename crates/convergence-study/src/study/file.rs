@@ -15,8 +15,8 @@ use super::erased::{Described, Study, boxed_study};
 use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{
-    self, AllowedText, Choice, Choices, Field, Form, InputError, Key, Keys, Number, Positive,
-    Range, Refusal, Section, Texts, schema,
+    self, AllowedText, Choice, Choices, Form, InputError, Key, Keys, Number, Positive, Range,
+    Refusal, Section, Texts, schema,
 };
 use crate::interval::Interval;
 use crate::judge::claims::{Bound, Claim, order_from_text};
@@ -174,9 +174,12 @@ fn row<'k>(
 /// ```
 /// use std::path::Path;
 ///
-/// use convergence_study::{Case, CaseFailure, Claim, Form, FromFile, Header, InputError, Key, Keys};
-/// use convergence_study::{Kind, KindRow, Outcome, Ran, Section, completion_check, read_claim};
+/// use convergence_study::file::{Count, within};
+/// use convergence_study::{Case, CaseFailure, Claim, FromFile, Header, InputError, Keys, Kind};
+/// use convergence_study::{KindRow, Order, Outcome, Ran, Section, completion_check, described};
 /// use convergence_study::read_study;
+/// use schemars::JsonSchema;
+/// use serde::Deserialize;
 ///
 /// /// Sums of `terms` terms.
 /// #[derive(Debug)]
@@ -185,20 +188,31 @@ fn row<'k>(
 ///     claim: Claim,
 /// }
 ///
-/// // The keys of the table `[sum]`, and of the file.
-/// const SUM: [Key; 2] = [
-///     Key::new("terms", Form::Count(1), "how many terms"),
-///     Key::new("order", Form::Number, "the expected order"),
-/// ];
-/// const KEYS: [Key; 1] = [Key::new("sum", Form::Table(&[&[&SUM]]), "the sum")];
+/// /// The file, beside its table `[study]`.
+/// #[derive(Deserialize, JsonSchema)]
+/// #[serde(deny_unknown_fields)]
+/// struct SumsFile {
+///     /// the sum
+///     sum: SumTable,
+/// }
+///
+/// #[derive(Deserialize, JsonSchema)]
+/// #[serde(deny_unknown_fields)]
+/// struct SumTable {
+///     /// how many terms
+///     terms: Count<1, 100>,
+///     /// the expected order
+///     order: Order,
+/// }
 ///
 /// impl FromFile for Sums {
-///     const KEYS: &'static [Keys] = &[&[&KEYS]];
+///     const KEYS: &'static [Keys] = &[];
 ///
 ///     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-///         let sum = root.table("sum", &[&SUM])?;
-///         let terms = sum.require("terms", "a whole number from 1")?.count(1..=100)?;
-///         Ok(Self { terms, claim: read_claim(&sum, "order")? })
+///         described(root, |SumsFile { sum }| {
+///             let claim = sum.order.claim(None, None).map_err(within("sum"))?;
+///             Ok(Self { terms: sum.terms.get(), claim })
+///         })
 ///     }
 /// }
 ///
@@ -492,45 +506,5 @@ impl JsonSchema for Order {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let number = Positive::json_schema(generator);
         json_schema!({ "title": ORDER, "anyOf": [number, { "type": "string" }] })
-    }
-}
-
-/// The claim of a table, with the default tolerance: each kind decides which claims its studies
-/// allow.
-///
-/// * `key`: the key of the order, or of a number written in the same way.
-///
-/// # Errors
-/// An invalid order or constant.
-pub fn read_claim(section: &Section<'_>, key: &str) -> Result<Claim, InputError> {
-    let allowed = "a number > 0, or a text such as \">= 2\", or \">= 2..\" for any higher rate";
-    let field = section.require(key, allowed)?;
-    let (order, bound) = match field.text() {
-        Ok(text) => order_from_text(text)
-            .filter(|(_, bound)| bound.is_least())
-            .ok_or_else(|| field.refuse_as_written(allowed))?,
-        Err(_) => (field.positive()?, Bound::Both),
-    };
-    Ok(Claim {
-        constant: constant(section)?,
-        ..Claim::usual(order, bound)
-    })
-}
-
-fn constant(section: &Section<'_>) -> Result<Option<Interval>, InputError> {
-    let Some(field) = section.get("constant") else {
-        return Ok(None);
-    };
-    let allowed = "two numbers > 0, the smaller first, beside order";
-    let ends: Vec<f64> = field
-        .items(allowed)?
-        .iter()
-        .map(Field::positive)
-        .collect::<Result<_, _>>()?;
-    match ends[..] {
-        [low, high] if low < high && section.get("order").is_some() => {
-            Ok(Some(Interval { low, high }))
-        }
-        _ => Err(field.refuse_as_written(allowed)),
     }
 }

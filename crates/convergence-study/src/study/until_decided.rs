@@ -11,7 +11,7 @@
 //! number of levels keeps it so.
 
 #[cfg(feature = "files")]
-use crate::input::{Field, InputError, Positive, Refusal, Section};
+use crate::input::{Positive, Refusal};
 use crate::judge::verdict::{Reason, Verdict};
 use crate::study::outcome::{NamedRate, Outcome};
 use crate::study::over_levels::Levels;
@@ -238,7 +238,7 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
 /// # Errors
 /// Only some lists are `"auto"`, `"auto"` beside `grid = true`, or a budget without it.
 #[cfg(feature = "files")]
-pub fn budget_of(
+pub fn budget(
     lists: &[(&str, bool)],
     grid: bool,
     budget: Option<Positive>,
@@ -262,57 +262,6 @@ pub fn budget_of(
         return Err(Refusal::written(*auto, "lists where grid = true"));
     }
     Ok(Some(budget.map_or(usual, Positive::get)))
-}
-
-/// Whether a list of counts is left to the study.
-#[cfg(feature = "files")]
-pub fn is_auto(field: &Field<'_>) -> bool {
-    field.text().is_ok_and(|text| text == "auto")
-}
-
-/// The key `budget` of `[refine]`; `None` if no list is left to the study.
-///
-/// * `counts`: the keys of lists; all lists present must be `"auto"`, or none.
-/// * `usual`: the default budget.
-/// * `allowed`: what a budget may be, in words.
-///
-/// # Errors
-/// [`InputError`] if only some lists are `"auto"`, if `"auto"` occurs together with `grid = true`,
-/// or a budget without it.
-#[cfg(feature = "files")]
-pub fn budget(
-    section: &Section<'_>,
-    counts: &[&str],
-    grid: bool,
-    usual: f64,
-    allowed: &str,
-) -> Result<Option<f64>, InputError> {
-    let lists: Vec<Field<'_>> = counts.iter().filter_map(|key| section.get(key)).collect();
-    let listed = lists.iter().find(|field| field.is_list());
-    let Some(auto) = lists.iter().find(|field| is_auto(field)) else {
-        return match section.get("budget") {
-            None => Ok(None),
-            Some(field) => Err(field.refuse(
-                "a budget beside lists",
-                "lists alone, or \"auto\" in their place",
-            )),
-        };
-    };
-    if let Some(listed) = listed {
-        return Err(listed.refuse(
-            format!("{} beside \"auto\"", listed.as_written()),
-            "\"auto\" for both",
-        ));
-    }
-    if grid {
-        return Err(auto.refuse_as_written("lists where grid = true"));
-    }
-    section
-        .get("budget")
-        .map_or(Ok(usual), |field| {
-            field.number_where(allowed, |budget| budget > 0.0)
-        })
-        .map(Some)
 }
 
 #[cfg(test)]

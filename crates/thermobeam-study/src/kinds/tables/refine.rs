@@ -333,7 +333,7 @@ impl RefineTable {
         };
         let refine = Refine {
             axis,
-            budget: until_decided::budget_of(refined, self.grid, self.budget, BUDGET)?,
+            budget: until_decided::budget(refined, self.grid, self.budget, BUDGET)?,
             isolate: self.isolate,
             grid: self.grid,
             t_end: self.t_end.get(),

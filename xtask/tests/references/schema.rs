@@ -7,7 +7,7 @@ pub(super) fn complaint(schema: &Value, value: &Value, path: &str) -> Option<Str
     let wrong = |what: &str| Some(format!("{path}: {what}: {value}"));
     for (word, rule) in schema.as_object().expect("a schema") {
         let found = match word.as_str() {
-            "$schema" | "title" | "description" | "default" | "then" => None,
+            "$schema" | "title" | "description" | "default" | "examples" | "then" => None,
             "type" if !has_type(rule.as_str().unwrap(), value) => wrong(&format!("no {rule}")),
             "maximum" if value.as_f64().is_some_and(|x| x > rule.as_f64().unwrap()) => wrong(word),
             "exclusiveMaximum" if value.as_f64().is_some_and(|x| x >= rule.as_f64().unwrap()) => {

@@ -252,12 +252,15 @@ impl<'a> Section<'a> {
                 reason: message.to_owned(),
             },
             _ => {
-                let allowed = allowed(&path);
-                let name = self.text_of(&found).unwrap_or_default();
-                let meant = nearest(name, allowed.split('"').skip(1).step_by(2));
-                let hint = meant.map(|name| format!(" (did you mean \"{name}\"?)"));
-                let found = self.written(&found) + &hint.unwrap_or_default();
-                Complaint::NotAllowed { found, allowed }
+                let texts = schema::at(schema, &path).map_or(vec![], schema::texts);
+                let suggestion = self
+                    .text_of(&found)
+                    .and_then(|text| nearest(text, texts.into_iter()));
+                let hint = suggestion.map(|name| format!(" (did you mean \"{name}\"?)"));
+                Complaint::NotAllowed {
+                    found: self.written(&found) + &hint.unwrap_or_default(),
+                    allowed: allowed(&path),
+                }
             }
         };
         self.error_at(&found, &path, None, complaint)

@@ -65,6 +65,15 @@ pub(super) fn at<'s>(schema: &'s Value, path: &str) -> Option<&'s Value> {
     })
 }
 
+/// The texts that a schema names: those that it allows, or examples of them.
+pub(super) fn texts(schema: &Value) -> Vec<&str> {
+    let listed = ["enum", "examples"].into_iter();
+    let listed = listed.filter_map(|key| schema[key].as_array()).flatten();
+    let own = listed.filter_map(Value::as_str);
+    let forms = schema["anyOf"].as_array().into_iter().flatten();
+    own.chain(forms.flat_map(texts)).collect()
+}
+
 /// What a schema allows, in words.
 pub(crate) fn allowed(schema: &Value) -> String {
     if let Some(title) = schema["title"].as_str() {

@@ -505,6 +505,7 @@ impl JsonSchema for Order {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let number = Positive::json_schema(generator);
-        json_schema!({ "title": ORDER, "anyOf": [number, { "type": "string" }] })
+        let text = json_schema!({ "type": "string", "examples": [">= 2", ">= 2.."] });
+        json_schema!({ "title": ORDER, "anyOf": [number, text] })
     }
 }

@@ -93,8 +93,8 @@ pub(super) fn may_explain_all(examined: &[Examined]) -> Vec<SolverPart> {
     }
 }
 
-/// The parts that seem to explain all losses alone; and the widest variant, by which a part inside
-/// the domain is told from one at its boundary.
+/// The parts that seem to explain all losses alone; and the widest variant, which shows whether a
+/// part lies inside the domain or at its boundary.
 pub(super) fn explaining(examined: &[Examined]) -> Vec<SolverPart> {
     let table = Table::new(examined);
     let mut parts = table.singles(Fate::Back);

@@ -21,29 +21,15 @@ impl Axis {
 }
 
 impl Levels {
-    /// The labels of levels that lack a result for some claimed error.
-    fn without_result(&self) -> Vec<&str> {
-        let mut labels = vec![];
-        for (i, level) in self.refinements.iter().enumerate() {
-            let mut claimed = self.columns.iter().filter(|column| column.claim.is_some());
-            if claimed.any(|column| result_at(&column.errors, i).is_none()) {
-                labels.push(level.label.as_str());
-            }
-        }
-        labels
-    }
-
-    /// The points of claimed errors that are not drawn since their levels have no result.
-    fn points_without_result(&self) -> usize {
-        let claimed = self.columns.iter().filter(|column| column.claim.is_some());
-        let levels = 0..self.refinements.len();
-        let lacks = |column: &super::ErrorColumn| {
-            let levels = levels.clone();
-            levels
-                .filter(|level| result_at(&column.errors, *level).is_none())
+    /// For each level, how many claimed errors lack a result.
+    fn lacking(&self) -> Vec<usize> {
+        let lacking = |level: usize| {
+            let claimed = self.columns.iter().filter(|column| column.claim.is_some());
+            claimed
+                .filter(|column| result_at(&column.errors, level).is_none())
                 .count()
         };
-        claimed.map(lacks).sum()
+        (0..self.refinements.len()).map(lacking).collect()
     }
 
     /// The judged errors, each with the line of its rate if that is known, and triangles for the
@@ -59,13 +45,18 @@ impl Levels {
         caption: String,
         rates: &[NamedRate],
     ) -> Figure {
-        let without = self.without_result();
+        let lacking = self.lacking();
+        let levels = self.refinements.iter().zip(&lacking);
+        let without: Vec<&str> = levels
+            .filter(|(_, errors)| **errors > 0)
+            .map(|(level, _)| level.label.as_str())
+            .collect();
         let chart = Chart {
             notes: without
                 .iter()
                 .map(|label| format!("{label}: no result"))
                 .collect(),
-            missing: self.points_without_result(),
+            missing: lacking.iter().sum(),
             ..self.chart(subject, rates)
         };
         let has_line = chart.series.iter().any(|series| series.law.is_some());

@@ -9,6 +9,7 @@ pub mod time_limit;
 /// items, for the harness; the root of the crate has those for users.
 #[doc(hidden)]
 pub mod judge {
+    pub mod adjoint;
     pub mod claims;
     pub mod fit;
     pub mod grid;

@@ -62,7 +62,7 @@ mod _native {
     #[pymodule_export]
     use super::table::judge_table;
     #[pymodule_export]
-    use super::taylor::taylor;
+    use super::taylor::{adjoint, taylor};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -1,5 +1,6 @@
 //! Taylor tests of derivatives that Python computes.
 
+use convergence_judge::judge::adjoint::{AdjointProducts, Product};
 use convergence_study::{TaylorFindings, TaylorTest};
 use pyo3::prelude::*;
 
@@ -53,4 +54,19 @@ pub(crate) fn taylor(
     )?;
     let json = serde_json::to_string(&found).map_err(refuse)?;
     Ok((found.verdict().name(), found.to_string(), json))
+}
+
+/// Why an operator is not shown to be the adjoint of another; None if it is.
+///
+/// * `forward`, `backward`: `<w, A v>` and `<At w, v>`, each with the sum of the absolute values of
+///   its terms.
+#[pyfunction]
+pub(crate) fn adjoint(forward: (f64, f64), backward: (f64, f64), to: f64) -> Option<String> {
+    let [forward, backward] = [forward, backward].map(|(value, size)| Product { value, size });
+    let products = AdjointProducts {
+        forward,
+        backward,
+        to,
+    };
+    (!products.verdict().is_pass()).then(|| products.to_string())
 }

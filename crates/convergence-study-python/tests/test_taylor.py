@@ -127,6 +127,11 @@ def test_arguments_are_refused_by_name(options, message):
         cs.taylor(misfit, **arguments)
 
 
+def test_a_part_that_allows_any_adjoint_is_refused():
+    with pytest.raises(ValueError, match="to: expected a number between 0 and 1"):
+        cs.adjoint(lambda v: v, lambda w: [-part for part in w], [0], [0], to=2)
+
+
 def test_exceptions_of_functions_are_raised():
     def stops(m):
         raise RuntimeError("the solver has stopped")

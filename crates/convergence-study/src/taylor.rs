@@ -114,8 +114,16 @@ impl TaylorTest {
         Self { directions, ..self }
     }
 
-    /// The same test for derivatives that may be off by this part, 0 < `to` < 1.
+    /// The same test for derivatives that may be off by this part.
+    ///
+    /// # Panics
+    /// Unless 0 < `to` < 1: a part of one would allow any derivative.
+    #[track_caller]
     pub fn to(self, to: f64) -> Self {
+        assert!(
+            0.0 < to && to < 1.0,
+            "to: expected a number between 0 and 1, found {to}"
+        );
         Self { to, ..self }
     }
 
@@ -219,22 +227,33 @@ impl TaylorTest {
             let point: Vec<f64> = parts.map(|(m, d)| m + step * d).collect();
             value(&point)
         };
+        let sides: &[f64] = if curvature.is_some() {
+            &[1.0, -1.0]
+        } else {
+            &[1.0]
+        };
+        let mut ends_at = |step: f64| -> Result<Vec<f64>, E> {
+            sides.iter().map(|side| at(side * step)).collect()
+        };
         let mut coarsest = FARTHEST * length(&self.at).max(1.0) / length(direction);
+        let mut ends = ends_at(coarsest)?;
         for _ in 0..MOST_HALVINGS {
-            let is_finite = at(coarsest)?.is_finite();
-            if is_finite && (curvature.is_none() || at(-coarsest)?.is_finite()) {
+            if ends.iter().all(|value| value.is_finite()) {
                 break;
             }
             coarsest /= 2.0;
+            ends = ends_at(coarsest)?;
         }
         let steps: Vec<f64> = (0..STEPS).map(|k| coarsest * RATIO.powi(k)).collect();
-        let mut on_side = |sign: f64| -> Result<Vec<f64>, E> {
-            steps.iter().map(|step| at(sign * step)).collect()
+        // The values at the coarsest step are known.
+        let mut on_side = |side: f64, end: f64| -> Result<Vec<f64>, E> {
+            let finer = steps[1..].iter().map(|step| at(side * step));
+            std::iter::once(Ok(end)).chain(finer).collect()
         };
-        let forward = on_side(1.0)?;
+        let forward = on_side(1.0, ends[0])?;
         let second = match curvature {
             Some(curvature) => Some(Second {
-                backward: on_side(-1.0)?,
+                backward: on_side(-1.0, ends[1])?,
                 curvature,
             }),
             None => None,
@@ -374,6 +393,12 @@ mod tests {
     fn the_step_is_halved_where_j_is_not_finite() {
         let found = TaylorTest::at(&[1e-3]).run(|m| m[0].ln(), |d| 1e3 * d[0]);
         assert!(found.verdict().is_pass(), "{found}");
+    }
+
+    #[test]
+    #[should_panic(expected = "to: expected a number between 0 and 1, found 1")]
+    fn a_part_that_allows_any_derivative_is_refused() {
+        let _ = TaylorTest::at(&M).to(1.0);
     }
 
     #[test]

@@ -1,0 +1,95 @@
+//! Is one operator the adjoint of another? `<w, A v> = <A'w, v>` for all v and w, and if it does not
+//! hold, it fails for almost all of them.
+
+use std::fmt;
+
+use super::verdict::Verdict;
+
+/// `<w, A v>` or `<A'w, v>`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Product {
+    /// The sum of the products of components.
+    pub value: f64,
+    /// The sum of their absolute values, to which round-off is relative.
+    pub size: f64,
+}
+
+/// Both products for one v and one w.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AdjointProducts {
+    /// `<w, A v>`.
+    pub forward: Product,
+    /// `<A'w, v>`.
+    pub backward: Product,
+    /// The part of the larger size by which they may differ.
+    pub to: f64,
+}
+
+impl AdjointProducts {
+    fn difference(&self) -> f64 {
+        (self.forward.value - self.backward.value).abs()
+    }
+
+    /// Whether the products are equal. A v that is zero tests nothing; NaN is a difference.
+    pub fn verdict(&self) -> Verdict {
+        if self.forward.size == 0.0 {
+            Verdict::Inconclusive
+        } else if self.difference() <= self.to * self.forward.size.max(self.backward.size) {
+            Verdict::Pass
+        } else {
+            Verdict::Fail
+        }
+    }
+}
+
+impl fmt::Display for AdjointProducts {
+    /// `<w, A v> = 1.5, <At w, v> = 1.4: they differ by 1.0e-1, allowed 1e-10 of 2.5`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            forward,
+            backward,
+            to,
+        } = self;
+        let (left, right) = (forward.value, backward.value);
+        write!(f, "<w, A v> = {left:?}, <At w, v> = {right:?}: ")?;
+        if self.verdict() == Verdict::Inconclusive {
+            return f.write_str("A v is zero: nothing is tested");
+        }
+        let (difference, size) = (self.difference(), forward.size);
+        write!(
+            f,
+            "they differ by {difference:.1e}, allowed {to:.0e} of {size:.2e}"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AdjointProducts, Product};
+    use crate::judge::verdict::Verdict;
+
+    fn verdict(forward: f64, backward: f64, size: f64) -> Verdict {
+        let product = |value| Product { value, size };
+        let products = AdjointProducts {
+            forward: product(forward),
+            backward: product(backward),
+            to: 1e-10,
+        };
+        products.verdict()
+    }
+
+    #[test]
+    fn products_that_differ_fail_and_a_zero_tests_nothing() {
+        assert_eq!(verdict(1.0, 1.0 + 1e-13, 2.0), Verdict::Pass);
+        for backward in [1.0 + 1e-9, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(verdict(1.0, backward, 2.0), Verdict::Fail, "{backward}");
+        }
+        assert_eq!(verdict(0.0, 0.0, 0.0), Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn a_sum_that_cancels_is_measured_by_its_terms() {
+        assert_eq!(verdict(1e-14, -1e-14, 2.0), Verdict::Pass);
+        assert_eq!(verdict(1e-14, -1e-14, 1e-14), Verdict::Fail);
+    }
+}

@@ -10,6 +10,20 @@ pub(crate) type Figures = [(&'static str, String)];
 /// Units of a page per px.
 pub(crate) const UNITS: f64 = 10.0;
 
+/// Numbers that data may hold.
+pub(crate) const EXTREMES: [f64; 10] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    1e-320,
+    1e308,
+    -1e308,
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+];
+
 pub(crate) fn parse(svg: &str) -> Document<'_> {
     Document::parse(svg).unwrap_or_else(|e| panic!("not well-formed: {e}"))
 }

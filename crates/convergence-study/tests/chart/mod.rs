@@ -8,7 +8,7 @@ mod rows;
 
 use convergence_study::internal::chart::*;
 use gallery::{errors_over_h, gallery};
-use laws::{UNITS, elements, parse};
+use laws::{EXTREMES, UNITS, elements, parse};
 
 #[test]
 fn every_figure_is_well_formed_and_free_of_nan() {
@@ -98,19 +98,7 @@ fn charts_of_nothing_and_of_extreme_data_are_documents() {
     parse(&Chart::default().svg());
     parse(&deviations(vec![]).svg());
     parse(&panels("", &[]));
-    let values = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        1e-320,
-        1e308,
-        -1e308,
-        f64::NAN,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-    ];
-    for (x, y) in values.into_iter().flat_map(|x| values.map(|y| (x, y))) {
+    for (x, y) in EXTREMES.into_iter().flat_map(|x| EXTREMES.map(|y| (x, y))) {
         for is_log in [false, true] {
             let axis = Axis {
                 is_log,

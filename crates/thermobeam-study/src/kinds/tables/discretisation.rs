@@ -1,0 +1,214 @@
+//! Discretisations of any order: elements and steps, and two of them that are compared.
+
+use thermobeam::dg::DgStepping;
+
+use crate::kinds::prelude::*;
+use crate::scene::{
+    Method, Scene,
+    file::{Degree, Growth, TimeDegree},
+    limits::{self, Elements},
+    resampled,
+};
+
+/// The keys of a discretisation.
+const DISCRETISATION_KEYS: [Key; 6] = [
+    Key::new("elements", Form::Count(1), "number of elements"),
+    Key::new("degree", Form::Count(1), "degree p in space"),
+    Key::new("time_degree", Form::Count(0), "degree q in time"),
+    Key::new("dt", Form::Positive, "the largest step"),
+    Key::new(
+        "restart_dt",
+        Form::Positive,
+        "the first step, at the start and after each contact event",
+    ),
+    Key::new(
+        "growth",
+        Form::Number,
+        "factor of the steps in between, at least 1",
+    ),
+];
+
+/// Two tables with these keys.
+pub(crate) const DISCRETISATIONS: Key = Key::new(
+    "discretisations",
+    Form::List(&Form::Table(&[&[&DISCRETISATION_KEYS]])),
+    "the two discretisations by dG that are compared",
+);
+
+/// The cost of a solve per unknown, in steps of a one-step scheme.
+const COST: f64 = 30.0;
+
+/// Elements and steps of one discretisation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Discretisation {
+    /// Elements, distributed like those of the scene.
+    pub elements: usize,
+    /// Degree p.
+    pub degree: usize,
+    /// Degree q in time and the lengths of steps.
+    pub stepping: DgStepping,
+}
+
+impl Discretisation {
+    /// * `counts`: elements, degree p, degree q in time.
+    /// * `steps`: the longest, the first after an event, and how fast they grow.
+    pub(crate) fn new(
+        [elements, degree, time_degree]: [usize; 3],
+        [dt, restart_dt, growth]: [f64; 3],
+    ) -> Self {
+        Self {
+            elements,
+            degree,
+            stepping: DgStepping {
+                degree: time_degree,
+                dt,
+                restart_dt,
+                growth,
+                ..DgStepping::default()
+            },
+        }
+    }
+
+    /// Discretises a scene in this way.
+    ///
+    /// # Errors
+    /// [`CaseFailure`] if the mesh has elements that are too small.
+    pub fn of(&self, scene: &Scene, t_end: f64) -> Result<Scene, CaseFailure> {
+        Ok(Scene {
+            mesh: resampled(&scene.mesh, self.elements)?,
+            degree: self.degree,
+            method: Method::Dg(self.stepping),
+            t_end,
+            ..scene.clone()
+        })
+    }
+
+    /// Its identification in words.
+    pub fn label(&self) -> String {
+        format!(
+            "{} x p = {}, q = {}",
+            self.elements, self.degree, self.stepping.degree
+        )
+    }
+
+    /// Cost of a run to t_end, in element-steps of a one-step scheme.
+    pub fn cost(&self, t_end: f64) -> f64 {
+        COST * (self.elements * self.degree * (self.stepping.degree + 1)) as f64 * t_end
+            / self.stepping.dt
+    }
+}
+
+/// A table of a discretisation of any order.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DiscretisationTable {
+    /// number of elements
+    elements: Elements,
+    /// degree p in space
+    degree: Degree,
+    /// degree q in time
+    time_degree: TimeDegree,
+    /// the largest step
+    dt: Positive,
+    /// the first step, at the start and after each contact event
+    restart_dt: Positive,
+    /// factor of the steps in between, at least 1
+    growth: Growth,
+}
+
+impl DiscretisationTable {
+    /// For runs to `t_end`.
+    fn discretisation(&self, t_end: f64) -> Result<Discretisation, Refusal> {
+        let [dt, restart_dt] = [self.dt, self.restart_dt].map(Positive::get);
+        limits::steps_to("dt", t_end, dt, limits::STEPS)?;
+        if restart_dt > dt {
+            let allowed = format!("a number > 0 and at most dt = {dt:?}");
+            return Err(Refusal::written("restart_dt", allowed));
+        }
+        let [elements, degree] = [self.elements.get(), self.degree.get()];
+        // Elements of different lengths need more memory.
+        limits::memory_of_dg("elements", elements, 1, degree, self.time_degree.get())?;
+        Ok(Discretisation {
+            elements,
+            degree,
+            stepping: DgStepping {
+                degree: self.time_degree.get(),
+                dt,
+                restart_dt,
+                growth: self.growth.get(),
+                ..DgStepping::default()
+            },
+        })
+    }
+}
+
+/// The two discretisations of a list of tables.
+///
+/// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both
+///   must have; otherwise the two must differ in elements and degree.
+/// * `t_end`: the final time of the runs.
+pub(crate) fn discretisations(
+    root: &Section<'_>,
+    key: &str,
+    elements: Option<usize>,
+    t_end: f64,
+) -> Result<[Discretisation; 2], InputError> {
+    let one = |item: &Field<'_>| item.section()?.read();
+    let list = root.list(key, "two tables", one, |_| true)?;
+    two_discretisations(&list, key, elements, t_end).map_err(|refusal| root.locate(refusal))
+}
+
+/// As [`discretisations`], of tables that were read.
+pub(crate) fn two_discretisations(
+    tables: &[DiscretisationTable],
+    key: &str,
+    elements: Option<usize>,
+    t_end: f64,
+) -> Result<[Discretisation; 2], Refusal> {
+    let differing = match elements {
+        None => "that differ in elements, degree, time_degree and dt".to_owned(),
+        Some(n) => format!(
+            "of {n} elements of degree 1, those refined in time, that differ in time_degree and dt"
+        ),
+    };
+    let allowed = format!("two tables [[{key}]] {differing}");
+    let mut list = vec![];
+    for (place, table) in tables.iter().enumerate() {
+        let path = format!("{key}[{place}]");
+        list.push(table.discretisation(t_end).map_err(within(&path))?);
+    }
+    let [one, other] = list[..] else {
+        return Err(Refusal::written(key, allowed));
+    };
+    let steps = [
+        ("time_degree", one.stepping.degree == other.stepping.degree),
+        ("dt", one.stepping.dt == other.stepping.dt),
+    ];
+    let space = [
+        ("elements", one.elements == other.elements),
+        ("degree", one.degree == other.degree),
+    ];
+    let same = if elements.is_some() {
+        steps.to_vec()
+    } else {
+        [space, steps].concat()
+    };
+    if let Some((same, _)) = same.iter().find(|(_, is_same)| *is_same) {
+        return Err(Refusal::new(
+            key,
+            format!("two with the same {same}"),
+            allowed,
+        ));
+    }
+    let is_of_mesh =
+        |how: &Discretisation| elements.is_none_or(|n| (how.elements, how.degree) == (n, 1));
+    match [one, other].into_iter().find(|how| !is_of_mesh(how)) {
+        Some(Discretisation {
+            elements, degree, ..
+        }) => {
+            let found = format!("{elements} elements of degree {degree}");
+            Err(Refusal::new(key, found, allowed))
+        }
+        None => Ok([one, other]),
+    }
+}

@@ -23,6 +23,9 @@ def source(text: str) -> str:
 
 def page(module: bytes, crate: Path, planted: list[str]) -> str:
     parts = {name: (crate / "page" / name).read_text(encoding="utf-8") for name in ("page.html", "page.css", "page.js", "worker.js")}
+    # The colours are those of a report.
+    colours = crate.parent / "convergence-study/src/report/templates/colours.css"
+    parts["page.css"] = colours.read_text(encoding="utf-8") + parts["page.css"]
     if planted:
         old, new = planted
         assert old in parts["page.js"], f"page.js has no {old!r}"

@@ -253,9 +253,7 @@ impl<'a> Section<'a> {
             },
             _ => {
                 let texts = schema::at(schema, &path).map_or(vec![], schema::texts);
-                let suggestion = self
-                    .text_of(&found)
-                    .and_then(|text| nearest(text, texts.into_iter()));
+                let suggestion = self.text_of(&found).and_then(|text| nearest(text, texts));
                 let hint = suggestion.map(|name| format!(" (did you mean \"{name}\"?)"));
                 Complaint::NotAllowed {
                     found: self.written(&found) + &hint.unwrap_or_default(),

@@ -8,13 +8,14 @@ use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, Error, Output, State, UndefinedBehavior};
 use serde::Serialize;
 
-const FILES: [(&str, &str); 11] = [
+const FILES: [(&str, &str); 12] = [
     ("README.md", include_str!("templates/README.md.j2")),
     ("digest.md", include_str!("templates/digest.md.j2")),
     ("parts.md", include_str!("templates/parts.md.j2")),
     ("parts.html", include_str!("templates/parts.html.j2")),
     ("page.html", include_str!("templates/page.html.j2")),
     ("junit.xml", include_str!("templates/junit.xml.j2")),
+    ("colours.css", include_str!("templates/colours.css")),
     ("page.css", include_str!("templates/page.css")),
     ("picture.css", include_str!("templates/picture.css")),
     ("page.js", include_str!("templates/page.js")),

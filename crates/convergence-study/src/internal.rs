@@ -16,7 +16,7 @@ pub mod cli {
         pub use crate::cli::help::{HelpPage, pages};
     }
     pub mod running {
-        pub use crate::cli::running::{LongRun, consent, counting, seconds};
+        pub use crate::cli::running::{consent, counting, seconds};
     }
     pub mod schema {
         pub use crate::cli::schema::{MANUFACTURE, of_studies, other_files, page, text};
@@ -73,8 +73,8 @@ pub mod run {
 #[cfg(feature = "reports")]
 pub mod store {
     pub use crate::store::{
-        Baseline, GuardedChange, Movement, Record, ReportFolder, ReportSet, Works, content_hash,
-        json, lock,
+        Baseline, GuardedChange, Movement, Provenance, Record, ReportFolder, ReportSet, Works,
+        content_hash, json, lock,
     };
     pub mod atomic {
         pub use crate::store::atomic::{

@@ -9,17 +9,17 @@ mod search;
 mod step_time;
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use convergence_study::{
     CaseFailure, Project, Table, Verdict,
     internal::{
         cli::{
             exit::{CommandOutcome, Unusable},
-            running::LongRun,
             workspace,
         },
-        input, report,
-        store::atomic,
+        input, report, run,
+        store::{Provenance, atomic},
         study::Described,
     },
 };
@@ -154,7 +154,8 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let root = workspace::root()?;
     let library = arguments.beside.as_deref().map(library).transpose()?;
     let folder = arguments.out.as_ref().map(|out| out.join("bench"));
-    let clock = LongRun::begin("the benchmark", &root.join("reports/bench.md"), false);
+    let started = Instant::now();
+    let done = |part: &str| eprintln!("{part}, at {:.0} s", started.elapsed().as_secs_f64());
     let mut record = folder
         .as_deref()
         .map_or(Ok(Record::default()), Record::read)?;
@@ -173,12 +174,12 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
             if let Some(folder) = &folder {
                 record.write(folder)?;
             }
-            clock.done(&format!("{id}, {}", method.name));
+            done(&format!("{id}, {}", method.name));
         }
     }
     if arguments.selects("steps", PROBLEMS[0].0) {
         record.tables = step_tables(&root)?;
-        clock.done("steps");
+        done("steps");
     }
     let (text, drawings) = page::accuracy(&record);
     let mut text = heading(project, &record) + &text;
@@ -192,7 +193,11 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
                 atomic::write(&folder.join(&drawing.file), &drawing.svg)?;
             }
             let page = out.join("bench.md");
-            atomic::write(&page, format!("{text}{}\n", clock.ended(&root)))?;
+            let jobs = run::available().get();
+            let here = Provenance::collect(&root, String::new(), jobs, &[]).sentences();
+            let took = started.elapsed().as_secs_f64();
+            let end = format!("{} It took {took:.0} s.\n", here.join(" "));
+            atomic::write(&page, text + &end)?;
             println!("written to {}", page.display());
         }
         _ => println!("{text}nothing is written without --out"),

@@ -19,7 +19,7 @@ use super::record::Timed;
 /// Element-steps up to which both directions are tried.
 const CHEAP: usize = 1 << 18;
 /// Elements of the coarsest run.
-const FIRST: usize = 16;
+const FIRST: usize = 4;
 /// Gradings tried with cheap runs; the better one goes on.
 const GRADINGS: [f64; 2] = [1.0, 1.5];
 /// A run shorter than this is repeated, without looking at it.

@@ -1,11 +1,8 @@
-//! Shared by the commands that take long: progress, report on an interruption, time limit, and how
-//! long a run took.
+//! Shared by the commands that take long: progress, report on an interruption, time limit.
 
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -13,8 +10,7 @@ use super::exit::Unusable;
 use super::{exit, screen};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::run::{self, Progress};
-use crate::store::Provenance;
+use crate::run::Progress;
 use crate::study::Study;
 
 /// Time limits of the commands that run studies.
@@ -175,99 +171,4 @@ pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> Pr
     ProgressBar::new(count as u64)
         .with_style(style)
         .with_prefix(name.to_owned())
-}
-
-/// A command that takes minutes, and writes the page that records how many.
-#[derive(Debug)]
-pub struct LongRun {
-    started: Instant,
-    /// Seconds of the run that wrote the existing page.
-    before: Option<f64>,
-    quiet: bool,
-}
-
-impl LongRun {
-    /// Starts the clock, and says how long the run took that wrote the existing page.
-    ///
-    /// * `what`: what is done, in words.
-    /// * `page`: written by an earlier run, with [`ended`](Self::ended) in it.
-    pub fn begin(what: &str, page: &Path, quiet: bool) -> Self {
-        let before = fs::read_to_string(page)
-            .ok()
-            .and_then(|text| seconds_in(&text));
-        let run = Self {
-            started: Instant::now(),
-            before,
-            quiet,
-        };
-        let known = match before {
-            Some(before) => format!("took {before:.0} s when {} was written", page.display()),
-            None => format!(
-                "minutes; how many is not known: {} does not say",
-                page.display()
-            ),
-        };
-        run.tell(&format!("{what}: {known}"));
-        run
-    }
-
-    /// Says what has been done, and the time since the start.
-    pub fn done(&self, what: &str) {
-        let of = self
-            .before
-            .map_or(String::new(), |before| format!(" of about {before:.0}"));
-        self.tell(&format!(
-            "{what}, at {:.0}{of} s",
-            self.started.elapsed().as_secs_f64()
-        ));
-    }
-
-    /// Where and when the run was made and how long it took, for the page.
-    ///
-    /// * `root`: the project's folder.
-    pub fn ended(&self, root: &Path) -> String {
-        let here = Provenance::collect(root, String::new(), run::available().get(), &[]);
-        let took = took(self.started.elapsed().as_secs_f64());
-        here.sentences()
-            .into_iter()
-            .chain([took])
-            .collect::<Vec<_>>()
-            .join(" ")
-    }
-
-    fn tell(&self, message: &str) {
-        if !self.quiet {
-            screen::tell(message);
-        }
-    }
-}
-
-const BEFORE: &str = "It took ";
-const AFTER: &str = " s.";
-
-fn took(seconds: f64) -> String {
-    format!("{BEFORE}{seconds:.0}{AFTER}")
-}
-
-/// The seconds that [`took`] has written to a page.
-fn seconds_in(page: &str) -> Option<f64> {
-    let (number, _) = page.split_once(BEFORE)?.1.split_once(AFTER)?;
-    number.parse().ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{seconds_in, took};
-
-    #[test]
-    fn the_next_run_reads_what_the_page_says() {
-        let page = format!(
-            "# Drift\n\nWritten by a program. {}\n\n| a | b |\n",
-            took(143.4)
-        );
-        assert_eq!(seconds_in(&page), Some(143.0));
-        for without in ["", "It took long.", "It took x s."] {
-            assert_eq!(seconds_in(without), None, "{without}");
-        }
-    }
 }

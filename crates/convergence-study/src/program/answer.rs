@@ -242,17 +242,21 @@ fn known_keys(object: &Map<String, Value>) -> Result<(), String> {
             )),
         };
     };
-    let advice = match value {
-        Value::Number(number) => {
-            let key = Value::from(key.as_str());
-            format!(
-                "; if it is an error, put it below `errors`: {{\"errors\": {{{key}: {number}}}}}"
-            )
-        }
-        _ => String::new(),
+    let is_number = value.is_number() || is_number_as_text(value);
+    let advice = if is_number {
+        let key = Value::from(key.as_str());
+        format!(
+            "; if it is an error, put the number below `errors`: {{\"errors\": {{{key}: 1.5e-3}}}}"
+        )
+    } else {
+        String::new()
     };
     let key = visible(&shorten(key));
-    let value = visible(&written(value));
+    let value = match value {
+        // Without the number: the cases of a study then have one reason, which is said once.
+        Value::Number(_) => "a number".to_owned(),
+        _ => visible(&written(value)),
+    };
     Err(format!(
         "its answer has the unknown key `{key}`, {value}; expected some of {KEYS}{advice}"
     ))
@@ -276,7 +280,8 @@ fn table(
             entries.len()
         ));
     }
-    let entry = |(key, value): (&String, &Value)| {
+    let mut numbers = vec![];
+    for (key, value) in entries {
         let key = visible(key);
         let read = number(
             &format!("`{key}` of its {name}"),
@@ -284,13 +289,18 @@ fn table(
             "a finite number",
             |_| true,
         );
-        let value = read.unwrap_or_else(|error| {
-            complaint.get_or_insert(error);
-            f64::NAN
-        });
-        NamedNumber::new(key, value)
-    };
-    Ok(entries.iter().map(entry).collect())
+        match read {
+            Ok(number) => numbers.push(NamedNumber::new(key, number)),
+            Err(error) => {
+                complaint.get_or_insert(error);
+                // A text or a list is no number that was computed: the number is missing.
+                if value.is_null() || value.is_number() {
+                    numbers.push(NamedNumber::new(key, f64::NAN));
+                }
+            }
+        }
+    }
+    Ok(numbers)
 }
 
 fn number(
@@ -305,9 +315,17 @@ fn number(
     found.ok_or_else(|| format!("{name} is {}; expected {expected}", written(value)))
 }
 
+fn is_number_as_text(value: &Value) -> bool {
+    let text = value.as_str().unwrap_or_default();
+    text.trim().parse::<f64>().is_ok()
+}
+
 fn written(value: &Value) -> String {
     if value.is_null() {
         "NaN, infinite or null".to_owned()
+    } else if is_number_as_text(value) {
+        // Without the number, as above.
+        "a number in quotes, which is text".to_owned()
     } else {
         shorten(&value.to_string())
     }
@@ -373,7 +391,11 @@ mod tests {
             ),
             (
                 r#"{"L2": 0.01}"#,
-                r#"put it below `errors`: {"errors": {"L2": 0.01}}"#,
+                r#"`L2`, a number; expected some of errors, values, h, dt, work; if it is an error, put the number below `errors`: {"errors": {"L2": 1.5e-3}}"#,
+            ),
+            (
+                r#"{"L2": "0.01"}"#,
+                "`L2`, a number in quotes, which is text; expected some of errors",
             ),
             (r#"{"h": 0.01}"#, "neither errors nor values"),
             ("{}", "neither errors nor values"),
@@ -416,6 +438,11 @@ mod tests {
                 "`L2` of its errors is \"small\"; expected a finite number".to_owned(),
             ),
             (
+                r#"{"errors": {"L2": "1e-3"}}"#,
+                "`L2` of its errors is a number in quotes, which is text; expected a finite number"
+                    .to_owned(),
+            ),
+            (
                 r#"{"errors": [1]}"#,
                 "`errors` is [1]; expected an object".to_owned(),
             ),
@@ -431,6 +458,18 @@ mod tests {
             let found = read(line).unwrap_err();
             assert!(found.contains(&message), "{found}");
         }
+    }
+
+    #[test]
+    fn a_text_in_place_of_a_number_is_a_missing_number_and_not_one_that_broke_down() {
+        let errors = |line: &str| {
+            let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap()).unwrap();
+            assert!(complaint.is_some(), "{line}");
+            answer.errors
+        };
+        assert_eq!(errors(r#"{"errors": {"L2": "1e-3"}}"#), []);
+        let broken = errors(r#"{"errors": {"L2": null}}"#);
+        assert!(matches!(&broken[..], [one] if one.value.is_nan()));
     }
 
     #[test]

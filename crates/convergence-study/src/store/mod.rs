@@ -14,7 +14,7 @@ mod works;
 
 pub use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
-pub(crate) use provenance::Provenance;
+pub use provenance::Provenance;
 pub use record::Record;
 pub(crate) use record::{FIGURES, SCHEMA};
 pub(crate) use report_folder::README;

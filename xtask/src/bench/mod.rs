@@ -155,6 +155,8 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let library = arguments.beside.as_deref().map(library).transpose()?;
     let folder = arguments.out.as_ref().map(|out| out.join("bench"));
     let started = Instant::now();
+    // What the benchmark writes is no change of what it ran.
+    let here = Provenance::collect(&root, String::new(), run::available().get(), &[]).sentences();
     let done = |part: &str| eprintln!("{part}, at {:.0} s", started.elapsed().as_secs_f64());
     let mut record = folder
         .as_deref()
@@ -193,8 +195,6 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
                 atomic::write(&folder.join(&drawing.file), &drawing.svg)?;
             }
             let page = out.join("bench.md");
-            let jobs = run::available().get();
-            let here = Provenance::collect(&root, String::new(), jobs, &[]).sentences();
             let took = started.elapsed().as_secs_f64();
             let end = format!("{} It took {took:.0} s.\n", here.join(" "));
             atomic::write(&page, text + &end)?;

@@ -170,7 +170,7 @@ pub mod file {
 #[cfg(feature = "reports")]
 #[doc(inline)]
 pub use crate::{
-    program::{PROJECT as PROGRAMS, ROW as PROGRAM},
+    program::{PROJECT as PROGRAMS, ROW as PROGRAM, TAYLOR},
     project::{FileSchema, Front, Project, SourcePlace, Statement, Template, Term},
     verify::{
         Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,

@@ -17,13 +17,21 @@ const STEPS: i32 = 13;
 const RATIO: f64 = 0.25;
 
 /// How far the coarsest step goes, in units of the length of m or of 1.
-const FARTHEST: f64 = 0.1;
+pub(crate) const FARTHEST: f64 = 0.1;
 
 /// How often the coarsest step is halved where J is not finite.
 const MOST_HALVINGS: usize = 40;
 
 /// Directions that are drawn anew for one in which a derivative is zero.
-const MOST_DRAWN_ANEW: usize = 5;
+pub(crate) const MOST_DRAWN_ANEW: usize = 5;
+
+/// Directions that are drawn, by default.
+pub(crate) const DIRECTIONS: usize = 3;
+
+/// All steps, coarsest first.
+pub(crate) fn steps_from(coarsest: f64) -> Vec<f64> {
+    (0..STEPS).map(|k| coarsest * RATIO.powi(k)).collect()
+}
 
 /// A test of the derivatives of J at a point m.
 ///
@@ -85,7 +93,7 @@ impl TaylorTest {
         Self {
             at: m.to_vec(),
             scales: None,
-            directions: Directions::Drawn(3),
+            directions: Directions::Drawn(DIRECTIONS),
             seed: 1,
             to: DEFAULT_TO,
         }
@@ -244,7 +252,7 @@ impl TaylorTest {
             coarsest /= 2.0;
             ends = ends_at(coarsest)?;
         }
-        let steps: Vec<f64> = (0..STEPS).map(|k| coarsest * RATIO.powi(k)).collect();
+        let steps = steps_from(coarsest);
         // The values at the coarsest step are known.
         let mut on_side = |side: f64, end: f64| -> Result<Vec<f64>, E> {
             let finer = steps[1..].iter().map(|step| at(side * step));

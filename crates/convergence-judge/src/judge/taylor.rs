@@ -21,13 +21,17 @@
 //!
 //! The noise is the largest of the round-off of J, the difference of two calls at m, and what the
 //! finest steps show: a divided difference of third order of J at 0 and three steps, which is zero
-//! for a parabola, in units of the root of the sum of its squared weights.
+//! for a parabola, in units of the root of the sum of its squared weights. A J of few digits, as it is
+//! printed, has at least half a unit of the last one; and where the finest step does not change J at
+//! all, the noise is at least the smallest change that another step shows.
 
 use serde::Serialize;
 
 use super::claims::{Bound, Claim};
 use super::fit::{FLOOR_MARGIN, Level};
-use super::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, RateVerdict, Verdict};
+use super::verdict::{
+    DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, RateVerdict, Verdict, significant_digits,
+};
 
 mod extrapolate;
 #[cfg(test)]
@@ -277,7 +281,12 @@ impl Along {
         let finding = if !self.is_finite() {
             Finding::NotFinite
         } else if self.is_constant(noise) {
-            Finding::NothingTested
+            let is_coarse = self.resolution() > FLOOR_MARGIN * f64::EPSILON * self.here[0].abs();
+            if is_coarse {
+                Finding::Noisy
+            } else {
+                Finding::NothingTested
+            }
         } else if size.is_zero() {
             Finding::Vanishes
         } else {
@@ -321,6 +330,25 @@ impl Along {
             .collect()
     }
 
+    /// What J is known to, if it has few digits: half a unit of the last one, and the smallest
+    /// change that a step shows if the finest one shows none. 0 where J does not change.
+    fn resolution(&self) -> f64 {
+        let changes = self.forward.iter().map(|value| self.change(*value).abs());
+        let changes = changes.filter(|change| *change > 0.0);
+        let Some(smallest) = changes.reduce(f64::min) else {
+            return 0.0;
+        };
+        let is_still = self.forward.last() == Some(&self.here[0]);
+        let places = self
+            .forward
+            .iter()
+            .chain(&self.here)
+            .map(|value| last_place(*value));
+        let last_place = places.fold(f64::INFINITY, f64::min);
+        let still = if is_still { smallest } else { 0.0 };
+        still.max(0.5 * last_place)
+    }
+
     /// The noise of J: see the head of the module.
     fn noise(&self) -> f64 {
         let largest = self
@@ -335,7 +363,21 @@ impl Along {
                 [self.here[0], values[2], values[1], values[0]],
             )
         });
-        shown.fold(called_twice.max(f64::EPSILON * largest), f64::max)
+        let noise = called_twice.max(f64::EPSILON * largest);
+        shown.fold(noise.max(self.resolution()), f64::max)
+    }
+}
+
+/// The place of the last decimal digit of a number: 0.01 of 1.25; infinite for 0.
+fn last_place(number: f64) -> f64 {
+    let text = format!("{number:e}");
+    let (_, exponent) = text.split_once('e').unwrap_or_default();
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let digits = significant_digits(number) as i32;
+    if number == 0.0 {
+        f64::INFINITY
+    } else {
+        10f64.powi(exponent + 1 - digits)
     }
 }
 

@@ -28,6 +28,7 @@ const PROJECT: Project = Project {
             failure: "",
         },
         program::ROW,
+        program::TAYLOR,
     ],
     templates: &[program::TEMPLATE, program::MANUFACTURE],
     ..Project::new("powers", "powers")

@@ -12,6 +12,7 @@ use tempfile::TempDir;
 
 mod answers;
 mod levels;
+mod taylor;
 
 const HARNESS: &str = env!("CARGO_BIN_EXE_powers");
 
@@ -286,7 +287,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "kind = \"program\"",
             "",
-            "s.toml:1:1: study.kind: missing; expected \"power\", \"program\"",
+            "s.toml:1:1: study.kind: missing; expected \"power\", \"program\", \"taylor\"",
         ),
         (
             "[[expect]]",

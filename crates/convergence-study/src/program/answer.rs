@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use super::lines::NamedText;
 use super::once::Once;
 use crate::input::shorten;
+use crate::judge::claims::Bound;
 use crate::study::{CaseFailure, Claim};
 use crate::text::json;
 use crate::text::named::NamedNumber;
@@ -55,6 +56,18 @@ pub(super) struct Expectation {
 }
 
 impl Expectation {
+    /// A value of which nothing is claimed.
+    pub(super) fn of_value(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            is_value: true,
+            claim: Claim::usual(1.0, Bound::Both),
+            time: 1.0,
+            by_degree: false,
+            exact: None,
+        }
+    }
+
     /// The key that names it.
     pub(super) fn what(&self) -> &'static str {
         if self.is_value { "value" } else { "error" }

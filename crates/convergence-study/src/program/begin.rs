@@ -2,7 +2,7 @@
 //! command of the user.
 
 use super::command::filled;
-use super::refine::CaseParameter;
+use super::launch::CaseParameter;
 use crate::project::Template;
 
 /// A language of `new program`.

@@ -10,8 +10,8 @@ use std::time::Duration;
 
 use super::answer::{Answer, Expectation};
 use super::guard::{Ending, NotStarted, Running};
+use super::launch::CaseParameter;
 use super::output::{NoAnswer, read_last_words, read_output};
-use super::refine::CaseParameter;
 use crate::input::{Misread, shorten};
 use crate::study::CaseFailure;
 use crate::text::names::{did_you_mean, nearest};

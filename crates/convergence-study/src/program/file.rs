@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Program;
 use super::answer::Expectation;
-use super::command::filled;
-use super::refine::{CaseParameter, RefineTable};
+use super::launch::{COMMAND, LaunchKeys, SECONDS};
+use super::refine::RefineTable;
 use crate::input::{AllowedText, Number, POSITIVE, Positive, Range, Refusal, visible, within};
 use crate::judge::claims::{Bound, order_of_factor};
 use crate::judge::verdict::{Floor, WIDEST_TOLERANCE};
@@ -55,9 +54,6 @@ struct ProgramTable {
     scale: Option<Positive>,
 }
 
-const COMMAND: &str = "a list of the program and its arguments, each a text in quotes";
-const SECONDS: &str = "a number of seconds > 0";
-
 /// A table `[[expect]]`: an error or a value, with an order or a factor, or an error that is exact.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -94,9 +90,6 @@ impl Range for Narrow {
     ];
 }
 
-/// The default time limit of a case.
-const TIME_LIMIT: Duration = Duration::from_secs(600);
-
 impl ProgramFile {
     /// The study.
     ///
@@ -106,20 +99,13 @@ impl ProgramFile {
         let expect = expectations(self.expect, refine.grid)?;
         let table = self.program;
         let in_program = within("program");
-        let seconds = table
-            .time_limit
-            .map(|limit| Duration::try_from_secs_f64(limit.get()));
-        let time_limit = seconds.unwrap_or(Ok(TIME_LIMIT));
         Ok(Program {
-            directory: table.directory(folder).map_err(&in_program)?,
-            words: table
-                .words(&refine.resolutions()[0].parameters)
-                .map_err(&in_program)?,
             floor: table.floor(),
-            time_limit: time_limit
-                .map_err(|_| in_program(Refusal::written("time_limit", SECONDS)))?,
             manufactured: table.manufactured(folder).map_err(&in_program)?,
-            variables: table.variables().map_err(&in_program)?,
+            launch: table
+                .launch_keys()
+                .launch(folder, &refine.resolutions()[0].parameters)
+                .map_err(&in_program)?,
             refine,
             expect,
             most_levels: None,
@@ -128,6 +114,15 @@ impl ProgramFile {
 }
 
 impl ProgramTable {
+    fn launch_keys(self) -> LaunchKeys {
+        LaunchKeys {
+            command: self.command,
+            directory: self.directory,
+            env: self.env,
+            time_limit: self.time_limit,
+        }
+    }
+
     /// What is known of round-off.
     fn floor(&self) -> Floor {
         let floor = self.floor.map_or(0.0, Positive::get);
@@ -150,70 +145,7 @@ impl ProgramTable {
         let allowed = "a file of `manufacture`, relative to this file";
         Err(Refusal::written_and("manufacture", more, allowed))
     }
-
-    /// The folder in which the program runs, as an absolute path: the program's name is relative to
-    /// it, too.
-    fn directory(&self, folder: &Path) -> Result<PathBuf, Refusal> {
-        let here = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
-        let Some(name) = &self.directory else {
-            return here
-                .canonicalize()
-                .map_err(|error| Refusal::new("directory", error.to_string(), "a folder"));
-        };
-        let path = here.join(name);
-        let absolute = path.canonicalize().ok().filter(|path| path.is_dir());
-        absolute.ok_or_else(|| {
-            let more = format!(
-                ", but {} is no folder",
-                visible(&path.display().to_string())
-            );
-            let allowed = "a folder, relative to that of this file";
-            Refusal::written_and("directory", more, allowed)
-        })
-    }
-
-    /// The variables of `env`.
-    fn variables(self) -> Result<Vec<(String, String)>, Refusal> {
-        for (name, value) in &self.env {
-            let path = format!("env.{name}");
-            if name.is_empty() || name.contains(['=', '\0']) {
-                let found = format!("the name \"{}\"", visible(name));
-                return Err(Refusal::new(
-                    path,
-                    found,
-                    "a name of a variable, without `=`",
-                ));
-            }
-            if value.contains('\0') {
-                return Err(Refusal::written(path, WITHOUT_ZERO));
-            }
-        }
-        Ok(self.env.into_iter().collect())
-    }
-
-    /// The words of the command, whose placeholders have values.
-    fn words(&self, values: &[CaseParameter]) -> Result<Vec<String>, Refusal> {
-        match self.command.first().map(String::as_str) {
-            None => return Err(Refusal::written("command", COMMAND)),
-            Some("") => return Err(Refusal::written("command[0]", "the name of a program")),
-            Some(_) => {}
-        }
-        for (place, word) in self.command.iter().enumerate() {
-            let path = format!("command[{place}]");
-            if word.contains('\0') {
-                return Err(Refusal::written(path, WITHOUT_ZERO));
-            }
-            filled(word, values).map_err(|misread| Refusal::misread(path, misread))?;
-        }
-        Ok(self.command.clone())
-    }
 }
-
-const WITHOUT_ZERO: &str = "a text without the character 0";
 
 /// * `grid`: whether h and dt are refined independently; each error then has two orders.
 fn expectations(tables: Vec<ExpectTable>, grid: bool) -> Result<Vec<Expectation>, Refusal> {

@@ -8,10 +8,11 @@
 //! | file | holds |
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
-//! | `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
+//! | `launch.rs`, `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
 //! | `answer.rs`, `lines.rs`, `once.rs` | its answer: an object, or lines |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `values.rs` | the same for values without an exact solution |
+//! | `taylor.rs` | the kind that tests derivatives |
 //! | `begin.rs` | what `new program` writes |
 
 mod answer;
@@ -20,10 +21,12 @@ mod command;
 mod file;
 pub(crate) mod guard;
 mod judge;
+mod launch;
 mod lines;
 mod once;
 mod output;
 mod refine;
+mod taylor;
 mod values;
 
 use std::path::{Path, PathBuf};
@@ -32,18 +35,19 @@ use std::time::{Duration, Instant};
 use crate::input::{InputError, Keys, Section, schema};
 use crate::judge::verdict::Floor;
 use crate::project::{Project, Template};
-use crate::run::time_limit;
 use crate::study::until_decided::Next;
 use crate::study::{
     Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, described, read_study,
 };
 use answer::Expectation;
-use command::{Invocation, filled};
+use command::Invocation;
 use file::ProgramFile;
+use launch::Launch;
 use refine::Refine;
 
 pub(crate) use answer::Answer;
 pub(crate) use refine::RefinedCase;
+pub use taylor::ROW as TAYLOR;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -86,7 +90,7 @@ pub const MANUFACTURE: Template = Template {
 /// The project of the program `convergence-study`: studies of any program, in the folder that it
 /// runs in.
 pub const PROJECT: Project = Project {
-    kinds: &[ROW],
+    kinds: &[ROW, TAYLOR],
     templates: &[TEMPLATE, MANUFACTURE],
     ..Project::new("convergence-study", "convergence-study")
 };
@@ -94,14 +98,7 @@ pub const PROJECT: Project = Project {
 /// A study of a program, validated.
 #[derive(Debug, Clone)]
 pub(crate) struct Program {
-    /// The program and its arguments.
-    words: Vec<String>,
-    /// The folder in which it runs.
-    directory: PathBuf,
-    /// Variables of its environment beside those of the harness.
-    variables: Vec<(String, String)>,
-    /// The time limit of a case.
-    time_limit: Duration,
+    launch: Launch,
     /// What is known of round-off.
     floor: Floor,
     refine: Refine,
@@ -136,28 +133,6 @@ impl Program {
         expectations
             .map(|expected| (expected.name.clone(), expected.claim))
             .collect()
-    }
-
-    /// The command of a case. Without placeholders the program reads the case from standard input.
-    fn invocation(&self, case: &RefinedCase) -> Invocation {
-        // The reader of the file has refused words whose placeholders have no value.
-        let fill = |word: &String| {
-            filled(word, &case.parameters).unwrap_or_else(|_| (word.clone(), false))
-        };
-        let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
-        let has_placeholder = placeholders.contains(&true);
-        Invocation {
-            words,
-            directory: self.directory.clone(),
-            variables: self.variables.clone(),
-            input: if has_placeholder {
-                String::new()
-            } else {
-                case.json()
-            },
-            time_limit: time_limit::granted()
-                .map_or(self.time_limit, |limit| limit.min(self.time_limit)),
-        }
     }
 }
 
@@ -201,7 +176,7 @@ impl Kind for Program {
     }
 
     fn run(&self, case: &RefinedCase) -> Result<Answer, CaseFailure> {
-        let invocation = self.invocation(case);
+        let invocation = self.launch.invocation(&case.parameters);
         let started = Instant::now();
         let answer = invocation.run(&self.expect)?;
         Ok(Answer {
@@ -227,6 +202,7 @@ impl Kind for Program {
         let mut study = self.clone();
         // The last one of a name counts.
         study
+            .launch
             .variables
             .push((VARIANT.to_owned(), variant.to_owned()));
         Some(study)

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::launch::CaseParameter;
 use crate::input::{Count, Counts, Positive, Refusal};
 use crate::study::{Axis, Refinement, until_decided};
 use crate::text::named::NamedNumber;
@@ -35,9 +36,6 @@ const COUNTS: &str = "a list of increasing whole numbers >= 1, or \"auto\"";
 
 /// A count; up to the largest every whole number is a floating-point number.
 type Whole = Count<1, { 1 << 53 }>;
-
-/// A number passed to a case, by its name.
-pub(crate) type CaseParameter = (&'static str, f64);
 
 /// Most cases of a study: each is a process.
 const MOST_CASES: usize = 10_000;
@@ -214,17 +212,6 @@ impl RefinedCase {
             step,
         }
     }
-
-    /// Everything that the program receives, as one JSON object on one line; whole numbers have no
-    /// decimal point.
-    pub(super) fn json(&self) -> String {
-        let entries: Vec<String> = self
-            .parameters
-            .iter()
-            .map(|(name, value)| format!("\"{name}\": {value}"))
-            .collect();
-        format!("{{{}}}\n", entries.join(", "))
-    }
 }
 
 impl RefineTable {
@@ -334,6 +321,7 @@ fn decreasing(path: &str, steps: &[Positive]) -> Result<Vec<f64>, Refusal> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::launch::json;
     use super::*;
     use crate::input::{parse, within};
 
@@ -356,7 +344,7 @@ mod tests {
             .unwrap()
             .resolutions()
             .iter()
-            .map(|case| case.json().trim().to_owned())
+            .map(|case| json(&case.parameters).trim().to_owned())
             .collect()
     }
 

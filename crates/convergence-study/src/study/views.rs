@@ -81,6 +81,22 @@ impl Outcome {
         }
     }
 
+    /// The outcome of checks that have verdicts of their own, with the numbers that they are about.
+    #[cfg(feature = "reports")]
+    pub(crate) fn of_judged_sheet(summary: String, checks: Vec<Check>, sheet: Sheet) -> Self {
+        Self {
+            tables: sheet.table().into_iter().collect(),
+            quantities: sheet
+                .measured
+                .iter()
+                .filter_map(Measured::quantity)
+                .collect(),
+            headline: summary.as_str().into(),
+            sheets: vec![sheet],
+            ..Self::new(summary, vec![], checks)
+        }
+    }
+
     /// What numbers must be that the baseline does not guard, each by its name: for a name whose
     /// cases have the same claim one line, otherwise one for each case.
     pub(crate) fn claims(&self) -> Vec<(String, Must)> {

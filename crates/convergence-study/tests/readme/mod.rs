@@ -2,6 +2,7 @@
 //! prints: each command before a block of output is run.
 
 mod blocks;
+mod programs;
 
 use std::fs;
 use std::path::Path;

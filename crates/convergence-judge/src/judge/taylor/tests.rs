@@ -405,3 +405,26 @@ fn a_corner_at_m_fails() {
     let judged = along(|x: f64| (x - 0.3).max(0.0).powf(1.5) + x, 0.3, 1.0, None).judge(DEFAULT_TO);
     assert_eq!(judged[0].finding, Finding::OrderTooLow, "{}", judged[0]);
 }
+
+/// A number as it is printed with so many digits after the first.
+fn printed(number: f64, digits: usize) -> f64 {
+    let text = format!("{number:.digits$e}");
+    text.parse().expect("a number")
+}
+
+#[test]
+fn a_j_of_few_digits_is_noisy_and_its_right_derivative_no_failure() {
+    for digits in 2..12 {
+        for (name, j, slope, _, m) in FUNCTIONS {
+            let judged = along(|x| printed(j(x), digits), m, slope(m), None).judge(DEFAULT_TO);
+            let found = &judged[0];
+            assert_ne!(found.verdict(), Verdict::Fail, "{name}, {digits}: {found}");
+        }
+        let j = |x: f64| printed(x.exp(), digits);
+        let wrong = along(j, 0.3, 2.0 * 0.3f64.exp(), None).judge(DEFAULT_TO);
+        assert!(!wrong[0].verdict().is_pass(), "{digits}: {}", wrong[0]);
+        // With fewer the coarsest step changes J by a few units of its last digit.
+        let is_seen = wrong[0].verdict() == Verdict::Fail;
+        assert!(is_seen || digits < 5, "{digits}: {}", wrong[0]);
+    }
+}

@@ -1,6 +1,8 @@
 //! The program that the studies of these tests run.
 
 #[cfg(unix)]
+mod differentiable;
+#[cfg(unix)]
 mod misbehaving;
 
 /// Process groups exist only on Unix.

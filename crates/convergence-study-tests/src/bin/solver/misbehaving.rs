@@ -14,6 +14,14 @@ pub(crate) fn main() {
     let [token, mode, n, rest @ ..] = &arguments[..] else {
         exit(64)
     };
+    if let Some(mode) = mode.strip_prefix("taylor-") {
+        let seed = rest.first().map_or(1.0, |seed| seed.parse().unwrap());
+        println!(
+            "{}",
+            super::differentiable::answer(mode, n.parse().unwrap(), seed)
+        );
+        exit(0)
+    }
     let n: u32 = if mode == "stdin" {
         number_from_stdin()
     } else {

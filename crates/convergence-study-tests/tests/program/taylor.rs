@@ -1,0 +1,162 @@
+//! Derivatives that a program computes.
+
+use std::fs;
+
+use super::{Place, SOLVER, project_of, texts};
+
+/// A test of the derivatives of the solver in this mode.
+///
+/// * `command`: what follows the mode; `more`: the rest of the file.
+fn place(mode: &str, command: &str, more: &str) -> Place {
+    let place = Place::new("ok", "");
+    let token = place.token();
+    place.write_text(&format!(
+        "[study]\nid = \"s\"\nclaim = \"the gradient is right\"\ntier = \"quick\"\nkind = \"taylor\"\n\
+         [program]\ncommand = [{SOLVER:?}, {token:?}, \"taylor-{mode}\", {command}]\n{more}"
+    ));
+    place
+}
+
+const BOTH: &str = r#""{eps}", "{seed}""#;
+
+#[test]
+fn right_derivatives_pass_with_their_size() {
+    let (status, out, err) = place("right", BOTH, "").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(
+        out.contains("\ndJ·d is right to ") && out.contains(" in 3 directions\n"),
+        "{out}"
+    );
+    assert!(out.contains("45 of 45 cases completed"), "{out}");
+    let (status, out, err) = place("right", BOTH, "[taylor]\nsecond = true\n").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains(", d'Hd is right to "), "{out}");
+    // Without {seed} there is one direction.
+    let (status, out, err) = place("right", r#""{eps}""#, "").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(
+        out.contains(" in 1 direction\n") && !out.contains("seed"),
+        "{out}"
+    );
+}
+
+#[test]
+fn wrong_derivatives_fail() {
+    for mode in ["1e-3", "1e-5", "sign", "component", "elsewhere"] {
+        let (status, out, _) = place(mode, BOTH, "").study(&[]);
+        assert_eq!(status, Some(1), "{mode}: {out}");
+        assert!(
+            out.starts_with("s: fail, ")
+                && out.contains(" is wrong: the differences of J tend to "),
+            "{mode}: {out}"
+        );
+    }
+    let place = place("hessian", BOTH, "[taylor]\nsecond = true\n");
+    let (status, out, _) = place.study(&[]);
+    assert!(status == Some(1) && out.contains("d'Hd = "), "{out}");
+    let (_, out, _) = self::place("corner", BOTH, "").study(&[]);
+    assert!(out.starts_with("s: fail, "), "{out}");
+}
+
+#[test]
+fn what_tests_nothing_is_inconclusive() {
+    for (mode, words) in [
+        ("ignored", "nothing is tested: J is a line along d"),
+        ("line", "nothing is tested: J is a line along d"),
+        ("stationary", "dJ·d is zero along this direction"),
+        ("digits", "or ask for less with to=1e-"),
+    ] {
+        let (status, out, _) = place(mode, BOTH, "").study(&[]);
+        assert_eq!(status, Some(1), "{mode}: {out}");
+        let is_said = out.starts_with("s: inconclusive, ") && out.contains(words);
+        assert!(
+            is_said || mode == "ignored" && out.starts_with("s: fail, "),
+            "{mode}: {out}"
+        );
+    }
+}
+
+#[test]
+fn a_direction_in_which_a_derivative_is_zero_is_replaced() {
+    let (status, out, err) = place("first-vanishes", BOTH, "").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(
+        out.contains(" in 3 directions; 1 direction drawn anew, in which a derivative is zero\n"),
+        "{out}"
+    );
+    assert!(
+        out.contains("60 of 60 cases completed") && !out.contains("seed = 1:"),
+        "{out}"
+    );
+}
+
+#[test]
+fn coarse_steps_outside_of_the_domain_are_left_out_and_crashes_fail() {
+    let (status, out, err) = place("outside", BOTH, "").study(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    assert!(out.contains("; J is not finite at 2 coarse steps"), "{out}");
+    let (status, out, _) = place("crash", BOTH, "").study(&[]);
+    assert!(
+        status == Some(1) && out.contains("no direction has a J at every step"),
+        "{out}"
+    );
+}
+
+#[test]
+fn what_a_file_may_get_wrong_is_named() {
+    for (command, more, message) in [
+        (
+            r#""{n}""#,
+            "",
+            "program.command[3]: found the placeholder {n}; expected one that",
+        ),
+        (
+            r#""{seed}""#,
+            "",
+            "expected a command with the placeholder {eps}, or without any",
+        ),
+        (
+            r#""{eps}""#,
+            "[taylor]\ndirections = 2",
+            "taylor.directions: found 2; expected 1, or {seed} in the command",
+        ),
+        (
+            BOTH,
+            "[taylor]\nto = 1",
+            "taylor.to: found 1; expected a finite number > 0 and < 1",
+        ),
+        (
+            BOTH,
+            "[taylor]\neps = 0",
+            "taylor.eps: found 0; expected a finite number > 0",
+        ),
+        (BOTH, "floor = 1", "program.floor: unknown key `floor`"),
+    ] {
+        let (status, out, err) = place("right", command, more).study(&[]);
+        assert!(
+            status == Some(2) && out.is_empty() && err.contains(message),
+            "{command} {more}: {err}"
+        );
+    }
+}
+
+#[test]
+fn the_answered_numbers_are_guarded_and_a_looser_claim_is_found() {
+    let place = project_of(place("right", BOTH, "[taylor]\nto = 1e-7\n"));
+    let file = place.folder.path().join("studies/s.toml");
+    let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
+    assert_eq!(verify(&["--bless"]).0, Some(0));
+    let (status, out, err) = verify(&[]);
+    assert_eq!(status, Some(0), "{out}{err}");
+    let baseline = fs::read_to_string(place.folder.path().join("studies/baseline.json")).unwrap();
+    for name in ["seed = 3: dJ·d", "seed = 3: J", "dJ·d right to"] {
+        assert!(baseline.contains(name), "{baseline}");
+    }
+    let text = fs::read_to_string(&file).unwrap().replace("1e-7", "1e-5");
+    fs::write(&file, text).unwrap();
+    let (status, out, err) = verify(&["--bless"]);
+    assert!(
+        status == Some(1) && (out.clone() + &err).contains("dJ·d right to"),
+        "{out}{err}"
+    );
+}

@@ -1,0 +1,112 @@
+//! Files of the kind `taylor`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::super::launch::{COMMAND, LaunchKeys, SECONDS};
+use super::{StepCase, Taylor};
+use crate::input::{Count, Number, Positive, Range, Refusal, within};
+use crate::judge::taylor::DEFAULT_TO;
+use crate::taylor::{DIRECTIONS, FARTHEST};
+
+/// A test of derivatives that a program computes.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TaylorFile {
+    /// what is run
+    program: TaylorProgramTable,
+    /// the steps, and how exact the derivatives must be
+    #[serde(default)]
+    taylor: TaylorTable,
+}
+
+/// The table `[program]`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TaylorProgramTable {
+    /// the program and its arguments, without a shell; `{eps}` stands for the step, `{seed}` for the
+    /// number by which it draws the direction, without them the program reads both as JSON from
+    /// standard input
+    #[schemars(extend("title" = COMMAND))]
+    command: Vec<String>,
+    /// the folder in which it runs, relative to that of this file, which it is without it
+    directory: Option<String>,
+    /// variables of the program's environment, beside those of the harness
+    #[serde(default)]
+    env: BTreeMap<String, String>,
+    /// the time limit of a case in seconds; without it 600
+    #[schemars(extend("title" = SECONDS))]
+    time_limit: Option<Positive>,
+}
+
+/// The table `[taylor]`.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TaylorTable {
+    /// the coarsest step, a tenth of the size of m for a direction of length 1; without it 0.1
+    eps: Option<Positive>,
+    /// how many directions are tested; without it 3 if the program is told `{seed}`, otherwise 1
+    directions: Option<Count<1, 100>>,
+    /// whether the program also answers `d2J`, the second derivative along the direction
+    #[serde(default)]
+    second: bool,
+    /// the part of a derivative by which it may be off; without it 1e-6
+    to: Option<Number<Part>>,
+}
+
+/// A part of one would allow any derivative.
+#[derive(Debug, Clone, Copy)]
+enum Part {}
+
+impl Range for Part {
+    const ENDS: &'static [(&'static str, f64)] =
+        &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)];
+}
+
+impl TaylorFile {
+    /// The study.
+    ///
+    /// * `folder`: the folder of the file.
+    pub(super) fn taylor(self, folder: &Path) -> Result<Taylor, Refusal> {
+        let TaylorTable {
+            eps,
+            directions,
+            second,
+            to,
+        } = self.taylor;
+        let keys = LaunchKeys {
+            command: self.program.command,
+            directory: self.program.directory,
+            env: self.program.env,
+            time_limit: self.program.time_limit,
+        };
+        let values = StepCase {
+            seed: 1,
+            eps: FARTHEST,
+            is_again: false,
+        }
+        .parameters();
+        let launch = keys.launch(folder, &values).map_err(within("program"))?;
+        if !launch.tells("eps", &values) {
+            let allowed = "a command with the placeholder {eps}, or without any";
+            return Err(Refusal::written("program.command", allowed));
+        }
+        let has_seed = launch.tells("seed", &values);
+        if directions.is_some_and(|count| count.get() > 1) && !has_seed {
+            let allowed = "1, or {seed} in the command, by which the program draws the direction";
+            return Err(Refusal::written("taylor.directions", allowed));
+        }
+        let usual = if has_seed { DIRECTIONS } else { 1 };
+        Ok(Taylor {
+            launch,
+            coarsest: eps.map_or(FARTHEST, Positive::get),
+            directions: directions.map_or(usual, Count::get),
+            has_seed,
+            second,
+            to: to.map_or(DEFAULT_TO, Number::get),
+        })
+    }
+}

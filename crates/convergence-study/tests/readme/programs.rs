@@ -1,0 +1,124 @@
+//! Studies of programs in the pages of the book: each is run as it stands there, and prints what the
+//! page shows.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+use super::blocks::{fenced, missing};
+
+/// Pages with studies, and how many blocks of output they have.
+const PAGES: [(&str, usize); 1] = [(include_str!("../../book/src/gradients.md"), 1)];
+
+/// The files of a page: blocks whose first line is a comment with the name of a file.
+fn files(page: &str) -> Vec<(String, String)> {
+    let named = |(_, text): (String, String)| {
+        let name = text.strip_prefix("# ")?.split([' ', ':', '\n']).next()?;
+        let is_file = [".py", ".toml", ".csv"]
+            .iter()
+            .any(|end| name.ends_with(end));
+        is_file.then(|| (name.to_owned(), format!("{text}\n")))
+    };
+    fenced(page).into_iter().filter_map(named).collect()
+}
+
+/// Each command of the program that is followed by what it prints.
+fn commands(page: &str) -> Vec<(String, Vec<String>)> {
+    let blocks = fenced(page);
+    let shown = |pair: &[(String, String)]| {
+        let [(language, command), (next, text)] = pair else {
+            return None;
+        };
+        let last = command.lines().last()?.to_owned();
+        let is_shown = language == "sh" && next == "text";
+        let lines = text.lines().map(without_size).collect();
+        is_shown.then_some((last, lines))
+    };
+    blocks.windows(2).filter_map(shown).collect()
+}
+
+/// A folder with files.
+fn place(files: &[(String, String)]) -> TempDir {
+    let place = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(place.path().join(name), text).unwrap();
+    }
+    place
+}
+
+fn run(folder: &Path, command: &str) -> Output {
+    let words: Vec<&str> = command.split_whitespace().collect();
+    assert_eq!(words[0], "convergence-study", "{command}");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
+    program.args(&words[1..]).current_dir(folder);
+    program.env_remove("GITHUB_ACTIONS").output().unwrap()
+}
+
+/// The output without the seconds that a study took.
+fn printed(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stdout);
+    let without_seconds = |line: &str| {
+        let seconds = line
+            .rsplit_once(", ")
+            .filter(|(_, end)| end.ends_with(" s"));
+        without_size(seconds.map_or(line, |(start, _)| start))
+    };
+    let lines = text.lines().map(without_seconds);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A line without the size that is confirmed: it is of round-off.
+fn without_size(line: &str) -> String {
+    let sized = line.split_once("right to ").and_then(|(start, rest)| {
+        let (size, rest) = rest.split_once(' ')?;
+        let is_small = size.parse::<f64>().is_ok_and(|size| size < 1e-8);
+        is_small.then(|| format!("{start}right to round-off {rest}"))
+    });
+    sized.unwrap_or_else(|| line.to_owned())
+}
+
+#[test]
+fn each_study_of_the_book_prints_what_its_page_shows() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
+        return;
+    }
+    for (page, count) in PAGES {
+        let files = files(page);
+        let place = place(&files);
+        let commands = commands(page);
+        assert_eq!(commands.len(), count, "{page}");
+        for (command, lines) in commands {
+            let output = run(place.path(), &command);
+            let text = printed(&output);
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(missing(&lines, &text), None, "{command}:\n{text}{errors}");
+        }
+    }
+}
+
+/// The mistakes that the page on gradients speaks of are found by its study.
+#[test]
+fn a_wrong_gradient_of_the_book_fails() {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
+        return;
+    }
+    let right = files(PAGES[0].0);
+    for (from, to) in [
+        ("exp(x) * (d[0]", "1.001 * exp(x) * (d[0]"),
+        ("exp(x) * (d[0]", "1.00001 * exp(x) * (d[0]"),
+        ("d[1] * cos(y)", "0 * d[1] * cos(y)"),
+        ("d[0] * sin(y) + ", "d[0] * sin(y) - "),
+    ] {
+        let wrong = right.iter().map(|(name, text)| {
+            assert!(!name.ends_with(".py") || text.contains(from), "{from}");
+            (name.clone(), text.replace(from, to))
+        });
+        let place = place(&wrong.collect::<Vec<_>>());
+        let output = run(place.path(), "convergence-study study misfit.toml");
+        let text = printed(&output);
+        assert_eq!(output.status.code(), Some(1), "{to}: {text}");
+        assert!(text.starts_with("misfit: fail\n"), "{to}: {text}");
+    }
+}

@@ -68,6 +68,41 @@ fn names_and_keys_are_checked_before_what_follows_from_them() {
         "n = [0, ",
         &["study.n: expected a whole number >= 1, found 0"],
     );
+    for (number, words) in [
+        (
+            "nan",
+            "test.toml:10: parameters.h: expected a finite number, found NaN",
+        ),
+        (
+            "1e999",
+            "parameters.h: expected a finite number, found 1e999",
+        ),
+        (
+            "true",
+            "parameters.h: expected an expression as a text, or a number, found true",
+        ),
+        (
+            "[1]",
+            "parameters.h: expected an expression as a text, or a number, found [1]",
+        ),
+    ] {
+        refused("h = 2.5", &format!("h = {number}"), &[words]);
+    }
+    refused(
+        "\"T L2\" = 2",
+        "\"T L2\" = nan",
+        &["study.order.T L2: expected a finite number"],
+    );
+    refused(
+        "time = \"t\"",
+        "time = \"t\"\nsystem = 3",
+        &["manufacture.system: expected a text, found 3"],
+    );
+    refused(
+        "time = \"t\"",
+        "time = \"t\"\nsystem = \"polr\"",
+        &["found `polr`, did you mean `polar`?"],
+    );
     refused("h = 2.5", "e = 2.5", &["`e` is a constant"]);
     refused("h = 2.5", "n = 2.5", &["`n` is the unit normal"]);
     refused("h = 2.5", "sin = 2.5", &["`sin` is a function"]);

@@ -78,7 +78,7 @@ const CRATES: [(&str, &[&str]); 10] = [
     ),
     ("convergence-judge", &[]),
     ("convergence-keys", &[]),
-    ("manufacture", &["convergence-keys"]),
+    ("manufacture", &[]),
     (
         "convergence-study",
         &["convergence-judge", "convergence-keys", "manufacture"],

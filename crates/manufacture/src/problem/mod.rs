@@ -2,21 +2,24 @@
 
 mod canonical;
 mod constant;
+mod entries;
 mod error;
-mod keys;
+mod file;
 mod reader;
 mod sections;
 mod variation;
 
 use std::collections::BTreeMap;
 
-use crate::language::names::name_in;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use crate::language::tree::Tree;
 
 pub(crate) use constant::constant;
 pub use error::InputError;
 pub(crate) use error::{LineColumn, Location};
-pub use keys::FILE_KEYS;
+pub use file::ProblemFile;
 pub(crate) use variation::{Bubble, Variation, VariationStep};
 
 /// A text of the file, parsed.
@@ -35,8 +38,10 @@ pub(crate) enum TensorValue {
 }
 
 /// The coordinate systems.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum System {
+    #[default]
     Cartesian,
     Polar,
     Axisymmetric,
@@ -44,16 +49,14 @@ pub(crate) enum System {
 }
 
 impl System {
-    pub(crate) const ALL: [(&'static str, System); 4] = [
-        ("cartesian", System::Cartesian),
-        ("polar", System::Polar),
-        ("axisymmetric", System::Axisymmetric),
-        ("cylindrical", System::Cylindrical),
-    ];
-
     /// As written in a file.
     pub(crate) fn name(self) -> &'static str {
-        name_in(&Self::ALL, &self)
+        match self {
+            System::Cartesian => "cartesian",
+            System::Polar => "polar",
+            System::Axisymmetric => "axisymmetric",
+            System::Cylindrical => "cylindrical",
+        }
     }
 }
 
@@ -125,7 +128,7 @@ pub(crate) struct Face {
 }
 
 /// A norm of an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 pub(crate) enum Norm {
     L1,
     L2,
@@ -134,15 +137,13 @@ pub(crate) enum Norm {
 }
 
 impl Norm {
-    pub(crate) const ALL: [(&'static str, Norm); 4] = [
-        ("L1", Norm::L1),
-        ("L2", Norm::L2),
-        ("Linf", Norm::Linf),
-        ("H1", Norm::H1),
-    ];
-
     pub(crate) fn name(self) -> &'static str {
-        name_in(&Self::ALL, &self)
+        match self {
+            Norm::L1 => "L1",
+            Norm::L2 => "L2",
+            Norm::Linf => "Linf",
+            Norm::H1 => "H1",
+        }
     }
 }
 
@@ -151,8 +152,8 @@ impl Norm {
 pub(crate) struct EmittedStudy {
     pub(crate) command: Vec<String>,
     pub(crate) n: Vec<u64>,
-    /// Name of an error, and its order as written.
-    pub(crate) orders: Vec<(String, String)>,
+    /// Name of an error, and its order.
+    pub(crate) orders: Vec<(String, f64)>,
 }
 
 /// A file, read and checked by itself; shapes are checked when it is derived.

@@ -1,50 +1,97 @@
-//! Values of a TOML file with their places.
+//! The text of a file: its struct, the places of its values, and what a message says about them.
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use std::ops::Range;
 
-use super::keys;
+use schemars::generate::SchemaSettings;
+
+use super::entries::{Scalar, TensorEntry};
+use super::file::ProblemFile;
 use super::{Expression, InputError, LineColumn, Location, TensorValue};
 use crate::language::names::did_you_mean;
 use crate::language::parse;
 
-/// A table of the file with the path of its keys.
-pub(super) struct FileSection<'t> {
-    pub(super) path: String,
-    table: &'t DeTable<'t>,
-    reader: &'t Reader<'t>,
-    line: usize,
-}
-
-/// A value of the file with its place.
-pub(super) struct FileField<'t> {
-    pub(super) name: String,
-    pub(super) place: Location,
-    /// The byte at which the value begins.
-    pub(super) start: usize,
-    value: &'t DeValue<'t>,
-    /// The value as written.
-    written: &'t str,
-    reader: &'t Reader<'t>,
-}
-
 /// The text of the file and its name.
+#[derive(Clone, Copy)]
 pub(super) struct Reader<'t> {
     pub(super) file: &'t str,
     pub(super) text: &'t str,
 }
 
-impl<'t> Reader<'t> {
-    pub(super) fn line(&self, offset: usize) -> usize {
-        let offset = offset.min(self.text.len());
-        self.text.as_bytes()[..offset]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count()
-            + 1
+/// What serde and toml say of a value, and what is expected in the words of a message.
+const EXPECTED: [(&str, &str); 7] = [
+    ("a map", "a table"),
+    ("a sequence", "a list"),
+    ("a string", "a text"),
+    ("a nonzero u64", "a whole number >= 1"),
+    ("f64", "a number"),
+    ("wanted string or table", "a text"),
+    ("floating-point number overflowed", "a finite number"),
+];
+
+impl Reader<'_> {
+    /// The file as a struct.
+    pub(super) fn read(self) -> Result<ProblemFile, InputError> {
+        let whole = toml::Deserializer::parse(self.text).map_err(|error| InputError {
+            line: error.span().map_or(0, |span| self.place(span.start).line),
+            ..InputError::whole(self.file, error.message())
+        })?;
+        serde_path_to_error::deserialize(whole).map_err(|error| {
+            use serde_path_to_error::Segment;
+            // A value that knows its place is a table of its own for serde.
+            let names = error.path().iter().filter_map(|segment| match segment {
+                Segment::Map { key } if key.starts_with("$__serde_spanned") => None,
+                Segment::Map { key } => Some(key.as_str()),
+                _ => None,
+            });
+            let path = names.collect::<Vec<_>>().join(".");
+            let span = error.inner().span().unwrap_or(0..0);
+            self.misfit(&path, span, error.inner().message())
+        })
     }
 
-    pub(super) fn place(&self, offset: usize) -> LineColumn {
+    /// What serde says about a value, in the words of this crate.
+    fn misfit(self, path: &str, span: Range<usize>, message: &str) -> InputError {
+        let mut place = self.location(path, &span);
+        let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
+        let quoted = |text: &'_ str| -> Vec<String> {
+            let quoted = text.split('`').skip(1).step_by(2);
+            quoted.map(str::to_owned).collect()
+        };
+        let found = quoted(problem).into_iter().next().unwrap_or_default();
+        let known = quoted(expected);
+        let near = did_you_mean(&found, known.iter().map(String::as_str));
+        let known = known.join(" ");
+        let in_words = EXPECTED.iter().find(|entry| message.ends_with(entry.0));
+        let expected = in_words.map_or(expected, |entry| entry.1);
+        let written: String = self.text[span].chars().take(40).collect();
+        let problem = match problem.split_once(' ') {
+            Some(("missing", _)) => {
+                if path.is_empty() {
+                    place.line = 0;
+                }
+                let meaning = meaning(path, &found);
+                format!("expected the key `{found}`{meaning}, found none")
+            }
+            Some(("unknown", rest)) if rest.starts_with("field") => {
+                format!("unknown key `{found}`{near}; expected one of {known}")
+            }
+            Some(("unknown", _)) if found == "spherical" => {
+                "spherical coordinates are left out; write the problem in others".to_owned()
+            }
+            Some(("unknown", _)) => match path.strip_prefix("norms.") {
+                Some(norm) if known.contains(norm) => format!(
+                    "expected a field and its norms, `{found} = [\"{norm}\"]`; found a norm as a key"
+                ),
+                _ => format!("found `{found}`{near}; expected one of {known}"),
+            },
+            Some(("invalid", "length 0")) => format!("expected {expected}, found none"),
+            _ if expected.is_empty() => message.to_owned(),
+            _ => format!("expected {expected}, found {written}"),
+        };
+        place.error(problem)
+    }
+
+    fn place(self, offset: usize) -> LineColumn {
         let before = self.text.get(..offset).unwrap_or(self.text);
         let line_start = before.rfind('\n').map_or(0, |end| end + 1);
         LineColumn {
@@ -54,7 +101,7 @@ impl<'t> Reader<'t> {
     }
 
     /// Where the text of a value begins: a number is its own text, others have one or three quotes.
-    fn start_of_text(&self, start: usize) -> LineColumn {
+    fn start_of_text(self, start: usize) -> LineColumn {
         let value = self.text.get(start..).unwrap_or("");
         let mut quotes = ["\"\"\"", "'''", "\"", "'"].into_iter();
         let quote = quotes.find(|quote| value.starts_with(quote)).unwrap_or("");
@@ -65,204 +112,67 @@ impl<'t> Reader<'t> {
         self.place(start)
     }
 
-    pub(super) fn parse(&self) -> Result<Spanned<DeTable<'t>>, InputError> {
-        DeTable::parse(self.text).map_err(|error| InputError {
-            line: error.span().map_or(0, |span| self.line(span.start)),
-            ..InputError::whole(self.file, error.message())
-        })
-    }
-
-    pub(super) fn whole(&'t self, table: &'t DeTable<'t>) -> FileSection<'t> {
-        FileSection {
-            path: String::new(),
-            table,
-            reader: self,
-            line: 0,
-        }
-    }
-
-    fn field(&'t self, path: &str, name: &str, value: &'t Spanned<DeValue<'t>>) -> FileField<'t> {
-        let span = value.span();
-        FileField {
-            name: name.to_owned(),
-            start: span.start,
-            place: Location {
-                file: self.file.to_owned(),
-                line: self.line(span.start),
-                start: span.start,
-                text: self.start_of_text(span.start),
-                key: joined(path, name),
-            },
-            value: value.get_ref(),
-            written: &self.text[span],
-            reader: self,
-        }
-    }
-}
-
-fn joined(path: &str, name: &str) -> String {
-    if path.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{path}.{name}")
-    }
-}
-
-impl<'t> FileSection<'t> {
-    pub(super) fn place(&self) -> Location {
+    /// The place of the value of a key.
+    pub(super) fn location(self, key: impl Into<String>, span: &Range<usize>) -> Location {
         Location {
-            file: self.reader.file.to_owned(),
-            line: self.line,
-            start: 0,
-            text: LineColumn {
-                line: self.line,
-                column: 1,
-            },
-            key: self.path.clone(),
+            file: self.file.to_owned(),
+            line: self.place(span.start).line,
+            start: span.start,
+            text: self.start_of_text(span.start),
+            key: key.into(),
         }
     }
 
-    /// The keys in alphabetical order: no result depends on their order in the file.
-    pub(super) fn fields(&self) -> Vec<FileField<'t>> {
-        let mut fields: Vec<FileField<'t>> = self
-            .table
-            .iter()
-            .map(|(key, value)| self.reader.field(&self.path, key.get_ref(), value))
-            .collect();
-        fields.sort_by(|a, b| a.name.cmp(&b.name));
-        fields
-    }
-
-    pub(super) fn field(&self, name: &str) -> Option<FileField<'t>> {
-        let value = self.table.get(name)?;
-        Some(self.reader.field(&self.path, name, value))
-    }
-
-    pub(super) fn require(&self, name: &str) -> Result<FileField<'t>, InputError> {
-        self.field(name).ok_or_else(|| {
-            let meaning = keys::meaning(&self.path, name);
-            let meaning = meaning.map_or(String::new(), |meaning| format!(" ({meaning})"));
-            let problem = format!("expected the key `{name}`{meaning}, found none");
-            self.place().error(problem)
-        })
-    }
-
-    pub(super) fn section(&self, name: &str) -> Result<Option<FileSection<'t>>, InputError> {
-        self.field(name).map(|field| field.section()).transpose()
-    }
-
-    /// Refuses keys other than these.
-    pub(super) fn allow(&self, known: &[&str]) -> Result<(), InputError> {
-        for (key, _) in self.table.iter() {
-            let name: &str = key.get_ref();
-            if !known.contains(&name) {
-                let near = did_you_mean(name, known.iter().copied());
-                let known = known.join(" ");
-                let place = Location {
-                    line: self.reader.line(key.span().start),
-                    key: joined(&self.path, name),
-                    ..self.place()
-                };
-                let problem = format!("unknown key `{name}`{near}; expected one of {known}");
-                return Err(place.error(problem));
-            }
-        }
-        Ok(())
-    }
-}
-
-impl<'t> FileField<'t> {
-    fn expected(&self, what: &str) -> InputError {
-        let written: String = self.written.chars().take(40).collect();
-        self.place
-            .error(format!("expected {what}, found {written}"))
-    }
-
-    pub(super) fn is_table(&self) -> bool {
-        matches!(self.value, DeValue::Table(_))
-    }
-
-    pub(super) fn section(&self) -> Result<FileSection<'t>, InputError> {
-        match self.value {
-            DeValue::Table(table) => Ok(FileSection {
-                path: self.place.key.clone(),
-                table,
-                reader: self.reader,
-                line: self.place.line,
-            }),
-            _ => Err(self.expected("a table")),
-        }
-    }
-
-    pub(super) fn string(&self) -> Result<String, InputError> {
-        match self.value {
-            DeValue::String(text) => Ok(text.to_string()),
-            _ => Err(self.expected("a text")),
-        }
-    }
-
-    /// A whole number of at least 1.
-    pub(super) fn count(&self) -> Result<u64, InputError> {
-        let number = match self.value {
-            DeValue::Integer(_) => self.written.parse().ok().filter(|count| *count >= 1),
-            _ => None,
+    /// A text, or a number as it is written, as an expression.
+    pub(super) fn expression(
+        self,
+        key: &str,
+        span: &Range<usize>,
+        scalar: &Scalar,
+    ) -> Result<Expression, InputError> {
+        let place = self.location(key, span);
+        let text = match scalar {
+            Scalar::Text(text) => text.clone(),
+            Scalar::Number => self.text[span.clone()].to_owned(),
         };
-        number.ok_or_else(|| self.expected("a whole number >= 1"))
-    }
-
-    /// The number as written.
-    pub(super) fn number(&self) -> Result<String, InputError> {
-        match self.value {
-            DeValue::Integer(_) | DeValue::Float(_) => Ok(self.written.to_owned()),
-            _ => Err(self.expected("a number")),
-        }
-    }
-
-    pub(super) fn list(&self) -> Result<Vec<FileField<'t>>, InputError> {
-        match self.value {
-            DeValue::Array(values) => {
-                let items = values.iter().map(|value| FileField {
-                    place: Location {
-                        line: self.reader.line(value.span().start),
-                        start: value.span().start,
-                        text: self.reader.start_of_text(value.span().start),
-                        ..self.place.clone()
-                    },
-                    ..self.reader.field("", &self.name, value)
-                });
-                Ok(items.collect())
-            }
-            _ => Err(self.expected("a list")),
-        }
-    }
-
-    /// A text, or a number, as an expression.
-    pub(super) fn expression(&self) -> Result<Expression, InputError> {
-        let text = match self.value {
-            DeValue::String(text) => text.to_string(),
-            DeValue::Integer(_) | DeValue::Float(_) => self.written.to_owned(),
-            _ => return Err(self.expected("an expression as a text, or a number")),
-        };
-        let tree = parse(&text)
-            .map_err(|error| self.place.error_at(&text, error.offset, error.problem))?;
-        Ok(Expression {
-            place: self.place.clone(),
-            text,
-            tree,
-        })
+        let tree =
+            parse(&text).map_err(|error| place.error_at(&text, error.offset, error.problem))?;
+        Ok(Expression { place, text, tree })
     }
 
     /// An expression, or a list of them, or a list of lists.
-    pub(super) fn value(&self) -> Result<TensorValue, InputError> {
-        if !matches!(self.value, DeValue::Array(_)) {
-            return Ok(TensorValue::One(self.expression()?));
+    pub(super) fn tensor(
+        self,
+        key: &str,
+        span: &Range<usize>,
+        entry: &TensorEntry,
+    ) -> Result<TensorValue, InputError> {
+        match entry {
+            TensorEntry::One(scalar) => self.expression(key, span, scalar).map(TensorValue::One),
+            TensorEntry::List(parts) => {
+                let parts = parts.iter();
+                let parts = parts.map(|part| self.tensor(key, &part.span, &part.value));
+                let parts = parts.collect::<Result<_, _>>()?;
+                Ok(TensorValue::List(self.location(key, span), parts))
+            }
         }
-        let parts: Result<Vec<TensorValue>, _> =
-            self.list()?.iter().map(FileField::value).collect();
-        let parts = parts?;
-        if parts.is_empty() {
-            return Err(self.expected("at least one component"));
-        }
-        Ok(TensorValue::List(self.place.clone(), parts))
     }
+}
+
+/// What a key of the file, or of one of its tables, means, in brackets.
+fn meaning(table: &str, name: &str) -> String {
+    let mut settings = SchemaSettings::draft07();
+    settings.inline_subschemas = true;
+    let schema = settings
+        .into_generator()
+        .into_root_schema_for::<ProblemFile>();
+    let path = table.split('.').filter(|name| !name.is_empty());
+    let key = path.chain([name]).fold(schema.as_value(), |schema, name| {
+        &schema["properties"][name]
+    });
+    key["description"]
+        .as_str()
+        .map_or(String::new(), |meaning| {
+            format!(" ({})", meaning.replace('\n', " "))
+        })
 }

@@ -1,14 +1,13 @@
-//! The sections of a file.
+//! The tables of a file: what a struct cannot say of them, and what they mean.
 
 use std::collections::BTreeMap;
 
-use convergence_keys::names;
-
-use super::keys::{FACE, FILE_KEYS, HEAD, HELD, REQUIRE, STUDY, VARIANTS};
-use super::reader::{FileField, FileSection, Reader};
+use super::entries::{DatumEntry, EquationEntry, FaceEntry, Located, Scalar};
+use super::file::{HeadTable, Named, ProblemFile, StudyTable, VariantsTable};
+use super::reader::Reader;
 use super::{
-    Datum, Definition, EmittedStudy, Equation, EquationTerm, Expression, Face, InputError, Norm,
-    Parameter, Problem, Surface, System, constant,
+    Datum, Definition, EmittedStudy, Equation, EquationTerm, Expression, Face, InputError,
+    Location, Parameter, Problem, Surface, System, TensorValue, constant,
 };
 use crate::language::is_of_name;
 use crate::language::names::{did_you_mean, reserved};
@@ -17,79 +16,79 @@ impl Problem {
     /// Reads the text of a file.
     pub(crate) fn parse(text: &str, file: &str) -> Result<Self, InputError> {
         let reader = Reader { file, text };
-        let document = reader.parse()?;
-        let whole = reader.whole(document.get_ref());
-        whole.allow(&names(FILE_KEYS))?;
-        let head = whole.require("manufacture")?.section()?;
-        head.allow(&names(&[&HEAD]))?;
-        let time = head.field("time");
+        let tables = reader.read()?;
+        let head = &tables.manufacture.value;
+        let name = |key: &str, entry: &Located<String>| {
+            let place = reader.location(format!("manufacture.{key}"), &entry.span);
+            check_identifier(&entry.value, &place)?;
+            Ok(entry.value.clone())
+        };
+        let coordinates = head.coordinates.value.iter();
+        let coordinates = coordinates.map(|entry| name("coordinates", entry));
         let mut problem = Self {
             file: file.to_owned(),
             text: text.to_owned(),
-            name: name(&head.require("name")?)?,
-            name_place: head.require("name")?.place,
-            coordinates: vec![],
-            time: time.as_ref().map(name).transpose()?,
-            system: System::Cartesian,
+            name: name("name", &head.name)?,
+            name_place: reader.location("manufacture.name", &head.name.span),
+            coordinates: coordinates.collect::<Result<_, _>>()?,
+            time: head
+                .time
+                .as_ref()
+                .map(|entry| name("time", entry))
+                .transpose()?,
+            system: head.system,
             intervals: vec![],
-            parameters: parameters(&whole)?,
+            parameters: parameters(reader, &tables.parameters)?,
             definitions: BTreeMap::new(),
-            equations: equations(&whole)?,
+            equations: equations(reader, &tables.equations)?,
             faces: vec![],
             initial: vec![],
-            positive: vec![],
-            zero: vec![],
+            positive: expressions(reader, "require.positive", &tables.require.positive)?,
+            zero: expressions(reader, "require.zero", &tables.require.zero)?,
             norms: vec![],
-            study: study(&whole)?,
+            study: tables.study.as_ref().map(study),
             switchable: vec![],
             variation: None,
         };
-        problem.variants(&whole)?;
-        problem.space(&head)?;
-        problem.define(&whole)?;
-        problem.check_names(&head)?;
-        problem.domain(&whole)?;
-        problem.boundary(&whole)?;
-        problem.rest(&whole)?;
+        problem.space(reader, head)?;
+        if let Some(variants) = &tables.variants {
+            problem.variants(reader, variants)?;
+        }
+        problem.define(reader, &tables)?;
+        problem.check_names(&reader.location("manufacture", &tables.manufacture.span))?;
+        problem.domain(reader, &tables.domain)?;
+        problem.boundary(reader, &tables.boundary)?;
+        if let Some(initial) = &tables.initial {
+            problem.initial(reader, initial)?;
+        }
+        problem.norms(reader, &tables)?;
         Ok(problem)
     }
 
     /// `[variants]`.
-    fn variants(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
-        let Some(section) = whole.section("variants")? else {
-            return Ok(());
-        };
-        section.allow(&names(&[&VARIANTS]))?;
-        for field in section.require("parameters")?.list()? {
-            let name = field.string()?;
-            let known = self.parameters.iter().map(|entry| entry.name.as_str());
-            let known: Vec<&str> = known.collect();
+    fn variants(&mut self, reader: Reader<'_>, table: &VariantsTable) -> Result<(), InputError> {
+        let known: Vec<&str> = self
+            .parameters
+            .iter()
+            .map(|entry| entry.name.as_str())
+            .collect();
+        for Located { span, value: name } in &table.parameters {
             if !known.contains(&name.as_str()) {
-                let near = did_you_mean(&name, known.iter().copied());
+                let near = did_you_mean(name, known.iter().copied());
                 let known = known.join(" ");
                 let problem = format!("unknown parameter `{name}`{near}; expected one of {known}");
-                return Err(field.place.error(problem));
+                return Err(reader.location("variants.parameters", span).error(problem));
             }
-            self.switchable.push(name);
+            self.switchable.push(name.clone());
         }
         Ok(())
     }
 
-    fn space(&mut self, head: &FileSection<'_>) -> Result<(), InputError> {
-        let field = head.require("coordinates")?;
-        self.coordinates = field.list()?.iter().map(name).collect::<Result<_, _>>()?;
+    fn space(&self, reader: Reader<'_>, head: &HeadTable) -> Result<(), InputError> {
+        let place = reader.location("manufacture.coordinates", &head.coordinates.span);
         let found = self.coordinates.len();
         if !(1..=3).contains(&found) {
-            let problem = format!("expected 1 to 3 coordinates, found {found}");
-            return Err(field.place.error(problem));
-        }
-        if let Some(field) = head.field("system") {
-            if field.string()? == "spherical" {
-                let problem = "spherical coordinates are left out; write the problem in others";
-                return Err(field.place.error(problem));
-            }
-            let known = System::ALL.map(|system| system.0);
-            self.system = one_of(&field, &System::ALL, &known)?;
+            return Err(place.error(format!("expected 1 to 3 coordinates, found {found}")));
         }
         let expected = match self.system {
             System::Cartesian => found,
@@ -98,30 +97,25 @@ impl Problem {
         };
         if found != expected {
             let problem = format!("expected {expected} coordinates of this system, found {found}");
-            return Err(field.place.error(problem));
+            return Err(place.error(problem));
         }
         Ok(())
     }
 
-    fn define(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
-        for (section, is_exact) in [("exact", true), ("define", false)] {
-            let Some(section) = whole.section(section)? else {
-                if is_exact {
-                    whole.require("exact")?;
-                }
-                continue;
-            };
-            for field in section.fields() {
+    fn define(&mut self, reader: Reader<'_>, tables: &ProblemFile) -> Result<(), InputError> {
+        let sections = [
+            ("exact", &tables.exact, true),
+            ("define", &tables.define, false),
+        ];
+        for (section, entries, is_exact) in sections {
+            for (name, Located { span, value }) in entries {
+                let key = format!("{section}.{name}");
                 let definition = Definition {
-                    value: field.value()?,
+                    value: reader.tensor(&key, span, value)?,
                     is_exact,
                 };
-                if self
-                    .definitions
-                    .insert(field.name.clone(), definition)
-                    .is_some()
-                {
-                    return Err(twice(&field));
+                if self.definitions.insert(name.clone(), definition).is_some() {
+                    return Err(twice(name, &reader.location(key, span)));
                 }
             }
         }
@@ -129,81 +123,85 @@ impl Problem {
     }
 
     /// Each name is an identifier, is not reserved, and has one meaning.
-    fn check_names(&self, head: &FileSection<'_>) -> Result<(), InputError> {
-        let mut names: Vec<(&str, super::Location)> = vec![];
+    fn check_names(&self, head: &Location) -> Result<(), InputError> {
+        let mut names: Vec<(&str, &Location)> = vec![];
         for variable in self.variables() {
-            names.push((variable, head.place()));
+            names.push((variable, head));
         }
         for Parameter { name, expression } in &self.parameters {
-            names.push((name, expression.place.clone()));
+            names.push((name, &expression.place));
         }
         for (name, definition) in &self.definitions {
-            names.push((name, definition.value.place().clone()));
+            names.push((name, definition.value.place()));
         }
         for (index, (name, place)) in names.iter().enumerate() {
             check_name(name, place)?;
             if names[..index].iter().any(|earlier| earlier.0 == *name) {
-                let problem = format!("found `{name}` twice; expected one meaning of each name");
-                return Err(place.error(problem));
+                return Err(twice(name, place));
             }
         }
         Ok(())
     }
 
-    fn domain(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
-        let section = whole.require("domain")?.section()?;
+    fn domain(
+        &mut self,
+        reader: Reader<'_>,
+        table: &Located<Named<Vec<Located<Scalar>>>>,
+    ) -> Result<(), InputError> {
         let variables: Vec<String> = self.variables().iter().map(|v| (*v).to_owned()).collect();
-        let known: Vec<&str> = variables.iter().map(String::as_str).collect();
-        section.allow(&known)?;
+        let variables: Vec<&str> = variables.iter().map(String::as_str).collect();
+        known_only(reader, "domain", &table.value, &variables)?;
         let values = self.parameter_values(&[])?;
         let names = self
             .parameters
             .iter()
             .map(|parameter| parameter.name.as_str());
         let known: Vec<(&str, f64)> = names.zip(values).collect();
+        let mut intervals = vec![];
         for variable in &variables {
-            let field = section.require(variable)?;
-            let ends = field.list()?;
+            let key = format!("domain.{variable}");
+            let Some(Located { span, value: ends }) = table.value.get(*variable) else {
+                let problem = format!("expected the key `{variable}`, found none");
+                return Err(reader.location("domain", &table.span).error(problem));
+            };
+            let place = reader.location(&key, span);
             let [low, high] = ends.as_slice() else {
                 let problem = format!("expected two numbers, found {}", ends.len());
-                return Err(field.place.error(problem));
+                return Err(place.error(problem));
             };
-            let low = constant(&low.expression()?, &known)?;
-            let high = constant(&high.expression()?, &known)?;
+            let end = |end: &Located<Scalar>| {
+                constant(&reader.expression(&key, &end.span, &end.value)?, &known)
+            };
+            let (low, high) = (end(low)?, end(high)?);
             if !(low < high) {
                 let problem = format!(
                     "expected an interval, two numbers of which the first is the smaller; found [{low}, {high}]"
                 );
-                return Err(field.place.error(problem));
+                return Err(place.error(problem));
             }
-            self.intervals.push([low, high]);
+            if self.system != System::Cartesian && intervals.is_empty() && low < 0.0 {
+                return Err(place.error("expected a radius of at least 0"));
+            }
+            intervals.push([low, high]);
         }
-        if self.system != System::Cartesian && self.intervals[0][0] < 0.0 {
-            let problem = "expected a radius of at least 0";
-            return Err(section.require(&variables[0])?.place.error(problem));
-        }
+        self.intervals = intervals;
         Ok(())
     }
 
-    fn boundary(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
-        let Some(boundary) = whole.section("boundary")? else {
-            return Ok(());
-        };
-        for field in boundary.fields() {
-            check_identifier(&field.name, &field.place)?;
-            let section = field.section()?;
-            let surface = self.surface(&field, &section)?;
-            let mut data = vec![];
-            for entry in section.fields() {
-                if !names(&[&FACE]).contains(&entry.name.as_str()) {
-                    data.push(datum(&entry)?);
-                }
-            }
+    fn boundary(
+        &mut self,
+        reader: Reader<'_>,
+        tables: &Named<FaceEntry>,
+    ) -> Result<(), InputError> {
+        for (name, Located { span, value: entry }) in tables {
+            let key = format!("boundary.{name}");
+            let place = reader.location(&key, span);
+            check_identifier(name, &place)?;
             self.faces.push(Face {
-                name: field.name.clone(),
-                place: field.place.clone(),
-                surface,
-                data,
+                name: name.clone(),
+                surface: self.surface(reader, name, &place, entry)?,
+                place,
+                data: data(reader, &key, &entry.data)?,
             });
         }
         // The sides in the order of the coordinates, so that other names change no order.
@@ -219,20 +217,20 @@ impl Problem {
 
     fn surface(
         &self,
-        field: &FileField<'_>,
-        section: &FileSection<'_>,
+        reader: Reader<'_>,
+        name: &str,
+        place: &Location,
+        entry: &FaceEntry,
     ) -> Result<Surface, InputError> {
-        if let Some(level) = section.field("level") {
-            if let Some(face) = section.field("face") {
-                let problem = "found `face` and `level`; expected one of them";
-                return Err(face.place.error(problem));
+        if let Some(Located { span, value }) = &entry.level {
+            if let Some(face) = &entry.face {
+                let place = reader.location(format!("boundary.{name}.face"), &face.span);
+                return Err(place.error("found `face` and `level`; expected one of them"));
             }
-            return Ok(Surface::Level(level.expression()?));
+            let level = reader.expression(&format!("boundary.{name}.level"), span, value)?;
+            return Ok(Surface::Level(level));
         }
-        let name = match section.field("face") {
-            Some(face) => face.string()?,
-            None => field.name.clone(),
-        };
+        let name = entry.face.as_ref().map_or(name, |face| &face.value);
         let sides = ["_min", "_max"];
         let all = self
             .coordinates
@@ -248,87 +246,70 @@ impl Problem {
                 is_upper: *is_upper,
             }),
             None => {
-                let near = did_you_mean(&name, all.iter().map(|side| side.2.as_str()));
+                let near = did_you_mean(name, all.iter().map(|side| side.2.as_str()));
                 let known: Vec<&str> = all.iter().map(|side| side.2.as_str()).collect();
                 let known = known.join(" ");
-                Err(field.place.error(format!(
+                Err(place.error(format!(
                     "`{name}` is no face{near}; expected one of {known}, or a key `face` or `level`"
                 )))
             }
         }
     }
 
-    fn rest(&mut self, whole: &FileSection<'_>) -> Result<(), InputError> {
-        if let Some(initial) = whole.section("initial")? {
-            if self.time.is_none() {
-                let problem = "expected no initial data without `time` in [manufacture]";
-                return Err(initial.place().error(problem));
-            }
-            for entry in initial.fields() {
-                self.initial.push(datum(&entry)?);
-            }
+    fn initial(
+        &mut self,
+        reader: Reader<'_>,
+        table: &Located<Named<DatumEntry>>,
+    ) -> Result<(), InputError> {
+        if self.time.is_none() {
+            let problem = "expected no initial data without `time` in [manufacture]";
+            return Err(reader.location("initial", &table.span).error(problem));
         }
-        if let Some(require) = whole.section("require")? {
-            require.allow(&names(&[&REQUIRE]))?;
-            self.positive = expressions(&require, "positive")?;
-            self.zero = expressions(&require, "zero")?;
-        }
-        if let Some(norms) = whole.section("norms")? {
-            let exact = self.definitions.iter().filter(|entry| entry.1.is_exact);
-            let fields: Vec<&str> = exact.map(|entry| entry.0.as_str()).collect();
-            let known = Norm::ALL.map(|norm| norm.0);
-            let mut entries = norms.fields().into_iter();
-            if let Some(turned) = entries.find(|entry| known.contains(&entry.name.as_str())) {
-                let field = fields.first().copied().unwrap_or("u");
-                let problem = format!(
-                    "expected a field and its norms, `{field} = [\"{0}\"]`; found a norm as a key",
-                    turned.name
-                );
-                return Err(turned.place.error(problem));
-            }
-            norms.allow(&fields)?;
-            for entry in norms.fields() {
-                let items = entry.list()?;
-                let chosen = items.iter().map(|item| one_of(item, &Norm::ALL, &known));
-                let chosen = chosen.collect::<Result<_, _>>()?;
-                self.norms.push((entry.name.clone(), chosen));
-            }
-        }
+        self.initial = data(reader, "initial", &table.value)?;
+        Ok(())
+    }
+
+    fn norms(&mut self, reader: Reader<'_>, tables: &ProblemFile) -> Result<(), InputError> {
+        let fields: Vec<&str> = tables.exact.keys().map(String::as_str).collect();
+        known_only(reader, "norms", &tables.norms, &fields)?;
+        let norms = tables.norms.iter();
+        self.norms = norms
+            .map(|(field, entry)| (field.clone(), entry.value.clone()))
+            .collect();
         Ok(())
     }
 }
 
-fn twice(field: &FileField<'_>) -> InputError {
-    let name = &field.name;
-    let problem = format!("found `{name}` twice; expected one meaning of each name");
-    field.place.error(problem)
-}
-
-/// One of the known words.
-fn one_of<T: Copy>(
-    field: &FileField<'_>,
-    all: &[(&str, T)],
+/// Refuses names other than these.
+fn known_only<T>(
+    reader: Reader<'_>,
+    table: &str,
+    entries: &Named<T>,
     known: &[&str],
-) -> Result<T, InputError> {
-    let text = field.string()?;
-    match all.iter().find(|entry| entry.0 == text) {
-        Some(entry) => Ok(entry.1),
-        None => {
-            let near = did_you_mean(&text, known.iter().copied());
+) -> Result<(), InputError> {
+    match entries
+        .iter()
+        .find(|entry| !known.contains(&entry.0.as_str()))
+    {
+        None => Ok(()),
+        Some((name, entry)) => {
+            let near = did_you_mean(name, known.iter().copied());
             let known = known.join(" ");
-            let problem = format!("found `{text}`{near}; expected one of {known}");
-            Err(field.place.error(problem))
+            let problem = format!("unknown key `{name}`{near}; expected one of {known}");
+            Err(reader
+                .location(format!("{table}.{name}"), &entry.span)
+                .error(problem))
         }
     }
 }
 
-fn name(field: &FileField<'_>) -> Result<String, InputError> {
-    let name = field.string()?;
-    check_identifier(&name, &field.place)?;
-    Ok(name)
+fn twice(name: &str, place: &Location) -> InputError {
+    place.error(format!(
+        "found `{name}` twice; expected one meaning of each name"
+    ))
 }
 
-fn check_identifier(name: &str, place: &super::Location) -> Result<(), InputError> {
+fn check_identifier(name: &str, place: &Location) -> Result<(), InputError> {
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_of_name) {
         return Ok(());
     }
@@ -336,7 +317,7 @@ fn check_identifier(name: &str, place: &super::Location) -> Result<(), InputErro
     Err(place.error(problem))
 }
 
-fn check_name(name: &str, place: &super::Location) -> Result<(), InputError> {
+fn check_name(name: &str, place: &Location) -> Result<(), InputError> {
     check_identifier(name, place)?;
     if reserved().any(|word| word == name) {
         let meaning = match name {
@@ -351,58 +332,58 @@ fn check_name(name: &str, place: &super::Location) -> Result<(), InputError> {
     Ok(())
 }
 
-fn parameters(whole: &FileSection<'_>) -> Result<Vec<Parameter>, InputError> {
-    let Some(section) = whole.section("parameters")? else {
-        return Ok(vec![]);
-    };
-    let mut parameters = vec![];
-    for field in section.fields() {
-        parameters.push(Parameter {
-            expression: field.expression()?,
-            name: field.name,
-        });
-    }
-    Ok(parameters)
+fn parameters(reader: Reader<'_>, entries: &Named<Scalar>) -> Result<Vec<Parameter>, InputError> {
+    let entries = entries.iter();
+    entries
+        .map(|(name, Located { span, value })| {
+            let key = format!("parameters.{name}");
+            Ok(Parameter {
+                name: name.clone(),
+                expression: reader.expression(&key, span, value)?,
+            })
+        })
+        .collect()
 }
 
-fn equations(whole: &FileSection<'_>) -> Result<Vec<Equation>, InputError> {
-    let section = whole.require("equations")?.section()?;
+fn equations(
+    reader: Reader<'_>,
+    table: &Located<Named<EquationEntry>>,
+) -> Result<Vec<Equation>, InputError> {
     let mut equations = vec![];
-    for field in section.fields() {
-        check_identifier(&field.name, &field.place)?;
-        let terms = if field.is_table() {
-            named_terms(&field.section()?)?
-        } else {
-            terms(&field.expression()?)
-        };
-        if terms.is_empty() {
-            return Err(field.place.error("expected at least one term, found none"));
-        }
+    for (name, Located { span, value }) in &table.value {
+        let key = format!("equations.{name}");
+        let place = reader.location(&key, span);
+        check_identifier(name, &place)?;
         equations.push(Equation {
-            name: field.name.clone(),
-            place: field.place.clone(),
-            terms,
+            name: name.clone(),
+            place,
+            terms: match value {
+                EquationEntry::Sum(sum) => terms(&reader.expression(&key, span, sum)?),
+                EquationEntry::Terms(terms) => named_terms(reader, &key, terms)?,
+            },
         });
     }
     if equations.is_empty() {
-        return Err(section
-            .place()
-            .error("expected at least one equation, found none"));
+        let place = reader.location("equations", &table.span);
+        return Err(place.error("expected at least one equation, found none"));
     }
     Ok(equations)
 }
 
 /// The terms of a table, in alphabetical order, each with its place in the file.
-fn named_terms(section: &FileSection<'_>) -> Result<Vec<EquationTerm>, InputError> {
-    let fields = section.fields();
+fn named_terms(
+    reader: Reader<'_>,
+    table: &str,
+    entries: &Named<Scalar>,
+) -> Result<Vec<EquationTerm>, InputError> {
     let mut terms = vec![];
-    for field in &fields {
-        let others = fields.iter();
+    for (label, Located { span, value }) in entries {
+        let others = entries.values();
         terms.push(EquationTerm {
-            label: field.name.clone(),
-            place: others.filter(|other| other.start < field.start).count(),
+            label: label.clone(),
+            place: others.filter(|other| other.span.start < span.start).count(),
             is_negative: false,
-            expression: field.expression()?,
+            expression: reader.expression(&format!("{table}.{label}"), span, value)?,
         });
     }
     Ok(terms)
@@ -431,58 +412,58 @@ fn terms(expression: &Expression) -> Vec<EquationTerm> {
     terms
 }
 
-fn datum(field: &FileField<'_>) -> Result<Datum, InputError> {
-    check_identifier(&field.name, &field.place)?;
-    let name = field.name.clone();
-    if !field.is_table() {
-        return Ok(Datum {
-            name,
-            value: field.value()?,
-            condition: None,
+fn data(
+    reader: Reader<'_>,
+    table: &str,
+    entries: &Named<DatumEntry>,
+) -> Result<Vec<Datum>, InputError> {
+    let mut data = vec![];
+    for (name, Located { span, value }) in entries {
+        let key = format!("{table}.{name}");
+        check_identifier(name, &reader.location(&key, span))?;
+        let (value, condition) = match value {
+            DatumEntry::Given(value) => (reader.tensor(&key, span, value)?, None),
+            DatumEntry::Held(held) => {
+                let of = reader.tensor(&format!("{key}.of"), &held.of.span, &held.of.value)?;
+                let is = reader.tensor(&format!("{key}.is"), &held.is.span, &held.is.value)?;
+                (of, Some(is))
+            }
+        };
+        data.push(Datum {
+            name: name.clone(),
+            value,
+            condition,
         });
     }
-    let section = field.section()?;
-    section.allow(&names(&[&HELD]))?;
-    Ok(Datum {
-        name,
-        value: section.require("of")?.value()?,
-        condition: Some(section.require("is")?.value()?),
-    })
+    Ok(data)
 }
 
-fn expressions(section: &FileSection<'_>, name: &str) -> Result<Vec<Expression>, InputError> {
-    let Some(field) = section.field(name) else {
-        return Ok(vec![]);
-    };
-    field.list()?.iter().map(FileField::expression).collect()
+fn expressions(
+    reader: Reader<'_>,
+    key: &str,
+    list: &[Located<Scalar>],
+) -> Result<Vec<Expression>, InputError> {
+    let list = list.iter();
+    list.map(|entry| reader.expression(key, &entry.span, &entry.value))
+        .collect()
 }
 
-fn study(whole: &FileSection<'_>) -> Result<Option<EmittedStudy>, InputError> {
-    let Some(section) = whole.section("study")? else {
-        return Ok(None);
-    };
-    section.allow(&names(&[&STUDY]))?;
-    let command = section.require("command")?.list()?;
-    let n = section.require("n")?.list()?;
-    let orders = section.require("order")?.section()?.fields();
-    Ok(Some(EmittedStudy {
-        command: command
-            .iter()
-            .map(FileField::string)
-            .collect::<Result<_, _>>()?,
-        n: n.iter().map(FileField::count).collect::<Result<_, _>>()?,
+fn study(table: &StudyTable) -> EmittedStudy {
+    let orders = table.order.iter();
+    EmittedStudy {
+        command: table.command.clone(),
+        n: table.n.iter().map(|n| n.get()).collect(),
         orders: orders
-            .iter()
-            .map(|field| Ok((field.name.clone(), field.number()?)))
-            .collect::<Result<Vec<_>, InputError>>()?,
-    }))
+            .map(|(error, order)| (error.clone(), order.get()))
+            .collect(),
+    }
 }
 
-impl super::TensorValue {
-    pub(crate) fn place(&self) -> &super::Location {
+impl TensorValue {
+    pub(crate) fn place(&self) -> &Location {
         match self {
-            super::TensorValue::One(expression) => &expression.place,
-            super::TensorValue::List(place, _) => place,
+            TensorValue::One(expression) => &expression.place,
+            TensorValue::List(place, _) => place,
         }
     }
 }

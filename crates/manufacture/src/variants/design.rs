@@ -144,8 +144,7 @@ fn fix(problem: &Problem, variable: usize) -> VariationStep {
 fn degree(problem: &Problem) -> usize {
     let study = problem.study.iter();
     let orders = study.flat_map(|study| &study.orders);
-    let orders = orders.filter_map(|order| order.1.parse::<f64>().ok());
-    let largest = orders.fold(0.0, f64::max);
+    let largest = orders.map(|order| order.1).fold(0.0, f64::max);
     let order = if largest > 0.0 { largest } else { USUAL_ORDER };
     order.ceil() as usize + 1
 }

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 use super::exit::{CommandOutcome, Unusable};
 use super::screen;
-use crate::input::{Form, Key, Keys};
+use crate::input::{Form, Key, Keys, schema};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::KindRow;
@@ -64,7 +64,7 @@ pub fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
         .tables
         .iter()
         .map(|(name, schema)| (*name, schema()));
-    let manufacture = (MANUFACTURE, table(&[], manufacture::FILE_KEYS));
+    let manufacture = (MANUFACTURE, schema::of::<manufacture::ProblemFile>());
     own.chain([manufacture])
         .map(|(name, mut schema)| {
             schema["$schema"] = json!(DIALECT);

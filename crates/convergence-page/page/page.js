@@ -1,9 +1,11 @@
 "use strict";
 // Nothing of the text is ever markup: words become text nodes, figures are images.
 const byId = (id) => document.getElementById(id);
-const OPTIONS = ["step", "columns", "values", "names", "lines", "dim", "ratio", "floor"];
+const OPTIONS = ["step", "columns", "values", "names", "lines", "dim", "ratio", "floor", "scale", "eps", "samples"];
 const LISTS = new Set(["columns", "values", "names", "lines"]);
-const NUMBERS = new Set(["dim", "ratio", "floor", "tolerance"]);
+const NUMBERS = new Set(["dim", "ratio", "floor", "scale", "eps", "tolerance"]);
+// What a link keeps beside the options.
+const CLAIM = ["claim", "order", "tolerance"];
 const LONGEST_FILE = 4 << 20;
 // A question that takes longer is given up: in milliseconds.
 const PATIENCE = 10000;
@@ -70,7 +72,7 @@ function orders(text) {
 }
 
 function question() {
-  const one = { text: byId("text").value, order: orders(byId("order").value) };
+  const one = { text: byId("text").value, [byId("claim").value]: orders(byId("order").value) };
   for (const name of [...OPTIONS, "tolerance"]) {
     const value = byId(name).value.trim();
     if (value === "") continue;
@@ -226,8 +228,8 @@ async function pack(bytes, stream) {
 }
 
 async function fragment() {
-  const state = { text: byId("text").value, order: byId("order").value, tolerance: byId("tolerance").value };
-  for (const name of OPTIONS) if (byId(name).value) state[name] = byId(name).value;
+  const state = { text: byId("text").value };
+  for (const name of [...CLAIM, ...OPTIONS]) if (byId(name).value) state[name] = byId(name).value;
   const packed = await pack(new TextEncoder().encode(JSON.stringify(state)), new CompressionStream("deflate-raw"));
   const base64 = btoa(Array.from(packed, (byte) => String.fromCharCode(byte)).join(""));
   return base64.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
@@ -241,6 +243,7 @@ async function restore() {
     const bytes = await pack(packed, new DecompressionStream("deflate-raw"));
     const state = JSON.parse(new TextDecoder().decode(bytes));
     for (const name of ["text", "order", "tolerance", ...OPTIONS]) byId(name).value = String(state[name] ?? "");
+    byId("claim").value = state.claim === "factor" ? "factor" : "order";
     byId("options").open = OPTIONS.some((name) => byId(name).value !== "");
     ask();
   } catch {
@@ -275,6 +278,7 @@ function clearOptions() {
 function example(name) {
   for (const option of [...OPTIONS, "tolerance"]) byId(option).value = "";
   byId("text").value = EXAMPLES[name].text;
+  byId("claim").value = "order";
   byId("order").value = EXAMPLES[name].order;
   ask();
 }
@@ -291,7 +295,7 @@ async function takeFile(file) {
 }
 
 async function main() {
-  for (const name of ["text", "order", "tolerance", ...OPTIONS]) byId(name).addEventListener("input", ask);
+  for (const name of ["text", ...CLAIM, ...OPTIONS]) byId(name).addEventListener("input", ask);
   for (const button of document.querySelectorAll("[data-example]")) {
     button.addEventListener("click", () => example(button.dataset.example));
   }

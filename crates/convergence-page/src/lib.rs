@@ -11,17 +11,15 @@ mod question;
 
 use convergence_study::internal::{
     input::advice::CommandLine,
-    rates::{Refusal, sheet},
+    rates::{FILE, Refusal, Request, Sheet, call, sheet},
 };
 use serde_json::{Value, json};
 
 use answer::{JudgedText, Read, Refused};
-use question::Question;
+use question::{Question, command};
 
 /// The program in the commands that the page offers.
 const PROGRAM: &str = "convergence-study";
-/// The file in the commands that the page offers: the reader of the page puts its own name.
-const FILE: &str = "FILE";
 /// Longest text that is judged, in bytes: 100,000 rows of forty characters.
 pub const LONGEST_TEXT: usize = 4 << 20;
 
@@ -36,7 +34,10 @@ pub fn version() -> &'static str {
 ///   names.
 pub fn read(question: &str) -> String {
     answered(question, |question| {
-        Ok(json!(Read::of(&sheet_of(question)?)))
+        Ok(json!(Read::of(&sheet_of(
+            &question.text,
+            &question.request()?
+        )?)))
     })
 }
 
@@ -47,24 +48,23 @@ pub fn read(question: &str) -> String {
 ///   names.
 pub fn judge(question: &str) -> String {
     answered(question, |question| {
+        let request = question.request()?;
         Ok(json!(JudgedText {
-            sheet: sheet_of(question)?,
-            command: question.command(),
+            sheet: sheet_of(&question.text, &request)?,
+            command: command(&request),
         }))
     })
 }
 
-fn sheet_of(question: &Question) -> Result<convergence_study::internal::rates::Sheet, Refused> {
-    let request = question.request()?;
-    sheet(PROGRAM, &question.text, &request).map_err(|refusal| refused(question, &refusal))
-}
-
-/// A refusal in the words of the command line.
-fn refused(question: &Question, refusal: &Refusal) -> Refused {
-    let command = question.command_of_claims();
-    Refused::of(refusal.object(&CommandLine {
-        command: Some(&command),
-    }))
+/// # Errors
+/// The refusal in the words of the command line.
+fn sheet_of(text: &str, request: &Request) -> Result<Sheet, Refused> {
+    let refused = |refusal: Refusal| {
+        Refused::of(refusal.object(&CommandLine {
+            command: Some(&call(PROGRAM, FILE, request)),
+        }))
+    };
+    sheet(PROGRAM, text, request).map_err(refused)
 }
 
 /// The answer to a question, as text; a question that cannot be read is refused.

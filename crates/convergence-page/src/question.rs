@@ -5,14 +5,14 @@ use convergence_study::{
     Choice,
     internal::{
         input::advice::{CommandLine, Surface},
-        rates::{Claimed, Request, claimed},
+        rates::{Claimed, FILE, Request, call, claimed},
     },
 };
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use crate::answer::Refused;
-use crate::{FILE, LONGEST_TEXT, PROGRAM};
+use crate::{LONGEST_TEXT, PROGRAM};
 
 /// A text, and the options of the command `rates` under their names.
 #[derive(Debug, Clone, Deserialize)]
@@ -22,10 +22,20 @@ pub(crate) struct Question {
     /// Values of `--order`.
     #[serde(default)]
     order: Vec<String>,
+    /// Values of `--factor`.
+    #[serde(default)]
+    factor: Vec<String>,
     #[serde(default)]
     tolerance: Option<f64>,
     #[serde(default)]
     floor: Option<f64>,
+    #[serde(default)]
+    scale: Option<f64>,
+    #[serde(default)]
+    eps: Option<f64>,
+    /// The value of `--of`, with `--samples`.
+    #[serde(default)]
+    samples: Option<String>,
     #[serde(flatten)]
     choice: Choice,
     /// What is none of the above.
@@ -52,45 +62,57 @@ impl Question {
     }
 
     pub(crate) fn request(&self) -> Result<Request, Refused> {
-        let claims: Result<Vec<Claimed>, Refused> = self
-            .order
-            .iter()
-            .map(|order| {
-                claimed(order).map_err(|expected| {
-                    Refused::because(&format!("--order {}: {expected}", quoted(order)))
+        self.allows_samples()?;
+        let claims = [("order", &self.order), ("factor", &self.factor)];
+        let claims: Result<Vec<Claimed>, Refused> = claims
+            .into_iter()
+            .flat_map(|(option, claims)| claims.iter().map(move |claim| (option, claim)))
+            .map(|(option, claim)| {
+                claimed(claim).map_err(|expected| {
+                    Refused::because(&format!("--{option} {}: {expected}", quoted(claim)))
                 })
             })
             .collect();
+        let samples = self.samples.as_deref().map(str::parse).transpose();
         Ok(Request {
             claims: claims?,
+            by_factor: !self.factor.is_empty(),
             tolerance: self.tolerance,
             floor: self.floor.unwrap_or(0.0),
-            choice: self.choice.clone(),
+            scale: self.scale,
+            eps: self.eps,
+            choice: Choice {
+                samples: samples
+                    .map_err(|expected: String| Refused::because(&format!("--of: {expected}")))?,
+                ..self.choice.clone()
+            },
             ..Request::default()
         })
     }
 
-    /// The command that judges a file by the same claims, without the settings of the reader.
-    pub(crate) fn command_of_claims(&self) -> String {
-        let mut command = format!("{PROGRAM} rates {FILE}");
-        for order in &self.order {
-            command += &format!(" --order {}", quoted(order));
+    /// Refuses what the command does not accept beside `--samples`.
+    fn allows_samples(&self) -> Result<(), Refused> {
+        let others = [
+            ("--factor", !self.factor.is_empty()),
+            ("--floor", self.floor.is_some()),
+            ("--values", !self.choice.values.is_empty()),
+            ("--ratio", self.choice.ratio.is_some()),
+        ];
+        let beside = others.into_iter().find(|(_, is_there)| *is_there);
+        match (&self.samples, beside) {
+            (Some(_), Some((option, _))) => Err(Refused::because(&format!(
+                "expected --samples without {option}; found both"
+            ))),
+            _ => Ok(()),
         }
-        for (option, value) in [("tolerance", self.tolerance), ("floor", self.floor)] {
-            if let Some(value) = value {
-                command += &format!(" --{option} {value}");
-            }
-        }
-        command
     }
+}
 
-    /// The command that judges a file in the same way.
-    pub(crate) fn command(&self) -> String {
-        let command = self.command_of_claims();
-        let surface = CommandLine {
-            command: Some(&command),
-        };
-        let call = surface.call(&self.choice.settings());
-        call.unwrap_or(command)
-    }
+/// The command that judges a file in the same way.
+pub(crate) fn command(request: &Request) -> String {
+    let command = call(PROGRAM, FILE, request);
+    let surface = CommandLine {
+        command: Some(&command),
+    };
+    surface.call(&request.choice.settings()).unwrap_or(command)
 }

@@ -100,3 +100,51 @@ fn what_is_no_question_is_refused() {
     assert!(words(&order).starts_with("--order x: expected a number > 0"));
     assert_eq!(version(), env!("CARGO_PKG_VERSION"));
 }
+
+#[test]
+fn a_factor_round_off_and_samples_are_asked_for_as_on_the_command_line() {
+    let falling = "n, error\n4, 1e-2\n5, 2.5e-3\n6, 6.25e-4\n7, 1.5625e-4\n8, 3.90625e-5\n";
+    let question = json!({"text": falling, "factor": [">=3.."], "scale": 2.0, "eps": 1.2e-7});
+    let found = answer(judge, &question);
+    assert_eq!(found["verdict"], "pass", "{found}");
+    assert_eq!(
+        found["command"],
+        "convergence-study rates FILE --factor '>=3..' --scale 2 --eps 1.2e-7"
+    );
+    let rows: String = [0.1_f64, 0.05, 0.025, 0.0125]
+        .iter()
+        .flat_map(|h| (0..12).map(move |k| (h, h * h * (1.0 + 0.01 * f64::from(k)))))
+        .map(|(h, error)| format!("{h}, {error:e}\n"))
+        .collect();
+    let text = format!("h, error\n{rows}");
+    let question = json!({"text": text, "order": ["2"], "samples": "rms"});
+    let found = answer(judge, &question);
+    assert_eq!(
+        found["command"],
+        "convergence-study rates FILE --order 2 --samples --of rms"
+    );
+    for (key, value, option) in [
+        ("floor", json!(1e-9), "--floor"),
+        ("factor", json!(["3"]), "--factor"),
+    ] {
+        let mut question = question.clone();
+        question[key] = value;
+        let refused = &answer(judge, &question)["refused"]["message"];
+        let expected = format!("expected --samples without {option}; found both");
+        assert_eq!(refused, expected.as_str());
+    }
+    let wrong = json!({"text": text, "samples": "median"});
+    let message = &answer(judge, &wrong)["refused"]["message"];
+    assert_eq!(message, "--of: expected mean, rms or weak");
+}
+
+#[test]
+fn a_command_that_is_offered_names_no_file() {
+    let text = "h, L2\n0.2, 4e-2\n0.1, 1e-2\n0.05, 2.5e-3\n0.025, 6.25e-4\nmean 2.0 nan\n";
+    let found = answer(judge, &json!({"text": text, "order": ["2"]}));
+    let shown = found["text"].as_str().expect("text");
+    assert!(
+        shown.contains("convergence-study rates FILE --order 2 --lines 1-5"),
+        "{shown}"
+    );
+}

@@ -55,7 +55,8 @@ pub mod program {
 #[cfg(feature = "tables")]
 pub mod rates {
     pub use crate::rates::{
-        Claimed, ClaimedOrder, Refusal, Request, Sheet, TableSheet, Tables, claimed, object, sheet,
+        Claimed, ClaimedOrder, FILE, Refusal, Request, Sheet, TableSheet, Tables, call, claimed,
+        object, sheet,
     };
 }
 #[cfg(feature = "reports")]

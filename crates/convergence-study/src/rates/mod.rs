@@ -64,7 +64,7 @@ impl JudgedColumn<'_> {
 
 /// A table that was read.
 pub(crate) struct SourceTable {
-    /// As the command line names it.
+    /// As the command line names it; in commands a text, which is in no file, is [`FILE`].
     file: String,
     /// The file, and the heading of the table if the file has several.
     name: String,
@@ -75,11 +75,15 @@ pub(crate) struct SourceTable {
 
 impl SourceTable {
     /// * `heading`: of the table, if its file has several; otherwise empty.
-    fn new(file: &str, heading: &str, table: RateTable) -> Self {
+    fn new(tables: Tables<'_>, heading: &str, table: RateTable) -> Self {
+        let (file, name) = match tables {
+            Tables::File(file) => (file, file),
+            Tables::Text(_) => (FILE, TEXT),
+        };
         let name = if heading.is_empty() {
-            file.to_owned()
+            name.to_owned()
         } else {
-            format!("{file}: {heading}")
+            format!("{name}: {heading}")
         };
         Self {
             file: file.to_owned(),
@@ -152,6 +156,9 @@ pub enum Tables<'t> {
 
 /// The name of a text in messages.
 const TEXT: &str = "text";
+
+/// The name of a file that the reader of a command puts in place.
+pub const FILE: &str = "FILE";
 
 /// The object that `rates --format json` prints.
 ///
@@ -284,17 +291,17 @@ fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
 
 /// Reads all tables of a file or a text.
 pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTable>, Refusal> {
-    let (file, tables) = match tables {
+    let (file, read) = match tables {
         Tables::File(file) => (file, RateTable::read_all_with(file, choice)),
         Tables::Text(text) => (TEXT, RateTable::parse_all_with(text, TEXT, choice)),
     };
-    let tables = tables.map_err(|error| Refusal::Table {
+    let read = read.map_err(|error| Refusal::Table {
         file: file.to_owned(),
         error: Box::new(error),
     })?;
-    let tables = tables.into_iter();
-    Ok(tables
-        .map(|(heading, table)| SourceTable::new(file, &heading, table))
+    let read = read.into_iter();
+    Ok(read
+        .map(|(heading, table)| SourceTable::new(tables, &heading, table))
         .collect())
 }
 
@@ -330,7 +337,7 @@ pub(crate) fn judgements<'t>(
 }
 
 /// The command that judges a file in the same way, without the settings of the reader.
-pub(crate) fn call(command: &str, file: &str, request: &Request) -> String {
+pub fn call(command: &str, file: &str, request: &Request) -> String {
     let option = if request.by_factor { "factor" } else { "order" };
     let claims = request.claims.iter();
     let claims = claims.map(|claimed| format!(" --{option} {}", quoted(&claimed.text)));

@@ -29,7 +29,6 @@ mod sample;
 mod variants;
 
 use std::path::Path;
-use std::time::Duration;
 
 pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
@@ -172,7 +171,8 @@ impl Manufacture {
         at::values(&self.model, table, file)
     }
 
-    /// The points at which another program is to compute the sources, or the data of a face.
+    /// The points at which another program is to compute the sources, or the data of a face: the
+    /// caller runs it on their text, and has its answer compared.
     ///
     /// # Errors
     /// An unknown face.
@@ -182,21 +182,5 @@ impl Manufacture {
         sampling: &Sampling,
     ) -> Result<Question<'_>, InputError> {
         Question::new(&self.model, face, sampling)
-    }
-
-    /// Compares sources, or the data of a face, with those that a command computes, and explains
-    /// the differences. At its time limit the program itself is ended, not what it has started:
-    /// with [`question`](Self::question) the caller runs it.
-    ///
-    /// # Errors
-    /// A command that fails, takes longer than the limit, or whose answer cannot be used.
-    pub fn against(
-        &self,
-        command: &str,
-        face: Option<&str>,
-        sampling: &Sampling,
-        limit: Duration,
-    ) -> Result<Vec<Comparison>, InputError> {
-        against::compare(&self.model, command, face, sampling, limit)
     }
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::arithmetic::NodeId;
 use crate::arithmetic::jet::{Jet, Jets, Monomials};
 use crate::arithmetic::quadrature::{self, POINTS};
-use crate::arithmetic::tape::{SizedValue, Tape};
+use crate::arithmetic::tape::{Evaluated, SizedValue, Tape};
 use crate::arithmetic::{Depth, Graph, Node};
 use crate::derive::{DerivedQuantity, Elaborator, Part, Role, quantity};
 use crate::problem::{InputError, Problem};
@@ -177,16 +177,7 @@ impl<'m> TensorRows<'m> {
     }
 
     pub(crate) fn at(&self, point: &[f64]) -> RowsAt {
-        let evaluated = self.tape.at(point);
-        self.cut(evaluated.roots, evaluated.switches)
-    }
-
-    pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> RowsAt {
-        let evaluated = self.tape.with(point, parameters);
-        self.cut(evaluated.roots, evaluated.switches)
-    }
-
-    fn cut(&self, roots: Vec<SizedValue>, switches: Vec<f64>) -> RowsAt {
+        let Evaluated { roots, switches } = self.tape.at(point);
         let ends = self.starts.windows(2);
         RowsAt {
             tensors: ends.map(|ends| roots[ends[0]..ends[1]].to_vec()).collect(),

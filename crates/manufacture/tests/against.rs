@@ -1,12 +1,11 @@
 //! Foreign sources with one mistake each: the cause that is named.
 
 use std::fs;
-#[cfg(unix)]
-use std::time::Duration;
+use std::process::Command;
 
 use manufacture::{Comparison, Sampling};
 
-use crate::files::{LIMIT, against, read};
+use crate::files::{against, answered, read};
 
 /// Reaction and diffusion with a coefficient that varies.
 const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\ny = [0, 1]\nt = [0, 1]\n\
@@ -36,8 +35,8 @@ fn of(expression: &str, on: Option<&str>, columns: &str) -> Vec<Comparison> {
         points: 100,
         ..Sampling::default()
     };
-    let command = format!("python3 '{}'", path.display());
-    read(FILE).against(&command, on, &sampling, LIMIT).unwrap()
+    let mut command = Command::new("python3");
+    answered(&read(FILE), command.arg(path), on, &sampling).unwrap()
 }
 
 #[track_caller]
@@ -265,62 +264,21 @@ fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
     );
 }
 
-/// The message about a program whose answer about five points cannot be used.
-#[cfg(unix)]
-#[track_caller]
-fn refusal(program: &str, limit: Duration) -> String {
+#[test]
+fn answers_that_cannot_be_used_are_refused_with_the_line() {
     let sampling = Sampling {
         points: 5,
         ..Sampling::default()
     };
-    let comparisons = read(FILE).against(program, None, &sampling, limit);
-    comparisons.unwrap_err().to_string()
-}
-
-/// A program that is not stopped leaves a file behind.
-// The programs are scripts of a shell.
-#[cfg(unix)]
-#[test]
-fn a_program_that_hangs_is_stopped_at_its_limit() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
+    let manufacture = read(FILE);
+    let question = manufacture.question(None, &sampling).unwrap();
+    for (answer, words) in [
+        ("u\n1\n", ":3: expected 5 lines of numbers, found 1"),
+        ("w\n1\n", ":1: unknown name `w`; expected some of u v_x v_y"),
+        ("u\n1\nnan\n", ":3: expected a finite number, found `nan`"),
+        ("1 2\n", ":1: expected a first line of names"),
+    ] {
+        let message = question.compare(answer, "other").unwrap_err().to_string();
+        assert!(message.contains(words), "{answer:?}: {message}");
     }
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("not-stopped");
-    for closing in ["", "exec 0<&- 1>&-; "] {
-        let program = format!("sh -c '{closing}sleep 30; touch {}'", file.display());
-        let message = refusal(&program, Duration::from_millis(300));
-        assert!(
-            message.contains("was stopped at its time limit of 0.3 s"),
-            "{message}"
-        );
-        assert!(!file.exists());
-    }
-}
-
-// The programs are scripts of a shell.
-#[cfg(unix)]
-#[test]
-fn answers_that_cannot_be_used_are_refused_with_the_line() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
-    let refused = |program: &str| refusal(program, LIMIT);
-    assert!(
-        refused("sh -c 'cat > /dev/null; echo u; echo 1'")
-            .contains("expected 5 lines of numbers, found 1")
-    );
-    assert!(
-        refused("sh -c 'cat > /dev/null; echo w; echo 1'")
-            .contains(":1: unknown name `w`; expected some of u v_x v_y")
-    );
-    assert!(
-        refused("sh -c 'cat > /dev/null; echo u; echo 1; echo nan'")
-            .contains(":3: expected a finite number, found `nan`")
-    );
-    assert!(
-        refused("sh -c 'cat > /dev/null; echo 1 2'").contains("expected a first line of names")
-    );
-    assert!(refused("sh -c 'exit 3'").contains("exit status: 3"));
-    assert!(refused("no-such-program").contains("No such file"));
 }

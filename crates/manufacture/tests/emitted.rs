@@ -1,11 +1,11 @@
 //! Emitted files: built, run and compared; and what a person reads in them.
 
-use std::path::Path;
+use std::process::Command;
 
 use foreign_tools::Tool;
 use manufacture::{EmittedFile, Finding, Language, Sampling};
 
-use crate::files::{HEAT, LIMIT, read};
+use crate::files::{HEAT, answered, read};
 
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");
@@ -109,17 +109,15 @@ fn a_slip_in_emitted_c_is_found() {
     let build = |text: &str| {
         write("heat.c", text);
         let path = |name: &str| folder.path().join(name);
-        let status = std::process::Command::new("cc")
+        let status = Command::new("cc")
             .args(["-O1", "-o"])
             .args([path("answer"), path("heat.c"), path("heat_answer.c")])
             .arg("-lm")
             .status();
         assert!(status.unwrap().success());
-        let command = format!("{}", Path::new(&path("answer")).display());
-        manufacture
-            .against(&command, None, &sampling(), LIMIT)
-            .unwrap()
-            .remove(0)
+        let mut command = Command::new(path("answer"));
+        let comparisons = answered(&manufacture, &mut command, None, &sampling());
+        comparisons.unwrap().remove(0)
     };
     assert_eq!(build(source).cause, "equal");
     for (old, new) in [
@@ -148,8 +146,9 @@ fn the_answering_program_in_python_is_a_command() {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
     let program = folder.path().join("heat_answer.py");
-    let command = format!("python3 -B {}", program.display());
-    let comparisons = manufacture.against(&command, None, &sampling(), LIMIT);
+    let mut command = Command::new("python3");
+    command.arg("-B").arg(program);
+    let comparisons = answered(&manufacture, &mut command, None, &sampling());
     for comparison in comparisons.unwrap() {
         assert_eq!(comparison.cause, "equal", "{comparison:?}");
     }

@@ -58,7 +58,13 @@ pub(crate) fn applied(text: &str, edit: &Edit) -> String {
 
 /// Whether the new text of an edit stands for its old text in the file.
 pub(crate) fn is_text(edit: &Edit) -> bool {
-    let whole = ["product-rule", "basis", "coordinates", "time-factor"];
+    let whole = [
+        "product-rule",
+        "basis",
+        "coordinates",
+        "time",
+        "time-factor",
+    ];
     !whole.contains(&edit.kind)
 }
 

@@ -9,7 +9,7 @@ use std::process::Command;
 
 use manufacture::{Comparison, Language, Manufacture, Sampling};
 
-use crate::files::{LIMIT, read};
+use crate::files::{answered, read};
 use crate::mistakes;
 
 /// SplitMix64.
@@ -213,10 +213,8 @@ impl Built<'_> {
         face: Option<&str>,
         sampling: &Sampling,
     ) -> Option<Vec<Comparison>> {
-        let command = format!("'{program}' {}", face.unwrap_or(""));
-        self.manufacture
-            .against(&command, face, sampling, LIMIT)
-            .ok()
+        let mut command = Command::new(program);
+        answered(&self.manufacture, command.args(face), face, sampling).ok()
     }
 
     /// The library with one slip in a source; `None` if there is no room for it.

@@ -1,17 +1,9 @@
-//! Questions to another program: points on its standard input, values on its standard output.
+//! Questions to another program: points for its standard input, values from its standard output.
 
 use std::fmt::Write as _;
-use std::io::{self, Read as _, Write as _};
-use std::process::{Child, Command, Stdio};
-use std::sync::mpsc;
-use std::thread;
-use std::time::{Duration, Instant};
 
 use crate::language::names::did_you_mean;
 use crate::problem::InputError;
-
-/// The pause between two looks at a program that has closed its output.
-const PAUSE: Duration = Duration::from_millis(1);
 
 /// A quantity as the other program computes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,77 +58,6 @@ pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
         text.push('\n');
     }
     text
-}
-
-/// Runs a command on a question, and returns what it prints.
-///
-/// * `variant`: of the solution, for a program whose module has variants; empty for that of the
-///   file. `None` leaves the environment as it is.
-///
-/// # Errors
-/// It cannot be started, it fails, or it takes longer than its time limit: then it is stopped.
-pub(crate) fn run(
-    command: &[String],
-    question: String,
-    variant: Option<&str>,
-    limit: Duration,
-) -> Result<String, InputError> {
-    let name = command.join(" ");
-    let failed = |problem: String| InputError::whole(&name, problem);
-    let (program, arguments) = command
-        .split_first()
-        .ok_or_else(|| failed("expected a command, found none".to_owned()))?;
-    let child = Command::new(program)
-        .args(arguments)
-        .envs(variant.map(|variant| ("MANUFACTURE_VARIANT", variant)))
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn();
-    let mut child = child.map_err(|error| failed(error.to_string()))?;
-    let answer = converse(&mut child, question, limit);
-    // Nothing is left behind; this fails for a program that has ended.
-    let _ = child.kill();
-    let status = child.wait().map_err(|error| failed(error.to_string()))?;
-    let Some(answer) = answer else {
-        let limit = limit.as_secs_f64();
-        return Err(failed(format!(
-            "was stopped at its time limit of {limit} s"
-        )));
-    };
-    let answer = answer.map_err(|error| failed(error.to_string()))?;
-    if !status.success() {
-        return Err(failed(format!("expected exit status 0, found {status}")));
-    }
-    String::from_utf8(answer).map_err(|_| failed("expected text, found other bytes".to_owned()))
-}
-
-/// What a program prints about a question until it ends; `None` if it takes longer than the limit.
-///
-/// A program that answers while it reads would block if one thread wrote and read in turn, and one
-/// that hangs must block neither: each stream has a thread of its own.
-fn converse(child: &mut Child, question: String, limit: Duration) -> Option<io::Result<Vec<u8>>> {
-    let end = Instant::now().checked_add(limit);
-    if let Some(mut input) = child.stdin.take() {
-        // A program that ends early has not read everything: its answer is what counts.
-        thread::spawn(move || input.write_all(question.as_bytes()));
-    }
-    let (send, receive) = mpsc::channel();
-    if let Some(mut output) = child.stdout.take() {
-        thread::spawn(move || {
-            let mut answer = vec![];
-            let read = output.read_to_end(&mut answer);
-            send.send(read.map(|_| answer))
-        });
-    }
-    let answer = receive.recv_timeout(limit).ok()?;
-    // A program may close its output and go on.
-    while matches!(child.try_wait(), Ok(None)) {
-        if end.is_some_and(|end| Instant::now() >= end) {
-            return None;
-        }
-        thread::sleep(PAUSE);
-    }
-    Some(answer)
 }
 
 /// The parts of a line.

@@ -8,9 +8,12 @@ use crate::arithmetic::graph::Mark;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::arithmetic::{Graph, NodeId};
 use crate::derive::{Basis, Elaborator, Part, Role, Tensor, tensor};
+use crate::fit::Column;
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
-use crate::problem::{Expression, LineColumn, Location, Parameter, Problem, mentions};
+use crate::problem::{
+    Expression, LineColumn, Location, Parameter, ParameterValue, Problem, mentions,
+};
 
 /// The name of the unknown factor; no file can contain it.
 pub(crate) const FACTOR: &str = " factor";
@@ -33,6 +36,10 @@ pub(crate) enum Alteration {
     Basis(Basis),
     /// The normal of the face points inwards.
     Normal,
+    /// The values of one time at all times.
+    Time(f64),
+    /// Two coordinates exchanged, by their places.
+    Exchange([usize; 2]),
 }
 
 /// A file that edits are tried on.
@@ -44,10 +51,6 @@ pub(crate) struct Bench {
     nodes_as_written: usize,
     /// The values of definitions as written.
     known: HashMap<String, Tensor<NodeId>>,
-    /// For each definition those that its value is part of, and itself.
-    reached: HashMap<String, HashSet<String>>,
-    /// Of the file, then 1 for the unknown factor.
-    parameters: Vec<f64>,
     /// Nodes that were derived or evaluated.
     work: Cell<usize>,
 }
@@ -60,19 +63,18 @@ const MOST_WORK: usize = 400_000_000;
 
 /// A quantity that may have been changed.
 pub(crate) struct Altered<'b> {
-    graph: &'b Graph,
+    bench: &'b Bench,
+    alteration: Option<&'b Alteration>,
     pub(crate) tensor: Tensor<NodeId>,
-    parameters: &'b [f64],
-    work: &'b Cell<usize>,
 }
 
 impl Altered<'_> {
-    /// All components, at points and with an unknown factor.
+    /// The quantity as steps of its evaluation.
     pub(crate) fn evaluation(&self) -> Evaluation<'_> {
         Evaluation {
-            tape: Tape::new(self.graph, &self.tensor.parts),
-            parameters: self.parameters,
-            work: self.work,
+            tape: Tape::new(&self.bench.graph, &self.tensor.parts),
+            bench: self.bench,
+            alteration: self.alteration,
         }
     }
 }
@@ -80,18 +82,48 @@ impl Altered<'_> {
 /// A quantity as steps of its evaluation.
 pub(crate) struct Evaluation<'b> {
     tape: Tape<'b>,
-    parameters: &'b [f64],
-    work: &'b Cell<usize>,
+    bench: &'b Bench,
+    alteration: Option<&'b Alteration>,
 }
 
 impl Evaluation<'_> {
-    /// All components at a point, with this unknown factor.
-    pub(crate) fn at(&self, point: &[f64], factor: f64) -> Vec<SizedValue> {
-        self.work.set(self.work.get() + self.tape.work());
-        let mut parameters = self.parameters.to_vec();
-        parameters.pop();
-        parameters.push(factor);
-        self.tape.with(point, &parameters).roots
+    /// All components at each of some points, with this unknown factor.
+    pub(crate) fn at<'p>(
+        &'p self,
+        points: &'p [Vec<f64>],
+        factor: f64,
+    ) -> impl Iterator<Item = Vec<SizedValue>> + 'p {
+        let Bench { problem, work, .. } = self.bench;
+        let parameter = problem.parameters.len() - 1;
+        let setting = ParameterValue {
+            parameter,
+            value: factor,
+        };
+        // Parameters without values have no quantities.
+        let parameters = problem.parameter_values(&[setting]);
+        let parameters = parameters.unwrap_or_else(|_| vec![f64::NAN; parameter + 1]);
+        points.iter().map(move |point| {
+            work.set(work.get() + self.tape.work());
+            let mut point = point.clone();
+            match self.alteration {
+                Some(Alteration::Time(time)) => *point.last_mut().unwrap_or(&mut 0.0) = *time,
+                Some(Alteration::Exchange([first, second])) => point.swap(*first, *second),
+                _ => (),
+            }
+            self.tape.with(&point, &parameters).roots
+        })
+    }
+
+    /// Of each component its values at points.
+    pub(crate) fn columns(&self, points: &[Vec<f64>], factor: f64) -> Vec<Column> {
+        let mut columns: Vec<Column> = vec![];
+        for values in self.at(points, factor) {
+            columns.resize(values.len(), vec![]);
+            for (column, value) in columns.iter_mut().zip(values) {
+                column.push(value.value);
+            }
+        }
+        columns
     }
 }
 
@@ -104,17 +136,15 @@ impl Bench {
             expression: one(),
         });
         let parameters = problem.parameter_values(&[]).ok()?;
-        let graph = Graph::new(problem.intervals.clone(), parameters.clone());
+        let graph = Graph::new(problem.intervals.clone(), parameters);
         let mut elaborator = Elaborator::new(&problem, graph);
         elaborator.part(Part::Interior).ok()?;
         elaborator.part(part).ok()?;
         let known = std::mem::take(&mut elaborator.known);
         let graph = elaborator.algebra;
         Some(Self {
-            reached: reached(&problem),
             nodes_as_written: graph.len(),
             mark: graph.mark(),
-            parameters,
             work: Cell::new(0),
             graph,
             known,
@@ -126,44 +156,6 @@ impl Bench {
     /// Whether the limit of work is reached.
     pub(crate) fn is_exhausted(&self) -> bool {
         self.work.get() > MOST_WORK
-    }
-
-    /// Whether a quantity may change if an expression does.
-    pub(crate) fn reaches(&self, home: &Home, quantity: &str) -> bool {
-        match home {
-            Home::Term { equation, .. } => self.problem.equations[*equation].name == quantity,
-            Home::Datum { face, datum, .. } => {
-                self.part == Part::Face(*face)
-                    && self.problem.faces[*face].data[*datum].name == quantity
-            }
-            Home::Definition { name, .. } => {
-                let reached = &self.reached[name];
-                self.expressions(quantity)
-                    .iter()
-                    .any(|tree| reached.iter().any(|name| mentions(tree, name)))
-            }
-        }
-    }
-
-    /// The trees of a quantity itself.
-    fn expressions(&self, quantity: &str) -> Vec<&Tree> {
-        match self.part {
-            Part::Face(face) => {
-                let data = self.problem.faces[face].data.iter();
-                data.filter(|datum| datum.name == quantity)
-                    .flat_map(|datum| site::parts(&datum.value))
-                    .map(|expression| &expression.tree)
-                    .collect()
-            }
-            _ => {
-                let equations = self.problem.equations.iter();
-                equations
-                    .filter(|equation| equation.name == quantity)
-                    .flat_map(|equation| &equation.terms)
-                    .map(|term| &term.expression.tree)
-                    .collect()
-            }
-        }
     }
 
     /// What becomes of a quantity, given to `see`; `None` if the altered file has no such values.
@@ -180,7 +172,8 @@ impl Bench {
             Some(Alteration::Rewrite(rewrite)) => {
                 undo = self.rewrite(rewrite);
                 if let Home::Definition { name, .. } = &rewrite.home {
-                    known.retain(|known, _| !self.reached[name].contains(known));
+                    let users = users(&self.problem, name);
+                    known.retain(|known, _| !users.contains(known.as_str()));
                 }
             }
             Some(Alteration::Basis(other)) => {
@@ -195,17 +188,16 @@ impl Bench {
             _ => None,
         };
         let tensor = self.derived(known, basis, is_inward, quantity, divisor);
+        let seen = tensor.map(|tensor| {
+            see(&Altered {
+                bench: self,
+                alteration,
+                tensor,
+            })
+        });
         if let Some(undo) = undo {
             self.rewrite(&undo);
         }
-        let seen = tensor.map(|tensor| {
-            see(&Altered {
-                graph: &self.graph,
-                tensor,
-                parameters: &self.parameters,
-                work: &self.work,
-            })
-        });
         let nodes = self.graph.len() - self.nodes_as_written;
         self.work.set(self.work.get() + NEW_NODE * nodes);
         self.graph.rewind(self.mark);
@@ -263,31 +255,21 @@ impl Bench {
     }
 }
 
-/// For each definition those that it is part of, and itself.
-fn reached(problem: &Problem) -> HashMap<String, HashSet<String>> {
-    let mut users: HashMap<&str, Vec<&str>> = HashMap::new();
-    for (user, definition) in &problem.definitions {
-        let mut names = vec![];
-        for part in site::parts(&definition.value) {
-            site::names(&part.tree, &mut names);
-        }
-        for name in names {
-            users.entry(name).or_default().push(user);
-        }
-    }
-    let all = problem.definitions.keys().map(|name| {
-        let mut reached = HashSet::from([name.clone()]);
-        let mut open = vec![name.as_str()];
-        while let Some(next) = open.pop() {
-            for user in users.get(next).into_iter().flatten() {
-                if reached.insert((*user).to_owned()) {
-                    open.push(user);
-                }
+/// The definitions whose values a definition is part of, and itself.
+fn users<'p>(problem: &'p Problem, name: &'p str) -> HashSet<&'p str> {
+    let mut users = HashSet::from([name]);
+    loop {
+        let before = users.len();
+        for (user, definition) in &problem.definitions {
+            let mut parts = site::parts(&definition.value);
+            if parts.any(|part| users.iter().any(|name| mentions(&part.tree, name))) {
+                users.insert(user);
             }
         }
-        (name.clone(), reached)
-    });
-    all.collect()
+        if users.len() == before {
+            return users;
+        }
+    }
 }
 
 /// The number 1, as an expression of the file.

@@ -1,23 +1,41 @@
 //! Which edit of the file gives the values of the other program?
 
-use super::bench::Alteration;
-use super::candidates::EditKind;
-use super::cause::{Cause, Nearest, Unexplained, place_and_text};
-use super::search::EditSearch;
-use super::solve::{Curve, Sample, columns};
-use super::trial::{FAR_FETCHED, NEW_NUMBER, Near, Trial, attempt, cost, sample};
+use super::Comparison;
+use super::bench::Bench;
+use super::candidates::{self, Candidate, EditKind};
+use super::cause::{Named, TermFactor, of_terms, place_and_text};
+use super::right::Right;
+use super::solve::{self, Curve, Sample};
+use super::text;
 use super::whole::Component;
+use crate::derive::Role;
 use crate::fit::Column;
+use crate::problem::Location;
 
 /// Points at which candidates are tried; those that fit are held against all points.
 const TRIAL_POINTS: usize = 8;
 
+/// The cost of an edit with a simple number that the file does not have there.
+const NEW_NUMBER: usize = 20;
+
+/// The cost of an edit with a number that nobody writes.
+const FAR_FETCHED: usize = 40;
+
+/// A search over the edits of the quantities of a question.
+pub(super) struct EditSearch<'a, 'm> {
+    right: &'a Right<'m>,
+    components: &'a [Component<'a, 'm>],
+    bench: Bench,
+    /// Points of the same part that nobody was asked about.
+    fresh: &'a [Vec<f64>],
+}
+
 /// An edit that fits at the points of the trial.
 #[derive(Debug, Clone)]
 struct Match {
-    candidate: usize,
+    candidate: Candidate,
     factor: f64,
-    /// Of the components of the quantity, those that fit.
+    /// Of the components that are wrong, those that fit.
     fits: Vec<bool>,
     /// The values of all components at fresh points.
     fresh: Vec<Column>,
@@ -25,49 +43,31 @@ struct Match {
     breadth: usize,
 }
 
-/// What an explanation says.
-pub(super) struct Explained {
-    pub(super) cause: Cause,
-    /// Other edits that fit and have other values at fresh points, or other terms.
-    pub(super) alternatives: Vec<String>,
-}
+impl Match {
+    /// Whether two edits have the same values of a component at fresh points.
+    fn is_same(&self, other: &Self, component: usize) -> bool {
+        const SAME: f64 = 1e-9;
+        let [first, second] = [self, other].map(|found| &found.fresh[component]);
+        let largest = first.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let mut pairs = first.iter().zip(second);
+        pairs.all(|(a, b)| (a - b).abs() <= SAME * largest)
+    }
 
-impl Explained {
-    pub(super) fn plain(cause: Cause) -> Self {
-        Self {
-            cause,
-            alternatives: vec![],
-        }
+    fn cost(&self) -> usize {
+        cost(&self.candidate, self.factor)
     }
 }
 
-/// A single edit that explains a component.
-struct Single {
-    explained: Explained,
-    /// Its number is not simple: another kind of mistake is more likely.
-    is_far_fetched: bool,
+/// The components of a quantity that are wrong, at the points of a trial.
+struct Trial {
+    points: Vec<Vec<f64>>,
+    wrong: Vec<Sample>,
 }
 
-/// What all single edits gave.
-#[derive(Default)]
-struct Tried {
-    count: usize,
-    matches: Vec<Match>,
-    near: Vec<Near>,
-}
-
-/// Whether two edits have the same values at fresh points.
-fn is_same(first: &[f64], second: &[f64]) -> bool {
-    const SAME: f64 = 1e-9;
-    let largest = first.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-    let mut pairs = first.iter().zip(second);
-    pairs.all(|(a, b)| (a - b).abs() <= SAME * largest)
-}
-
-impl<'a, 'm> EditSearch<'a, 'm> {
+impl Trial {
     /// Points where the values of the other program are most different, and others.
-    fn trial(&self, wrong: &[&Component<'a, 'm>]) -> Vec<usize> {
-        let count = self.right.points.len();
+    fn new(right: &Right<'_>, wrong: &[&Component<'_, '_>]) -> Self {
+        let count = right.points.len();
         let mut shares = vec![0.0_f64; count];
         for component in wrong {
             let differences = component.differences();
@@ -78,253 +78,320 @@ impl<'a, 'm> EditSearch<'a, 'm> {
         }
         let mut places: Vec<usize> = (0..count).collect();
         places.sort_by(|a, b| shares[*b].total_cmp(&shares[*a]));
-        let last = places.split_off((TRIAL_POINTS / 2).min(count));
-        let mut last = last;
+        let mut last = places.split_off((TRIAL_POINTS / 2).min(count));
         last.sort_unstable();
         places.extend(last.into_iter().take(TRIAL_POINTS / 2));
-        places
+        let wrong = wrong.iter();
+        Self {
+            points: places.iter().map(|p| right.points[*p].clone()).collect(),
+            wrong: wrong.map(|wrong| wrong.values.at(&places)).collect(),
+        }
     }
 
-    /// Explains components of one quantity, each by itself.
-    pub(super) fn explain(&mut self, quantity: usize, wrong: &[usize]) -> Vec<Explained> {
-        let components = self.of_quantity(quantity);
+    /// The factors with which an edit fits a component.
+    fn factors(&self, curve: &mut Curve<'_>, change: EditKind) -> Vec<f64> {
+        let mut factors = vec![];
+        for sample in &self.wrong {
+            factors.extend(match change.has_factor() {
+                true => solve::factor(curve, sample),
+                false => self.fits(curve, sample).then_some(1.0),
+            });
+        }
+        factors.sort_by(f64::total_cmp);
+        factors.dedup();
+        factors
+    }
+
+    fn fits(&self, curve: &mut Curve<'_>, sample: &Sample) -> bool {
+        sample.fits(&curve.at(1.0)[sample.component])
+    }
+}
+
+impl<'a, 'm> EditSearch<'a, 'm> {
+    /// * `fresh`: points of the same part that nobody was asked about.
+    pub(super) fn new(
+        right: &'a Right<'m>,
+        components: &'a [Component<'a, 'm>],
+        fresh: &'a [Vec<f64>],
+    ) -> Option<Self> {
+        Some(Self {
+            right,
+            components,
+            bench: Bench::new(right.model, right.part)?,
+            fresh,
+        })
+    }
+
+    fn name(&self, quantity: usize) -> &'m str {
+        &self.right.quantities[quantity].quantity.name
+    }
+
+    /// Explains components of one quantity, by their places, each by itself.
+    pub(super) fn explain(
+        &mut self,
+        quantity: usize,
+        places: &[usize],
+    ) -> Vec<(usize, Comparison)> {
         let all = self.components;
-        let wrong: Vec<&Component<'a, 'm>> = wrong.iter().map(|place| &all[*place]).collect();
-        let places = self.trial(&wrong);
-        let points: Vec<Vec<f64>> = places
-            .iter()
-            .map(|place| self.right.points[*place].clone())
-            .collect();
-        let samples: Vec<Sample> = components
-            .iter()
-            .map(|component| sample(component, &places))
-            .collect();
-        let is_wrong: Vec<bool> = components
-            .iter()
-            .map(|component| wrong.iter().any(|other| other.place == component.place))
-            .collect();
-        let trial = Trial {
-            points,
-            samples,
-            is_wrong,
-        };
-        let mut tried = Tried::default();
-        for is_rare in [false, true] {
-            if !self.are_explained(&tried, &trial) {
-                self.singles(quantity, &trial, is_rare, &mut tried);
+        let wrong: Vec<&Component<'a, 'm>> = places.iter().map(|place| &all[*place]).collect();
+        let trial = Trial::new(self.right, &wrong);
+        let problem = &self.right.model.problem;
+        let name = self.name(quantity);
+        let (rare, frequent): (Vec<_>, Vec<_>) = candidates::all(problem, self.right.part, name)
+            .into_iter()
+            .partition(|candidate| candidate.is_rare);
+        let mut edits = 0;
+        let mut matches = vec![];
+        for candidates in [frequent, rare] {
+            let is_explained = |place: usize| {
+                let mut matches = matches.iter();
+                matches.any(|found: &Match| found.cost() < NEW_NUMBER && found.fits[place])
+            };
+            if !(0..wrong.len()).all(is_explained) {
+                edits += candidates.len();
+                self.singles(name, &trial, candidates, &mut matches);
             }
         }
-        for found in &mut tried.matches {
-            found.breadth = self.breadth(quantity, found);
+        for found in &mut matches {
+            found.breadth = self.breadth(found);
         }
-        self.order(&mut tried.matches);
+        // Those that explain most first; of these the smallest, then those nearest to a term.
+        matches.sort_by_key(|found| {
+            let breadth = usize::MAX - found.breadth;
+            (breadth, found.cost(), found.candidate.depth)
+        });
         let mut explained = vec![];
-        for component in &wrong {
-            let single = self.single(component, &components, &tried);
+        for (index, component) in wrong.iter().enumerate() {
+            let single = self.single(component, index, &matches);
             let [near, far] = match single {
-                Some(single) if single.is_far_fetched => [None, Some(single.explained)],
-                Some(single) => [Some(single.explained), None],
-                None => [None, None],
+                Some((best, single)) if best.cost() >= FAR_FETCHED => [None, Some(single)],
+                single => [single.map(|single| single.1), None],
             };
-            let single = near.or_else(|| self.of_whole(component)).or(far);
-            explained.push(match single {
-                Some(single) => single,
-                None => Explained::plain(Cause::None(Unexplained {
-                    nearest: self.nearest(quantity, &tried),
-                    edits: tried.count,
-                    is_cut: self.bench.is_exhausted(),
-                })),
-            });
+            let found = near
+                .or_else(|| component.of_component())
+                .or_else(|| component.of_several_terms())
+                .or(far);
+            let none = || self.unexplained(component, edits);
+            explained.push((places[index], found.unwrap_or_else(none)));
         }
         explained
     }
 
-    /// All single edits of a quantity.
-    fn singles(&mut self, quantity: usize, trial: &Trial, is_rare: bool, tried: &mut Tried) {
-        let name = self.name(quantity);
-        let fresh = self.fresh.clone();
-        for place in 0..self.candidates.len() {
-            let candidate = self.candidates[place].clone();
-            let reaches = match &candidate.alteration {
-                Alteration::Rewrite(rewrite) => self.bench.reaches(&rewrite.home, name),
-                _ => true,
-            };
-            if !reaches || candidate.is_rare != is_rare {
-                continue;
-            }
-            if self.bench.is_exhausted() {
-                break;
-            }
-            let seen = self
-                .bench
-                .altered(Some(&candidate.alteration), name, |altered| {
-                    let mut curve = Curve::new(altered.evaluation(), &trial.points);
-                    let outcome = attempt(&mut curve, &candidate, trial);
-                    let evaluation = altered.evaluation();
-                    let matches = outcome.factors.into_iter().map(|factor| Match {
-                        candidate: place,
-                        factor,
-                        fits: trial.fits(curve.at(factor)),
-                        fresh: columns(&fresh, |point| evaluation.at(point, factor)),
-                        breadth: 0,
-                    });
-                    (matches.collect::<Vec<_>>(), outcome.near)
-                });
-            tried.count += 1;
-            let Some((matches, near)) = seen else {
-                continue;
-            };
-            tried.matches.extend(matches);
-            tried.near.extend(near.map(|near| Near {
-                candidate: place,
-                ..near
-            }));
-        }
+    /// What is said where nothing fits: where the difference is largest and where it is smallest.
+    fn unexplained(&self, component: &Component<'_, '_>, edits: usize) -> Comparison {
+        let right = self.right;
+        let differences = component.differences();
+        let differences = || differences.iter().zip(&right.points);
+        let largest = differences().max_by(|a, b| a.0.total_cmp(b.0));
+        let smallest = differences().min_by(|a, b| a.0.total_cmp(b.0));
+        let [largest, smallest] = [largest, smallest].map(|entry| {
+            entry.map_or(String::new(), |(difference, point)| {
+                format!("{difference:.3e} at {}", right.model.place_in_words(point))
+            })
+        });
+        let cut = match self.bench.is_exhausted() {
+            true => ", where the limit of work was reached",
+            false => "",
+        };
+        component.said("none", &format!(
+            "no explanation found by {edits} edit(s){cut}; your values differ by {largest} and by {smallest}"
+        ))
     }
 
-    /// Whether each component that is wrong has an edit without a new number.
-    fn are_explained(&self, tried: &Tried, trial: &Trial) -> bool {
-        let near =
-            |found: &&Match| cost(&self.candidates[found.candidate], found.factor) < NEW_NUMBER;
-        let is_wrong = trial.is_wrong.iter().enumerate();
-        let mut wrong = is_wrong.filter(|entry| *entry.1).map(|entry| entry.0);
-        wrong.all(|place| {
-            tried
-                .matches
-                .iter()
-                .filter(near)
-                .any(|found| found.fits[place])
-        })
+    /// The single edits of a quantity that fit.
+    fn singles(
+        &mut self,
+        quantity: &str,
+        trial: &Trial,
+        candidates: Vec<Candidate>,
+        matches: &mut Vec<Match>,
+    ) {
+        for candidate in candidates {
+            if self.bench.is_exhausted() {
+                return;
+            }
+            let alteration = Some(&candidate.alteration);
+            let found = self.bench.altered(alteration, quantity, |altered| {
+                let mut curve = Curve::new(altered.evaluation(), &trial.points);
+                let factors = trial.factors(&mut curve, candidate.change);
+                let evaluation = altered.evaluation();
+                let matches = factors.into_iter().map(|factor| {
+                    let wrong = trial.wrong.iter();
+                    let columns = curve.at(factor);
+                    Match {
+                        candidate: candidate.clone(),
+                        factor,
+                        fits: wrong.map(|w| w.fits(&columns[w.component])).collect(),
+                        fresh: evaluation.columns(self.fresh, factor),
+                        breadth: 0,
+                    }
+                });
+                matches.collect::<Vec<_>>()
+            });
+            matches.extend(found.into_iter().flatten());
+        }
     }
 
     /// The number of all components that an edit explains, or leaves right.
-    fn breadth(&mut self, quantity: usize, found: &Match) -> usize {
-        let own = found.fits.iter().filter(|fits| **fits).count();
-        let candidate = self.candidates[found.candidate].clone();
-        let mut others = 0;
-        for other in 0..self.right.quantities.len() {
-            let components = self.of_quantity(other);
-            if other == quantity || components.is_empty() {
-                continue;
-            }
-            let reaches = match &candidate.alteration {
-                Alteration::Rewrite(rewrite) => self.bench.reaches(&rewrite.home, self.name(other)),
-                _ => true,
-            };
-            if !reaches {
-                let right = components.iter().filter(|c| c.is_right());
-                others += right.count();
-                continue;
-            }
-            let places: Vec<usize> = (0..self.right.points.len().min(TRIAL_POINTS)).collect();
-            let points = self.right.points[..places.len()].to_vec();
-            let factor = found.factor;
-            let name = self.name(other);
-            let seen = self
-                .bench
-                .altered(Some(&candidate.alteration), name, |altered| {
-                    Curve::new(altered.evaluation(), &points)
-                        .at(factor)
-                        .to_vec()
-                });
-            let Some(columns) = seen else { continue };
-            let fitting = components
-                .iter()
-                .map(|component| sample(component, &places))
-                .filter(|sample| sample.fits(&columns[sample.component]));
-            others += fitting.count();
+    fn breadth(&mut self, found: &Match) -> usize {
+        let count = self.right.points.len().min(TRIAL_POINTS);
+        let places: Vec<usize> = (0..count).collect();
+        let points = &self.right.points[..count];
+        let alteration = Some(&found.candidate.alteration);
+        let mut breadth = 0;
+        for quantity in 0..self.right.quantities.len() {
+            let components = self.components.iter();
+            let components = components.filter(|c| c.place.quantity == quantity);
+            let name = self.name(quantity);
+            let columns = self.bench.altered(alteration, name, |altered| {
+                altered.evaluation().columns(points, found.factor)
+            });
+            let Some(columns) = columns else { continue };
+            let fitting = components.filter(|component| {
+                let column = &columns[component.place.component];
+                component.values.at(&places).fits(column)
+            });
+            breadth += fitting.count();
         }
-        own + others
+        breadth
     }
 
-    /// Those that explain most first; of these the smallest, then those nearest to a term.
-    fn order(&self, matches: &mut [Match]) {
-        let key = |found: &Match| {
-            let size = self.size(found.candidate, found.factor);
-            (usize::MAX - found.breadth, size)
-        };
-        matches.sort_by_key(key);
+    /// Whether an altered component has the foreign values at all points.
+    fn fits_everywhere(&mut self, component: &Component<'a, 'm>, found: &Match) -> bool {
+        let name = self.name(component.place.quantity);
+        let points = &self.right.points;
+        let alteration = Some(&found.candidate.alteration);
+        let fits = self.bench.altered(alteration, name, |altered| {
+            let evaluation = altered.evaluation();
+            let mut values = evaluation.at(points, found.factor).enumerate();
+            values.all(|(place, values)| {
+                let value = values[component.place.component].value;
+                component.values.fits_at(place, value)
+            })
+        });
+        fits == Some(true)
     }
 
     /// The best edit that explains a component at all points.
-    fn single(
+    fn single<'f>(
         &mut self,
         component: &Component<'a, 'm>,
-        components: &[&Component<'a, 'm>],
-        tried: &Tried,
-    ) -> Option<Single> {
-        let column = components
-            .iter()
-            .position(|other| other.place == component.place)?;
+        place: usize,
+        matches: &'f [Match],
+    ) -> Option<(&'f Match, Comparison)> {
         let mut groups: Vec<&Match> = vec![];
-        let mut best: Option<&Match> = None;
         let mut alternatives = vec![];
-        for found in tried.matches.iter().filter(|found| found.fits[column]) {
-            let is_same = |other: &&Match| {
-                let place = component.place.component;
-                is_same(&other.fresh[place], &found.fresh[place])
-            };
-            let is_known = groups.iter().any(is_same);
-            if is_known {
-                let is_best = best.as_ref().is_some_and(is_same);
-                alternatives.extend(is_best.then(|| self.other_term(best, found)).flatten());
-                continue;
-            }
-            let alteration = self.candidates[found.candidate].alteration.clone();
-            if !self.fits_everywhere(component, &alteration, found.factor) {
-                continue;
-            }
-            groups.push(found);
-            if best.is_none() {
-                best = Some(found);
-            } else {
-                let named = self.named(component.place.quantity, found.candidate, found.factor);
-                alternatives.push(place_and_text(&named, &self.right.model.problem.file));
+        for found in matches.iter().filter(|found| found.fits[place]) {
+            let same = |other: &&&Match| found.is_same(other, component.place.component);
+            if let Some(known) = groups.iter().find(same) {
+                // Another term with the same effect: no point tells them apart.
+                let are_terms = [known, found]
+                    .iter()
+                    .all(|found| found.candidate.change == EditKind::Term);
+                if are_terms && std::ptr::eq(*known, groups[0]) {
+                    let named = self.named(component, found);
+                    alternatives.push(format!("{} times {}", named.terms[0], found.factor));
+                }
+            } else if self.fits_everywhere(component, found) {
+                if !groups.is_empty() {
+                    let file = &self.right.model.problem.file;
+                    let Named { change, edit, .. } = self.named(component, found);
+                    alternatives.push(place_and_text(change, &edit, file));
+                }
+                groups.push(found);
             }
         }
-        let best = best?;
-        let named = self.named(component.place.quantity, best.candidate, best.factor);
-        Some(Single {
-            is_far_fetched: cost(&self.candidates[best.candidate], best.factor) >= FAR_FETCHED,
-            explained: Explained {
-                cause: Cause::Edit(named),
-                alternatives,
+        let best = *groups.first()?;
+        let Named {
+            change,
+            factors,
+            terms,
+            edit,
+        } = self.named(component, best);
+        let file = &self.right.model.problem.file;
+        let mut words = match (change, factors.first()) {
+            (EditKind::Term, Some(factor)) => {
+                let label = terms[0].clone();
+                let term = TermFactor {
+                    label,
+                    factor: *factor,
+                };
+                let words = of_terms(&[term], &self.right.labels(component.place));
+                format!("{words} ({file}:{}:{})", edit.line, edit.column)
+            }
+            _ => place_and_text(change, &edit, file),
+        };
+        if !alternatives.is_empty() {
+            words += &format!(" (this fits as well: {})", alternatives.join(", "));
+        }
+        let said = Comparison {
+            terms,
+            factors,
+            alternatives,
+            ..component.said(edit.kind, &words)
+        };
+        Some((
+            best,
+            Comparison {
+                edits: vec![edit],
+                ..said
             },
-        })
+        ))
     }
 
-    /// Another term with the same effect: no point tells them apart.
-    fn other_term(&self, best: Option<&Match>, found: &Match) -> Option<String> {
-        let best = best?;
-        let [first, second] = [best, found].map(|found| &self.candidates[found.candidate]);
-        let are_terms = first.change == EditKind::Term && second.change == EditKind::Term;
-        if !are_terms {
-            return None;
+    fn named(&self, component: &Component<'_, '_>, found: &Match) -> Named {
+        let whole = place_of(self.right, component.place.quantity);
+        let problem = &self.right.model.problem;
+        text::named(problem, &whole, &found.candidate, found.factor)
+    }
+}
+
+/// How much an edit changes; those that people make most often are cheapest.
+fn cost(candidate: &Candidate, factor: f64) -> usize {
+    let is_lost = factor == -1.0 || factor == 0.0;
+    match candidate.change {
+        EditKind::Term | EditKind::Summand if is_lost => 10,
+        EditKind::LostFactor | EditKind::LostDivisor | EditKind::LostOperator => 10,
+        EditKind::Normal | EditKind::TimeFactor => 9,
+        EditKind::TransposedGradient | EditKind::MissingTranspose | EditKind::Held => 11,
+        EditKind::Exponent if text::has_simple_number(candidate, factor) => 11,
+        EditKind::TimesForOver
+        | EditKind::Typed
+        | EditKind::Order
+        | EditKind::Operator
+        | EditKind::Function => 12,
+        EditKind::Derivative | EditKind::Index | EditKind::Branch | EditKind::LostBracket => 13,
+        EditKind::Name => 16,
+        EditKind::Term | EditKind::Summand | EditKind::Part
+            if text::has_simple_number(candidate, factor) =>
+        {
+            12
         }
-        let named = self.named(0, found.candidate, found.factor);
-        Some(format!("{} times {}", named.label?, found.factor))
+        EditKind::Parameters | EditKind::Basis => 13,
+        EditKind::Part if is_lost => 14,
+        EditKind::LostTime
+        | EditKind::OneDifferentiated
+        | EditKind::TakenBelow
+        | EditKind::Square => 15,
+        EditKind::Time | EditKind::Coordinates | EditKind::Parameter => 30,
+        change if change.has_factor() && solve::is_simple(factor) => NEW_NUMBER,
+        _ => FAR_FETCHED,
     }
+}
 
-    fn of_whole(&self, component: &Component<'_, '_>) -> Option<Explained> {
-        let cause = component
-            .of_time()
-            .or_else(|| component.of_exchange())
-            .or_else(|| component.of_parameters())
-            .or_else(|| component.of_terms())?;
-        Some(Explained::plain(cause))
+/// Where a quantity stands in the file.
+pub(super) fn place_of(right: &Right<'_>, quantity: usize) -> Location {
+    let quantity = right.quantities[quantity].quantity;
+    let problem = &right.model.problem;
+    let mut equations = problem.equations.iter();
+    let is_source = quantity.role == Role::Source;
+    if let Some(equation) = equations.find(|e| is_source && e.name == quantity.name) {
+        return equation.place.clone();
     }
-
-    /// The two edits that come nearest.
-    fn nearest(&self, quantity: usize, tried: &Tried) -> Vec<Nearest> {
-        let mut near: Vec<&Near> = tried.near.iter().collect();
-        near.sort_by(|a, b| a.left.total_cmp(&b.left));
-        near.into_iter()
-            .filter(|near| near.left < 1.0)
-            .take(2)
-            .map(|near| Nearest {
-                named: self.named(quantity, near.candidate, near.factor),
-                left: near.left,
-            })
-            .collect()
-    }
+    let mut data = problem.faces.iter().flat_map(|face| &face.data);
+    let datum = data.find(|datum| datum.value.place().key.starts_with(&quantity.key));
+    datum.map_or_else(
+        || problem.equations[0].place.clone(),
+        |d| d.value.place().clone(),
+    )
 }

@@ -6,9 +6,8 @@
 //! | `ask.rs`, `right.rs` | the other program's values, and the right ones |
 //! | `candidates/`, `site.rs` | all single edits of the file, by their places in its trees and its text |
 //! | `bench.rs` | what becomes of a quantity after an edit |
-//! | `solve.rs`, `trial.rs` | the factor of an edit, and whether it fits at a few points |
-//! | `search.rs` | the components of an answer, and the edits that may explain them |
-//! | `explain.rs`, `whole.rs` | the edit that fits everywhere; what concerns all of a component |
+//! | `solve.rs` | the factor of an edit |
+//! | `explain.rs`, `whole.rs` | the edit that fits at a few points, then everywhere; what concerns all of a component |
 //! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
 pub(crate) mod ask;
@@ -17,18 +16,14 @@ pub(crate) mod candidates;
 pub(crate) mod cause;
 mod explain;
 mod right;
-mod search;
 mod sentence;
 pub(crate) mod site;
 mod solve;
 pub(crate) mod text;
-mod trial;
 mod whole;
 
 pub use ask::{CommandWords, command_words};
 pub use cause::Edit;
-
-use std::time::Duration;
 
 use serde::Serialize;
 
@@ -163,18 +158,4 @@ pub(crate) fn questions(
         text: ask::question(&names, &rows),
         points,
     })
-}
-
-/// Compares the answers of a command with the right values.
-pub(crate) fn compare(
-    model: &Model,
-    command: &str,
-    face: Option<&str>,
-    sampling: &Sampling,
-    limit: Duration,
-) -> Result<Vec<Comparison>, InputError> {
-    let question = Question::new(model, face, sampling)?;
-    let words = command_words(command).words;
-    let answer = ask::run(&words, question.text.clone(), None, limit)?;
-    question.compare(&answer, command)
 }

@@ -8,7 +8,7 @@ use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
 use crate::fit::Column;
 use crate::model::{Model, TensorRows};
-use crate::problem::{InputError, ParameterValue};
+use crate::problem::InputError;
 
 /// Points where the file is evaluated in both ways.
 const SPREAD_POINTS: usize = 50;
@@ -145,19 +145,6 @@ impl<'m> Right<'m> {
     pub(crate) fn labels(&self, place: ComponentPlace) -> Vec<&str> {
         let terms = self.quantities[place.quantity].quantity.terms.iter();
         terms.map(|term| term.0.as_str()).collect()
-    }
-
-    /// The parameters with one of them changed; those that depend on it follow.
-    pub(crate) fn parameters(&self, parameter: usize, value: f64) -> Option<Vec<f64>> {
-        let problem = &self.model.problem;
-        let setting = ParameterValue { parameter, value };
-        problem.parameter_values(&[setting]).ok()
-    }
-
-    /// A quantity, to be evaluated at other points or with other parameters.
-    pub(crate) fn rows(&self, place: ComponentPlace) -> TensorRows<'m> {
-        let tensor = &self.quantities[place.quantity].quantity.tensor;
-        TensorRows::new(&self.model.graph, std::iter::once(tensor))
     }
 }
 

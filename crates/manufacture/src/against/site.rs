@@ -16,6 +16,8 @@ pub(crate) enum Home {
         datum: usize,
         part: usize,
     },
+    /// A parameter, by its place.
+    Parameter(usize),
 }
 
 impl Home {
@@ -31,6 +33,7 @@ impl Home {
             Home::Datum { face, datum, part } => {
                 parts(&problem.faces.get(*face)?.data.get(*datum)?.value).nth(*part)
             }
+            Home::Parameter(place) => Some(&problem.parameters.get(*place)?.expression),
         }
     }
 
@@ -60,6 +63,7 @@ impl Home {
                 let datum = problem.faces.get_mut(*face)?.data.get_mut(*datum)?;
                 parts_mut(&mut datum.value).into_iter().nth(*part)
             }
+            Home::Parameter(place) => Some(&mut problem.parameters.get_mut(*place)?.expression),
         }
     }
 }

@@ -1,10 +1,9 @@
 //! The unknown factor of an edit, from the values of another program at a few points.
 
 use super::bench::Evaluation;
-use crate::arithmetic::tape::SizedValue;
 use crate::fit::{self, Column};
 
-/// The values of a component at a few points.
+/// The values of a component at some points.
 #[derive(Debug, Clone)]
 pub(super) struct Sample {
     pub(super) component: usize,
@@ -17,18 +16,29 @@ pub(super) struct Sample {
 impl Sample {
     /// Whether these values are those of the other program.
     pub(super) fn fits(&self, values: &[f64]) -> bool {
-        let mut triples = self.foreign.iter().zip(values).zip(&self.allowed);
-        triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
+        (0..values.len()).all(|place| self.fits_at(place, values[place]))
     }
 
-    /// What another value leaves, as a share of the difference from the right values.
-    pub(super) fn left_by(&self, values: &[f64]) -> f64 {
-        // Values that are not finite leave everything.
-        if values.iter().any(|value| !value.is_finite()) {
-            return f64::INFINITY;
+    pub(super) fn fits_at(&self, place: usize, value: f64) -> bool {
+        (self.foreign[place] - value).abs() <= self.allowed[place]
+    }
+
+    /// The same at a few of the points.
+    pub(super) fn at(&self, places: &[usize]) -> Self {
+        let [right, foreign, allowed] = [&self.right, &self.foreign, &self.allowed]
+            .map(|column| places.iter().map(|place| column[*place]).collect());
+        Self {
+            component: self.component,
+            right,
+            foreign,
+            allowed,
         }
+    }
+
+    /// What other values leave of the difference; values that are not finite leave everything.
+    fn left_by(&self, values: &[f64]) -> f64 {
         let left = fit::norm(&difference(&self.foreign, values));
-        left / fit::norm(&difference(&self.foreign, &self.right))
+        if left.is_nan() { f64::INFINITY } else { left }
     }
 }
 
@@ -56,42 +66,20 @@ impl<'c> Curve<'c> {
     pub(super) fn at(&mut self, factor: f64) -> &[Column] {
         let place = self.known.iter().position(|entry| entry.0 == factor);
         let place = place.unwrap_or_else(|| {
-            let at = |point: &[f64]| self.evaluation.at(point, factor);
-            self.known.push((factor, columns(self.points, at)));
+            let columns = self.evaluation.columns(self.points, factor);
+            self.known.push((factor, columns));
             self.known.len() - 1
         });
         &self.known[place].1
     }
 }
 
-/// Of each component its values at points.
-pub(super) fn columns(points: &[Vec<f64>], at: impl Fn(&[f64]) -> Vec<SizedValue>) -> Vec<Column> {
-    let mut columns: Vec<Column> = vec![];
-    for point in points {
-        let values = at(point);
-        columns.resize(values.len(), vec![]);
-        for (column, value) in columns.iter_mut().zip(values) {
-            column.push(value.value);
-        }
-    }
-    columns
-}
-
-/// What became of the search for a factor.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Solved {
-    /// That with which all points fit.
-    pub(super) factor: Option<f64>,
-    /// The factor that comes nearest, and the share of the difference that it leaves.
-    pub(super) nearest: f64,
-    pub(super) left: f64,
-}
-
 /// Changes below this share of the values are rounding.
 const ROUNDING: f64 = 1e-11;
 
 /// The factors that are tried where the quantity is not linear in it.
-const TRIED: [f64; 16] = [
+const TRIED: [f64; 17] = [
+    1.0,
     -1.0,
     0.0,
     2.0,
@@ -110,8 +98,8 @@ const TRIED: [f64; 16] = [
     0.1,
 ];
 
-/// The factor that gives the values of the other program; `None` if it has no effect.
-pub(super) fn factor(curve: &mut Curve<'_>, sample: &Sample) -> Option<Solved> {
+/// The factor that gives the values of the other program.
+pub(super) fn factor(curve: &mut Curve<'_>, sample: &Sample) -> Option<f64> {
     let mut value = |factor: f64| curve.at(factor)[sample.component].clone();
     let [zero, one, two] = [0.0, 1.0, 2.0].map(&mut value);
     let slope = difference(&two, &one);
@@ -122,12 +110,12 @@ pub(super) fn factor(curve: &mut Curve<'_>, sample: &Sample) -> Option<Solved> {
     }
     let bend = fit::norm(&difference(&slope, &before));
     if bend <= 1e-9 * (fit::norm(&slope) + ROUNDING * scale) {
-        return Some(linear(sample, &one, &slope));
+        return linear(sample, &one, &slope);
     }
-    Some(bent(&mut value, sample))
+    bent(&mut value, sample)
 }
 
-fn linear(sample: &Sample, one: &Column, slope: &Column) -> Solved {
+fn linear(sample: &Sample, one: &Column, slope: &Column) -> Option<f64> {
     let rest = difference(&sample.foreign, one);
     let factor = 1.0 + fit::least_squares(&[slope], &rest).factors[0];
     let with = |factor: f64| -> Column {
@@ -138,38 +126,22 @@ fn linear(sample: &Sample, one: &Column, slope: &Column) -> Solved {
     };
     // Rounding of large other terms limits how exactly the factor of a small one is found.
     let mut factors = SIMPLE.into_iter().chain([simple(factor), factor]);
-    Solved {
-        factor: factors.find(|factor| sample.fits(&with(*factor))),
-        nearest: simple(factor),
-        left: sample.left_by(&with(factor)),
-    }
+    factors.find(|factor| sample.fits(&with(*factor)))
 }
 
 /// Gauss-Newton on one number from the best of some; the slope is a difference.
-fn bent(value: &mut impl FnMut(f64) -> Column, sample: &Sample) -> Solved {
+fn bent(value: &mut impl FnMut(f64) -> Column, sample: &Sample) -> Option<f64> {
     const STARTS: usize = 3;
     const STEPS: usize = 12;
     let mut tried: Vec<[f64; 2]> = vec![];
     for factor in TRIED {
         let values = value(factor);
         if sample.fits(&values) {
-            return Solved {
-                factor: Some(factor),
-                ..Solved::default()
-            };
+            return Some(factor);
         }
-        let left = sample.left_by(&values);
-        if left.is_finite() {
-            tried.push([left, factor]);
-        }
+        tried.push([sample.left_by(&values), factor]);
     }
-    tried.push([1.0, 1.0]);
     tried.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let mut best = Solved {
-        nearest: tried[0][1],
-        left: tried[0][0],
-        ..Solved::default()
-    };
     for [_, start] in tried.into_iter().take(STARTS) {
         let mut factor = start;
         for _ in 0..STEPS {
@@ -186,18 +158,13 @@ fn bent(value: &mut impl FnMut(f64) -> Column, sample: &Sample) -> Solved {
                 break;
             }
         }
-        let left = sample.left_by(&value(factor));
-        if left < best.left {
-            best.left = left;
-            best.nearest = simple(factor);
-        }
         let mut factors = [simple(factor), factor].into_iter();
-        best.factor = factors.find(|factor| sample.fits(&value(*factor)));
-        if best.factor.is_some() {
-            break;
+        let found = factors.find(|factor| sample.fits(&value(*factor)));
+        if found.is_some() {
+            return found;
         }
     }
-    best
+    None
 }
 
 /// The fraction of small whole numbers that a number is but for rounding, or the number.
@@ -216,13 +183,7 @@ pub(super) fn simple(number: f64) -> f64 {
 /// The factors that mistakes have most often.
 const SIMPLE: [f64; 4] = [-1.0, 0.0, 2.0, 0.5];
 
-/// How far-fetched a factor is: those that are most frequent in their order, then by size.
-pub(super) fn complexity(factor: f64) -> f64 {
-    match SIMPLE.iter().position(|entry| *entry == factor) {
-        Some(place) => place as f64,
-        None if simple(factor * 12.0) == (factor * 12.0).round() => {
-            10.0 + factor.abs().max(1.0 / factor.abs())
-        }
-        None => 1000.0 + factor.abs().max(1.0 / factor.abs()),
-    }
+/// Whether people write a factor: a fraction of small whole numbers.
+pub(super) fn is_simple(factor: f64) -> bool {
+    simple(factor * 12.0) == (factor * 12.0).round()
 }

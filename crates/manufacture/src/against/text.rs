@@ -23,12 +23,22 @@ pub(crate) fn named(
     let kind = kind(change, factor);
     let about_all = |old: String, new: String| Edit {
         kind,
-        ..of_whole(problem, whole, old, new)
+        key: whole.key.clone(),
+        line: whole.text.line,
+        column: whole.text.column,
+        old,
+        new,
     };
-    let mut label = None;
     let edit = match &candidate.alteration {
         Alteration::Normal => about_all("n".to_owned(), "-n".to_owned()),
         Alteration::Over(tree) => about_all(tree.to_string(), String::new()),
+        Alteration::Time(time) => {
+            about_all(problem.time.clone().unwrap_or_default(), time.to_string())
+        }
+        Alteration::Exchange(places) => {
+            let [first, second] = places.map(|place| problem.coordinates[place].clone());
+            about_all(first, second)
+        }
         Alteration::Basis(basis) => {
             let system = problem.system.name();
             let new = match basis {
@@ -37,41 +47,43 @@ pub(crate) fn named(
             };
             about_all(system.to_owned(), new.to_owned())
         }
-        Alteration::Rewrite(rewrite) => {
-            if change == EditKind::Term
-                && let Home::Term { equation, term } = rewrite.home
-            {
-                label = Some(problem.equations[equation].terms[term].label.clone());
-            }
-            match rewrite.home.expression(problem) {
-                Some(expression) => Edit {
-                    kind,
-                    ..rewritten(expression, rewrite, change, factor)
-                },
-                None => about_all(String::new(), String::new()),
-            }
-        }
+        Alteration::Rewrite(rewrite) => match rewrite.home.expression(problem) {
+            Some(expression) => Edit {
+                kind,
+                ..rewritten(problem, expression, rewrite, change, factor)
+            },
+            None => about_all(String::new(), String::new()),
+        },
+    };
+    let factors = match (change, &candidate.alteration) {
+        (_, Alteration::Time(time)) => vec![*time],
+        (EditKind::Parameter, _) => edit.new.parse().into_iter().collect(),
+        _ if change.has_factor() => vec![factor],
+        _ => vec![],
     };
     Named {
         change,
-        factor,
-        label,
+        terms: terms(problem, candidate),
+        factors,
         edit,
     }
 }
 
-/// An edit that is about all of a quantity.
-pub(super) fn of_whole(problem: &Problem, place: &Location, old: String, new: String) -> Edit {
-    let file = &problem.text;
-    let before = file.get(..place.start).unwrap_or("");
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    Edit {
-        kind: "",
-        key: place.key.clone(),
-        line: place.line,
-        column: before[line_start..].chars().count() + 1,
-        old,
-        new,
+/// The label of a term, if the edit is about all of it; the names that it is about.
+fn terms(problem: &Problem, candidate: &Candidate) -> Vec<String> {
+    match &candidate.alteration {
+        Alteration::Exchange(places) => {
+            let names = places.map(|place| problem.coordinates[place].clone());
+            names.to_vec()
+        }
+        Alteration::Rewrite(rewrite) => match rewrite.home {
+            Home::Term { equation, term } if candidate.change == EditKind::Term => {
+                vec![problem.equations[equation].terms[term].label.clone()]
+            }
+            Home::Parameter(place) => vec![problem.parameters[place].name.clone()],
+            _ => vec![],
+        },
+        _ => vec![],
     }
 }
 
@@ -81,7 +93,13 @@ struct Texts {
     new: String,
 }
 
-fn rewritten(expression: &Expression, rewrite: &Rewrite, change: EditKind, factor: f64) -> Edit {
+fn rewritten(
+    problem: &Problem,
+    expression: &Expression,
+    rewrite: &Rewrite,
+    change: EditKind,
+    factor: f64,
+) -> Edit {
     let part = site::at(&expression.tree, &rewrite.route).unwrap_or(&expression.tree);
     let own = Span::of(part, &expression.text);
     let texts = match change {
@@ -89,6 +107,10 @@ fn rewritten(expression: &Expression, rewrite: &Rewrite, change: EditKind, facto
             with_factor(expression, rewrite, part, factor)
         }
         EditKind::Exponent => exponent(expression, rewrite, part, factor),
+        EditKind::Parameter => Texts {
+            span: own,
+            new: parameter(problem, &rewrite.home, factor).to_string(),
+        },
         EditKind::Added => Texts {
             span: Span {
                 start: own.end,
@@ -130,6 +152,15 @@ fn rewritten(expression: &Expression, rewrite: &Rewrite, change: EditKind, facto
         column: place.column,
         old: expression.text.get(start..end).unwrap_or("").to_owned(),
         new: texts.new,
+    }
+}
+
+/// The value of a parameter times a factor.
+fn parameter(problem: &Problem, home: &Home, factor: f64) -> f64 {
+    let values = problem.parameter_values(&[]).unwrap_or_default();
+    match home {
+        Home::Parameter(place) => simple(factor * values[*place]),
+        _ => f64::NAN,
     }
 }
 

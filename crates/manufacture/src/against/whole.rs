@@ -1,44 +1,98 @@
-//! Causes that concern all of a component: its sign, a factor of it, its terms, its time, its
-//! parameters.
+//! Causes that concern all of a component: its sign, a factor of it, its terms, another component.
 
-use super::cause::{Cause, TermFactor};
+use super::Comparison;
+use super::ask::ForeignQuantity;
+use super::cause::{TermFactor, of_factors, of_terms};
+use super::explain::place_of;
 use super::right::{ComponentPlace, Right};
-use super::solve::{difference, simple};
+use super::site::Span;
+use super::solve::{Sample, difference, simple};
 use crate::derive::Part;
 use crate::fit::{self, Column};
-use crate::model::TensorRows;
+use crate::problem::LineColumn;
 
 /// A term depends on others if less than this share of it is left.
 const DEPENDENT: f64 = 1e-9;
+
+/// A value explains another within this many spreads of the file's own two evaluations, of the
+/// larger of both sides, or within the digits printed.
+///
+/// Another program sums in another order, and may expand products: its rounding is larger than the
+/// spread, but of its kind.
+const SPREADS: f64 = 1000.0;
 
 /// A component of a foreign source beside the right one.
 pub(super) struct Component<'a, 'm> {
     pub(super) right: &'a Right<'m>,
     pub(super) place: ComponentPlace,
-    pub(super) foreign: &'a [f64],
-    pub(super) source: Column,
-    /// How close is close enough, at each point.
-    pub(super) allowed: Vec<f64>,
+    /// At all points.
+    pub(super) values: Sample,
 }
 
-impl Component<'_, '_> {
+impl<'a, 'm> Component<'a, 'm> {
+    /// * `spreads`: those of [`Right::spreads`].
+    pub(super) fn new(
+        right: &'a Right<'m>,
+        spreads: &[Vec<f64>],
+        answer: &ForeignQuantity,
+    ) -> Self {
+        let place = right.place_of(answer).unwrap_or(ComponentPlace {
+            quantity: 0,
+            component: 0,
+        });
+        let values = right.values(place);
+        let spread = spreads[place.quantity][place.component];
+        let triples = values.iter().zip(&answer.values).zip(&answer.units);
+        let allowed = triples.map(|((right, foreign), unit)| {
+            SPREADS * spread * right.size.max(foreign.abs()) + unit
+        });
+        Self {
+            right,
+            place,
+            values: Sample {
+                component: place.component,
+                allowed: allowed.collect(),
+                right: values.iter().map(|v| v.value).collect(),
+                foreign: answer.values.clone(),
+            },
+        }
+    }
+
     pub(super) fn differences(&self) -> Column {
-        let differences = difference(self.foreign, &self.source).into_iter();
+        let values = &self.values;
+        let differences = difference(&values.foreign, &values.right).into_iter();
         differences.map(f64::abs).collect()
     }
 
-    /// Whether these values are those of the foreign source.
-    pub(super) fn fits(&self, values: &[f64]) -> bool {
-        let mut triples = self.foreign.iter().zip(values).zip(&self.allowed);
-        triples.all(|((f, value), allowed)| (f - value).abs() <= *allowed)
+    /// What is said of it.
+    pub(super) fn said(&self, cause: &'static str, words: &str) -> Comparison {
+        let quantity = self.right.name(self.place).to_owned();
+        Comparison {
+            difference: self.differences().into_iter().fold(0.0, f64::max),
+            sentence: format!("{quantity}: {words}"),
+            quantity,
+            cause,
+            terms: vec![],
+            factors: vec![],
+            edits: vec![],
+            alternatives: vec![],
+        }
     }
 
-    pub(super) fn is_right(&self) -> bool {
-        self.fits(&self.source)
+    /// What is said of all of it, with its place in the file.
+    fn said_of_all(&self, cause: &'static str, words: &str) -> Comparison {
+        let place = place_of(self.right, self.place.quantity);
+        self.said_at(place.text, cause, words)
+    }
+
+    fn said_at(&self, place: LineColumn, cause: &'static str, words: &str) -> Comparison {
+        let LineColumn { line, column } = place;
+        let file = &self.right.model.problem.file;
+        self.said(cause, &format!("{words} ({file}:{line}:{column})"))
     }
 
     fn combined(&self, columns: &[&Column], factors: &[f64]) -> Column {
-        let mut sum = vec![0.0; self.source.len()];
+        let mut sum = vec![0.0; self.values.right.len()];
         for (column, factor) in columns.iter().zip(factors) {
             for (sum, value) in sum.iter_mut().zip(*column) {
                 *sum += factor * value;
@@ -47,34 +101,59 @@ impl Component<'_, '_> {
         sum
     }
 
-    /// Sign, constant, factor.
-    pub(super) fn of_source(&self) -> Option<Cause> {
-        if self.fits(&self.source) {
-            return Some(Cause::Equal);
+    /// Right; sign, constant, factor.
+    pub(super) fn of_source(&self) -> Option<Comparison> {
+        let Sample { right, foreign, .. } = &self.values;
+        if self.values.fits(right) {
+            return Some(self.equal());
         }
-        let opposite: Column = self.source.iter().map(|s| -s).collect();
-        if self.fits(&opposite) {
-            return Some(match self.right.part {
-                Part::Interior => Cause::SignOfSource,
-                _ => Cause::Normal,
+        let opposite: Column = right.iter().map(|s| -s).collect();
+        if self.right.part == Part::Interior && self.values.fits(&opposite) {
+            let words =
+                "your source has the opposite sign: the equation was written on the other side";
+            return Some(self.said_of_all("sign-of-source", words));
+        }
+        let ones = vec![1.0; right.len()];
+        let constant = fit::least_squares(&[&ones], &difference(foreign, right)).factors[0];
+        let shifted: Column = right.iter().map(|s| s + constant).collect();
+        if self.values.fits(&shifted) {
+            let constant = simple(constant);
+            let words =
+                format!("your values differ from the right ones by the constant {constant}");
+            return Some(Comparison {
+                factors: vec![constant],
+                ..self.said_of_all("constant", &words)
             });
         }
-        let ones = vec![1.0; self.source.len()];
-        let difference = difference(self.foreign, &self.source);
-        let constant = fit::least_squares(&[&ones], &difference).factors[0];
-        let shifted: Column = self.source.iter().map(|s| s + constant).collect();
-        if self.fits(&shifted) {
-            return Some(Cause::Constant(simple(constant)));
+        let factor = simple(fit::least_squares(&[right], foreign).factors[0]);
+        let scaled = self.combined(&[right], &[factor]);
+        let fits = factor != -1.0 && fit::norm(right) > 0.0 && self.values.fits(&scaled);
+        fits.then(|| Comparison {
+            factors: vec![factor],
+            ..self.said_of_all(
+                "factor-of-source",
+                &format!("your values are the right ones times {factor}"),
+            )
+        })
+    }
+
+    fn equal(&self) -> Comparison {
+        let said = self.said("equal", "your values are right");
+        let how = match said.difference {
+            0.0 => ", to the last digit".to_owned(),
+            largest => format!(
+                ": the largest difference, {largest:.1e}, is within {SPREADS} times the spread \
+                 of the two evaluations of the file, or within the digits printed"
+            ),
+        };
+        Comparison {
+            sentence: said.sentence.clone() + &how,
+            ..said
         }
-        let foreign = self.foreign.to_vec();
-        let factor = simple(fit::least_squares(&[&self.source], &foreign).factors[0]);
-        let scaled = self.combined(&[&self.source], &[factor]);
-        let fits = fit::norm(&self.source) > 0.0 && self.fits(&scaled);
-        fits.then_some(Cause::FactorOfSource(factor))
     }
 
     /// Several terms with other factors, by least squares over those that are independent.
-    pub(super) fn of_terms(&self) -> Option<Cause> {
+    pub(super) fn of_several_terms(&self) -> Option<Comparison> {
         let terms = self.right.terms(self.place);
         let mut independent: Vec<usize> = vec![];
         for (term, column) in terms.iter().enumerate() {
@@ -85,16 +164,19 @@ impl Component<'_, '_> {
             }
         }
         let columns: Vec<&Column> = independent.iter().map(|i| &terms[*i]).collect();
-        let fitted = fit::least_squares(&columns, &difference(self.foreign, &self.source));
+        let fitted = fit::least_squares(
+            &columns,
+            &difference(&self.values.foreign, &self.values.right),
+        );
         let factors: Vec<f64> = fitted
             .factors
             .iter()
             .map(|factor| simple(1.0 + factor))
             .collect();
         let changes: Vec<f64> = factors.iter().map(|factor| factor - 1.0).collect();
-        let columns: Vec<&Column> = std::iter::once(&self.source).chain(columns).collect();
+        let columns: Vec<&Column> = std::iter::once(&self.values.right).chain(columns).collect();
         let changed = self.combined(&columns, &[vec![1.0], changes].concat());
-        if columns.len() < 2 || !self.fits(&changed) {
+        if columns.len() < 2 || !self.values.fits(&changed) {
             return None;
         }
         let labels = self.right.labels(self.place);
@@ -102,144 +184,39 @@ impl Component<'_, '_> {
             .iter()
             .zip(&factors)
             .filter(|pair| *pair.1 != 1.0);
-        let terms = changed.map(|(term, factor)| TermFactor {
+        let changed = changed.map(|(term, factor)| TermFactor {
             label: labels[*term].to_owned(),
             factor: *factor,
         });
-        Some(Cause::Terms(terms.collect()))
-    }
-
-    /// The values of the first or of the last time at all times.
-    pub(super) fn of_time(&self) -> Option<Cause> {
-        let problem = &self.right.model.problem;
-        problem.time.as_ref()?;
-        let mut ends = problem.intervals.last()?.iter();
-        let time = ends.find(|time| self.fits_at(**time))?;
-        Some(Cause::Time(*time))
-    }
-
-    /// Whether the values at one time explain all points.
-    fn fits_at(&self, time: f64) -> bool {
-        let mut points = self.right.points.clone();
-        for point in &mut points {
-            if let Some(last) = point.last_mut() {
-                *last = time;
-            }
-        }
-        self.fits_everywhere(&points, &self.right.model.graph.parameters)
-    }
-
-    /// Points for numbers that are found step by step.
-    fn few(&self) -> &[Vec<f64>] {
-        const FEW: usize = 8;
-        let points = &self.right.points;
-        &points[..points.len().min(FEW)]
-    }
-
-    fn column(
-        &self,
-        rows: &TensorRows<'_>,
-        points: impl Iterator<Item = Vec<f64>>,
-        parameters: &[f64],
-    ) -> Column {
-        let component = self.place.component;
-        points
-            .map(|point| rows.with(&point, parameters).tensors[0][component].value)
-            .collect()
-    }
-
-    /// Whether the values at these points, one for each of the question, and with these parameters
-    /// are those of the foreign source, from point to point.
-    fn fits_everywhere(&self, points: &[Vec<f64>], parameters: &[f64]) -> bool {
-        let rows = self.right.rows(self.place);
-        let component = self.place.component;
-        points.iter().enumerate().all(|(place, point)| {
-            let value = rows.with(point, parameters).tensors[0][component].value;
-            (self.foreign[place] - value).abs() <= self.allowed[place]
+        let changed: Vec<TermFactor> = changed.collect();
+        let factors: Vec<f64> = changed.iter().map(|term| term.factor).collect();
+        let words = of_terms(&changed, &labels);
+        let equations = self.right.model.problem.equations.iter();
+        let mut terms = equations.flat_map(|equation| &equation.terms);
+        let first = &terms
+            .find(|term| term.label == changed[0].label)?
+            .expression;
+        let start = Span::of(&first.tree, &first.text).start;
+        let place = first.place.of_text(&first.text, start);
+        let said = self.said_at(place, of_factors(factors.iter().copied()), &words);
+        Some(Comparison {
+            terms: changed.into_iter().map(|term| term.label).collect(),
+            factors,
+            ..said
         })
     }
 
-    /// Another component, or two coordinates exchanged.
-    pub(super) fn of_exchange(&self) -> Option<Cause> {
-        let right = self.right;
-        for other in right.places() {
-            let values: Column = right.values(other).iter().map(|v| v.value).collect();
-            if other != self.place && self.fits(&values) {
-                return Some(Cause::Component(right.name(other).to_owned()));
-            }
-        }
-        let coordinates = &right.model.problem.coordinates;
-        for first in 0..coordinates.len() {
-            for second in first + 1..coordinates.len() {
-                let mut points = right.points.clone();
-                points
-                    .iter_mut()
-                    .for_each(|point| point.swap(first, second));
-                if self.fits_everywhere(&points, &right.model.graph.parameters) {
-                    let names = [first, second].map(|place| coordinates[place].clone());
-                    return Some(Cause::Coordinates(names));
-                }
-            }
-        }
-        None
-    }
-
-    /// A parameter with another value.
-    pub(super) fn of_parameters(&self) -> Option<Cause> {
-        let parameters = &self.right.model.problem.parameters;
-        let values = &self.right.model.graph.parameters;
-        let rows = self.right.rows(self.place);
-        for (index, parameter) in parameters.iter().enumerate() {
-            let with = |value: f64| {
-                let values = self.right.parameters(index, value)?;
-                Some(self.column(&rows, self.few().iter().cloned(), &values))
-            };
-            for start in [values[index], 0.0, 1.0] {
-                let Some(value) = self.newton(start, f64::INFINITY, with).map(simple) else {
-                    continue;
-                };
-                let all = self.right.parameters(index, value);
-                if all.is_some_and(|values| self.fits_with(&values)) {
-                    let name = parameter.name.clone();
-                    return Some(Cause::Parameter { name, value });
-                }
-            }
-        }
-        None
-    }
-
-    fn fits_with(&self, parameters: &[f64]) -> bool {
-        self.fits_everywhere(&self.right.points, parameters)
-    }
-
-    /// Gauss-Newton on one number; the slope is a central difference.
-    ///
-    /// * `longest`: the longest step.
-    fn newton(
-        &self,
-        start: f64,
-        longest: f64,
-        with: impl Fn(f64) -> Option<Column>,
-    ) -> Option<f64> {
-        const STEPS: usize = 15;
-        let mut value = start;
-        for _ in 0..STEPS {
-            let step = 1e-6 * value.abs().max(1e-3);
-            let [here, above, below] = [value, value + step, value - step].map(&with);
-            let slope: Column = difference(&above?, &below?)
-                .iter()
-                .map(|change| change / (2.0 * step))
-                .collect();
-            let rest = difference(self.foreign, &here?);
-            let change = fit::least_squares(&[&slope], &rest).factors[0];
-            if !change.is_finite() {
-                return None;
-            }
-            value += change.clamp(-longest, longest);
-            if change.abs() <= 1e-14 * value.abs() {
-                break;
-            }
-        }
-        Some(value)
+    /// Another component.
+    pub(super) fn of_component(&self) -> Option<Comparison> {
+        let mut others = self.right.places().into_iter();
+        let other = others.find(|other| {
+            let values: Column = self.right.values(*other).iter().map(|v| v.value).collect();
+            *other != self.place && self.values.fits(&values)
+        })?;
+        let name = self.right.name(other);
+        Some(Comparison {
+            terms: vec![name.to_owned()],
+            ..self.said_of_all("components", &format!("your values are those of `{name}`"))
+        })
     }
 }

@@ -288,7 +288,7 @@ impl<'m> Region<'_, 'm> {
     /// A trouble that is refused, with its place in the file.
     fn reported(&self, margin: &Margin, trouble: &Trouble) -> Result<Finding, InputError> {
         let quantity = &self.quantities[trouble.quantity];
-        let spot = spot::find(self.model, self.part, margin);
+        let spot = spot::find(self.model, margin);
         let argument = spot.as_ref().map(|spot| spot.argument.to_string());
         let argument = argument.unwrap_or("a part".to_owned());
         let words = self.words(margin, trouble, &argument);

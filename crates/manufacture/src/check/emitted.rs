@@ -1,7 +1,7 @@
 //! Emitted files, built and run where their tool chain is found.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
@@ -145,14 +145,21 @@ pub(crate) fn run(
 
 /// What runs the answering program.
 enum Program {
-    Alone(Vec<String>),
+    /// It is started for each question, which a file holds.
+    Alone {
+        command: Vec<String>,
+        question: PathBuf,
+    },
     Session(Session),
 }
 
 impl Program {
     fn new(answering: Answering, language: Language, file: &str, folder: &Path) -> Self {
         match answering {
-            Answering::Alone(command) => Program::Alone(language.command(command, file, folder)),
+            Answering::Alone(command) => Program::Alone {
+                command: language.command(command, file, folder),
+                question: folder.join("question"),
+            },
             Answering::Session { interpreter, text } => {
                 let mut command = language.command(interpreter, file, folder);
                 let arguments = [text, &folder.display().to_string(), file];
@@ -174,8 +181,12 @@ impl AnswerProgram<'_> {
     fn to(&mut self, arguments: &[String], text: String) -> Result<String, InputError> {
         let variant = self.variant;
         match self.program {
-            Program::Alone(command) => {
-                ask::run(&[command, arguments].concat(), text, Some(variant), LIMIT)
+            Program::Alone { command, question } => {
+                let written = fs::write(&*question, text);
+                written.map_err(|error| {
+                    InputError::whole(&question.display().to_string(), error.to_string())
+                })?;
+                printed(&[command, arguments].concat(), question, variant)
             }
             Program::Session(session) => session.answer(&Question {
                 variant,
@@ -184,6 +195,27 @@ impl AnswerProgram<'_> {
             }),
         }
     }
+}
+
+/// What a program prints about the question that a file holds.
+///
+/// * `variant`: of the solution; empty for that of the file.
+fn printed(command: &[String], question: &Path, variant: &str) -> Result<String, InputError> {
+    let failed = |problem: String| InputError::whole(&command.join(" "), problem);
+    let output = fs::File::open(question).and_then(|question| {
+        Command::new(&command[0])
+            .args(&command[1..])
+            .env("MANUFACTURE_VARIANT", variant)
+            .stdin(question)
+            .output()
+    });
+    let output = output.map_err(|error| failed(error.to_string()))?;
+    if !output.status.success() {
+        let status = output.status;
+        return Err(failed(format!("expected exit status 0, found {status}")));
+    }
+    String::from_utf8(output.stdout)
+        .map_err(|_| failed("expected text, found other bytes".to_owned()))
 }
 
 /// What differs from the values of a model.

@@ -61,9 +61,7 @@ impl General {
         let mut values = |edit: Option<&Alteration>| {
             bench.altered(edit, source, |altered| {
                 let evaluation = altered.evaluation();
-                let points = self.points.iter();
-                let values = points.map(|point| evaluation.at(point, 1.0));
-                values.collect::<Vec<_>>()
+                evaluation.at(&self.points, 1.0).collect::<Vec<_>>()
             })
         };
         let (Some(right), Some(edited)) = (values(None), values(Some(edit))) else {

@@ -1,14 +1,13 @@
 //! The part of a file that an operation of the graph comes from.
 
 use super::margin::Margin;
-use crate::against::candidates::homes;
-use crate::against::site::Span;
+use crate::against::site::{self, Span};
 use crate::arithmetic::{Graph, NodeId};
 use crate::derive::{Elaborator, Part};
 use crate::language::names::Callee;
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
-use crate::problem::{Expression, InputError};
+use crate::problem::{Expression, InputError, Problem};
 
 /// What an operation is applied to.
 pub(super) struct Spot<'p> {
@@ -27,7 +26,7 @@ impl Spot<'_> {
 ///
 /// The file is derived anew: equal expressions are one node, so that a part of a text is known by
 /// its node.
-pub(super) fn find<'m>(model: &'m Model, part: Part, margin: &Margin) -> Option<Spot<'m>> {
+pub(super) fn find<'m>(model: &'m Model, margin: &Margin) -> Option<Spot<'m>> {
     let problem = &model.problem;
     let graph = Graph::new(problem.intervals.clone(), model.graph.parameters.clone());
     let mut elaborator = Elaborator::new(problem, graph);
@@ -35,14 +34,27 @@ pub(super) fn find<'m>(model: &'m Model, part: Part, margin: &Margin) -> Option<
         elaborator.part(part).ok()?;
     }
     for node in [margin.operations[0], margin.argument] {
-        for home in homes(problem, part) {
-            let within = home.expression(problem)?;
+        for within in expressions(problem) {
             if let Some(argument) = inside(&mut elaborator, &within.tree, within, node) {
                 return Some(Spot { within, argument });
             }
         }
     }
     None
+}
+
+/// All expressions, definitions first.
+fn expressions(problem: &Problem) -> impl Iterator<Item = &Expression> {
+    let definitions = problem.definitions.values();
+    let terms = problem
+        .equations
+        .iter()
+        .flat_map(|equation| &equation.terms);
+    let data = problem.faces.iter().flat_map(|face| &face.data);
+    definitions
+        .flat_map(|definition| site::parts(&definition.value))
+        .chain(terms.map(|term| &term.expression))
+        .chain(data.flat_map(|datum| site::parts(&datum.value)))
 }
 
 /// The argument of the innermost operation of a tree whose value, or whose argument, is the node.

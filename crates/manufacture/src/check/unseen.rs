@@ -24,17 +24,16 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let Some(mut bench) = Bench::new(model, Part::Interior) else {
         return vec![];
     };
-    let mut candidates = candidates::all(problem, Part::Interior);
     let differential = differential(problem);
-    candidates.retain(|candidate| is_common(problem, candidate, &differential));
     let mut findings: Vec<Finding> = vec![];
     let mut general: Option<General> = None;
     for equation in &problem.equations {
         let mut kinds: Vec<&'static str> = vec![];
+        let mut candidates = candidates::all(problem, Part::Interior, &equation.name);
+        candidates.retain(|candidate| is_common(problem, candidate, &differential));
         for candidate in &candidates {
             let kind = cause::kind(candidate.change, 1.0);
-            let is_new = !kinds.contains(&kind) && reaches(&bench, candidate, &equation.name);
-            if !is_new || !is_unseen(&mut bench, candidate, sampled, &equation.name) {
+            if kinds.contains(&kind) || !is_unseen(&mut bench, candidate, sampled, &equation.name) {
                 continue;
             }
             let general = general.get_or_insert_with(|| General::of(sampled, model));
@@ -48,13 +47,6 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
         }
     }
     findings
-}
-
-fn reaches(bench: &Bench, candidate: &Candidate, equation: &str) -> bool {
-    match &candidate.alteration {
-        Alteration::Rewrite(rewrite) => bench.reaches(&rewrite.home, equation),
-        _ => false,
-    }
 }
 
 /// Mistakes that people often make: the product rule, a gradient by its transpose, a transpose that
@@ -150,11 +142,12 @@ fn is_unseen(
     };
     let unseen = bench.altered(Some(&candidate.alteration), equation, |altered| {
         let evaluation = altered.evaluation();
+        let values = evaluation.at(&sampled.points, 1.0);
         altered.tensor != right
-            && sampled.over(index).all(|(point, right)| {
-                let values = evaluation.at(point, 1.0);
-                right.iter().zip(&values).all(|(a, b)| is_same(a, b))
-            })
+            && sampled
+                .over(index)
+                .zip(values)
+                .all(|((_, right), values)| right.iter().zip(&values).all(|(a, b)| is_same(a, b)))
     });
     unseen == Some(true)
 }

@@ -5,15 +5,16 @@ mod products;
 mod trees;
 mod walk;
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
-use super::bench::Alteration;
+use super::bench::{Alteration, Rewrite};
 use super::site::{self, Home};
 use crate::derive::{Basis, Part};
 use crate::language::tree::{Tree, TreeKind};
 use crate::problem::{Problem, System, mentions};
 
 pub(crate) use trees::number;
+use trees::times_factor;
 use walk::{Role, Walk};
 
 /// What an edit does.
@@ -73,6 +74,12 @@ pub(crate) enum EditKind {
     Parameters,
     /// The normal of a face points inwards.
     Normal,
+    /// A parameter times an unknown factor.
+    Parameter,
+    /// The values of one time at all times.
+    Time,
+    /// Two coordinates exchanged.
+    Coordinates,
 }
 
 /// An edit that is tried.
@@ -89,14 +96,8 @@ pub(crate) struct Candidate {
 impl EditKind {
     /// Whether a number belongs to it.
     pub(crate) fn has_factor(self) -> bool {
-        use EditKind::{Added, Exponent, Part, Summand, Term};
-        matches!(self, Term | Summand | Part | Exponent | Added)
-    }
-}
-
-impl Candidate {
-    pub(crate) fn has_factor(&self) -> bool {
-        self.change.has_factor()
+        use EditKind::{Added, Exponent, Parameter, Part, Summand, Term};
+        matches!(self, Term | Summand | Part | Exponent | Added | Parameter)
     }
 }
 
@@ -106,56 +107,16 @@ const DEFINITION: usize = 20;
 /// The solution is further from all terms than any definition.
 const EXACT: usize = 1000;
 
-/// All candidates in the expressions that a comparison is about.
-pub(crate) fn all(problem: &Problem, part: Part) -> Vec<Candidate> {
-    let homes = homes(problem, part);
-    let mut found = in_expressions(problem, &homes);
-    found.extend(of_all(problem, part));
-    found
-}
-
-/// The definitions, and the terms of equations or the data of a face.
-pub(crate) fn homes(problem: &Problem, part: Part) -> Vec<Home> {
-    let mut homes = vec![];
-    for (name, definition) in &problem.definitions {
-        let parts = site::parts(&definition.value);
-        homes.extend(parts.enumerate().map(|(part, _)| Home::Definition {
-            name: name.clone(),
-            part,
-        }));
-    }
-    if let Part::Face(face) = part {
-        for (datum, entry) in problem.faces[face].data.iter().enumerate() {
-            let parts = site::parts(&entry.value).enumerate();
-            homes.extend(parts.map(|(part, _)| Home::Datum { face, datum, part }));
-        }
-    } else {
-        for (equation, entry) in problem.equations.iter().enumerate() {
-            let terms = 0..entry.terms.len();
-            homes.extend(terms.map(|term| Home::Term { equation, term }));
-        }
-    }
-    homes
-}
-
-fn in_expressions(problem: &Problem, homes: &[Home]) -> Vec<Candidate> {
+/// All candidates in the expressions that a quantity depends on.
+pub(crate) fn all(problem: &Problem, part: Part, quantity: &str) -> Vec<Candidate> {
     let mut found = vec![];
-    let distances = distances(problem, homes);
-    for home in homes {
+    for (home, distance) in homes(problem, part, quantity) {
         let Some(expression) = home.expression(problem) else {
             continue;
         };
-        let distance = match home {
-            // What no term needs cannot be wrong.
-            Home::Definition { name, .. } => match distances.get(name) {
-                Some(distance) => *distance,
-                None => continue,
-            },
-            _ => 0,
-        };
         let mut walk = Walk {
             problem,
-            home,
+            home: &home,
             depth: distance,
             found: &mut found,
         };
@@ -168,7 +129,36 @@ fn in_expressions(problem: &Problem, homes: &[Home]) -> Vec<Candidate> {
             walk.added(&expression.tree);
         }
     }
+    found.extend(of_all(problem, part));
     found
+}
+
+/// The terms of an equation or the data of a face, and the definitions that they need: how far each
+/// is from a term.
+pub(crate) fn homes(problem: &Problem, part: Part, quantity: &str) -> Vec<(Home, usize)> {
+    let mut homes = vec![];
+    if let Part::Face(face) = part {
+        let mut data = problem.faces[face].data.iter().enumerate();
+        if let Some((datum, entry)) = data.find(|entry| entry.1.name == quantity) {
+            let parts = site::parts(&entry.value).enumerate();
+            homes.extend(parts.map(|(part, _)| (Home::Datum { face, datum, part }, 0)));
+        }
+    } else {
+        let mut equations = problem.equations.iter().enumerate();
+        if let Some((equation, entry)) = equations.find(|entry| entry.1.name == quantity) {
+            let terms = 0..entry.terms.len();
+            homes.extend(terms.map(|term| (Home::Term { equation, term }, 0)));
+        }
+    }
+    let distances = distances(problem, &homes);
+    for (name, distance) in distances {
+        let parts = site::parts(&problem.definitions[&name].value).enumerate();
+        homes.extend(parts.map(|(part, _)| {
+            let name = name.clone();
+            (Home::Definition { name, part }, distance)
+        }));
+    }
+    homes
 }
 
 /// Edits that are about all of a quantity.
@@ -192,6 +182,24 @@ fn of_all(problem: &Problem, part: Part) -> Vec<Candidate> {
     }
     for tree in of_time(problem) {
         add(EditKind::TimeFactor, Alteration::Over(tree));
+    }
+    if problem.time.is_some() {
+        for end in problem.intervals.last().into_iter().flatten() {
+            add(EditKind::Time, Alteration::Time(*end));
+        }
+    }
+    for second in 1..problem.coordinates.len() {
+        for first in 0..second {
+            add(EditKind::Coordinates, Alteration::Exchange([first, second]));
+        }
+    }
+    for (parameter, entry) in problem.parameters.iter().enumerate() {
+        let rewrite = Rewrite {
+            home: Home::Parameter(parameter),
+            route: vec![],
+            new: times_factor(&entry.expression.tree),
+        };
+        add(EditKind::Parameter, Alteration::Rewrite(rewrite));
     }
     found
 }
@@ -235,14 +243,12 @@ fn gather_of_time(problem: &Problem, tree: &Tree, found: &mut Vec<Tree>) {
     }
 }
 
-/// How far each definition is from a term, or from a datum.
-fn distances(problem: &Problem, homes: &[Home]) -> HashMap<String, usize> {
-    let mut distances = HashMap::new();
-    let tops = homes
-        .iter()
-        .filter(|home| !matches!(home, Home::Definition { .. }));
-    let mut level: Vec<&Tree> = tops
-        .filter_map(|home| home.expression(problem))
+/// How far each definition that these expressions need is from them.
+fn distances(problem: &Problem, homes: &[(Home, usize)]) -> BTreeMap<String, usize> {
+    let mut distances = BTreeMap::new();
+    let homes = homes.iter();
+    let mut level: Vec<&Tree> = homes
+        .filter_map(|(home, _)| home.expression(problem))
         .map(|expression| &expression.tree)
         .collect();
     for distance in 1.. {

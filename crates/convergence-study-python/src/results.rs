@@ -3,19 +3,21 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header,
+    Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header, NamedNumber, Of,
+    Refinement,
     internal::study::{
         STEPS,
         header::is_name,
         over_levels::Levels,
         run_cases_here,
+        sampled::Sampled,
         until_decided::{self, Looks, Next},
     },
     levels,
 };
 use pyo3::prelude::*;
 
-use crate::values::floor_of;
+use crate::values::{floor_of, refuse};
 
 /// What is said about a study in addition to its levels.
 #[derive(Clone, FromPyObject, IntoPyObject)]
@@ -31,6 +33,10 @@ pub(crate) struct Options {
     #[pyo3(from_py_with = floor_from, into_py_with = floor_into)]
     pub(crate) floor: Floor,
     pub(crate) allow_inconclusive: bool,
+    /// How many samples make a level, if they do.
+    pub(crate) samples: Option<usize>,
+    /// How they make an error, by its name: `mean`, `rms` or `weak`; the empty name is for all.
+    of: Vec<(String, String)>,
     /// Whether it is run with a variant of its solution: levels are added to those requested.
     pub(crate) is_variant: bool,
 }
@@ -92,6 +98,8 @@ pub(crate) struct Results {
     /// The levels as requested, which the baseline keeps as a claim.
     pub(crate) levels: String,
     pub(crate) errors: Vec<NamedErrors>,
+    /// The errors of the samples of each level, if they make it.
+    pub(crate) samples: Vec<Vec<NamedErrors>>,
     /// The time of each level, if levels were added until the verdict.
     pub(crate) seconds: Option<Vec<f64>>,
     pub(crate) options: Options,
@@ -133,6 +141,12 @@ impl Results {
             }
         }
         set("levels".to_owned(), self.levels.clone());
+        if let Some(count) = self.options.samples {
+            set("samples".to_owned(), count.to_string());
+            for (name, of) in &self.options.of {
+                set(format!("of.{name}"), of.clone());
+            }
+        }
         let floor = self.options.floor.value();
         if floor > 0.0 {
             set("floor".to_owned(), format!("{floor:e}"));
@@ -164,9 +178,21 @@ impl Results {
 
     fn levels(&self) -> Levels {
         let study = self.study();
-        study
+        let levels = study
             .levels(&run_cases_here(&study))
-            .with_floor(self.options.floor)
+            .with_floor(self.options.floor);
+        if self.samples.is_empty() {
+            return levels;
+        }
+        // Coarse to fine, as levels are.
+        let place = |level: &Refinement| {
+            let count = level.parameters.first().map_or(f64::NAN, |own| own.value);
+            let mut counts = self.counts.iter();
+            counts.position(|own| *own as f64 == count)
+        };
+        let places: Vec<usize> = levels.refinements.iter().filter_map(place).collect();
+        let samples = places.iter().map(|level| named(&self.samples[*level]));
+        Sampled(samples.collect()).judging(levels, &|name| self.options.of(name))
     }
 
     /// Whether levels are added, and why not.
@@ -180,10 +206,14 @@ impl Results {
     /// The study, run and judged.
     pub(crate) fn finished(&self) -> Finished {
         let mut finished = self.study().run();
-        if self.options.floor.value() > 0.0 {
+        if self.options.floor.value() > 0.0 || !self.samples.is_empty() {
             let checks = std::mem::take(&mut finished.outcome.checks);
             let caption = "Errors over levels of refinement.";
             finished.outcome = self.levels().outcome("errors", None, caption, checks);
+        }
+        if let Some(count) = self.options.samples {
+            let words = Sampled::words(count);
+            finished.outcome.summary = finished.outcome.summary.then(&words.into());
         }
         if let Some(seconds) = &self.seconds {
             finished.outcome = until_decided::conclude(
@@ -198,6 +228,39 @@ impl Results {
         finished.header.cases.clear();
         finished
     }
+}
+
+impl Options {
+    /// How samples make the error of a name.
+    fn of(&self, name: &str) -> Option<Of> {
+        let named = |own: &str| self.of.iter().find(|(known, _)| known == own);
+        let (_, of) = named(name).or_else(|| named(""))?;
+        of.parse().ok()
+    }
+
+    /// The errors of a level by its samples, which have the same step.
+    pub(crate) fn made_of(&self, samples: &[NamedErrors]) -> PyResult<NamedErrors> {
+        for step in STEPS {
+            let of = |errors: &NamedErrors| {
+                let found = errors.iter().find(|(name, _)| name == step);
+                found.map(|(_, step)| step.to_bits())
+            };
+            if samples.windows(2).any(|pair| of(&pair[0]) != of(&pair[1])) {
+                let message = "solve: expected one step for all samples of a level, found others";
+                return Err(refuse(format!("{message} in \"{step}\"")));
+            }
+        }
+        let made = Sampled(vec![named(samples)]).errors(&|name| self.of(name));
+        let made = made.into_iter().flatten();
+        Ok(made.map(|error| (error.name, error.value)).collect())
+    }
+}
+
+/// The errors of samples, as the harness has them.
+fn named(samples: &[NamedErrors]) -> Vec<Vec<NamedNumber>> {
+    let number = |(name, value): &(String, f64)| NamedNumber::new(name, *value);
+    let of_one = |errors: &NamedErrors| errors.iter().map(number).collect();
+    samples.iter().map(of_one).collect()
 }
 
 /// The setting that names the test of a study.

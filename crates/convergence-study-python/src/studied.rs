@@ -8,7 +8,7 @@ use convergence_study::{
     Finished, NamedNumber, NamedRate, Verdict,
     internal::{
         program,
-        study::{STEPS, first_repeated, until_decided::Next},
+        study::{STEPS, first_repeated, sampled::Sampled, until_decided::Next},
         where_lost::{self, Located, Search},
     },
     write_report,
@@ -313,6 +313,7 @@ pub(crate) fn study_of(
         counts: (1..=rows).collect(),
         levels: rows.to_string(),
         errors: (0..rows).map(errors_of_level).collect(),
+        samples: vec![],
         seconds: None,
         options,
     };
@@ -342,31 +343,59 @@ fn found(level: &str, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
     }
 }
 
-/// Calls `solve` at one level, and reports it on a terminal.
-///
-/// * `name`: `n` or `h`.
-fn solved<'py>(
-    solve: &Bound<'py, PyAny>,
-    name: &str,
-    argument: &Bound<'py, PyAny>,
-    seconds: &mut Vec<f64>,
-) -> PyResult<NamedErrors> {
-    let is_shown = stderr().is_terminal();
-    if is_shown {
-        let so_far = seconds.iter().fold(0.0, |sum, seconds| sum + seconds);
-        let _ = write!(
-            stderr(),
-            "\r\x1b[2K{name} = {argument}: level {}, {so_far:.1} s so far",
-            seconds.len() + 1
-        );
+/// A level that is computed.
+struct Level<'py> {
+    /// Whether it is a step, which solve receives in place of a count.
+    step: Option<f64>,
+    argument: Bound<'py, PyAny>,
+}
+
+impl<'py> Level<'py> {
+    fn new(py: Python<'py>, choice: &LevelChoice, count: usize) -> PyResult<Self> {
+        let step = choice.step(count);
+        let argument = match step {
+            Some(step) => step.into_pyobject(py)?.into_any(),
+            None => count.into_pyobject(py)?.into_any(),
+        };
+        Ok(Self { step, argument })
     }
-    let started = Instant::now();
-    let returned = solve.call1((argument,));
-    seconds.push(started.elapsed().as_secs_f64());
-    if is_shown {
-        let _ = write!(stderr(), "\r\x1b[2K");
+
+    /// Calls `solve`, and reports it on a terminal.
+    ///
+    /// * `seed`: of a sample.
+    fn solved(
+        &self,
+        solve: &Bound<'py, PyAny>,
+        seed: Option<usize>,
+        seconds: &mut Vec<f64>,
+    ) -> PyResult<NamedErrors> {
+        let name = if self.step.is_some() { "h" } else { "n" };
+        let seed_in_words = seed.map_or(String::new(), |seed| format!(", {seed}"));
+        let argument = format!("{}{seed_in_words}", self.argument);
+        let is_shown = stderr().is_terminal();
+        if is_shown {
+            let so_far = seconds.iter().fold(0.0, |sum, seconds| sum + seconds);
+            let _ = write!(
+                stderr(),
+                "\r\x1b[2K{name} = {argument}: call {}, {so_far:.1} s so far",
+                seconds.len() + 1
+            );
+        }
+        let started = Instant::now();
+        let returned = match seed {
+            Some(seed) => solve.call1((&self.argument, seed)),
+            None => solve.call1((&self.argument,)),
+        };
+        seconds.push(started.elapsed().as_secs_f64());
+        if is_shown {
+            let _ = write!(stderr(), "\r\x1b[2K");
+        }
+        let errors = found(&argument, &returned?)?;
+        Ok(match self.step {
+            Some(step) => with_step(step, errors),
+            None => errors,
+        })
     }
-    found(&argument.to_string(), &returned?)
 }
 
 /// Computes levels and judges the rates of their errors; see the function of this name in Python.
@@ -388,12 +417,18 @@ pub(crate) fn study(
             options.budget
         )));
     }
+    if options.samples.is_some() && choice.is_auto() {
+        return Err(refuse(
+            "samples: expected levels n=[...] or h=[...] beside samples",
+        ));
+    }
     let mut results = Results {
         claims: vec![],
         counted: choice.counted().to_owned(),
         counts: vec![],
         levels: choice.words(),
         errors: vec![],
+        samples: vec![],
         seconds: None,
         options,
     };
@@ -401,14 +436,19 @@ pub(crate) fn study(
     let mut seconds = vec![];
     while results.counts.len() < counts.len() {
         let count = counts[results.counts.len()];
-        let errors = match choice.step(count) {
-            Some(step) => {
-                let argument = step.into_pyobject(py)?.into_any();
-                with_step(step, solved(solve, "h", &argument, &mut seconds)?)
-            }
-            None => {
-                let argument = count.into_pyobject(py)?.into_any();
-                solved(solve, "n", &argument, &mut seconds)?
+        let level = Level::new(py, &choice, count)?;
+        let errors = match results.options.samples {
+            None => level.solved(solve, None, &mut seconds)?,
+            Some(samples) => {
+                let before = seconds.len();
+                let samples = Sampled::seeds(samples);
+                let samples = samples.map(|seed| level.solved(solve, Some(seed), &mut seconds));
+                let samples = samples.collect::<PyResult<Vec<_>>>()?;
+                let of_level = seconds.drain(before..).sum();
+                seconds.push(of_level);
+                let errors = results.options.made_of(&samples)?;
+                results.samples.push(samples);
+                errors
             }
         };
         if results.errors.is_empty() {

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -201,6 +202,9 @@ def test_what_the_pages_show_works_as_it_is_pasted(tmp_path):
     for page in [own, harness, *sorted((crates / "convergence-study/book/src").glob("*.md"))]:
         for language, text, output in blocks(page):
             is_test = "(convergence)" in text
+            if (module := re.match(r"# (\w+\.py)\b", text)) and "convergence_study" not in text:
+                (tmp_path / module[1]).write_text(text)  # Blocks after it import it.
+                continue
             if "variants=" in text:
                 continue  # It needs a module: test_variants.py runs it.
             if language == "python" and (is_test or "convergence_study" in text):

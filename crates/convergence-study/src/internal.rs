@@ -108,6 +108,9 @@ pub mod study {
     pub mod over_levels {
         pub use crate::study::over_levels::{ErrorColumn, Levels, rate_table, summary};
     }
+    pub mod sampled {
+        pub use crate::study::sampled::Sampled;
+    }
     pub mod until_decided {
         #[cfg(feature = "files")]
         pub use crate::study::until_decided::budget;

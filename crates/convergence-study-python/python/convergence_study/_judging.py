@@ -104,7 +104,7 @@ def limit(
 
 
 def study(
-    solve: Callable[[Any], float | Mapping[str, float]],
+    solve: Callable[..., float | Mapping[str, float]],
     n: str | Iterable[int] | None = None,
     order: Order = None,
     budget: float = 60.0,
@@ -115,6 +115,8 @@ def study(
     floor: float = 0.0,
     allow_inconclusive: bool = False,
     variants: ModuleType | None = None,
+    samples: int | None = None,
+    of: str | Mapping[str, str] = "mean",
 ) -> Study:
     """Computes levels and judges the rates of their errors.
 
@@ -124,13 +126,17 @@ def study(
     themselves, each an argument of solve. order: as for judge; a dict has orders by name, and other errors are not judged; one number applies
     to every error. floor: as for judge. name: its name in reports. allow_inconclusive: whether assert_passes() accepts that verdict.
 
+    samples: at least 10: each level is made of so many calls solve(n, seed) with the seeds 1, 2, 3, ..., the same on all levels. of: what makes
+    the error of them: their "mean", the root of their mean square, "rms", or "weak", the size of the mean of signed numbers; a dict has it by
+    name. How the samples scatter says how well a level is known, and where more samples are needed.
+
     variants: the module that `convergence-study manufacture FILE --variants --language python` has written, from which solve takes source, data
     and exact values. If the order is lost, solve is run with each variant of the solution, for at most the budget each, and the Study says in
     which part of the program it is lost, as far as that follows.
 
     Returns a Study. Raises ValueError or TypeError, which names the argument, and exceptions of solve.
     """
-    found = options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive)
+    found = options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive, samples=samples, of=of)
     return studied(solve, n, h, order, tolerance, found, variants)
 
 
@@ -180,16 +186,32 @@ def studied(solve, n, h, order, tolerance, options, variants):
     return study._located(json.dumps(description), with_variant)
 
 
-def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False):
+FEWEST_SAMPLES = 10
+MAKERS = ("mean", "rms", "weak")
+
+
+def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False, samples=None, of="mean"):
     """What a study is called, and what it may do."""
     if not isinstance(name, str):
         raise TypeError(f"name: expected a text, found {name!r}")
+    if samples is not None and (isinstance(samples, bool) or not hasattr(samples, "__index__") or samples < FEWEST_SAMPLES):
+        raise ValueError(f"samples: expected a whole number >= {FEWEST_SAMPLES}, found {samples!r}")
+    if samples is not None and number("floor", floor) > 0:
+        raise ValueError("floor: expected none beside samples, whose scatter says how well a level is known")
+    makers = dict(of) if isinstance(of, Mapping) else {"": of}
+    for error, maker in makers.items():
+        if maker not in MAKERS:
+            raise ValueError(f"of: expected one of {', '.join(MAKERS)}, found {maker!r}")
+    if samples is None and makers != {"": "mean"}:
+        raise ValueError(f"of: expected only with samples, found {of!r}")
     return {
         "name": name,
         "test": test,
         "budget": number("budget", budget),
         "floor": number("floor", floor),
         "allow_inconclusive": bool(allow_inconclusive),
+        "samples": None if samples is None else int(samples),
+        "of": [] if samples is None else [(str(error), maker) for error, maker in makers.items()],
         "is_variant": False,
     }
 

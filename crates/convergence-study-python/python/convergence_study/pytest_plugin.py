@@ -61,11 +61,9 @@ class Convergence:
         found, _ = _judging.judged("convergence.assert_order", h, errors, order, tolerance, floor=floor, **table)
         return self._kept(_native.study_of(found, self._options(None, floor=floor, allow_inconclusive=allow_inconclusive)))
 
-    def _study(
-        self, solve, n=None, order=None, budget=60.0, tolerance=None, name=None, *, h=None, floor=0.0, allow_inconclusive=False, variants=None
-    ):
+    def _study(self, solve, n=None, order=None, budget=60.0, tolerance=None, name=None, *, h=None, variants=None, **more):
         __tracebackhide__ = True
-        options = self._options(name, budget=budget, floor=floor, allow_inconclusive=allow_inconclusive)
+        options = self._options(name, budget=budget, **more)
         return self._kept(_judging.studied(solve, n, h, order, tolerance, options, variants))
 
     def _options(self, name, **more):

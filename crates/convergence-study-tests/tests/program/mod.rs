@@ -12,6 +12,7 @@ use tempfile::TempDir;
 
 mod answers;
 mod levels;
+mod samples;
 mod taylor;
 
 const HARNESS: &str = env!("CARGO_BIN_EXE_powers");

@@ -8,6 +8,7 @@ use super::lines::NamedText;
 use super::once::Once;
 use crate::input::shorten;
 use crate::judge::claims::Bound;
+use crate::judge::verdict::Of;
 use crate::study::{CaseFailure, Claim};
 use crate::text::json;
 use crate::text::named::NamedNumber;
@@ -53,6 +54,8 @@ pub(super) struct Expectation {
     pub(super) by_degree: bool,
     /// The bound on the error; nothing else is claimed.
     pub(super) exact: Option<f64>,
+    /// How samples make it.
+    pub(super) of: Of,
 }
 
 impl Expectation {
@@ -65,6 +68,7 @@ impl Expectation {
             time: 1.0,
             by_degree: false,
             exact: None,
+            of: Of::Mean,
         }
     }
 
@@ -488,16 +492,10 @@ mod tests {
     #[test]
     fn a_missing_name_is_told_with_those_that_are_there() {
         let answer = read(r#"{"errors": {"H1": 1}, "values": {"L2": 1}}"#).unwrap();
-        let claim = Claim::new(2.0, 0.1);
         let require = |is_value: bool, name: &str| {
-            let name = name.to_owned();
             answer.require(&Expectation {
-                name,
                 is_value,
-                claim,
-                time: 2.0,
-                by_degree: false,
-                exact: None,
+                ..Expectation::of_value(name)
             })
         };
         let missing = |is_value: bool, name: &str| require(is_value, name).unwrap_err();

@@ -376,16 +376,10 @@ mod tests {
 
     #[test]
     fn the_example_of_an_answer_has_the_number_after_the_name() {
-        let claim = crate::study::Claim::new(2.0, 0.1);
         let expected = |name: &str| {
-            let name = name.to_owned();
             [Expectation {
-                name,
                 is_value: false,
-                claim,
-                time: 1.0,
-                by_degree: false,
-                exact: None,
+                ..Expectation::of_value(name)
             }]
         };
         for (name, last, number) in [

@@ -9,10 +9,12 @@ use serde::Deserialize;
 use super::Program;
 use super::answer::Expectation;
 use super::launch::{COMMAND, LaunchKeys, SECONDS};
-use super::refine::RefineTable;
-use crate::input::{AllowedText, Number, POSITIVE, Positive, Range, Refusal, visible, within};
+use super::refine::{Refine, RefineTable};
+use crate::input::{
+    AllowedText, Choice, Choices, Number, POSITIVE, Positive, Range, Refusal, visible, within,
+};
 use crate::judge::claims::{Bound, order_of_factor};
-use crate::judge::verdict::{Floor, WIDEST_TOLERANCE};
+use crate::judge::verdict::{Floor, Of, WIDEST_TOLERANCE};
 use crate::study::{Claim, Constant, Lines, ORDER, Order};
 use crate::text::number::plain_text;
 
@@ -33,7 +35,8 @@ pub(super) struct ProgramFile {
 #[serde(deny_unknown_fields)]
 struct ProgramTable {
     /// the program and its arguments, without a shell; `{n}`, `{h}`, `{steps}`, `{dt}`, `{level}`
-    /// stand for the resolution, without them the program reads it as JSON from standard input
+    /// stand for the resolution and `{seed}` for the sample, without them the program reads them as
+    /// JSON from standard input
     #[schemars(extend("title" = COMMAND))]
     command: Vec<String>,
     /// the folder in which it runs, relative to that of this file, which it is without it
@@ -74,6 +77,9 @@ struct ExpectTable {
     /// the ends of the C of error = C h^order
     #[schemars(extend("title" = "two numbers > 0, the smaller first"))]
     constant: Option<Constant>,
+    /// how the samples of a level make the error: their mean, the root of their mean square, or the
+    /// size of the mean of signed numbers; without it "mean"
+    of: Option<Choice<Makers>>,
     /// how far the rate may be from the order; without it 0.25, at most half of the order, a quarter
     /// of a least one
     tolerance: Option<Number<Narrow>>,
@@ -90,22 +96,48 @@ impl Range for Narrow {
     ];
 }
 
+/// How samples make an error.
+#[derive(Debug)]
+enum Makers {}
+
+impl Choices for Makers {
+    type Value = Of;
+
+    fn all() -> Vec<(&'static str, Of)> {
+        vec![
+            ("mean", Of::Mean),
+            ("rms", Of::RootMeanSquare),
+            ("weak", Of::Weak),
+        ]
+    }
+}
+
 impl ProgramFile {
     /// The study.
     ///
     /// * `folder`: the folder of the file.
     pub(super) fn program(self, folder: &Path) -> Result<Program, Refusal> {
         let refine = self.refine.refine().map_err(within("refine"))?;
-        let expect = expectations(self.expect, refine.grid)?;
+        let expect = expectations(self.expect, &refine)?;
         let table = self.program;
         let in_program = within("program");
+        let values = &refine.cases()[0].parameters;
+        if refine.samples.is_some() && table.floor.is_some() {
+            let allowed = "no floor beside samples, whose scatter says how well a level is known";
+            return Err(in_program(Refusal::written("floor", allowed)));
+        }
+        let floor = table.floor();
+        let manufactured = table.manufactured(folder).map_err(&in_program)?;
+        let launch = table.launch_keys().launch(folder, values);
+        let launch = launch.map_err(&in_program)?;
+        if refine.samples.is_some() && !launch.tells("seed", values) {
+            let allowed = "a command with the placeholder {seed}, which tells samples apart";
+            return Err(in_program(Refusal::written("command", allowed)));
+        }
         Ok(Program {
-            floor: table.floor(),
-            manufactured: table.manufactured(folder).map_err(&in_program)?,
-            launch: table
-                .launch_keys()
-                .launch(folder, &refine.resolutions()[0].parameters)
-                .map_err(&in_program)?,
+            floor,
+            manufactured,
+            launch,
             refine,
             expect,
             most_levels: None,
@@ -147,12 +179,13 @@ impl ProgramTable {
     }
 }
 
-/// * `grid`: whether h and dt are refined independently; each error then has two orders.
-fn expectations(tables: Vec<ExpectTable>, grid: bool) -> Result<Vec<Expectation>, Refusal> {
+/// * `refine`: on a grid each error has two orders; of samples only errors are judged.
+fn expectations(tables: Vec<ExpectTable>, refine: &Refine) -> Result<Vec<Expectation>, Refusal> {
     let mut expectations: Vec<Expectation> = vec![];
     for (place, table) in tables.into_iter().enumerate() {
         let path = format!("expect[{place}]");
-        let expectation = table.expectation(grid).map_err(within(&path))?;
+        table.fits(refine).map_err(within(&path))?;
+        let expectation = table.expectation(refine.grid).map_err(within(&path))?;
         let is_same = |earlier: &Expectation| {
             (&earlier.name, earlier.is_value) == (&expectation.name, expectation.is_value)
         };
@@ -183,6 +216,26 @@ fn expectations(tables: Vec<ExpectTable>, grid: bool) -> Result<Vec<Expectation>
 }
 
 impl ExpectTable {
+    /// Refuses what samples do not have, and what has no samples.
+    fn fits(&self, refine: &Refine) -> Result<(), Refusal> {
+        let others = [
+            ("value", self.value.is_some()),
+            ("factor", self.factor.is_some()),
+            ("exact", self.exact.is_some()),
+        ];
+        let other = others.iter().find(|(_, is_there)| *is_there);
+        match (refine.samples, other) {
+            (Some(_), Some((key, _))) => {
+                Err(Refusal::written(*key, "error and order beside samples"))
+            }
+            (None, _) if self.of.is_some() => Err(Refusal::written(
+                "of",
+                "of only where refine.samples is given",
+            )),
+            _ => Ok(()),
+        }
+    }
+
     fn expectation(self, grid: bool) -> Result<Expectation, Refusal> {
         let is_value = self.value.is_some();
         if is_value && grid {
@@ -215,6 +268,7 @@ impl ExpectTable {
             claim,
             by_degree,
             exact,
+            of: self.of.map_or(Of::Mean, |of| of.value),
         })
     }
 

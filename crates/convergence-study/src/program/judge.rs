@@ -4,13 +4,14 @@
 use std::collections::BTreeSet;
 
 use super::answer::{Answer, Expectation};
-use super::{CaseRun, Program, refine, values};
+use super::{CaseRun, Program, refine, samples, values};
 use crate::chart::{self, Chart, Series};
 use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
+use crate::study::sampled::Sampled;
 use crate::study::until_decided::{self, Looks, Next};
 use crate::study::{
     Axis, Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
@@ -20,6 +21,19 @@ use crate::text::number::{error_text, plain_text};
 use crate::text::prose::Prose;
 
 pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
+    let Some(count) = study.refine.samples else {
+        return judge_levels(study, ran, None);
+    };
+    let (ran, sampled) = samples::levels(study, ran, count);
+    let mut outcome = judge_levels(study, &ran, Some(&sampled));
+    outcome.add_to_summary(&Sampled::words(count));
+    outcome
+}
+
+/// Judges one answer for each level.
+///
+/// * `sampled`: the samples of the levels that have a result, if there are some.
+fn judge_levels(study: &Program, ran: &[CaseRun], sampled: Option<&Sampled>) -> Outcome {
     if let Some(mixed) = mixed_steps(study, ran) {
         let check = Check::that(
             false,
@@ -29,7 +43,10 @@ pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
         .about(Subject::of("step"));
         return Outcome::new(mixed, vec![], vec![check, completion_check(ran)]);
     }
-    let levels = levels(study, ran);
+    let mut levels = levels(study, ran);
+    if let Some(sampled) = sampled {
+        levels = sampled.judging(levels, &|name| study.of(name));
+    }
     let mut outcome = if study.refine.grid {
         over_grid(study, ran, &levels)
     } else {

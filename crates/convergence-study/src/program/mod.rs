@@ -11,6 +11,7 @@
 //! | `launch.rs`, `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
 //! | `answer.rs`, `lines.rs`, `once.rs` | its answer: an object, or lines |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
+//! | `samples.rs` | from runs with several seeds to one answer a level |
 //! | `values.rs` | the same for values without an exact solution |
 //! | `taylor.rs` | the kind that tests derivatives |
 //! | `begin.rs` | what `new program` writes |
@@ -26,6 +27,7 @@ mod lines;
 mod once;
 mod output;
 mod refine;
+mod samples;
 mod taylor;
 mod values;
 
@@ -165,7 +167,7 @@ impl Kind for Program {
 
     fn cases(&self) -> Vec<Case<RefinedCase>> {
         let case = |data: RefinedCase| Case::new(data.label.clone(), data.cost(), data);
-        let cases = self.refine.resolutions().into_iter().map(case);
+        let cases = self.refine.cases().into_iter().map(case);
         cases.take(self.most_levels.unwrap_or(usize::MAX)).collect()
     }
 

@@ -5,6 +5,8 @@ use serde::Deserialize;
 
 use super::launch::CaseParameter;
 use crate::input::{Count, Counts, Positive, Refusal};
+use crate::judge::verdict::FEWEST_NUMBERS;
+use crate::study::sampled::Sampled;
 use crate::study::{Axis, Refinement, until_decided};
 use crate::text::named::NamedNumber;
 
@@ -27,6 +29,9 @@ pub(super) struct RefineTable {
     /// all pairs of a list in space and one in time, instead of both together
     #[serde(default)]
     grid: bool,
+    /// how often each level is run, each time with another `{seed}`: 1, 2, 3, ..., the same on all
+    /// levels
+    samples: Option<Count<FEWEST_NUMBERS, MOST_CASES>>,
     /// with "auto": seconds for all levels; without it 60
     #[schemars(extend("title" = "a number of seconds > 0"))]
     budget: Option<Positive>,
@@ -78,6 +83,8 @@ pub(super) struct Refine {
     pub(super) time: Option<Sequence>,
     /// All pairs, instead of both refined together.
     pub(super) grid: bool,
+    /// How many samples make a level.
+    pub(super) samples: Option<usize>,
     /// Levels are added until there is a decision, for at most this many seconds.
     pub(super) budget: Option<f64>,
 }
@@ -110,7 +117,7 @@ impl Refine {
     /// Whether a level can follow the last: counts are doubled, along one path.
     pub(super) fn can_add(&self) -> bool {
         let mut sequences = [&self.space, &self.time].into_iter().flatten();
-        !self.grid && sequences.all(Sequence::is_count)
+        !self.grid && self.samples.is_none() && sequences.all(Sequence::is_count)
     }
 
     /// The number of time steps.
@@ -154,6 +161,17 @@ impl Refine {
             .collect()
     }
 
+    /// The runs: of each resolution, coarse to fine, each of its samples.
+    pub(super) fn cases(&self) -> Vec<RefinedCase> {
+        let resolutions = self.resolutions().into_iter();
+        let Some(count) = self.samples else {
+            return resolutions.collect();
+        };
+        let seeds =
+            |level: RefinedCase| Sampled::seeds(count).map(move |seed| level.with_seed(seed));
+        resolutions.flat_map(seeds).collect()
+    }
+
     fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> RefinedCase {
         let given = [(&self.space, in_space), (&self.time, in_time)];
         let given: Vec<_> = given
@@ -190,6 +208,14 @@ impl Refine {
 }
 
 impl RefinedCase {
+    /// A sample of this level.
+    fn with_seed(&self, seed: usize) -> Self {
+        let mut sample = self.clone();
+        sample.label += &format!(", seed = {seed}");
+        sample.parameters.push(("seed", seed as f64));
+        sample
+    }
+
     /// Estimate of the cost: the number of cells and steps, up to factors.
     pub(super) fn cost(&self) -> f64 {
         [self.h, self.dt]
@@ -254,10 +280,25 @@ impl RefineTable {
             .filter_map(|(key, counts)| Some((*key, *counts.as_ref()? == Counts::Auto)));
         let lists: Vec<_> = lists.collect();
         let budget = until_decided::budget(&lists, self.grid, self.budget, BUDGET)?;
+        let samples = self.samples.map(Count::get);
+        let levels = lengths.into_iter().flatten().max().unwrap_or(1);
+        match samples {
+            Some(_) if self.grid || budget.is_some() => {
+                let allowed = "samples of levels that are listed, without grid = true";
+                return Err(Refusal::written("samples", allowed));
+            }
+            Some(count) if count.saturating_mul(levels) > MOST_CASES => {
+                let found = format!("{count} samples of {levels} levels");
+                let allowed = format!("at most {MOST_CASES} cases");
+                return Err(Refusal::new("samples", found, allowed));
+            }
+            _ => {}
+        }
         Ok(Refine {
             space,
             time,
             grid: self.grid,
+            samples,
             budget,
         })
     }

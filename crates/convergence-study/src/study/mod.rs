@@ -19,6 +19,7 @@ mod must;
 pub(crate) mod outcome;
 pub(crate) mod over_levels;
 pub(crate) mod readings;
+pub(crate) mod sampled;
 pub(crate) mod subject;
 pub(crate) mod until_decided;
 pub(crate) mod variants;

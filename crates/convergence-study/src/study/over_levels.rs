@@ -10,7 +10,7 @@ use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
 use super::subject::{Sort, Subject};
 pub(crate) use crate::judge::claims::Claim;
 use crate::judge::fit::Level;
-use crate::judge::verdict::{Floor, RateVerdict, Reason};
+use crate::judge::verdict::{Floor, RateVerdict, Reason, Samples};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use rates::rate_quantities;
@@ -73,6 +73,8 @@ pub struct ErrorColumn {
     pub symbol: Option<String>,
     /// As measured; `None` without a result: the case failed, or found no such error.
     pub errors: Vec<Option<f64>>,
+    /// The numbers that these errors are made of, if they are.
+    pub samples: Option<Samples>,
     /// The claim about it, if there is one.
     pub claim: Option<Claim>,
     /// Whether the claim is only drawn, for comparison: nobody makes it.
@@ -114,6 +116,7 @@ impl ErrorColumn {
             name,
             symbol: None,
             errors: errors.into_iter().collect(),
+            samples: None,
             claim: None,
             is_only_drawn: false,
             look: 0,
@@ -284,7 +287,13 @@ impl Levels {
     /// The verdict on the claim about an error.
     fn verdict(&self, column: &ErrorColumn, claim: &Claim) -> RateVerdict {
         let points = self.points(column);
-        let judged = claim.judge(&points, self.floor);
+        let steps: Vec<f64> = points.iter().map(|level| level.step).collect();
+        let judged = match &column.samples {
+            Some(samples) if samples.numbers.len() == points.len() => {
+                claim.judge_samples(&steps, samples)
+            }
+            _ => claim.judge(&points, self.floor),
+        };
         let labels: Vec<&str> = self
             .refinements
             .iter()
@@ -313,6 +322,10 @@ impl Levels {
         let refinements = self.refinements.iter().take(levels).cloned();
         let columns = self.columns.iter().map(|column| ErrorColumn {
             errors: column.errors.iter().copied().take(levels).collect(),
+            samples: column.samples.clone().map(|samples| Samples {
+                numbers: samples.numbers.into_iter().take(levels).collect(),
+                ..samples
+            }),
             ..column.clone()
         });
         Self {

@@ -16,10 +16,9 @@ const README: &str = include_str!("../../README.md");
 const FIRST: &str = include_str!("../../../../README.md");
 
 /// Pages of the book that show output.
-const BOOK: [(&str, usize); 4] = [
+const BOOK: [(&str, usize); 3] = [
     (include_str!("../../book/src/start.md"), 2),
     (include_str!("../../book/src/which.md"), 1),
-    (include_str!("../../book/src/scatter.md"), 1),
     (include_str!("../../book/src/steps.md"), 1),
 ];
 

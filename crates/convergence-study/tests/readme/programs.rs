@@ -10,7 +10,10 @@ use tempfile::TempDir;
 use super::blocks::{fenced, missing};
 
 /// Pages with studies, and how many blocks of output they have.
-const PAGES: [(&str, usize); 1] = [(include_str!("../../book/src/gradients.md"), 1)];
+const PAGES: [(&str, usize); 2] = [
+    (include_str!("../../book/src/gradients.md"), 1),
+    (include_str!("../../book/src/scatter.md"), 2),
+];
 
 /// The files of a page: blocks whose first line is a comment with the name of a file.
 fn files(page: &str) -> Vec<(String, String)> {
@@ -24,17 +27,16 @@ fn files(page: &str) -> Vec<(String, String)> {
     fenced(page).into_iter().filter_map(named).collect()
 }
 
-/// Each command of the program that is followed by what it prints.
+/// Each block of commands that is followed by what its last command prints.
 fn commands(page: &str) -> Vec<(String, Vec<String>)> {
     let blocks = fenced(page);
     let shown = |pair: &[(String, String)]| {
         let [(language, command), (next, text)] = pair else {
             return None;
         };
-        let last = command.lines().last()?.to_owned();
         let is_shown = language == "sh" && next == "text";
         let lines = text.lines().map(without_size).collect();
-        is_shown.then_some((last, lines))
+        is_shown.then(|| (command.clone(), lines))
     };
     blocks.windows(2).filter_map(shown).collect()
 }
@@ -48,12 +50,18 @@ fn place(files: &[(String, String)]) -> TempDir {
     place
 }
 
-fn run(folder: &Path, command: &str) -> Output {
-    let words: Vec<&str> = command.split_whitespace().collect();
-    assert_eq!(words[0], "convergence-study", "{command}");
-    let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
-    program.args(&words[1..]).current_dir(folder);
-    program.env_remove("GITHUB_ACTIONS").output().unwrap()
+/// Runs commands in a shell that finds the program.
+fn run(folder: &Path, commands: &str) -> Output {
+    let program = Path::new(env!("CARGO_BIN_EXE_convergence-study"));
+    let own = program.parent().unwrap().to_owned();
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths([own].into_iter().chain(std::env::split_paths(&others)));
+    let mut shell = Command::new("sh");
+    shell.args(["-ec", commands]).current_dir(folder);
+    shell
+        .env("PATH", path.unwrap())
+        .env_remove("GITHUB_ACTIONS");
+    shell.output().unwrap()
 }
 
 /// The output without the seconds that a study took.
@@ -81,7 +89,7 @@ fn without_size(line: &str) -> String {
 
 #[test]
 fn each_study_of_the_book_prints_what_its_page_shows() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
         return;
     }
     for (page, count) in PAGES {
@@ -101,7 +109,7 @@ fn each_study_of_the_book_prints_what_its_page_shows() {
 /// The mistakes that the page on gradients speaks of are found by its study.
 #[test]
 fn a_wrong_gradient_of_the_book_fails() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
+    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
         return;
     }
     let right = files(PAGES[0].0);

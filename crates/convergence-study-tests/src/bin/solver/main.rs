@@ -4,6 +4,8 @@
 mod differentiable;
 #[cfg(unix)]
 mod misbehaving;
+#[cfg(unix)]
+mod random;
 
 /// Process groups exist only on Unix.
 fn main() {

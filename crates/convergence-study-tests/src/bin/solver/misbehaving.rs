@@ -22,6 +22,11 @@ pub(crate) fn main() {
         );
         exit(0)
     }
+    if let Some(mode) = mode.strip_prefix("random-") {
+        let seed = rest.first().map_or(1, |seed| seed.parse().unwrap());
+        println!("{}", super::random::answer(mode, n.parse().unwrap(), seed));
+        exit(0)
+    }
     let n: u32 = if mode == "stdin" {
         number_from_stdin()
     } else {

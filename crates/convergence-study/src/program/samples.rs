@@ -1,0 +1,80 @@
+//! From runs with several seeds to one answer for each level.
+
+use super::answer::Answer;
+use super::{CaseRun, Program};
+use crate::judge::verdict::Of;
+use crate::study::sampled::Sampled;
+use crate::study::{Case, CaseFailure, Ran};
+use crate::text::number::counted;
+
+/// One answer for each level, whose errors are made of its samples; and the samples of the levels
+/// that have one. A level of which a sample has failed has none.
+///
+/// * `count`: how many samples a level has, which follow each other.
+pub(super) fn levels(study: &Program, ran: &[CaseRun], count: usize) -> (Vec<CaseRun>, Sampled) {
+    let answers: Vec<Result<Vec<&Answer>, CaseFailure>> = ran.chunks(count).map(whole).collect();
+    let errors = answers.iter().filter_map(|level| level.as_ref().ok());
+    let errors = errors.map(|level| level.iter().map(|one| one.errors.clone()).collect());
+    let sampled = Sampled(errors.collect());
+    let mut made = sampled.errors(&|name| study.of(name)).into_iter();
+    let resolutions = study.refine.resolutions().into_iter();
+    let levels = resolutions.zip(answers).map(|(data, answers)| Ran {
+        found: answers.map(|answers| Answer {
+            errors: made.next().unwrap_or_default(),
+            ..of_all(&answers)
+        }),
+        case: Case::new(data.label.clone(), data.cost(), data),
+    });
+    (levels.collect(), sampled)
+}
+
+/// The answers of a level, which have the same step.
+fn whole(samples: &[CaseRun]) -> Result<Vec<&Answer>, CaseFailure> {
+    let failed = samples.iter().filter_map(|ran| match &ran.found {
+        Err(failure) => Some((ran, failure)),
+        Ok(answer) => Some((ran, answer.failure.as_ref()?)),
+    });
+    let failed: Vec<_> = failed.collect();
+    if let Some((ran, failure)) = failed.first() {
+        let all = counted(samples.len(), "sample");
+        let count = failed.len();
+        let reason = format!(
+            "{count} of {all} failed: {}: {}",
+            ran.case.label, failure.reason
+        );
+        return Err(CaseFailure {
+            reason,
+            ..(*failure).clone()
+        });
+    }
+    let answers: Vec<&Answer> = samples.iter().filter_map(CaseRun::ok).collect();
+    let step = |answer: &Answer| (answer.h, answer.dt);
+    if answers
+        .windows(2)
+        .any(|pair| step(pair[0]) != step(pair[1]))
+    {
+        let reason = "its samples answer different steps; expected one step of a level";
+        return Err(CaseFailure::new(reason));
+    }
+    Ok(answers)
+}
+
+/// Step, time and work of a level; the errors are those of its first sample.
+fn of_all(answers: &[&Answer]) -> Answer {
+    let work: Option<f64> = answers.iter().map(|answer| answer.work).sum();
+    let first = answers.first().map(|answer| (*answer).clone());
+    Answer {
+        values: vec![],
+        work,
+        seconds: answers.iter().map(|answer| answer.seconds).sum(),
+        ..first.unwrap_or_default()
+    }
+}
+
+impl Program {
+    /// How samples make the error of a name of which an order is claimed.
+    pub(super) fn of(&self, name: &str) -> Option<Of> {
+        let mut expected = self.expect.iter();
+        expected.find(|one| one.name == name).map(|one| one.of)
+    }
+}

@@ -189,6 +189,10 @@ impl Chart {
             self.draw_guides(area, layout);
             for (k, note) in layout.notes.iter().enumerate() {
                 let y = layout.notes_top + NOTE_ROW * (k as f64 + 0.5);
+                // A note wider than what is right of the axis begins at the edge of the page.
+                let left = left
+                    .min(WIDTH - EDGE - super::text_width(note, TEXT))
+                    .max(EDGE);
                 let note = elide(note, TEXT, WIDTH - left - EDGE);
                 write(area, &note, (left, y), font(TEXT).color(&MUTED), HPos::Left);
             }

@@ -46,6 +46,8 @@ mod triangles;
 use std::ops::Range;
 
 use crate::judge::verdict::PowerLaw;
+#[cfg(feature = "reports")]
+pub(crate) use page::titled_by_verdict;
 pub use page::{panels, without_title};
 pub use pen::{DOTTED, Dashes, SHORT, SOLID, look, text_width};
 

@@ -5,6 +5,8 @@ use plotters::prelude::*;
 use super::Chart;
 use super::layout::{Layout, TITLE_ROW, WIDTH};
 use super::pen::{Area, Dashes, FONT, Point, certain, line, tenths};
+#[cfg(feature = "reports")]
+use crate::judge::verdict::Verdict;
 
 /// A document being drawn, layer upon layer.
 pub(super) struct Page {
@@ -135,6 +137,21 @@ pub fn panels(description: &str, charts: &[Chart]) -> String {
 
 /// The opening and the end of the group of a title.
 pub(super) const TITLE_GROUP: &str = " data-title=\"\"";
+
+/// A picture of this room whose titles begin with a verdict, such as "fail: The energy falls": a
+/// title says what a study claims, and the study may not have found it. Any other text as it is.
+#[cfg(feature = "reports")]
+pub(crate) fn titled_by_verdict(svg: &str, verdict: Verdict) -> String {
+    let opening = format!("<g{TITLE_GROUP}>");
+    let mut parts = svg.split(&opening);
+    let mut marked = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        marked += &opening;
+        // The words stand on a line of their own, below the opening of the text.
+        marked += &part.replacen("\">\n", &format!("\">\n{verdict}: "), 1);
+    }
+    marked
+}
 
 /// A picture of this room without its titles, for papers, where captions take their place; any
 /// other text as it is.

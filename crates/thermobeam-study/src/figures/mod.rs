@@ -156,6 +156,28 @@ pub struct ContractionFactors {
     pub estimates: NamedPoints,
 }
 
+/// The range of numbers that a logarithmic axis shows, 1 included.
+struct Extent {
+    smallest: f64,
+    largest: f64,
+}
+
+impl Extent {
+    fn of(numbers: impl Iterator<Item = f64>) -> Self {
+        let shown = numbers.filter(|number| *number > 0.0 && number.is_finite());
+        shown.fold(
+            Self {
+                smallest: 1.0,
+                largest: 1.0,
+            },
+            |extent, number| Self {
+                smallest: extent.smallest.min(number),
+                largest: extent.largest.max(number),
+            },
+        )
+    }
+}
+
 /// The look of estimates: a plus, below the markers, which stay in view.
 const ESTIMATES: usize = 45;
 /// The look of the line of agreement.
@@ -173,13 +195,16 @@ pub fn contraction(factors: &ContractionFactors) -> String {
         intervals: vec![(1.0, f64::INFINITY)],
     });
     let all = measured.iter().flat_map(|series| &series.points);
-    let ends = |fold: fn(f64, f64) -> f64| {
-        let coordinates = all.clone().flat_map(|point| [point.0, point.1]);
-        coordinates
-            .filter(|value| *value > 0.0 && value.is_finite())
-            .fold(1.0, fold)
-    };
-    let identity = [ends(f64::min), ends(f64::max)].map(|end| (end, end));
+    let [across, up] = [
+        Extent::of(all.clone().map(|point| point.0)),
+        Extent::of(all.map(|point| point.1)),
+    ];
+    // Beyond what was measured, or predicted, the line would stretch an axis.
+    let identity = [
+        across.smallest.max(up.smallest),
+        across.largest.min(up.largest),
+    ]
+    .map(|end| (end, end));
     let agreement = chart.curve("measured = predicted", identity);
     *agreement = agreement.clone().looking(IDENTITY);
     agreement.width = 1.6;

@@ -3,6 +3,8 @@
 use std::collections::HashSet;
 
 use super::{Check, Figure, NamedRate, Outcome};
+#[cfg(feature = "reports")]
+use crate::chart;
 use crate::interval::Interval;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::coverage;
@@ -10,7 +12,7 @@ use crate::study::subject::Subject;
 
 /// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
 /// failing check if it does not meet the requirements. Its summary says how many items were not
-/// judged, if any.
+/// judged, if any; the titles of its figures say the verdict unless it is a pass.
 pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     for figure in &mut outcome.figures {
         figure.file = format!("{id}-{}", figure.file);
@@ -37,6 +39,12 @@ pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     }
     for left_out in coverage::incomplete(&outcome.coverage) {
         outcome.add_to_summary(&left_out);
+    }
+    #[cfg(feature = "reports")]
+    if !outcome.verdict.is_pass() {
+        for figure in &mut outcome.figures {
+            figure.svg = chart::titled_by_verdict(&figure.svg, outcome.verdict);
+        }
     }
     outcome
 }
@@ -166,6 +174,25 @@ mod tests {
         assert_eq!(
             (settled.verdict, settled.figures[0].file.as_str()),
             (Verdict::Pass, "id-errors.svg")
+        );
+    }
+
+    #[cfg(feature = "reports")]
+    #[test]
+    fn the_title_of_a_figure_says_that_its_study_does_not_pass() {
+        use crate::chart::{Axis, Chart};
+        let mut chart = Chart::empty(Axis::linear("t"), Axis::linear("E")).titled("E falls");
+        chart.curve("E", [(0.0, 1.0), (1.0, 0.5)]);
+        let drawn = |holds: bool| {
+            let mut outcome = passing();
+            outcome.checks.push(Check::that(holds, "c", "e"));
+            outcome.figures = vec![Figure::new("energy", "", chart.svg())];
+            settle("id", outcome).figures.remove(0).svg
+        };
+        assert_eq!(drawn(true), chart.svg());
+        assert_eq!(
+            drawn(false),
+            chart.svg().replace("\nE falls\n", "\nfail: E falls\n")
         );
     }
 

@@ -55,8 +55,8 @@ fn slope(front: &[(f64, f64)]) -> Option<f64> {
     fit_line(&points).map(|line| line.slope)
 }
 
-/// Error over cost, all methods. The legend has the power of the cost by which the error of a
-/// one-step method falls; along the front of dG the degrees change, so that no power describes it.
+/// Error over cost, all methods. The legend has the order in the cost, which is the power by which
+/// the error of a one-step method falls; along the front of dG the degrees change, so that no power describes it.
 ///
 /// * `title`: what one should see.
 /// * `cost`, `error`: labels of the axes.
@@ -77,7 +77,7 @@ pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed], names: &[&s
             .filter(|method| method.one_step.is_some())
             .and_then(|_| slope(&points));
         let label = match power {
-            Some(power) => format!("{in_words}: cost^{power:.2}"),
+            Some(power) => format!("{in_words}: order {:.2} in the cost", -power),
             None => in_words.to_owned(),
         };
         let curve = chart.curve(label, points);

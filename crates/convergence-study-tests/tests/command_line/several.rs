@@ -131,6 +131,16 @@ fn rows_come_as_csv_and_as_markdown() {
         both.starts_with("## both.txt: Degree 1\n\n| h | L2 | rate |\n"),
         "{both}"
     );
+    let latex = with("latex", &["both.txt"]);
+    assert_eq!(
+        latex.matches("\\begin{tabular}{rrr}\n\\toprule\n").count(),
+        2,
+        "{latex}"
+    );
+    assert!(
+        latex.starts_with("% both.txt: Degree 1\n% L2: pass: 2.0000"),
+        "{latex}"
+    );
     // The exit status is that of the verdict.
     let arguments = ["rates", "b.csv", "--order", "2", "--format", "csv"];
     assert_eq!(run(&root, &arguments).0, Some(1));
@@ -174,4 +184,45 @@ fn an_order_that_is_none_is_refused_with_all_forms() {
             "{err}"
         );
     }
+}
+
+#[test]
+fn rows_come_as_latex_with_rates_between_them() {
+    let root = tempfile::tempdir().unwrap();
+    let table = "h,L2_u,H1\n0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n0.05,2.500e-3,5.000e-2\n";
+    fs::write(root.path().join("t.csv"), table).unwrap();
+    let with = |more: &[&str]| {
+        let arguments = ["rates", "t.csv", "--order", "L2_u=2", "--format", "latex"];
+        run(&root, &[&arguments, more].concat()).1
+    };
+    let half = r"\\[-0.5\normalbaselineskip]";
+    let expected = format!(
+        r"% t.csv
+% L2_u: pass: 2.0000 (1.9990 to 2.0010), claimed 2 ± 0.25: 2, not 1.5 or 2.5
+% H1: inconclusive: 1.0000 (0.9991 to 1.0009): no order is claimed
+\begin{{tabular}}{{rrrrr}}
+\toprule
+h & L2\_u & rate & H1 & rate \\
+\midrule
+$0.4$ & $1.6000 \cdot 10^{{-1}}$ &  & $4.0000 \cdot 10^{{-1}}$ & {half}
+ &  & $\mathbf{{2.0000}}$ &  & $1.0000$ {half}
+$0.2$ & $4.0000 \cdot 10^{{-2}}$ &  & $2.0000 \cdot 10^{{-1}}$ & {half}
+ &  & $\mathbf{{2.0000}}$ &  & $1.0000$ {half}
+$0.1$ & $1.0000 \cdot 10^{{-2}}$ &  & $1.0000 \cdot 10^{{-1}}$ & {half}
+ &  & $\mathbf{{2.0000}}$ &  & $1.0000$ {half}
+$0.05$ & $2.5000 \cdot 10^{{-3}}$ &  & $5.0000 \cdot 10^{{-2}}$ &  \\
+\midrule
+rate & \multicolumn{{2}}{{r}}{{\textbf{{1.9990--2.0010}}}} & \multicolumn{{2}}{{r}}{{0.9991--1.0009}} \\
+\bottomrule
+\end{{tabular}}
+"
+    );
+    assert_eq!(with(&[]), expected);
+    // A level that is set aside has a mark, which is explained.
+    let latex = with(&["--floor", "1e-2"]);
+    assert!(
+        latex.contains(r"$2.5000 \cdot 10^{-3}^{c}$")
+            && latex.contains(r"{\footnotesize $^{c}$ set aside: not above the floor 1e-2} \\"),
+        "{latex}"
+    );
 }

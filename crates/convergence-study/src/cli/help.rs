@@ -156,6 +156,7 @@ pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpP
                     Format::Json,
                     Format::Csv,
                     Format::Md,
+                    Format::Latex,
                 ]))
             })
         })

@@ -148,6 +148,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let words = match flags.format {
         Format::Csv => rates::csv(&findings),
         Format::Md => rates::rows_in_markdown(&findings),
+        Format::Latex => rates::latex(&findings),
         Format::Text | Format::Json => {
             rates::text_of_all(&findings, verdict, flags.quiet, screen::verdict)
         }

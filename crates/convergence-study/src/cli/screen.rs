@@ -26,6 +26,8 @@ pub enum Format {
     Csv,
     /// For pages: the rows in Markdown
     Md,
+    /// For papers: the rows in LaTeX, with booktabs
+    Latex,
 }
 
 /// Reads one of these formats from the command line.

@@ -4,6 +4,8 @@
 
 mod claims;
 mod forms;
+#[cfg(feature = "command-line")]
+mod latex;
 mod refusal;
 mod shown;
 
@@ -23,6 +25,8 @@ pub use claims::{Claimed, ClaimedOrder, claimed};
 #[cfg(feature = "command-line")]
 pub(crate) use forms::{cases, csv, rows_in_markdown};
 pub(crate) use forms::{figure, markdown, object_of_all};
+#[cfg(feature = "command-line")]
+pub(crate) use latex::latex;
 pub use refusal::Refusal;
 pub(crate) use shown::{REASONS, sentence_of_all, text_of_all};
 

@@ -47,7 +47,7 @@ pub mod chart {
 }
 #[cfg(feature = "reports")]
 pub mod program {
-    pub use crate::program::{MANUFACTURE, PROJECT, ROW, TAYLOR, TEMPLATE};
+    pub use crate::program::{MANUFACTURE, PROJECT, ROW, TABLE, TAYLOR, TEMPLATE};
     pub mod guard {
         pub use crate::program::guard::{COMMAND, enable_by};
     }

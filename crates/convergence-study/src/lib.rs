@@ -128,9 +128,9 @@ pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
         About, Axis, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorsOverLevels,
-        Figure, Findings, Header, InCode, IntoErrors, Kind, LevelErrors, Measured, Must, NamedRate,
-        Origin, Outcome, Quantity, Ran, Reading, Recorded, Refinement, Runs, Sheet, Shown, Sort,
-        Study, Subject, Table, Tier, Untested, boxed_study,
+        Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind, LevelErrors, Measured,
+        Must, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Recorded, Refinement, Reused,
+        Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
         levels, measured, unnoticed,
@@ -170,7 +170,7 @@ pub mod file {
 #[cfg(feature = "reports")]
 #[doc(inline)]
 pub use crate::{
-    program::{PROJECT as PROGRAMS, ROW as PROGRAM, TAYLOR},
+    program::{PROJECT as PROGRAMS, ROW as PROGRAM, TABLE, TAYLOR},
     project::{FileSchema, Front, Project, SourcePlace, Statement, Template, Term},
     verify::{
         Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,

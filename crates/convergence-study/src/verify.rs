@@ -238,6 +238,10 @@ fn run_and_write(
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
+    for study in studies {
+        let folder = request.reports.join("local").join("answers");
+        study.keep_answers(&folder.join(&study.header().id), !request.bless);
+    }
     // Blessed runs may take longer than before.
     let allowed =
         |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
@@ -315,12 +319,9 @@ fn bless(baseline: &mut Baseline, finished: &[Finished], request: &VerifyRequest
     }
 }
 
-/// The worst verdict of all studies; fail if the baseline differs.
+/// The worst verdict of all studies and of what differs from the baseline.
 fn verdict(finished: &[Finished], changes: &[GuardedChange]) -> Verdict {
-    let own = Verdict::worst(finished.iter().map(|finished| finished.outcome.verdict));
-    if changes.is_empty() {
-        own
-    } else {
-        Verdict::Fail
-    }
+    let own = finished.iter().map(|finished| finished.outcome.verdict);
+    let changes = changes.iter().map(|change| change.movement.verdict());
+    Verdict::worst(own.chain(changes))
 }

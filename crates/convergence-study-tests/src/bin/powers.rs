@@ -28,6 +28,7 @@ const PROJECT: Project = Project {
             failure: "",
         },
         program::ROW,
+        program::TABLE,
         program::TAYLOR,
     ],
     templates: &[program::TEMPLATE, program::MANUFACTURE],

@@ -140,7 +140,7 @@ fn a_program_has_the_variables_of_its_study() {
         ),
         (
             "environment = {}",
-            "unknown key `environment`; expected command, directory, env, manufacture, time_limit, floor, scale",
+            "unknown key `environment`; expected command, directory, env, manufacture, files, cache, time_limit, floor, scale",
         ),
     ] {
         let (status, _, err) = study(program, env, MAX).study(&[]);

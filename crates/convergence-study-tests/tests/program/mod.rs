@@ -11,8 +11,10 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 mod answers;
+mod kept;
 mod levels;
 mod samples;
+mod table;
 mod taylor;
 
 const HARNESS: &str = env!("CARGO_BIN_EXE_powers");
@@ -258,17 +260,17 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "time_limit = 9",
             "files = [\"x\"]",
-            "program.files: unknown key `files`; expected command, directory, env, manufacture, time_limit",
+            "program.files: found the list [\"x\"]; expected files beside cache = true",
         ),
         (
             "time_limit = 9",
             "cache = true",
-            "program.cache: unknown key `cache`; expected command, directory, env, manufacture, time_limit",
+            "program.cache: found true; expected true beside `files`, all files that a result depends on",
         ),
         (
             "time_limit = 9",
             "shell = true",
-            "program.shell: unknown key `shell`; expected command, directory, env, manufacture, time_limit",
+            "program.shell: unknown key `shell`; expected command, directory, env, manufacture, files, cache, time_limit",
         ),
         (
             "n = [4, ",
@@ -288,7 +290,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         (
             "kind = \"program\"",
             "",
-            "s.toml:1:1: study.kind: missing; expected \"power\", \"program\", \"taylor\"",
+            "s.toml:1:1: study.kind: missing; expected \"power\", \"program\", \"table\", \"taylor\"",
         ),
         (
             "[[expect]]",

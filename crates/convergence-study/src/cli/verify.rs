@@ -19,6 +19,7 @@ use crate::report::{
 use crate::run::{Effort, Finished};
 use crate::store::{GuardedChange, Record, json, without_baseline};
 use crate::study::{Study, Tier};
+use crate::text::number::counted;
 use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
@@ -138,10 +139,24 @@ fn print(
     screen::print(&if format == Format::Json {
         json(&found.record)?
     } else {
-        text(project, found, request, arguments, took)
+        reused(&found.record.studies) + &text(project, found, request, arguments, took)
     })?;
     github::announce(&findings, format);
     Ok(())
+}
+
+/// How many levels have the answers of an earlier run; empty if none has.
+fn reused(studies: &[Finished]) -> String {
+    let counts = studies.iter().map(|study| study.outcome.reused);
+    let counts: Vec<_> = counts.filter(|one| one.reused > 0).collect();
+    let [reused, cases] = [
+        counts.iter().map(|one| one.reused).sum::<usize>(),
+        counts.iter().map(|one| one.cases).sum(),
+    ];
+    if reused == 0 {
+        return String::new();
+    }
+    format!("{reused} of {} reused\n", counted(cases, "level"))
 }
 
 /// * `scope`: what is run; `root`: the folder of the project.

@@ -35,6 +35,12 @@ pub(crate) struct Answer {
     /// How many objects with errors or values the program has printed; the last one counts.
     #[serde(default)]
     pub printed: usize,
+    /// Whether it is that of an earlier run.
+    #[serde(skip)]
+    pub is_reused: bool,
+    /// What differs from an earlier run with the same command and files.
+    #[serde(skip)]
+    pub differs: Option<String>,
     /// Why the case has failed nevertheless: a number is NaN or missing. The others count.
     #[serde(skip)]
     pub failure: Option<CaseFailure>,

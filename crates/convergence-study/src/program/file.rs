@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use super::Program;
 use super::answer::Expectation;
+use super::kept::Kept;
 use super::launch::{COMMAND, LaunchKeys, SECONDS};
 use super::refine::{Refine, RefineTable};
 use crate::input::{
@@ -47,6 +48,13 @@ struct ProgramTable {
     /// the file of `manufacture` from whose module with `--variants` the program takes its solution,
     /// for `--where`; relative to this file
     manufacture: Option<String>,
+    /// files that a result depends on, relative to this file, for `cache`; those that the command
+    /// names count, too
+    files: Option<Vec<String>>,
+    /// whether `verify` takes the answers of its last run for levels whose command and files are the
+    /// same; the cheapest one is always run, and with `--bless` all are
+    #[serde(default)]
+    cache: bool,
     /// the time limit of a case in seconds; without it 600
     #[schemars(extend("title" = SECONDS))]
     time_limit: Option<Positive>,
@@ -87,7 +95,7 @@ struct ExpectTable {
 
 /// Tolerances of a rate.
 #[derive(Debug, Clone, Copy)]
-enum Narrow {}
+pub(super) enum Narrow {}
 
 impl Range for Narrow {
     const ENDS: &'static [(&'static str, f64)] = &[
@@ -98,7 +106,7 @@ impl Range for Narrow {
 
 /// How samples make an error.
 #[derive(Debug)]
-enum Makers {}
+pub(super) enum Makers {}
 
 impl Choices for Makers {
     type Value = Of;
@@ -116,7 +124,8 @@ impl ProgramFile {
     /// The study.
     ///
     /// * `folder`: the folder of the file.
-    pub(super) fn program(self, folder: &Path) -> Result<Program, Refusal> {
+    /// * `guard`: the change of its numbers that the study tolerates, if it says so.
+    pub(super) fn program(self, folder: &Path, guard: Option<f64>) -> Result<Program, Refusal> {
         let refine = self.refine.refine().map_err(within("refine"))?;
         let expect = expectations(self.expect, &refine)?;
         let table = self.program;
@@ -128,8 +137,12 @@ impl ProgramFile {
         }
         let floor = table.floor();
         let manufactured = table.manufactured(folder).map_err(&in_program)?;
+        let kept = table.kept_files().map_err(&in_program)?;
         let launch = table.launch_keys().launch(folder, values);
         let launch = launch.map_err(&in_program)?;
+        let kept = kept.map(|files| {
+            Kept::new(&files, &launch.words, &launch.directory, folder, guard).map_err(&in_program)
+        });
         if refine.samples.is_some() && !launch.tells("seed", values) {
             let allowed = "a command with the placeholder {seed}, which tells samples apart";
             return Err(in_program(Refusal::written("command", allowed)));
@@ -138,6 +151,7 @@ impl ProgramFile {
             floor,
             manufactured,
             launch,
+            kept: kept.transpose()?,
             refine,
             expect,
             most_levels: None,
@@ -146,6 +160,19 @@ impl ProgramFile {
 }
 
 impl ProgramTable {
+    /// The files of which answers are kept, if they are.
+    fn kept_files(&self) -> Result<Option<Vec<String>>, Refusal> {
+        match (&self.files, self.cache) {
+            (Some(files), true) if !files.is_empty() => Ok(Some(files.clone())),
+            (_, true) => {
+                let allowed = "true beside `files`, all files that a result depends on";
+                Err(Refusal::written("cache", allowed))
+            }
+            (Some(_), false) => Err(Refusal::written("files", "files beside cache = true")),
+            (None, false) => Ok(None),
+        }
+    }
+
     fn launch_keys(self) -> LaunchKeys {
         LaunchKeys {
             command: self.command,

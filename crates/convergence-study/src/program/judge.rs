@@ -8,6 +8,7 @@ use super::{CaseRun, Program, refine, samples, values};
 use crate::chart::{self, Chart, Series};
 use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
+use crate::judge::verdict::Verdict;
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
 use crate::study::over_levels::{self, ErrorColumn, Levels};
@@ -15,12 +16,32 @@ use crate::study::sampled::Sampled;
 use crate::study::until_decided::{self, Looks, Next};
 use crate::study::{
     Axis, Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
-    Sort, Subject,
+    Reused, Sort, Subject,
 };
 use crate::text::number::{error_text, plain_text};
 use crate::text::prose::Prose;
 
 pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
+    let mut outcome = judge_answers(study, ran);
+    let answers = || ran.iter().filter_map(CaseRun::ok);
+    outcome.reused = Reused {
+        reused: answers().filter(|answer| answer.is_reused).count(),
+        cases: ran.len(),
+    };
+    if let Some(differs) = answers().find_map(|answer| answer.differs.as_ref()) {
+        let advice = "what changed is not in program.files, or the program does not repeat its numbers; \
+                      the kept answers are not of this version: remove them, or run with --bless";
+        let claim = "the cheapest case answers what it has answered before";
+        let check = Check::that(false, claim, format!("{differs}: {advice}"));
+        outcome
+            .checks
+            .push(check.about(Subject::of("kept answers")));
+        outcome.verdict = Verdict::Fail;
+    }
+    outcome
+}
+
+fn judge_answers(study: &Program, ran: &[CaseRun]) -> Outcome {
     let Some(count) = study.refine.samples else {
         return judge_levels(study, ran, None);
     };

@@ -9,10 +9,12 @@
 //! | --- | --- |
 //! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
 //! | `launch.rs`, `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
+//! | `kept.rs` | answers that are taken again |
 //! | `answer.rs`, `lines.rs`, `once.rs` | its answer: an object, or lines |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `samples.rs` | from runs with several seeds to one answer a level |
 //! | `values.rs` | the same for values without an exact solution |
+//! | `table.rs`, `sources.rs` | the kind of tables that exist, and the files that they were made from |
 //! | `taylor.rs` | the kind that tests derivatives |
 //! | `begin.rs` | what `new program` writes |
 
@@ -22,12 +24,15 @@ mod command;
 mod file;
 pub(crate) mod guard;
 mod judge;
+mod kept;
 mod launch;
 mod lines;
 mod once;
 mod output;
 mod refine;
 mod samples;
+mod sources;
+mod table;
 mod taylor;
 mod values;
 
@@ -44,11 +49,13 @@ use crate::study::{
 use answer::Expectation;
 use command::Invocation;
 use file::ProgramFile;
+use kept::Kept;
 use launch::Launch;
 use refine::Refine;
 
 pub(crate) use answer::Answer;
 pub(crate) use refine::RefinedCase;
+pub use table::ROW as TABLE;
 pub use taylor::ROW as TAYLOR;
 
 /// The row of the table of kinds.
@@ -92,7 +99,7 @@ pub const MANUFACTURE: Template = Template {
 /// The project of the program `convergence-study`: studies of any program, in the folder that it
 /// runs in.
 pub const PROJECT: Project = Project {
-    kinds: &[ROW, TAYLOR],
+    kinds: &[ROW, TABLE, TAYLOR],
     templates: &[TEMPLATE, MANUFACTURE],
     ..Project::new("convergence-study", "convergence-study")
 };
@@ -101,6 +108,8 @@ pub const PROJECT: Project = Project {
 #[derive(Debug, Clone)]
 pub(crate) struct Program {
     launch: Launch,
+    /// The answers that it keeps, if it does.
+    kept: Option<Kept>,
     /// What is known of round-off.
     floor: Floor,
     refine: Refine,
@@ -117,8 +126,12 @@ const VARIANT: &str = "MANUFACTURE_VARIANT";
 impl FromFile for Program {
     const KEYS: &'static [Keys] = &[];
 
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        described(root, |file: ProgramFile| file.program(folder))
+    fn from_document(
+        header: &Header,
+        root: &Section<'_>,
+        folder: &Path,
+    ) -> Result<Self, InputError> {
+        described(root, |file: ProgramFile| file.program(folder, header.guard))
     }
 }
 
@@ -179,12 +192,29 @@ impl Kind for Program {
 
     fn run(&self, case: &RefinedCase) -> Result<Answer, CaseFailure> {
         let invocation = self.launch.invocation(&case.parameters);
-        let started = Instant::now();
-        let answer = invocation.run(&self.expect)?;
-        Ok(Answer {
-            seconds: started.elapsed().as_secs_f64(),
-            ..answer
-        })
+        let run = || {
+            let started = Instant::now();
+            let answer = invocation.run(&self.expect)?;
+            Ok(Answer {
+                seconds: started.elapsed().as_secs_f64(),
+                ..answer
+            })
+        };
+        let Some(kept) = &self.kept else { return run() };
+        let cheapest = self.refine.cheapest();
+        let of_cheapest = self.launch.invocation(&cheapest.parameters);
+        kept.answer(
+            &case.label,
+            &invocation,
+            (&cheapest.label, &of_cheapest),
+            run,
+        )
+    }
+
+    fn keep_answers(&self, folder: &Path, may_reuse: bool) {
+        if let Some(kept) = &self.kept {
+            kept.keep_in(folder, may_reuse);
+        }
     }
 
     fn failure(&self, answer: &Answer) -> Option<CaseFailure> {
@@ -202,6 +232,7 @@ impl Kind for Program {
     fn with_variant(&self, variant: &str) -> Option<Self> {
         self.manufactured()?;
         let mut study = self.clone();
+        study.kept = None;
         // The last one of a name counts.
         study
             .launch

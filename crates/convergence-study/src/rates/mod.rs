@@ -32,9 +32,9 @@ pub(crate) use shown::{REASONS, sentence_of_all, text_of_all};
 
 /// A column, judged.
 pub(crate) struct JudgedColumn<'t> {
-    column: &'t Column,
-    claim: Option<Claim>,
-    rate: RateVerdict,
+    pub(crate) column: &'t Column,
+    pub(crate) claim: Option<Claim>,
+    pub(crate) rate: RateVerdict,
     /// The same with factors for each unit of a count in place of rates, where they are claimed.
     factors: Option<RateVerdict>,
     /// Only of a column of values.
@@ -60,7 +60,47 @@ impl Judgement<'_> {
     }
 }
 
+#[cfg(feature = "reports")]
+impl<'t> Judgement<'t> {
+    /// The heading, if the file has several tables; otherwise empty.
+    pub(crate) fn heading(&self) -> &str {
+        &self.source.heading
+    }
+
+    /// The step, as the table has it.
+    pub(crate) fn step(&self) -> &str {
+        &self.source.table.step
+    }
+
+    /// How the table was read.
+    pub(crate) fn reading(&self) -> String {
+        self.source.table.reading.clone()
+    }
+
+    /// Its columns, errors first.
+    pub(crate) fn judged_columns(&self) -> impl Iterator<Item = &JudgedColumn<'t>> {
+        self.columns.iter()
+    }
+
+    /// The verdict on all columns that count, and on the reading.
+    pub(crate) fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+
+    /// What speaks against the verdict.
+    pub(crate) fn doubts_that_count(&self) -> impl Iterator<Item = &Doubt> {
+        let doubts = self.source.table.doubts.iter();
+        doubts.filter(|doubt| counts(doubt, &self.columns))
+    }
+}
+
 impl JudgedColumn<'_> {
+    /// Whether it holds values, which tend to an unknown limit.
+    #[cfg(feature = "reports")]
+    pub(crate) fn is_value(&self) -> bool {
+        self.estimate.is_some()
+    }
+
     fn is_claimed(&self) -> bool {
         self.claim.is_some()
     }

@@ -74,53 +74,69 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
             n => format!("all {n} baseline values unchanged"),
         };
     }
-    let mut new_numbers = 0;
-    let mut new_studies = 0;
-    let mut deleted = 0;
-    let mut claims = 0;
-    let mut settings = 0;
-    let mut values = 0;
-    for GuardedChange { movement, .. } in changes {
-        match movement {
-            Movement::Claim { .. } | Movement::Guard { .. } => claims += 1,
-            Movement::Settings { .. } => settings += 1,
-            Movement::New { .. } => new_numbers += 1,
-            Movement::NewStudy => new_studies += 1,
-            Movement::VanishedStudy { .. } => deleted += 1,
-            Movement::Moved { .. }
-            | Movement::Tolerance { .. }
-            | Movement::Vanished { .. }
-            | Movement::DeletedLine => values += 1,
+    Counts::of(changes).words()
+}
+
+/// How many changes there are of each sort.
+#[derive(Default)]
+struct Counts {
+    deleted: usize,
+    settings: usize,
+    stale: usize,
+    claims: usize,
+    values: usize,
+    new_numbers: usize,
+    new_studies: usize,
+}
+
+impl Counts {
+    fn of(changes: &[GuardedChange]) -> Self {
+        let mut counts = Self::default();
+        for GuardedChange { movement, .. } in changes {
+            *match movement {
+                Movement::Claim { .. } | Movement::Guard { .. } => &mut counts.claims,
+                Movement::Settings { .. } => &mut counts.settings,
+                Movement::New { .. } => &mut counts.new_numbers,
+                Movement::NewStudy => &mut counts.new_studies,
+                Movement::Stale { .. } => &mut counts.stale,
+                Movement::VanishedStudy { .. } => &mut counts.deleted,
+                Movement::Moved { .. }
+                | Movement::Tolerance { .. }
+                | Movement::Vanished { .. }
+                | Movement::DeletedLine => &mut counts.values,
+            } += 1;
         }
+        counts
     }
-    let mut parts = vec![];
-    if deleted > 0 {
-        parts.push(counted_as(deleted, "study deleted", "studies deleted"));
+
+    fn words(&self) -> String {
+        let settings = counted_as(self.settings, "study", "studies") + " with changed settings";
+        let stale = counted(self.stale, "table") + " older than its inputs";
+        // Whoever accepts the numbers of a new study accepts its claims, too.
+        let new = if self.new_numbers > 0 {
+            counted(self.new_numbers, "number")
+        } else {
+            counted_as(self.new_studies, "study", "studies")
+        };
+        let counted = |count, one: &str, several: &str| (count, counted_as(count, one, several));
+        let parts = [
+            counted(self.deleted, "study deleted", "studies deleted"),
+            (self.settings, settings),
+            (self.stale, stale),
+            counted(self.claims, "claim changed", "claims changed"),
+            counted(
+                self.values,
+                "baseline value changed",
+                "baseline values changed",
+            ),
+            (
+                self.new_numbers + self.new_studies,
+                format!("{new} not yet in the baseline"),
+            ),
+        ];
+        let parts = parts.into_iter().filter(|(count, _)| *count > 0);
+        parts.map(|(_, words)| words).collect::<Vec<_>>().join(", ")
     }
-    if settings > 0 {
-        let studies = counted_as(settings, "study", "studies");
-        parts.push(format!("{studies} with changed settings"));
-    }
-    if claims > 0 {
-        parts.push(counted_as(claims, "claim changed", "claims changed"));
-    }
-    if values > 0 {
-        parts.push(counted_as(
-            values,
-            "baseline value changed",
-            "baseline values changed",
-        ));
-    }
-    // Whoever accepts the numbers of a new study accepts its claims, too.
-    let new = if new_numbers > 0 {
-        counted(new_numbers, "number")
-    } else {
-        counted_as(new_studies, "study", "studies")
-    };
-    if new_numbers + new_studies > 0 {
-        parts.push(format!("{new} not yet in the baseline"));
-    }
-    parts.join(", ")
 }
 
 /// The command that blesses these changes: for the full tier if a study changed that was not run,

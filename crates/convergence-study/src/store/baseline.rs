@@ -23,6 +23,7 @@
 //! `claims` has what a study in code claims of other numbers, by their names.
 //! `settings` is the hash of every value of the study's file, of the labels of its cases, of the
 //! names of its numbers, and of which have a claim: what somebody deletes is missed.
+//! `sources` has the hashes of a table that a study judges, and of the files that it was made from.
 //! `guard` the tolerance that the file asks for; `test` the test that the study belongs to.
 //!
 //! What is loosened, changed in its settings or taken away is blessed only on demand: a blessing
@@ -45,7 +46,7 @@ use thiserror::Error;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::{atomic, content_hash, read_if_there};
-use crate::study::{Header, Must, Quantity};
+use crate::study::{Header, Must, Quantity, Sources};
 use crate::text::json;
 
 use change::meets;
@@ -89,6 +90,9 @@ struct Blessed {
     /// What it claims of numbers that are not guarded, by their names.
     #[serde(default)]
     claims: BTreeMap<String, Must>,
+    /// The table that it judges, and the files that this was made from, if it has one.
+    #[serde(default)]
+    sources: Option<Sources>,
 }
 
 /// A guarded number.
@@ -188,10 +192,12 @@ impl Baseline {
         } in finished
         {
             let claims = outcome.claims();
-            let lines = self.lines(header, &names(&outcome.quantities, &claims));
+            let found = names(&outcome.quantities, &claims, outcome.sources.is_some());
+            let lines = self.lines(header, &found);
             let mut of_study = self.changed_settings(header, lines);
             of_study.extend(self.changed_numbers(header, &outcome.quantities));
             of_study.extend(self.changed_claims(&header.id, claims));
+            of_study.extend(self.changed_sources(&header.id, outcome.sources.as_ref()));
             if lines == Lines::Deleted {
                 of_study
                     .iter_mut()
@@ -296,6 +302,23 @@ impl Baseline {
         changes
     }
 
+    /// The inputs of a table of one study, where they have changed and the table has not; or that
+    /// their hashes are gone.
+    fn changed_sources(&self, id: &str, found: Option<&Sources>) -> Option<GuardedChange> {
+        let (blessed, found) = (self.studies.get(id)?, found?);
+        let movement = match &blessed.sources {
+            None => Movement::DeletedLine,
+            Some(before) => {
+                let inputs = found.newer_than_table(before);
+                if inputs.is_empty() {
+                    return None;
+                }
+                Movement::Stale { inputs }
+            }
+        };
+        Some(GuardedChange::new(id, change::SOURCES, movement))
+    }
+
     /// The ids of studies in the baseline that no longer exist.
     fn vanished(&self, known: Option<&[Header]>) -> Vec<String> {
         let Some(known) = known else { return vec![] };
@@ -371,6 +394,7 @@ impl Baseline {
             test: test.map(|(_, test)| test.clone()),
             numbers,
             claims: outcome.claims().into_iter().collect(),
+            sources: outcome.sources.clone(),
         };
         blessed.settings = Some(hash(header, &blessed.names()));
         self.studies.insert(id.clone(), blessed);
@@ -413,11 +437,13 @@ enum Lines {
 /// The names of numbers, and whether each has a claim.
 type Names = BTreeMap<String, bool>;
 
-fn names(numbers: &[Quantity], claims: &[(String, Must)]) -> Names {
+/// * `has_sources`: whether there are hashes of the files of a table.
+fn names(numbers: &[Quantity], claims: &[(String, Must)], has_sources: bool) -> Names {
     let numbers = numbers.iter();
     let numbers = numbers.map(|quantity| (quantity.name.clone(), quantity.claim.is_some()));
     let claims = claims.iter().map(|(name, _)| (name.clone(), true));
-    numbers.chain(claims).collect()
+    let sources = has_sources.then(|| (change::SOURCES.to_owned(), false));
+    numbers.chain(claims).chain(sources).collect()
 }
 
 impl Blessed {
@@ -425,7 +451,9 @@ impl Blessed {
         let numbers = self.numbers.iter();
         let numbers = numbers.map(|(name, number)| (name.clone(), number.claim.is_some()));
         let claims = self.claims.keys().map(|name| (name.clone(), true));
-        numbers.chain(claims).collect()
+        let sources = self.sources.is_some();
+        let sources = sources.then(|| (change::SOURCES.to_owned(), false));
+        numbers.chain(claims).chain(sources).collect()
     }
 }
 

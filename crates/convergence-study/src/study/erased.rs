@@ -23,6 +23,9 @@ pub trait Study: Send + Sync {
     /// The settings that an item exercises, as [`Kind::settings`] states them.
     fn settings(&self, subject: &Subject) -> Vec<SettingWords>;
 
+    /// As [`Kind::keep_answers`].
+    fn keep_answers(&self, _folder: &Path, _may_reuse: bool) {}
+
     /// As [`Kind::manufactured`].
     fn manufactured(&self) -> Option<&Path> {
         None
@@ -112,6 +115,10 @@ impl<K: Kind> Study for Described<K> {
 
     fn settings(&self, subject: &Subject) -> Vec<SettingWords> {
         self.kind.settings(&self.header, subject)
+    }
+
+    fn keep_answers(&self, folder: &Path, may_reuse: bool) {
+        self.kind.keep_answers(folder, may_reuse);
     }
 
     fn manufactured(&self) -> Option<&Path> {

@@ -199,6 +199,11 @@ pub trait Kind: Send + Sync {
         header::of_file(header, subject)
     }
 
+    /// Says where answers of expensive cases are kept, if the study keeps any.
+    ///
+    /// * `may_reuse`: whether they may take the place of runs.
+    fn keep_answers(&self, _folder: &Path, _may_reuse: bool) {}
+
     /// The file of `manufacture` whose module gives the study's program its solution.
     fn manufactured(&self) -> Option<&Path> {
         None

@@ -41,7 +41,10 @@ pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
 pub use measured::{Measured, Recorded, Sheet, Shown, measured};
 pub use must::Must;
-pub use outcome::{Check, Figure, LevelErrors, NamedRate, Origin, Outcome, Quantity, Table};
+pub use outcome::{
+    Check, Figure, HashedFile, LevelErrors, NamedRate, Origin, Outcome, Quantity, Reused, Sources,
+    Table,
+};
 pub(crate) use over_levels::Claim;
 pub use over_levels::{Axis, Refinement};
 pub use readings::Reading;

@@ -57,6 +57,56 @@ pub struct Outcome {
     pub figures: Vec<Figure>,
     /// Numbers that the baseline guards.
     pub quantities: Vec<Quantity>,
+    /// How many of its cases were not run, but have the answers of an earlier run.
+    #[serde(skip)]
+    pub reused: Reused,
+    /// The files that a table was made from, of which the baseline keeps the hashes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sources: Option<Sources>,
+}
+
+/// How many cases have the answers of an earlier run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Reused {
+    /// These.
+    pub reused: usize,
+    /// Of so many.
+    pub cases: usize,
+}
+
+/// A file, and the hash of its content.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HashedFile {
+    /// Its name in the study.
+    pub name: String,
+    /// The hash of its content.
+    pub hash: String,
+}
+
+/// A table that exists, and the files that it was made from.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sources {
+    /// The table.
+    pub table: HashedFile,
+    /// The files that it was made from.
+    pub inputs: Vec<HashedFile>,
+}
+
+impl Sources {
+    /// The inputs that are others than these were, while the table is the same: it was not made
+    /// from them.
+    pub(crate) fn newer_than_table(&self, before: &Self) -> Vec<String> {
+        if self.table.hash != before.table.hash {
+            return vec![];
+        }
+        let changed = self
+            .inputs
+            .iter()
+            .filter(|own| !before.inputs.contains(own));
+        changed.map(|own| own.name.clone()).collect()
+    }
 }
 
 /// The errors at one level of refinement, one for each norm.
@@ -202,6 +252,8 @@ impl Outcome {
             tables: vec![],
             figures: vec![],
             quantities: vec![],
+            reused: Reused::default(),
+            sources: None,
         }
     }
 

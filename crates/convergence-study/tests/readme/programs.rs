@@ -10,18 +10,19 @@ use tempfile::TempDir;
 use super::blocks::{fenced, missing};
 
 /// Pages with studies, and how many blocks of output they have.
-const PAGES: [(&str, usize); 2] = [
+const PAGES: [(&str, usize); 3] = [
     (include_str!("../../book/src/gradients.md"), 1),
     (include_str!("../../book/src/scatter.md"), 2),
+    (include_str!("../../book/src/cluster.md"), 1),
 ];
 
 /// The files of a page: blocks whose first line is a comment with the name of a file.
 fn files(page: &str) -> Vec<(String, String)> {
     let named = |(_, text): (String, String)| {
-        let name = text.strip_prefix("# ")?.split([' ', ':', '\n']).next()?;
-        let is_file = [".py", ".toml", ".csv"]
-            .iter()
-            .any(|end| name.ends_with(end));
+        let first = text.strip_prefix("#!/bin/bash\n").unwrap_or(&text);
+        let name = first.strip_prefix("# ")?.split([' ', ':', '\n']).next()?;
+        let ends = [".py", ".toml", ".csv", ".sh"];
+        let is_file = ends.iter().any(|end| name.ends_with(end));
         is_file.then(|| (name.to_owned(), format!("{text}\n")))
     };
     fenced(page).into_iter().filter_map(named).collect()

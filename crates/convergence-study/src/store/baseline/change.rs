@@ -6,6 +6,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Guarded;
+use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::study::{Must, Quantity};
 use crate::text::json;
@@ -15,6 +16,8 @@ use crate::text::number::{counted, pair_text, plain_text};
 pub(super) const STUDY: &str = "study";
 /// What changed if its settings did.
 pub(super) const SETTINGS: &str = "settings";
+/// What changed if the files of its table did.
+pub(super) const SOURCES: &str = "sources";
 /// What changed if its guard did.
 pub(super) const GUARD: &str = "guard";
 
@@ -99,6 +102,11 @@ pub enum Movement {
         /// The hash now.
         to: String,
     },
+    /// A table is what it was, but not the files that it was made from: it is of another version.
+    Stale {
+        /// These files.
+        inputs: Vec<String>,
+    },
     /// The baseline does not have the study.
     NewStudy,
     /// The study no longer exists.
@@ -119,6 +127,14 @@ impl Movement {
                 | Self::DeletedLine
                 | Self::VanishedStudy { .. }
         )
+    }
+
+    /// What it makes of a run: what is not known to be of this version is no failure.
+    pub(crate) fn verdict(&self) -> Verdict {
+        match self {
+            Self::Stale { .. } => Verdict::Inconclusive,
+            _ => Verdict::Fail,
+        }
     }
 
     /// What is new to a study whose lines somebody has deleted is what was deleted.
@@ -143,6 +159,7 @@ impl Movement {
             Self::DeletedLine
             | Self::Vanished { .. }
             | Self::Settings { .. }
+            | Self::Stale { .. }
             | Self::VanishedStudy { .. } => true,
             Self::Moved { .. } | Self::New { .. } | Self::NewStudy => false,
         }
@@ -298,6 +315,11 @@ impl fmt::Display for Movement {
                     "have no hash in the baseline, which guards the study; now {to}"
                 ),
             },
+            Self::Stale { inputs } => write!(
+                f,
+                "are newer than the table: {} changed, and the table did not; make it anew, or accept it by --bless --loosened",
+                inputs.join(", ")
+            ),
             Self::NewStudy => write!(f, "is new"),
             Self::VanishedStudy { numbers } => {
                 write!(
@@ -404,6 +426,7 @@ mod tests {
             tolerance(1e-6, 1e-5),
             tolerance(1e-6, f64::NAN),
             Movement::Vanished { value: 1.0 },
+            Movement::Stale { inputs: vec![] },
             Movement::DeletedLine,
             Movement::VanishedStudy { numbers: 0 },
         ] {

@@ -27,6 +27,7 @@ fn of_study(blessed: &Blessed) -> io::Result<String> {
         test,
         numbers,
         claims,
+        sources,
     } = blessed;
     let mut text = String::new();
     for (key, value) in [("settings", settings), ("test", test)] {
@@ -36,6 +37,13 @@ fn of_study(blessed: &Blessed) -> io::Result<String> {
     }
     if let Some(guard) = guard {
         let _ = writeln!(text, "      \"guard\": {},", serde_json::to_string(guard)?);
+    }
+    if let Some(sources) = sources {
+        let _ = writeln!(
+            text,
+            "      \"sources\": {},",
+            serde_json::to_string(sources)?
+        );
     }
     text += "      \"numbers\": {";
     let mut separator = "\n";

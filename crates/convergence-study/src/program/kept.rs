@@ -1,0 +1,212 @@
+//! Answers of levels that are expensive, kept from one `verify` to the next: an answer is taken again
+//! if the command and the hashes of the files are the same.
+//!
+//! The cheapest case is always run, and must answer what it has answered before: what the result
+//! depends on and is not in `files` shows there. Its answer replaces the kept one only if both are
+//! equal, or if they are of different files. Without a kept answer of the cheapest case, made with
+//! the same files, no other is taken.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use serde::{Deserialize, Serialize};
+
+use super::answer::Answer;
+use super::command::Invocation;
+use super::sources::SourceFile;
+use crate::input::Refusal;
+use crate::store::{atomic, content_hash, json};
+use crate::study::{CaseFailure, HashedFile};
+use crate::text::named::NamedNumber;
+use crate::text::number::error_text;
+use crate::text::visible::visible;
+
+/// By how much the cheapest case may differ from its kept answer, unless the study has a guard.
+const TOLERANCE: f64 = 1e-6;
+
+/// The answers that a study keeps.
+#[derive(Debug, Clone)]
+pub(super) struct Kept {
+    /// What a result depends on.
+    files: Vec<SourceFile>,
+    /// The relative change tolerated.
+    tolerance: f64,
+    /// Where they are; unset while nobody asks for them.
+    place: OnceLock<Place>,
+}
+
+/// Where answers are kept.
+#[derive(Debug, Clone)]
+struct Place {
+    folder: PathBuf,
+    may_reuse: bool,
+}
+
+/// What decides an answer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Made {
+    command: Vec<String>,
+    directory: String,
+    variables: Vec<(String, String)>,
+    input: String,
+    files: Vec<HashedFile>,
+}
+
+/// A kept answer.
+#[derive(Debug, Serialize, Deserialize)]
+struct KeptAnswer {
+    made: Made,
+    answer: Answer,
+}
+
+impl Kept {
+    /// * `words`: of the command, of which those that are files in its folder count, too.
+    ///
+    /// # Errors
+    /// A file that is not there.
+    pub(super) fn new(
+        names: &[String],
+        words: &[String],
+        directory: &Path,
+        folder: &Path,
+        guard: Option<f64>,
+    ) -> Result<Self, Refusal> {
+        let mut files = SourceFile::all("files", names, folder)?;
+        let of_command = words.iter().map(|word| SourceFile {
+            name: word.clone(),
+            path: directory.join(word),
+        });
+        files.extend(of_command.filter(|file| file.path.is_file()));
+        Ok(Self {
+            files,
+            tolerance: guard.unwrap_or(TOLERANCE).max(TOLERANCE),
+            place: OnceLock::new(),
+        })
+    }
+
+    /// Says where answers are kept, and whether they may be taken from there.
+    pub(super) fn keep_in(&self, folder: &Path, may_reuse: bool) {
+        let folder = folder.to_owned();
+        // The first run of a study decides.
+        let _ = self.place.set(Place { folder, may_reuse });
+    }
+
+    /// The answer of a case: a kept one, or that of the program.
+    ///
+    /// * `label`: of the case; `cheapest`: the case that is always run, with its command.
+    pub(super) fn answer(
+        &self,
+        label: &str,
+        invocation: &Invocation,
+        (cheapest, of_cheapest): (&str, &Invocation),
+        run: impl FnOnce() -> Result<Answer, CaseFailure>,
+    ) -> Result<Answer, CaseFailure> {
+        let Some(place) = self.place.get() else {
+            return run();
+        };
+        let files = self.hashes()?;
+        let made = Made::new(invocation, &files);
+        let kept = place.read(label).filter(|kept| kept.made == made);
+        let is_cheapest = label == cheapest;
+        if place.may_reuse && !is_cheapest {
+            let is_known = || {
+                let witness = place.read(cheapest);
+                witness.is_some_and(|kept| kept.made == Made::new(of_cheapest, &files))
+            };
+            if let Some(kept) = kept.filter(|_| is_known()) {
+                return Ok(Answer {
+                    is_reused: true,
+                    ..kept.answer
+                });
+            }
+            let answer = run()?;
+            place.write(label, made, &answer)?;
+            return Ok(answer);
+        }
+        let mut answer = run()?;
+        if let Some(kept) = kept.filter(|_| place.may_reuse) {
+            answer.differs = difference(&kept.answer, &answer, self.tolerance);
+        }
+        if answer.differs.is_none() {
+            place.write(label, made, &answer)?;
+        }
+        Ok(answer)
+    }
+
+    fn hashes(&self) -> Result<Vec<HashedFile>, CaseFailure> {
+        let hashed = |file: &SourceFile| {
+            let failed = |error| CaseFailure::new(format!("{}: {error}", visible(&file.name)));
+            file.hashed().map_err(failed)
+        };
+        self.files.iter().map(hashed).collect()
+    }
+}
+
+impl Made {
+    fn new(invocation: &Invocation, files: &[HashedFile]) -> Self {
+        Self {
+            command: invocation.words.clone(),
+            directory: invocation.directory.display().to_string(),
+            variables: invocation.variables.clone(),
+            input: invocation.input.clone(),
+            files: files.to_vec(),
+        }
+    }
+}
+
+impl Place {
+    fn file(&self, label: &str) -> PathBuf {
+        let name = format!("{:016x}.json", content_hash(label.as_bytes()));
+        self.folder.join(name)
+    }
+
+    /// The kept answer of a case; `None` if there is none that can be read.
+    fn read(&self, label: &str) -> Option<KeptAnswer> {
+        let text = fs::read_to_string(self.file(label)).ok()?;
+        serde_json::from_str(&text).ok()
+    }
+
+    /// Keeps an answer, if it is complete.
+    fn write(&self, label: &str, made: Made, answer: &Answer) -> Result<(), CaseFailure> {
+        if answer.failure.is_some() {
+            return Ok(());
+        }
+        let answer = answer.clone();
+        let text = json(&KeptAnswer { made, answer })?;
+        fs::create_dir_all(&self.folder)?;
+        Ok(atomic::write(&self.file(label), text)?)
+    }
+}
+
+/// What two answers do not have in common, within a relative tolerance.
+fn difference(before: &Answer, now: &Answer, tolerance: f64) -> Option<String> {
+    let steps = |answer: &Answer| {
+        let steps = [("h", answer.h), ("dt", answer.dt)].into_iter();
+        let steps = steps.filter_map(|(name, step)| Some(NamedNumber::new(name, step?)));
+        [
+            steps.collect(),
+            answer.errors.clone(),
+            answer.values.clone(),
+        ]
+        .concat()
+    };
+    let (before, now): (Vec<NamedNumber>, Vec<NamedNumber>) = (steps(before), steps(now));
+    let is_same = |one: &NamedNumber| {
+        let other = NamedNumber::find(&now, &one.name);
+        other.is_some_and(|other| (other - one.value).abs() <= tolerance * one.value.abs())
+    };
+    if let Some(one) = before.iter().find(|one| !is_same(one)) {
+        let other = NamedNumber::find(&now, &one.name);
+        let other = other.map_or("missing".to_owned(), error_text);
+        return Some(format!(
+            "{} was {}, is {other}",
+            one.name,
+            error_text(one.value)
+        ));
+    }
+    let is_new = |one: &&NamedNumber| NamedNumber::find(&before, &one.name).is_none();
+    now.iter()
+        .find(is_new)
+        .map(|one| format!("{} is new", one.name))
+}

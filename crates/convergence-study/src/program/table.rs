@@ -1,0 +1,91 @@
+//! The kind `table`: a table or a log that exists, read and judged as `rates` does, and guarded with
+//! the files that it was made from.
+
+mod file;
+mod outcome;
+
+use std::path::Path;
+
+use super::sources::SourceFile;
+use crate::input::advice::CommandLine;
+use crate::input::{InputError, Keys, Section, schema};
+use crate::rates::{self, Request, SourceTable, Tables};
+use crate::study::{
+    Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources, described,
+    read_study,
+};
+use crate::text::visible::visible;
+use file::TableFile;
+
+/// The row of the table of kinds.
+pub const ROW: KindRow = KindRow {
+    name: "table",
+    keys: &[],
+    schema: Some(schema::of::<TableFile>),
+    read: read_study::<Table>,
+    why: "The table holds errors of a program whose exact solution is known; theory gives the order.",
+    judged: "The table is read and judged as `rates` does: every number is a step, an error, or set aside, and a doubt is inconclusive. \
+             The baseline keeps the hashes of the table and of the files that it was made from: if they have changed and the table has not, \
+             it is of another version, and inconclusive.",
+    failure: "The errors of the table do not have the order, or the table cannot be read.",
+};
+
+/// A table that exists.
+#[derive(Debug, Clone)]
+pub(super) struct Table {
+    file: SourceFile,
+    inputs: Vec<SourceFile>,
+    request: Request,
+}
+
+/// What was read.
+pub(super) struct Read {
+    tables: Vec<SourceTable>,
+    sources: Sources,
+}
+
+impl FromFile for Table {
+    const KEYS: &'static [Keys] = &[];
+
+    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        described(root, |file: TableFile| file.table(folder))
+    }
+}
+
+impl Table {
+    /// The hashes of the table and of its inputs.
+    fn sources(&self) -> Result<Sources, CaseFailure> {
+        let hashed = |file: &SourceFile| {
+            let failed = |error| CaseFailure::new(format!("{}: {error}", visible(&file.name)));
+            file.hashed().map_err(failed)
+        };
+        Ok(Sources {
+            table: hashed(&self.file)?,
+            inputs: self.inputs.iter().map(hashed).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl Kind for Table {
+    type Data = ();
+    type Found = Read;
+
+    fn cases(&self) -> Vec<Case<()>> {
+        vec![Case::new(&self.file.name, 1.0, ())]
+    }
+
+    fn run(&self, (): &()) -> Result<Read, CaseFailure> {
+        let path = self.file.path.display().to_string();
+        let surface = CommandLine { command: None };
+        let tables = rates::read(Tables::File(&path), &self.request.choice());
+        let refused = |refusal: rates::Refusal| CaseFailure::new(refusal.words(&surface));
+        Ok(Read {
+            tables: tables.map_err(refused)?,
+            sources: self.sources()?,
+        })
+    }
+
+    fn judge(&self, ran: &[Ran<(), Read>]) -> Outcome {
+        outcome::judge(self, ran)
+    }
+}

@@ -1,0 +1,131 @@
+//! From the tables of a file to an outcome: rates as `rates` judges them, doubts, and what is
+//! guarded.
+
+use super::{Read, Table};
+use crate::input::advice::CommandLine;
+use crate::judge::verdict::Verdict;
+use crate::rates::{self, Judgement};
+use crate::study::kind::completion_check;
+use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
+use crate::study::{Axis, Check, Figure, NamedRate, Outcome, Quantity, Ran, Subject};
+use crate::text::named::NamedNumber;
+use crate::text::number::plain_text;
+
+pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
+    let completion = completion_check(ran, |_| vec![]);
+    let Some(read) = ran.first().and_then(Ran::ok) else {
+        return Outcome::new("the table has not been read", vec![], vec![completion]);
+    };
+    // No command is offered.
+    let found = match rates::judgements("convergence-study", &read.tables, &study.request) {
+        Ok(found) => found,
+        Err(refusal) => {
+            let words = refusal.words(&CommandLine { command: None });
+            let check = Check::that(false, "the claims are about its columns", &*words);
+            let check = check.about(Subject::of("claims"));
+            return Outcome::new(words, vec![], vec![completion, check]);
+        }
+    };
+    let mut all = Outcome::new("", vec![], vec![completion]);
+    for (k, judgement) in found.iter().enumerate() {
+        all.extend(of_table(judgement, k + 1, found.len() > 1));
+    }
+    let readings = found.iter().map(Judgement::reading);
+    let readings = readings.collect::<Vec<_>>().join("; ");
+    let summary = [over_levels::summary(&all.rates), readings].join("; ");
+    Outcome {
+        summary: summary.trim_start_matches("; ").into(),
+        sources: Some(read.sources.clone()),
+        ..all
+    }
+}
+
+/// * `number`: of the table, from 1; `is_one_of_several`: whether names need that of the table.
+fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -> Outcome {
+    let named = |name: &str| match judgement.heading() {
+        _ if !is_one_of_several => name.to_owned(),
+        "" => format!("Table {number}: {name}"),
+        heading => format!("{heading}: {name}"),
+    };
+    let judged: Vec<_> = judgement.judged_columns().collect();
+    let longest = judged.iter().map(|one| &one.column.levels);
+    let longest = longest.max_by_key(|levels| levels.len());
+    let steps = longest.into_iter().flatten().map(|level| level.step);
+    let label = |step: f64| format!("{} = {}", judgement.step(), plain_text(step));
+    let refinements: Vec<Refinement> = steps
+        .map(|step| Refinement {
+            label: label(step),
+            parameters: vec![NamedNumber::new(judgement.step(), step)],
+            step,
+        })
+        .collect();
+    let rates: Vec<NamedRate> = judged
+        .iter()
+        .filter(|one| one.claim.is_some())
+        .map(|one| NamedRate::new(named(&one.column.name), one.rate.clone()))
+        .collect();
+    let columns = judged.iter().map(|one| {
+        // Some columns lack coarse levels.
+        let lacking = refinements.len() - one.column.levels.len();
+        let numbers = one.column.levels.iter().map(|level| Some(level.error));
+        let numbers = std::iter::repeat_n(None, lacking).chain(numbers);
+        ErrorColumn {
+            claim: one.claim,
+            ..ErrorColumn::without_claim(named(&one.column.name), numbers)
+        }
+    });
+    let levels = Levels::new(Axis::Space, refinements.clone(), columns);
+    let mut quantities = levels.quantities(&rates);
+    for quantity in &mut quantities {
+        rename_value(quantity, &judged, &named);
+    }
+    quantities.retain(|quantity| quantity.value.is_finite());
+    let what = if is_one_of_several {
+        format!("errors-{number}")
+    } else {
+        "errors".to_owned()
+    };
+    let figure = Figure::new(&what, "Errors over steps.", rates::figure(judgement));
+    let mut outcome = Outcome {
+        levels: levels.errors(),
+        quantities,
+        figures: vec![figure],
+        ..Outcome::new("", rates, doubts(judgement))
+    };
+    // What the reader and the rule say of the whole table.
+    outcome.verdict = Verdict::worst([outcome.verdict, judgement.verdict()]);
+    outcome
+}
+
+/// Numbers of values are called values.
+fn rename_value(
+    quantity: &mut Quantity,
+    judged: &[&rates::JudgedColumn<'_>],
+    named: &impl Fn(&str) -> String,
+) {
+    let is_value = |one: &&&rates::JudgedColumn<'_>| {
+        one.is_value() && named(&one.column.name) == quantity.subject.quantity
+    };
+    if judged.iter().any(|one| is_value(&one))
+        && let Some(rest) = quantity.name.strip_prefix("error ")
+    {
+        quantity.name = format!("value {rest}");
+    }
+}
+
+/// An inconclusive check for each doubt, and for a table of which nothing is claimed.
+fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
+    let inconclusive = |claim: &str, words: String| Check {
+        verdict: Verdict::Inconclusive,
+        ..Check::that(false, claim, words).about(Subject::of("table"))
+    };
+    let doubts = judgement.doubts_that_count();
+    let mut checks: Vec<Check> = doubts
+        .map(|doubt| inconclusive("the table is read without a doubt", doubt.to_string()))
+        .collect();
+    if judgement.judged_columns().all(|one| one.claim.is_none()) {
+        let words = "no order of a column is claimed".to_owned();
+        checks.push(inconclusive("an order is claimed of each table", words));
+    }
+    checks
+}

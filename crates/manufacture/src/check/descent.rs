@@ -10,7 +10,7 @@ const MOST: usize = 4;
 /// A margin below this share of the largest one goes to zero.
 const NEXT_TO_ZERO: f64 = 1e-14;
 
-/// A coordinate so near to zero, in lengths of its side, may be zero.
+/// A coordinate so near to zero may be zero.
 const NEAR: f64 = 1e-12;
 
 /// The first step downhill, and the distance of the starts, in lengths of the sides.
@@ -55,17 +55,25 @@ impl Descent<'_, '_> {
         let negative = sample.iter().filter(|entry| entry.1.value < 0.0);
         for (one, other) in positive.zip(negative).take(MOST) {
             places.push(self.approach(one.0, other.0));
-            places.push(self.approach(other.0, one.0));
         }
-        places.extend(
-            self.starts(sample)
-                .into_iter()
-                .map(|start| self.down(start)),
-        );
+        let starts = self.starts(sample).into_iter();
+        places.extend(starts.map(|start| self.down(start)));
         let places = places.into_iter().map(|point| self.snapped(point));
         places
             .filter(|point| self.at(point).is_some_and(|at| self.is_lost(at)))
             .collect()
+    }
+
+    /// The point, with zeros in place of coordinates next to zero, if the margin is lost there.
+    fn snapped(&self, point: Vec<f64>) -> Vec<f64> {
+        let snapped: Vec<f64> = point
+            .iter()
+            .map(|x| if x.abs() <= NEAR { 0.0 } else { *x })
+            .collect();
+        match self.at(&snapped) {
+            Some(at) if self.is_lost(at) => snapped,
+            _ => point,
+        }
     }
 
     /// Points with the smallest margins, apart from each other.
@@ -160,18 +168,6 @@ impl Descent<'_, '_> {
             }
         }
         point
-    }
-
-    /// The point, with zeros in place of coordinates next to zero, if the margin is lost there.
-    fn snapped(&self, point: Vec<f64>) -> Vec<f64> {
-        let pairs = point.iter().zip(&self.sides);
-        let is_next = |x: f64, [low, high]: [f64; 2]| x.abs() <= NEAR * (high - low);
-        let snapped = pairs.map(|(x, side)| if is_next(*x, *side) { 0.0 } else { *x });
-        let snapped: Vec<f64> = snapped.collect();
-        match self.at(&snapped) {
-            Some(at) if self.is_lost(at) => snapped,
-            _ => point,
-        }
     }
 
     /// Points at a distance, in lengths of the sides, along the axes and along random directions.

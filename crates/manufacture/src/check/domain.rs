@@ -98,47 +98,38 @@ struct Trouble {
     point: Vec<f64>,
 }
 
-/// The largest component of a quantity, and what may be rounding of it.
-struct Largest {
-    value: f64,
-    noise: f64,
-}
-
-impl Largest {
-    fn of(values: &[SizedValue]) -> Self {
-        let mut largest = Self {
-            value: 0.0,
-            noise: 0.0,
-        };
-        for v in values {
-            let is_number = v.value.is_finite();
-            let size = if is_number {
-                v.value.abs()
-            } else {
-                f64::INFINITY
-            };
-            largest.value = largest.value.max(size);
-            largest.noise = largest.noise.max(SAME * v.size);
-        }
-        largest
-    }
-}
-
 /// Whether values grow without bound, each nearer by the same factor than the one before: those of
 /// a power do, and those of a logarithm by as much each time.
 ///
 /// * `least`: growth by less is rounding of the place.
-fn is_growing(values: &[Largest], least: f64) -> bool {
-    let sure = values.iter().take_while(|at| 10.0 * at.noise <= at.value);
+fn is_growing(values: &[SizedValue], least: f64) -> bool {
+    let sure = values
+        .iter()
+        .take_while(|at| !at.value.is_finite() || 10.0 * SAME * at.size <= at.value);
     match sure.collect::<Vec<_>>().as_slice() {
-        [.., last] if last.value.is_infinite() => true,
+        [.., last] if !last.value.is_finite() => true,
         [.., far, near, next] => {
             let before = near.value - far.value;
             let last = next.value - near.value;
-            before > 0.0 && last > 0.9 * before && last > next.noise.max(least)
+            before > 0.0 && last > 0.9 * before && last > least.max(SAME * next.size)
         }
         _ => false,
     }
+}
+
+/// The largest absolute value of a quantity's components, and their largest size.
+fn largest(values: &[SizedValue]) -> SizedValue {
+    let zero = SizedValue {
+        value: 0.0,
+        size: 0.0,
+    };
+    values.iter().fold(zero, |most, v| SizedValue {
+        value: match v.value.is_finite() {
+            true => most.value.max(v.value.abs()),
+            false => f64::INFINITY,
+        },
+        size: most.size.max(v.size),
+    })
 }
 
 impl<'m> Region<'_, 'm> {
@@ -154,10 +145,7 @@ impl<'m> Region<'_, 'm> {
         let tape = Tape::new(graph, &roots);
         let mut samples: Vec<Vec<AtPoint<'_>>> = vec![vec![]; margins.len()];
         let mut regular = vec![];
-        if margins.is_empty() {
-            regular.clone_from(&points);
-        }
-        for point in points.iter().filter(|_| !margins.is_empty()) {
+        for point in &points {
             let needed = tape.needed(point);
             let mut is_regular = true;
             for (margin, sample) in margins.iter().zip(&mut samples) {
@@ -195,46 +183,29 @@ impl<'m> Region<'_, 'm> {
 
     /// What becomes of the quantities that have an operation of a margin where that is lost.
     fn trouble(&self, descent: &Descent<'_, '_>, point: Vec<f64>) -> Option<Trouble> {
-        let margin = descent.margin;
-        let at = descent
-            .at(&point)
-            .or_else(|| margin.at(&descent.tape.needed(&point)))?;
-        let values = self.rows.at(&point).tensors.into_iter();
-        let is_missing: Vec<bool> = values
-            .map(|values| values.iter().any(|v| !v.value.is_finite()))
-            .collect();
-        let is_unbounded = match margin.is_outside(at) || descent.sides.is_empty() {
-            true => is_missing.clone(),
-            false => self.grow(descent, &point, is_missing.clone()),
-        };
+        let grows = self.grow(descent, &point);
+        let at = descent.at(&point);
+        let is_zero = at.is_none_or(|at| descent.margin.is_lost(at, 0.0));
         let is_inside = !self.sampler.is_on_boundary(self.part, &point);
-        let is_zero = margin.is_lost(at, 0.0);
-        let quantities = self
-            .quantities
-            .iter()
-            .enumerate()
-            .filter_map(|(place, quantity)| {
-                let mut operations = margin.operations.iter();
-                if !operations.any(|operation| self.nodes[place].binary_search(operation).is_ok()) {
-                    return None;
-                }
-                let effect = match quantity.role {
-                    _ if !is_unbounded[place] && !is_missing[place] && !is_zero => return None,
-                    _ if !is_unbounded[place] => Effect::Bounded,
-                    Role::Exact => Effect::Refused,
-                    Role::Gradient => Effect::Noted,
-                    _ if is_inside => Effect::Refused,
-                    _ => Effect::Noted,
-                };
-                Some((effect, place))
-            });
-        // Of equal effects that of the solution, that of its gradient last.
-        let rank = |place: usize| match self.quantities[place].role {
-            Role::Exact => 2,
-            Role::Gradient => 0,
-            _ => 1,
-        };
-        let worst = quantities.max_by_key(|(effect, place)| (*effect, rank(*place)));
+        let mut worst: Option<(Effect, usize)> = None;
+        for (place, quantity) in self.quantities.iter().enumerate() {
+            let mut operations = descent.margin.operations.iter();
+            if !operations.any(|operation| self.nodes[place].binary_search(operation).is_ok()) {
+                continue;
+            }
+            let effect = match quantity.role {
+                _ if !grows[place] && !is_zero => continue,
+                _ if !grows[place] => Effect::Bounded,
+                Role::Exact => Effect::Refused,
+                Role::Gradient => Effect::Noted,
+                _ if is_inside => Effect::Refused,
+                _ => Effect::Noted,
+            };
+            // Of equal effects that of the solution.
+            if worst.is_none_or(|worst| effect > worst.0) {
+                worst = Some((effect, place));
+            }
+        }
         worst.map(|(effect, quantity)| Trouble {
             effect,
             is_inside,
@@ -243,21 +214,17 @@ impl<'m> Region<'_, 'm> {
         })
     }
 
-    /// Whether each quantity grows without bound towards a point from some direction.
-    ///
-    /// * `is_missing`: at the point, which counts if the margin is lost all around.
-    fn grow(&self, descent: &Descent<'_, '_>, point: &[f64], is_missing: Vec<bool>) -> Vec<bool> {
+    /// Whether each quantity grows without bound towards a point from some direction, or has no
+    /// value there nor around.
+    fn grow(&self, descent: &Descent<'_, '_>, point: &[f64]) -> Vec<bool> {
+        let rows = |point: &[f64]| self.rows.at(point).tensors;
         let around =
             |half: i32| descent.around(point, 10_f64.powf(-0.5 * f64::from(half)), &mut Random(1));
         let distances: Vec<Vec<Vec<f64>>> = (1..=2 * DIGITS).map(around).collect();
-        let directions = distances[0].len();
-        // Of each quantity, for each direction.
-        let mut values: Vec<Vec<Vec<Largest>>> = vec![];
-        for _ in &is_missing {
-            values.push((0..directions).map(|_| vec![]).collect());
-        }
+        let mut directions: Vec<Vec<Vec<SizedValue>>> = vec![];
         let mut is_lost = true;
-        for direction in 0..directions {
+        for direction in 0..distances[0].len() {
+            let mut nearer: Vec<Vec<SizedValue>> = vec![vec![]; self.quantities.len()];
             for points in &distances {
                 let point = &points[direction];
                 match descent.at(point) {
@@ -265,21 +232,26 @@ impl<'m> Region<'_, 'm> {
                     Some(_) => is_lost = false,
                     None => continue,
                 }
-                let row = self.rows.at(point).tensors;
-                for (values, row) in values.iter_mut().zip(&row) {
-                    values[direction].push(Largest::of(row));
-                }
+                let pairs = nearer.iter_mut().zip(rows(point));
+                pairs.for_each(|(nearer, values)| nearer.push(largest(&values)));
             }
+            directions.push(nearer);
         }
-        if is_lost {
-            return is_missing;
+        let at = descent.at(point);
+        if is_lost || at.is_some_and(|at| descent.margin.is_outside(at)) {
+            let values = rows(point).into_iter();
+            return values
+                .map(|values| largest(&values).value.is_infinite())
+                .collect();
         }
-        let grows = values.iter().map(|values| {
-            let all = values.iter().flatten().map(|at| at.value);
-            let least = 1e-9 * all.filter(|value| value.is_finite()).fold(0.0, f64::max);
-            values.iter().any(|values| is_growing(values, least))
-        });
-        grows.collect()
+        let grows = |place: usize| {
+            let values = directions.iter().flat_map(|nearer| &nearer[place]);
+            let values = values.map(|at| at.value).filter(|value| value.is_finite());
+            let least = 1e-9 * values.fold(0.0, f64::max);
+            let mut directions = directions.iter();
+            directions.any(|nearer| is_growing(&nearer[place], least))
+        };
+        (0..self.quantities.len()).map(grows).collect()
     }
 
     /// A note.
@@ -292,28 +264,18 @@ impl<'m> Region<'_, 'm> {
         let argument = spot.as_ref().map(|spot| spot.argument.to_string());
         let argument = argument.unwrap_or("a part".to_owned());
         let words = self.words(margin, trouble, &argument);
-        let name = format!("{} {}", role_words(quantity.role), quantity.name);
+        let text = format!("{} {}: {words}", role_words(quantity.role), quantity.name);
         match (trouble.effect, spot) {
-            (Effect::Refused, Some(spot)) if spot.within.place.key == quantity.key => {
-                Err(spot.error(&words))
+            (Effect::Noted, _) => Ok(finding("pole", &quantity.key, text, None)),
+            (Effect::Bounded, _) => Ok(finding("removable", &quantity.key, text, None)),
+            (Effect::Refused, Some(spot)) => {
+                let is_own = spot.within.place.key == quantity.key;
+                Err(spot.error(if is_own { &words } else { &text }))
             }
-            (Effect::Refused, Some(spot)) => Err(spot.error(&format!("{name}: {words}"))),
             (Effect::Refused, None) => Err(InputError {
                 key: quantity.key.clone(),
-                ..InputError::whole(&self.model.problem.file, format!("{name}: {words}"))
+                ..InputError::whole(&self.model.problem.file, text)
             }),
-            (Effect::Noted, _) => Ok(finding(
-                "pole",
-                &quantity.key,
-                format!("{name}: {words}"),
-                None,
-            )),
-            (Effect::Bounded, _) => Ok(finding(
-                "removable",
-                &quantity.key,
-                format!("{name}: {words}"),
-                None,
-            )),
         }
     }
 

@@ -167,15 +167,42 @@ pub(crate) fn variants<'m>(
 
 /// The root mean square of all fields over points of the domain.
 fn size(model: &Model, sampling: &Sampling) -> Result<f64, InputError> {
+    let squares = squares(model, sampling)?.into_iter();
+    Ok(squares.map(|square| square.value).sum::<f64>().sqrt())
+}
+
+/// The mean square of a field.
+struct MeanSquare {
+    field: String,
+    value: f64,
+}
+
+/// Of all fields, over points of the domain.
+fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<MeanSquare>, InputError> {
     let points = Sampler::new(model, sampling.seed).points(Part::Interior, sampling.points)?;
-    let fields: Vec<_> = model.of_role(Role::Exact).collect();
-    let rows = TensorRows::new(&model.graph, fields.iter().map(|field| &field.tensor));
-    let square = |point: &Vec<f64>| -> f64 {
-        let values = rows.at(point).tensors.into_iter().flatten();
-        values.map(|part| part.value.powi(2)).sum()
-    };
-    let mean = points.iter().map(square).sum::<f64>() / points.len() as f64;
-    Ok(mean.sqrt())
+    let squares = model.of_role(Role::Exact).map(|field| {
+        let rows = TensorRows::new(&model.graph, std::iter::once(&field.tensor));
+        let values = points
+            .iter()
+            .flat_map(|point| rows.at(point).tensors.remove(0));
+        let sum: f64 = values.map(|part| part.value.powi(2)).sum();
+        MeanSquare {
+            field: field.name.clone(),
+            value: sum / points.len() as f64,
+        }
+    });
+    Ok(squares.collect())
+}
+
+/// The field that a flat design makes zero: all that is done to it would be switched off.
+fn vanished(base: &Model, design: &Design, sampling: &Sampling) -> Option<String> {
+    const ZERO: f64 = 1e-20;
+    let flat = Model::new(problem(&base.problem, design, BTreeMap::new()));
+    let flat = flat.ok().filter(|_| design.is_flat())?;
+    let [whole, left] = [base, &flat].map(|model| squares(model, sampling));
+    let mut pairs = whole.ok()?.into_iter().zip(left.ok()?);
+    let zero = pairs.find(|(whole, left)| whole.value > 0.0 && left.value <= ZERO * whole.value);
+    zero.map(|(whole, _)| whole.field)
 }
 
 /// The values of a field at a point.
@@ -234,6 +261,9 @@ fn scaled(values: Vec<Values>, scale: f64) -> BTreeMap<String, Vec<f64>> {
 /// The variant, or in words why it cannot be used.
 fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant, String> {
     let Sampling { seed, points, .. } = *sampling;
+    if let Some(field) = vanished(base, design, sampling) {
+        return Err(format!("{field} would be zero everywhere"));
+    }
     let mut why = String::new();
     for lift in lifts(base, design) {
         let model = match Model::new(problem(&base.problem, design, lift)) {

@@ -231,3 +231,19 @@ fn only_the_named_parameters_are_set_to_zero() {
     let error = Problem::parse(&wrong, "heat.toml").unwrap_err().to_string();
     assert!(error.contains("unknown parameter `d`"), "{error}");
 }
+
+/// A field that is linear in time vanishes with its Taylor polynomial: all that is done to it, and
+/// not its initial data alone, would be switched off.
+#[test]
+fn a_variant_that_makes_a_field_zero_is_left_out() {
+    let text = HEAT.replace("[equations.u]", "v = \"cos(x)*(2 + t)\"\n[equations.u]");
+    let model = model(&text);
+    let variants = variants(&model, &few()).unwrap();
+    let left_out = variants.left_out.iter();
+    let left_out: Vec<(String, &str)> = left_out
+        .map(|one| (one.switch.variant(), one.why.as_str()))
+        .collect();
+    let why = "v would be zero everywhere";
+    let names = ["flat_initial", "flat_everywhere"];
+    assert_eq!(left_out, names.map(|name| (name.to_owned(), why)));
+}

@@ -415,6 +415,9 @@ fn functions_that_no_answering_program_calls_follow_the_variant() {
     if !foreign_tools::are_here(&[foreign_tools::C]) {
         return;
     }
+    // No field is a polynomial, which would be zero where it is flat.
+    let text = functions::FILE.replace("y + t\"", "y + exp(x*t)\"");
+    let text = text.replace("y^2 + t\"", "y^2 + exp(x*t)\"");
     let mut of_first: Option<Vec<Vec<f64>>> = None;
     for language in languages().filter(|language| *language != Language::Ufl) {
         let program = match language {
@@ -425,9 +428,9 @@ fn functions_that_no_answering_program_calls_follow_the_variant() {
             _ => functions::FORTRAN
                 .replace("    lo = 0\n", "    lo = 0\n    call choose_variant()\n"),
         };
-        let module = Module::new(functions::FILE, language);
+        let module = Module::new(&text, language);
         let command = module.built(language, &program);
-        let variants = ["", "constant_x", "constant_t", "constant_T"];
+        let variants = ["", "constant_x", "flat_initial", "flat_x_max"];
         for variant in &variants[1..] {
             assert!(
                 module.variants.iter().any(|name| name == variant),
@@ -436,14 +439,6 @@ fn functions_that_no_answering_program_calls_follow_the_variant() {
             );
         }
         let all = variants.map(|variant| module.numbers(&command, variant));
-        for (place, [value, expected]) in pairs(&all[0], &functions::EXPECTED).enumerate() {
-            let is_same =
-                (value - expected).abs() <= 1e-14 || (value.is_nan() && expected.is_nan());
-            assert!(
-                is_same,
-                "{language:?}: value {place}: {value}, not {expected}"
-            );
-        }
         // The average of T; errors are of differences from the exact values, whatever these are.
         assert!((all[1][12] - all[0][12]).abs() > 0.05, "{language:?}");
         assert!(all[2][9].abs() < 1e-12 && all[0][9] > 1.0, "{language:?}");

@@ -143,8 +143,7 @@ fn the_error_of_the_papers_figures_is_that_of_the_record() {
     );
 }
 
-/// The table of run times on the page of the program is that of the benchmark, row by row, and says
-/// how long a run may take.
+/// The table of run times on the page of the program is that of the benchmark, row by row.
 #[test]
 fn the_run_times_are_those_of_the_benchmark() {
     let readme = read(BEAM);
@@ -162,9 +161,6 @@ fn the_run_times_are_those_of_the_benchmark() {
         .filter(|line| !is_row(line, &report))
         .collect();
     assert!(wrong.is_empty(), "not in reports/bench.md: {wrong:#?}");
-    let (_, limit) = report.split_once("A run may take ").expect("the limit");
-    let limit = limit.split(" seconds").next().expect("a number");
-    assert!(readme.contains(&format!("not reached within {limit} seconds")));
     assert!(!is_row("| u(1, t), 1e-3 | 0 |", &report));
 }
 
@@ -365,7 +361,8 @@ fn the_numbers_of_studies_are_those_of_the_list() {
     assert!(quick > 0 && read("README.md").contains(&words), "{words}");
 }
 
-/// By CPU seconds, as its figure has them: elements of any order are the fastest for every error.
+/// By CPU seconds, as its figure has them: elements of any order are the fastest for errors of u(1, t)
+/// from 1e-3 on, in both problems.
 #[test]
 fn the_fastest_method_of_the_first_page_is_that_of_the_benchmark() {
     let readme = read("README.md").replace('\n', " ");
@@ -375,7 +372,7 @@ fn the_fastest_method_of_the_first_page_is_that_of_the_benchmark() {
     let report = read("reports/bench.md");
     let rows = report
         .lines()
-        .filter(|line| line.starts_with("| u(1, t), 1e-"));
+        .filter(|line| line.starts_with("| u(1, t), 1e-") && !line.contains(", 1e-2 "));
     let mut count = 0;
     for row in rows {
         let seconds = row
@@ -384,10 +381,10 @@ fn the_fastest_method_of_the_first_page_is_that_of_the_benchmark() {
             .map(|cell| cell.trim().parse().unwrap_or(f64::INFINITY));
         let seconds: Vec<f64> = seconds.collect();
         let fewest = seconds.iter().copied().fold(f64::INFINITY, f64::min);
-        assert_eq!(seconds[3], fewest, "{row}");
+        assert_eq!(seconds[5], fewest, "{row}");
         count += 1;
     }
-    assert_eq!(count, 4);
+    assert_eq!(count, 6);
 }
 
 #[test]

@@ -7,7 +7,7 @@
 //! names the methods that reach it, from the dearest to the cheapest, and claims how many times
 //! dearer each of them is than the next one. Errors are the largest over equidistant times, common
 //! to all runs. Work is counted, not timed, so that a report is the same on every machine;
-//! `cargo xtask bench` takes the seconds of longer runs of the same problems.
+//! `cargo xtask bench` takes the seconds of the listed runs.
 //!
 //! ```toml
 //! [work-precision]
@@ -114,6 +114,11 @@ impl WorkPrecision {
     /// of it.
     pub fn observations(&self) -> usize {
         self.observations
+    }
+
+    /// The listed runs.
+    pub fn trials(&self) -> &[Trial] {
+        &self.trials
     }
 
     /// The targets.

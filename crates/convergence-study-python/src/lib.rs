@@ -7,6 +7,7 @@ mod call;
 mod judged;
 mod levels;
 mod limit;
+mod norms;
 mod rates;
 mod results;
 mod session;
@@ -51,6 +52,8 @@ mod _native {
     use super::judged::{Judgement, failure};
     #[pymodule_export]
     use super::limit::{Limit, limit};
+    #[pymodule_export]
+    use super::norms::norms;
     #[pymodule_export]
     use super::rates::rates;
     #[pymodule_export]

@@ -105,6 +105,9 @@ pub mod study {
     pub mod outcome {
         pub use crate::study::outcome::settle;
     }
+    pub mod norms {
+        pub use crate::study::norms::{all_norms, largest_inside};
+    }
     pub mod over_levels {
         pub use crate::study::over_levels::{ErrorColumn, Levels, rate_table, summary};
     }

@@ -133,7 +133,9 @@ pub use crate::{
         Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
-        levels, measured, unnoticed,
+        levels, measured,
+        norms::norms,
+        unnoticed,
     },
     taylor::{DirectionFindings, TaylorFindings, TaylorTest},
 };
@@ -188,4 +190,5 @@ pub use crate::cli::run_command_line;
 #[doc = include_str!("../book/src/gradients.md")]
 #[doc = include_str!("../book/src/kinds.md")]
 #[doc = include_str!("../book/src/values.md")]
+#[doc = include_str!("../book/src/which.md")]
 struct Pages;

@@ -6,11 +6,12 @@
 'pass'
 
 `judge` and `assert_order` take existing errors, `study` a function that computes them, `limit` values without an exact solution, `rates` a file
-or a text; `taylor` tests gradients and Hessians, `adjoint` an operator and its adjoint. All of them call the Rust crate `convergence-study`; there is no rule in Python.
+or a text; `norms` makes errors of what is at points; `taylor` tests gradients and Hessians, `adjoint` an operator and its adjoint. All of them call the Rust crate `convergence-study`; there is no rule in Python.
 """
 
 from ._judging import assert_order, judge, limit, rates, study
 from ._native import Judgement, Limit, Study, __version__
+from ._norms import norms
 from ._taylor import Taylor, adjoint, taylor
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "assert_order",
     "judge",
     "limit",
+    "norms",
     "rates",
     "study",
     "taylor",

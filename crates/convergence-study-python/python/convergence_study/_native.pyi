@@ -92,6 +92,7 @@ def finish(studies: list[Study], request: Mapping[str, Any]) -> tuple[list[str],
 def rates(
     source: str, is_text: bool, order: Any, tolerance: Optional[float], floor: float, round_off: list[Optional[float]], chosen: Mapping[str, Any]
 ) -> str: ...
+def norms(errors: list[float], weights: list[float], boundary: Optional[list[bool]]) -> list[tuple[str, float]]: ...
 def taylor(
     value: Callable[[list[float]], float],
     slope: Callable[[list[float]], float],

@@ -155,6 +155,7 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let mut checks = exact(study, ran);
     checks.push(completion_check(ran));
     checks.extend(levels.equal_columns());
+    checks.extend(levels.boundary(&rates));
     let values = values::judge(study, ran, &levels.refinements);
     let mut quantities = [levels.quantities(&rates), values.quantities].concat();
     claim_exactness(study, &mut quantities);

@@ -16,6 +16,7 @@ mod in_code;
 pub(crate) mod kind;
 mod measured;
 mod must;
+pub(crate) mod norms;
 pub(crate) mod outcome;
 pub(crate) mod over_levels;
 pub(crate) mod readings;

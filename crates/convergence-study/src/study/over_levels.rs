@@ -1,6 +1,7 @@
 //! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
 //! kinds of study.
 
+mod boundary;
 mod equal;
 #[cfg(feature = "reports")]
 mod figure;
@@ -348,6 +349,7 @@ impl Levels {
     ) -> Outcome {
         checks.extend(self.equal_columns());
         let rates = self.judge();
+        checks.extend(self.boundary(&rates));
         #[cfg(feature = "reports")]
         let figure =
             Some(self.figure(what, subject.map(str::to_owned), caption.to_owned(), &rates));

@@ -22,11 +22,16 @@ pub(crate) fn fenced(page: &str) -> Vec<(String, String)> {
 }
 
 /// Each block of output, with the last command of the block of commands that stands last before it.
+/// What a block of Python prints, the tests of the package compare.
 pub(crate) fn printed(page: &str) -> Vec<Printed> {
     let mut all = vec![];
     let mut command = None;
+    let mut before = String::new();
     for (language, text) in fenced(page) {
+        let is_of_python = before == "python";
+        before.clone_from(&language);
         match language.as_str() {
+            "text" if is_of_python => {}
             "sh" => {
                 command = text
                     .lines()

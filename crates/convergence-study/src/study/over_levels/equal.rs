@@ -1,5 +1,6 @@
 //! Two errors that are one number: answers that are equal on all levels.
 
+use super::boundary::may_be_equal;
 use super::{ErrorColumn, Levels};
 use crate::judge::verdict::{RateVerdict, are_equal, significant_digits};
 use crate::study::{Check, Subject};
@@ -20,6 +21,7 @@ impl Levels {
         let digits = |level: usize| significant_digits(points[level].error);
         self.are_answers
             && one.name != other.name
+            && !may_be_equal(&one.name, &other.name)
             && one.errors == other.errors
             && are_equal(&points, &self.points(other), digits)
     }

@@ -1,0 +1,117 @@
+//! The boundary: the largest error of all points beside that of the points inside.
+
+use super::Levels;
+use crate::judge::fit::Level;
+use crate::judge::verdict::{RateVerdict, Verdict, observe};
+use crate::study::norms::{INSIDE, MAX};
+use crate::study::{Check, NamedRate, Subject};
+use crate::text::number::RATE_PLACES;
+
+impl Levels {
+    /// A check that says so where the boundary has another rate than the points inside: it passes if
+    /// a claim about each of the two does, since theory may say it.
+    ///
+    /// * `rates`: of these levels.
+    pub(crate) fn boundary(&self, rates: &[NamedRate]) -> Option<Check> {
+        let [max, inside] = [self.observed(MAX)?, self.observed(INSIDE)?];
+        let [lower, upper] = [max.interval?, inside.interval?];
+        if !(lower.high < upper.low) {
+            return None;
+        }
+        let passes = |name: &str| {
+            let rate = rates.iter().find(|rate| rate.name == name);
+            rate.is_some_and(|rate| rate.rate.verdict.is_pass())
+        };
+        let [max_in_words, inside_in_words] =
+            [max, inside].map(|rate| rate.rate_in_words(RATE_PLACES));
+        let claim = format!("{MAX} falls as {INSIDE} does");
+        let evidence = format!(
+            "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}"
+        );
+        let verdict = if passes(MAX) && passes(INSIDE) {
+            Verdict::Pass
+        } else {
+            Verdict::Inconclusive
+        };
+        // Where both claims pass, theory says that it does not.
+        let claim = if verdict.is_pass() {
+            format!("{MAX} and {INSIDE} fall as claimed")
+        } else {
+            claim
+        };
+        let evidence = if verdict.is_pass() {
+            evidence
+        } else {
+            evidence + "; claim both"
+        };
+        Some(Check {
+            verdict,
+            ..Check::that(false, claim, evidence).about(Subject::of(MAX))
+        })
+    }
+
+    /// The rate of an error, whatever is claimed of it.
+    fn observed(&self, name: &str) -> Option<RateVerdict> {
+        let column = self.columns.iter().find(|column| column.name == name)?;
+        let points: Vec<Level> = self.points(column);
+        Some(observe(&points, self.floor))
+    }
+}
+
+/// Whether two errors may be one number: the largest error is often one inside.
+pub(super) fn may_be_equal(one: &str, other: &str) -> bool {
+    [[one, other], [other, one]].contains(&[MAX, INSIDE])
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::judge::verdict::Verdict;
+    use crate::study::{ErrorsOverLevels, Outcome, levels, norms::norms};
+
+    /// Errors of second order inside, and of this order at the ends.
+    fn ends(order: f64) -> ErrorsOverLevels<impl Fn(usize) -> [(&'static str, f64); 4]> {
+        levels([16, 32, 64, 128, 256], move |n| {
+            let h = 1.0 / n as f64;
+            let at_end = |i: usize| i == 0 || i == n;
+            let error = |i: usize| match at_end(i) {
+                true => h.powf(order),
+                false => h * h * (i as f64 * h).exp(),
+            };
+            let errors: Vec<f64> = (0..=n).map(error).collect();
+            let boundary: Vec<bool> = (0..=n).map(at_end).collect();
+            norms(&errors, &vec![h; n + 1], &boundary)
+        })
+    }
+
+    fn said(outcome: &Outcome) -> bool {
+        let mut checks = outcome.checks.iter();
+        checks.any(|check| {
+            check
+                .evidence
+                .to_string()
+                .contains("the boundary loses the order")
+        })
+    }
+
+    #[test]
+    fn a_boundary_that_loses_the_order_is_said_unless_both_are_claimed() {
+        let alone = ends(1.0).claim("max inside", 2.0).run().outcome;
+        assert!(alone.verdict == Verdict::Inconclusive && said(&alone));
+        let both = ends(1.0).claim("max inside", 2.0).claim("max", 1.0);
+        let both = both.claim("L2", 1.5).claim("L1", 2.0).run().outcome;
+        assert!(both.verdict.is_pass() && said(&both), "{}", both.summary);
+        let wrong = ends(1.0).claim("max inside", 2.0).claim("max", 2.0);
+        let wrong = wrong.run().outcome;
+        assert!(wrong.verdict == Verdict::Fail && said(&wrong));
+    }
+
+    #[test]
+    fn a_boundary_that_keeps_it_is_not_said_and_equal_maxima_are_no_doubt() {
+        for order in [2.0, 3.0] {
+            let study = ends(order).claim("max inside", 2.0).claim("max", 2.0);
+            let found = study.claim("L1", 2.0).run();
+            assert!(found.outcome.verdict.is_pass(), "{}", found.explained());
+            assert!(!said(&found.outcome));
+        }
+    }
+}

@@ -60,10 +60,7 @@ fn an_unknown_kind_is_refused_with_its_line() {
 
 #[test]
 fn a_source_in_place_of_a_kind_is_refused_with_the_name_of_the_kind() {
-    for (source, kind) in [
-        ("vibration", "orders/vibration"),
-        ("experiment", "runs/experiment"),
-    ] {
+    for (source, kind) in [("vibration", "orders/vibration"), ("scenes", "runs/scenes")] {
         let root = workspace(&[("a.toml", &study("a", source))]);
         unusable(
             &root,

@@ -202,12 +202,10 @@ pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed<'_>> {
     studies
 }
 
-/// Whether a check that does not pass names another study that does not pass.
+/// Whether a check that does not pass is about another study that does not pass.
 fn names_another(not_passed: &NotPassed<'_>, ids: &HashSet<&str>) -> bool {
     let checks = &not_passed.study.outcome.checks;
-    let mut others = checks
-        .iter()
-        .filter(|check| !check.verdict.is_pass())
-        .flat_map(|check| &check.other_studies);
-    others.any(|id| id != not_passed.id() && ids.contains(id.as_str()))
+    let failing = checks.iter().filter(|check| !check.verdict.is_pass());
+    let mut cases = failing.filter_map(|check| check.subject.case.as_deref());
+    cases.any(|id| id != not_passed.id() && ids.contains(id))
 }

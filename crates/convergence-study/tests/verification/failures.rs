@@ -120,15 +120,16 @@ fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
     };
     studies[0].outcome.verdict = Verdict::Fail;
     studies[0].outcome.checks[0].verdict = Verdict::Fail;
-    for (others, expected) in [
-        (&["c-1.0"][..], ["c-1.0", "b", "a-controls"]),
+    for (about, expected) in [
+        (Some("c-1.0"), ["c-1.0", "b", "a-controls"]),
         // Neither itself nor a study that passes is a cause.
-        (&["a-controls", "d"], ["a-controls", "c-1.0", "b"]),
-        (&[], ["a-controls", "c-1.0", "b"]),
+        (Some("a-controls"), ["a-controls", "c-1.0", "b"]),
+        (Some("d"), ["a-controls", "c-1.0", "b"]),
+        (None, ["a-controls", "c-1.0", "b"]),
     ] {
         let check = &mut studies[0].outcome.checks[0];
-        check.other_studies = others.iter().map(|id| (*id).to_owned()).collect();
-        assert_eq!(order(&studies), expected, "{others:?}");
+        check.subject.case = about.map(str::to_owned);
+        assert_eq!(order(&studies), expected, "{about:?}");
     }
 }
 

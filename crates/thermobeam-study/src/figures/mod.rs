@@ -60,9 +60,9 @@ pub(crate) fn look_of_beta(beta: f64) -> usize {
 }
 
 /// The name of a beam by its axial force at rest.
-pub(crate) fn beta_label(beam: &Beam) -> String {
+pub(crate) fn beta_label(beta: f64) -> String {
     // A minus sign, not a hyphen.
-    format!("β = {}", beam.beta).replace('-', "−")
+    format!("β = {beta}").replace('-', "−")
 }
 
 /// Energy β²/(4ρ) of the straight beam at rest; `None` without a Kirchhoff term.

@@ -4,7 +4,6 @@
 //! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
 //! numbers that the baseline guards.
 
-pub mod detects;
 mod interval;
 pub mod orders;
 pub(crate) mod prelude;
@@ -30,18 +29,15 @@ use orders::vibration::Vibration;
 use std::path::Path;
 
 /// One row for each kind; the first is the default, for a file without `kind`.
-pub const KINDS: [KindRow; 13] = [
+pub const KINDS: [KindRow; 10] = [
     Convergence::ROW,
     AnyOrder::ROW,
-    detects::ROW,
     runs::energy::ROW,
     runs::scenes::ROW,
     solvers::ROW,
     Vibration::ROW,
     Frequencies::ROW,
     SelfConvergence::ROW,
-    runs::experiment::ROW,
-    runs::exact_experiments::ROW,
     work_precision::ROW,
     program::ROW,
 ];

@@ -6,9 +6,9 @@ pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
 pub(crate) use convergence_study::file::{Choice, Count, Positive, Refusal, named_file, within};
 pub(crate) use convergence_study::internal::input::schema;
 pub(crate) use convergence_study::{
-    Axis, Case, CaseFailure, Check, Claim, Field, Figure, Form, FromFile, Header, InputError, Key,
-    Keys, Kind, KindRow, NamedRate, Outcome, Quantity, Ran, Reading, Section, Subject, Table,
-    Verdict, completion_check, described, read_study,
+    Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Keys, Kind,
+    KindRow, NamedRate, Outcome, Quantity, Ran, Reading, Section, Subject, Table, Verdict,
+    completion_check, described, read_study,
 };
 
 pub(crate) use schemars::JsonSchema;
@@ -24,23 +24,6 @@ pub(crate) fn largest_of(numbers: impl IntoIterator<Item = f64>) -> Option<f64> 
 /// Whether each value is larger than its predecessor.
 pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
     list.windows(2).all(|pair| pair[0] < pair[1])
-}
-
-/// The table of a file that may have only one of these.
-pub(crate) fn only_table<'t, const N: usize>(
-    root: &Section<'_>,
-    tables: [&'t str; N],
-    allowed: &str,
-) -> Result<&'t str, InputError> {
-    match tables
-        .into_iter()
-        .filter(|table| root.get(table).is_some())
-        .collect::<Vec<_>>()[..]
-    {
-        [] => Err(root.missing(tables[0], allowed)),
-        [only] => Ok(only),
-        [_, second, ..] => Err(root.refuse(second, "a second table", allowed)),
-    }
 }
 
 /// The result of the case with these data; `None` if it failed or was not run.

@@ -8,10 +8,7 @@
 use std::borrow::Cow;
 use std::fmt::{self, Display, Formatter};
 
-use convergence_study::{
-    Field, InputError,
-    file::{Count, Refusal},
-};
+use convergence_study::file::{Count, Refusal};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, de::Error};
 
@@ -123,13 +120,6 @@ impl JsonSchema for Elements {
     }
 }
 
-/// A number of elements that fits into memory.
-pub(crate) fn elements(field: &Field<'_>) -> Result<usize, InputError> {
-    let elements = field.count(1..=usize::MAX)?;
-    let elements = Elements::new(elements).map_err(|error| field.invalid(error))?;
-    Ok(elements.get())
-}
-
 /// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message
 /// names the field at `path`.
 ///
@@ -171,16 +161,6 @@ pub(crate) fn steps_to(path: &str, t_end: f64, dt: f64, most: usize) -> Result<(
     let more = format!(", which is {steps:.3e} steps of {dt:?} to t = {t_end:?}");
     let allowed = format!("at most {:e} steps", most as f64);
     Err(Refusal::written_and(path, more, allowed))
-}
-
-/// As [`steps_to`], about a field that was looked up.
-pub(crate) fn steps_until(
-    field: &Field<'_>,
-    t_end: f64,
-    dt: f64,
-    most: usize,
-) -> Result<(), InputError> {
-    steps_to("", t_end, dt, most).map_err(|refusal| field.locate(refusal))
 }
 
 /// Refuses a mesh that is too fine for a dense method; the message names the field at `path`.

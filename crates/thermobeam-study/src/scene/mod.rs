@@ -58,7 +58,7 @@ use crate::expression::Expression;
 
 use convergence_judge::text::number::counted;
 use convergence_study::{
-    Field, InputError, Section,
+    InputError, Section,
     file::{Refusal, within},
     internal::input,
 };
@@ -176,18 +176,6 @@ impl Scene {
             method,
             t_end,
         })
-    }
-
-    /// The scene of a file named in a field, by a one-step scheme.
-    pub(crate) fn read_one_step(field: &Field<'_>, folder: &Path) -> Result<Self, InputError> {
-        let scene = Self::read(field.file(folder)?)?;
-        match scene.one_step() {
-            Ok(_) => Ok(scene),
-            Err(error) => Err(field.refuse(
-                format!("{}: {error}", field.as_written()),
-                "a scene by a one-step scheme",
-            )),
-        }
     }
 
     /// Its time step; for dG the largest.

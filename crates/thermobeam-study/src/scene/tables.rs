@@ -5,7 +5,6 @@ use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 
 use super::file::{BeamTable, Given, ObstacleTable};
-pub(crate) use crate::scene::limits::elements;
 use convergence_study::file::Refusal;
 
 /// The coefficients of (1.1) and (1.3), which files and negative controls address by name.
@@ -53,11 +52,6 @@ impl Coefficients {
             .filter(|coefficient| **coefficient != 0.0)?;
         *coefficient *= 1.0 + relative;
         Some(self)
-    }
-
-    /// The names of the coefficients that differ.
-    pub(crate) fn differing(mut self, mut other: Self) -> impl Iterator<Item = &'static str> {
-        Self::names().filter(move |name| self.get_mut(name) != other.get_mut(name))
     }
 
     /// The coefficients of the tables `[beam]` and `[obstacles]`.

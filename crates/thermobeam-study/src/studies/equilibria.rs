@@ -8,9 +8,9 @@
 
 use super::paper::{Experiment, experiments};
 use super::prelude::*;
+pub use super::steady::{AtRest, Nearest};
+use super::steady::{cost_to_rest, name_of, settle};
 use crate::error::reference::Traced;
-pub use crate::kinds::runs::steady::{AtRest, Nearest};
-use crate::kinds::runs::steady::{cost_to_rest, name_of, settle};
 use crate::kinds::tables::{Discretisation, level_of_mesh};
 use convergence_judge::judge::richardson;
 use convergence_study::{

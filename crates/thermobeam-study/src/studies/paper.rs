@@ -14,8 +14,12 @@ pub(crate) const OBSTACLES: Obstacles = Obstacles {
 };
 
 /// The paper's mesh and steps, (5.2).
-const RESOLUTION: &str = "mesh = { elements = 100 }
+pub(crate) const RESOLUTION: &str = "mesh = { elements = 100 }
 time = { dt = 1e-4, t_end = 10.0, tolerance = 1e-10 }";
+pub(crate) const ELEMENTS: usize = 100;
+pub(crate) const STEPS: usize = 100_000;
+/// The end of the figures.
+pub(crate) const T_END: f64 = 10.0;
 
 /// One of the experiments.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +62,11 @@ pub(crate) fn experiments() -> impl Iterator<Item = Experiment> {
 }
 
 impl Experiment {
+    /// The energy of the straight beam at rest, β²/(4ρ).
+    pub(crate) fn straight_energy(self) -> f64 {
+        self.beta * self.beta / 4.0
+    }
+
     /// Its scene, at the paper's resolution.
     pub(crate) fn scene(self) -> Result<Scene, InputError> {
         self.by(RESOLUTION)
@@ -86,5 +95,66 @@ initial = {{ u = \"0.01*x*(x-2)\", u_t = \"20*x*(x-1)^2\", theta = \"{theta}\" }
 "
         );
         Scene::parse(&text, &format!("{name}.toml"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use std::{f64::consts::PI, path::Path};
+    use thermobeam::parameters::Beam;
+
+    /// What the paper prints, (5.1) and (5.3) to (5.5), as functions, and the files in `studies/`.
+    #[test]
+    fn the_experiments_have_the_data_that_the_paper_prints() {
+        let names: Vec<&str> = experiments().map(|one| one.name).collect();
+        assert_eq!(names.len(), 7);
+        let expected = [-0.5, 0.0, 5.0].map(|beta| [(0.0, beta), (20.0, beta)]);
+        for (k, experiment) in experiments().enumerate() {
+            let Experiment {
+                name,
+                theta_a,
+                beta,
+            } = experiment;
+            let printed = if k < 6 {
+                expected[k % 3][k / 3]
+            } else {
+                (0.0, -0.8)
+            };
+            assert_eq!((theta_a, beta), printed, "{name}");
+            let scene = experiment.scene().expect("a scene");
+            let file = format!("../../studies/scenes/{name}.toml");
+            let file = Scene::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(file));
+            let file = file.unwrap_or_else(|error| panic!("{error}"));
+            for scene in [&scene, &file] {
+                let beam = Beam {
+                    zeta: 0.1,
+                    a: 0.017,
+                    rho: 1.0,
+                    beta,
+                    theta_a,
+                };
+                assert_eq!((scene.beam, scene.obstacles), (beam, Some(OBSTACLES)));
+                assert_eq!((scene.t_end, scene.steps()), (T_END, STEPS));
+                assert_eq!(scene.mesh.elements(), ELEMENTS);
+                let initial = &scene.initial;
+                assert!(initial.phi.is_none() && initial.phi_t.is_none());
+                let heat = |x: f64| match theta_a {
+                    0.0 => (PI * x).sin(),
+                    _ => 20.0 * (2.5 * PI * x).cos(),
+                };
+                for x in (0..=64).map(|k| f64::from(k) / 64.0) {
+                    for (found, printed) in [
+                        (&initial.u, 0.01 * x * (x - 2.0)),
+                        (&initial.u_t, 20.0 * x * (x - 1.0).powi(2)),
+                        (&initial.theta, heat(x)),
+                    ] {
+                        let found = found.as_ref().expect("a function").eval(x);
+                        assert!((found - printed).abs() <= 1e-13, "{name}: {found}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -45,9 +45,6 @@ pub struct Check {
     /// Whose statement it is; [`Origin::Own`] in records that do not say.
     #[serde(default)]
     pub origin: Origin,
-    /// Ids of the other studies that do not pass, where it judges those.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub other_studies: Vec<String>,
 }
 
 impl Check {
@@ -60,7 +57,6 @@ impl Check {
             subject: Subject::default(),
             evidence: evidence.into(),
             origin: Origin::Own,
-            other_studies: vec![],
         }
     }
 

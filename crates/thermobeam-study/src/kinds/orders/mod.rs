@@ -9,7 +9,7 @@ pub mod any_order;
 pub mod frequencies;
 pub mod manufactured;
 mod one_step;
-pub(in crate::kinds) mod planted;
+pub(crate) mod planted;
 pub mod self_convergence;
 pub mod vibration;
 

@@ -7,11 +7,8 @@
 pub mod cases;
 pub mod checks;
 pub mod energy;
-pub mod exact_experiments;
-pub mod experiment;
 pub mod scenes;
 pub(crate) mod side_by_side;
-pub(crate) mod steady;
 pub(crate) mod watch;
 
 use super::prelude::*;

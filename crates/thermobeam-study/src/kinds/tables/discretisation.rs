@@ -10,31 +10,6 @@ use crate::scene::{
     resampled,
 };
 
-/// The keys of a discretisation.
-const DISCRETISATION_KEYS: [Key; 6] = [
-    Key::new("elements", Form::Count(1), "number of elements"),
-    Key::new("degree", Form::Count(1), "degree p in space"),
-    Key::new("time_degree", Form::Count(0), "degree q in time"),
-    Key::new("dt", Form::Positive, "the largest step"),
-    Key::new(
-        "restart_dt",
-        Form::Positive,
-        "the first step, at the start and after each contact event",
-    ),
-    Key::new(
-        "growth",
-        Form::Number,
-        "factor of the steps in between, at least 1",
-    ),
-];
-
-/// Two tables with these keys.
-pub(crate) const DISCRETISATIONS: Key = Key::new(
-    "discretisations",
-    Form::List(&Form::Table(&[&[&DISCRETISATION_KEYS]])),
-    "the two discretisations by dG that are compared",
-);
-
 /// The cost of a solve per unknown, in steps of a one-step scheme.
 const COST: f64 = 30.0;
 
@@ -147,18 +122,6 @@ impl DiscretisationTable {
 /// * `elements`: for the semi-discrete system of a mesh, its number of linear elements, which both
 ///   must have; otherwise the two must differ in elements and degree.
 /// * `t_end`: the final time of the runs.
-pub(crate) fn discretisations(
-    root: &Section<'_>,
-    key: &str,
-    elements: Option<usize>,
-    t_end: f64,
-) -> Result<[Discretisation; 2], InputError> {
-    let one = |item: &Field<'_>| item.section()?.read();
-    let list = root.list(key, "two tables", one, |_| true)?;
-    two_discretisations(&list, key, elements, t_end).map_err(|refusal| root.locate(refusal))
-}
-
-/// As [`discretisations`], of tables that were read.
 pub(crate) fn two_discretisations(
     tables: &[DiscretisationTable],
     key: &str,

@@ -23,9 +23,7 @@ use crate::{
 };
 
 pub use discretisation::Discretisation;
-pub(crate) use discretisation::{
-    DISCRETISATIONS, DiscretisationTable, discretisations, two_discretisations,
-};
+pub(crate) use discretisation::{DiscretisationTable, two_discretisations};
 pub use refine::{Layout, Perturbation, Refine};
 pub(crate) use refine::{RefineTable, level_of_mesh, mean_width};
 

@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use convergence_judge::{interval::Interval, time_limit::Patience};
 use thermobeam_exact::equilibrium::{Equilibrium, EquilibriumError, Phase, Proof, enclose_change};
 
-use crate::kinds::runs::steady::exact_states;
 use crate::scene::Scene;
+use crate::studies::steady::exact_states;
 use convergence_study::CaseFailure;
 
 /// Half the width of the close-up of a fork.

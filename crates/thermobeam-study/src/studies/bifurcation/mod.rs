@@ -12,8 +12,8 @@ mod judge;
 
 use super::paper::{Experiment, FIRST, SECOND};
 use super::prelude::*;
-pub use crate::kinds::runs::steady::AtRest;
-use crate::kinds::runs::steady::ToRest;
+pub use crate::studies::steady::AtRest;
+use crate::studies::steady::{MethodToRest, ToRest};
 pub use branches::Diagram;
 use buckling::discrete_buckling_force;
 use thermobeam::mesh::Mesh;
@@ -41,17 +41,23 @@ const RESTS: [f64; 22] = [
     -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0,
 ];
 
+/// How they are run.
+const TO_REST: ToRest = ToRest {
+    method: MethodToRest::OneStep {
+        elements: 32,
+        dt: 0.1,
+    },
+    speed: 1e-8,
+    t_max: 3000.0,
+};
+
 /// The branches, the buckling forces and the runs to rest.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bifurcation {
-    rest: ToRest,
-}
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bifurcation;
 
 /// The study.
 pub fn study() -> Described<InCode<Bifurcation>> {
-    ABOUT.study(Bifurcation {
-        rest: ToRest::by_one_step(RESTS.to_vec(), [32.0, 0.1], [1e-8, 3000.0]),
-    })
+    ABOUT.study(Bifurcation)
 }
 
 /// β of the diagrams.
@@ -127,7 +133,7 @@ impl Runs for Bifurcation {
             for (place, beta) in RESTS.iter().enumerate() {
                 let label = format!("to rest, θ_A = {}, β = {beta}", scene.theta_a);
                 let task = DiagramTask::Rest(k, place);
-                runs.push(Case::new(label, self.rest.cost(), task));
+                runs.push(Case::new(label, TO_REST.cost(), task));
             }
         }
         runs
@@ -142,7 +148,7 @@ impl Runs for Bifurcation {
                 BifurcationResult::Force(discrete_buckling_force(&Mesh::uniform(n)?)?)
             }
             DiagramTask::Rest(k, place) => {
-                BifurcationResult::Rest(self.rest.run(&SCENES[k].scene()?, place)?)
+                BifurcationResult::Rest(TO_REST.run(&SCENES[k].scene()?, RESTS[place])?)
             }
         })
     }

@@ -29,7 +29,6 @@ mod judge;
 
 use super::paper::{FIRST, SECOND};
 use super::prelude::*;
-use crate::kinds::runs::steady::{cost_to_rest, settle};
 use crate::run::{
     ObservableMotion, RunError,
     driver::Driver,
@@ -37,7 +36,7 @@ use crate::run::{
     simulate::{self, Recording, Simulator},
 };
 use crate::scene::Scene;
-use convergence_judge::text::number::max_or_nan;
+use crate::studies::steady::{cost_to_rest, settle};
 use thermobeam::{error::StepFailure, mesh::Mesh, parameters::Obstacles, solve::Solver};
 
 /// What the study says about itself.

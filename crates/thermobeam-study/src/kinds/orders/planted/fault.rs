@@ -1,6 +1,5 @@
 //! The planted faults, and what each changes.
 
-use crate::kinds::prelude::*;
 use crate::{exact::defect::Defect, scene::Coefficients};
 
 /// The fault of a run.
@@ -25,7 +24,7 @@ pub struct Planted {
 
 impl Fault {
     /// No fault at all, then each coefficient and each defect.
-    pub(in crate::kinds) fn all() -> Vec<Self> {
+    pub(crate) fn all() -> Vec<Self> {
         let defects = Defect::ALL.map(|(defect, _)| Fault::Defect(defect));
         [Fault::None]
             .into_iter()
@@ -35,7 +34,7 @@ impl Fault {
     }
 
     /// In words.
-    pub(in crate::kinds) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Fault::None => "none",
             Fault::Coefficient(key) => key,
@@ -47,7 +46,7 @@ impl Fault {
     ///
     /// * `theory`: coefficients from which the sources are derived.
     /// * `relative`: relative error of a coefficient.
-    pub(in crate::kinds) fn plant(self, theory: Coefficients, relative: f64) -> Option<Planted> {
+    pub(crate) fn plant(self, theory: Coefficients, relative: f64) -> Option<Planted> {
         let solver = match self {
             Fault::Coefficient(key) => theory.off(key, relative)?,
             Fault::None | Fault::Defect(_) => theory,
@@ -61,12 +60,4 @@ impl Fault {
         };
         Some(Planted { solver, defect })
     }
-}
-
-/// In words, what a relative error is.
-pub(in crate::kinds) const RELATIVE: &str = "a number between 0 and 1";
-
-/// A relative error of a coefficient.
-pub(in crate::kinds) fn relative(field: &Field<'_>) -> Result<f64, InputError> {
-    field.number_where(RELATIVE, |r| r > 0.0 && r < 1.0)
 }

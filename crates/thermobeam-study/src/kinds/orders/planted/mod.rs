@@ -1,5 +1,6 @@
 //! A study repeated with a planted fault: would it be noticed?
 
-pub(in crate::kinds) mod fault;
-pub(in crate::kinds) mod plantable;
+pub(crate) mod fault;
+pub(crate) mod plantable;
+mod sources;
 pub(in crate::kinds) mod untested;

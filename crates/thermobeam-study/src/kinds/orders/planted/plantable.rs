@@ -38,7 +38,7 @@ pub trait Plantable: ErrorSource<Found: Clone> {
 }
 
 /// The verdict of a study on the results of its cases.
-pub(in crate::kinds) fn verdict<S: ErrorSource>(source: &S, runs: &Runs<S>) -> Verdict {
+pub(crate) fn verdict<S: ErrorSource>(source: &S, runs: &Runs<S>) -> Verdict {
     for run in runs {
         match run.ok() {
             Some(found) if source.not_finite(found).is_empty() => (),

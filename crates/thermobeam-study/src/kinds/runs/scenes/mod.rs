@@ -40,7 +40,6 @@ use super::{
     Findings, Results, RunStudy, Runs,
     cases::{ClaimedScene, named_cases},
     checks::{Condition, all, at_most, ended},
-    steady::exact_states,
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -60,6 +59,7 @@ use convergence_judge::text::number::short_text;
 use convergence_study::NamedNumber;
 use file::{CaseTable, ScenesFile};
 use shown::{STEADY, listed, unsolved};
+use thermobeam_exact::equilibrium::equilibria;
 
 pub use shown::{COUNTS, NUMBERS, Shown};
 
@@ -385,7 +385,7 @@ impl Whole {
         }
         if self.answer.has(STEADY) {
             let mut pairs = vec![];
-            for state in exact_states(scene)? {
+            for state in equilibria(&scene.beam, scene.obstacles.as_ref())? {
                 // Infinitely many unstable directions are no number of an answer.
                 let unstable = state
                     .unstable_directions

@@ -1,5 +1,4 @@
-//! The scenes listed in a study file, their runs to rest, and the exact steady states in which they
-//! should end.
+//! Runs to rest, and the exact steady states in which they should end.
 
 use std::ops::ControlFlow;
 
@@ -7,51 +6,27 @@ use thermobeam_exact::equilibrium::{
     Completeness, Equilibrium, EquilibriumError, Phase, completeness, equilibria,
 };
 
-use crate::kinds::prelude::*;
+use super::prelude::*;
 use crate::{
     kinds::tables::Discretisation,
     run::{ObservableMotion, Report, RunError, run, simulate},
-    scene::{Method, Scene, limits, resampled},
+    scene::{Method, Scene, resampled},
 };
-use convergence_study::internal::input::POSITIVE;
 use thermobeam::{mesh::Mesh, solve::Level};
 
-/// Reads the scene of a file name; it must have obstacles.
-pub(crate) fn listed_scene(field: &Field<'_>, folder: &Path) -> Result<Scene, InputError> {
-    let scene = Scene::read_one_step(field, folder)?;
-    if scene.obstacles.is_none() {
-        return Err(field.refuse(
-            format!("{}, without obstacles", scene.name),
-            "a scene with obstacles",
-        ));
-    }
-    Ok(scene)
-}
-
-/// The largest velocity that counts as rest.
-pub(crate) const SPEED: Key = Key::new(
-    "speed",
-    Form::Positive,
-    "the largest velocity that counts as rest",
-);
-/// The limit of a run.
-pub(crate) const T_MAX: Key = Key::new("t_max", Form::Positive, "time by which the beam must rest");
-const BETAS: Key = Key::new("beta", Form::List(&Form::Number), "values of β, ascending");
-
-/// Settings of the runs to rest: with these β, until the beam is slow.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ToRest {
-    pub(crate) betas: Vec<f64>,
-    method: MethodToRest,
+/// Runs until the beam is slow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ToRest {
+    pub(super) method: MethodToRest,
     /// Largest velocity that counts as rest.
-    speed: f64,
+    pub(super) speed: f64,
     /// A longer run fails.
-    t_max: f64,
+    pub(super) t_max: f64,
 }
 
 /// How a beam is stepped until it rests.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum MethodToRest {
+pub(super) enum MethodToRest {
     /// By the scheme of its scene, on a uniform mesh.
     OneStep { elements: usize, dt: f64 },
     /// By dG.
@@ -63,62 +38,19 @@ enum MethodToRest {
 const COMPARED: usize = 32;
 
 impl ToRest {
-    /// The keys of a table for runs by dG.
-    pub(crate) const ANY_ORDER_KEYS: [Key; 3] = [BETAS, SPEED, T_MAX];
-
-    /// Reads a table with [`ToRest::ANY_ORDER_KEYS`].
-    pub(crate) fn read_any_order(
-        section: &Section<'_>,
-        discretisation: Discretisation,
-    ) -> Result<Self, InputError> {
-        let t_max = section.positive("t_max")?;
-        let field = section.require("t_max", POSITIVE)?;
-        limits::steps_until(&field, t_max, discretisation.stepping.dt, limits::STEPS)?;
-        Self::with(section, MethodToRest::AnyOrder(discretisation), t_max)
-    }
-
-    fn with(section: &Section<'_>, method: MethodToRest, t_max: f64) -> Result<Self, InputError> {
-        let fits = |list: &[f64]| !list.is_empty() && increases(list);
-        Ok(Self {
-            betas: section.list("beta", "a list of numbers, ascending", Field::number, fits)?,
-            method,
-            speed: section.positive("speed")?,
-            t_max,
-        })
-    }
-
-    /// By the scheme of the scene, on a uniform mesh.
-    ///
-    /// * `elements_and_dt`: of the mesh, and of each step.
-    /// * `speed_and_t_max`: what counts as rest, and when it must be reached.
-    pub(crate) fn by_one_step(
-        betas: Vec<f64>,
-        [elements, dt]: [f64; 2],
-        [speed, t_max]: [f64; 2],
-    ) -> Self {
-        let elements = elements as usize;
-        Self {
-            betas,
-            method: MethodToRest::OneStep { elements, dt },
-            speed,
-            t_max,
-        }
-    }
-
     /// What a run costs.
-    pub(crate) fn cost(&self) -> f64 {
+    pub(super) fn cost(&self) -> f64 {
         match &self.method {
             MethodToRest::OneStep { elements, dt } => cost_to_rest(*elements, *dt),
             MethodToRest::AnyOrder(discretisation) => discretisation.cost(RESTS),
         }
     }
 
-    /// Runs the scene with the β of this index to rest.
+    /// Runs the scene with this β to rest.
     ///
     /// # Errors
     /// As [`settle`], and if the steady states cannot be found.
-    pub(crate) fn run(&self, scene: &Scene, place: usize) -> Result<AtRest, CaseFailure> {
-        let beta = self.betas[place];
+    pub(super) fn run(&self, scene: &Scene, beta: f64) -> Result<AtRest, CaseFailure> {
         let mut scene = match &self.method {
             MethodToRest::OneStep { elements, dt } => scene.at(Mesh::uniform(*elements)?, *dt),
             MethodToRest::AnyOrder(discretisation) => discretisation.of(scene, self.t_max)?,
@@ -134,7 +66,7 @@ impl ToRest {
 ///
 /// # Errors
 /// The mesh has elements that are too small.
-pub(crate) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
+pub(super) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
     Ok(match scene.method {
         Method::OneStep(_) => scene.mesh.clone(),
         Method::Dg(_) => resampled(&scene.mesh, COMPARED)?,
@@ -145,7 +77,7 @@ pub(crate) fn compared(scene: &Scene) -> Result<Mesh, CaseFailure> {
 const RESTS: f64 = 200.0;
 
 /// The cost until a beam has come to rest.
-pub(crate) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
+pub(super) fn cost_to_rest(elements: usize, dt: f64) -> f64 {
     RESTS / dt * elements as f64
 }
 
@@ -173,7 +105,7 @@ impl AtRest {
     ///
     /// # Errors
     /// The steady states cannot be found.
-    pub(crate) fn of(
+    pub(super) fn of(
         scene: &Scene,
         mesh: &Mesh,
         t: f64,
@@ -193,7 +125,7 @@ impl AtRest {
     }
 
     /// The number of steady states, in words: a list that may lack some gives only a least number.
-    pub(crate) fn count(&self) -> String {
+    pub(super) fn count(&self) -> String {
         if self.is_complete {
             self.states.to_string()
         } else {
@@ -202,29 +134,29 @@ impl AtRest {
     }
 
     /// u(1) and φ(1) of the nearest exact steady state; NaN if there is none.
-    pub(crate) fn exact_tip(&self) -> [f64; 2] {
+    pub(super) fn exact_tip(&self) -> [f64; 2] {
         self.nearest.map_or([f64::NAN; 2], |Nearest { state, .. }| {
             [state.u_tip, state.phi_tip]
         })
     }
 
     /// Its distances in u and in φ; NaN if there is none.
-    pub(crate) fn errors(&self) -> [f64; 2] {
+    pub(super) fn errors(&self) -> [f64; 2] {
         self.nearest.map_or([f64::NAN; 2], |nearest| nearest.errors)
     }
 
     /// Its state of contact.
-    pub(crate) fn contact(&self) -> Option<Phase> {
+    pub(super) fn contact(&self) -> Option<Phase> {
         self.nearest.map(|nearest| nearest.state.contact)
     }
 
     /// Distance to the nearest exact steady state; NaN if there is none.
-    pub(crate) fn distance(&self) -> f64 {
+    pub(super) fn distance(&self) -> f64 {
         self.nearest.map_or(f64::NAN, |nearest| nearest.distance)
     }
 
     /// Whether the nearest state is stable.
-    pub(crate) fn is_stable(&self) -> bool {
+    pub(super) fn is_stable(&self) -> bool {
         self.nearest.is_some_and(|nearest| nearest.state.stable)
     }
 }
@@ -241,7 +173,7 @@ const QUIET: f64 = 5.0;
 ///
 /// # Errors
 /// A step that fails, or motion beyond `t_max`.
-pub(crate) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
+pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
     match scene.method {
         Method::OneStep(_) => quiet(
             &mut simulate::driver(scene)?,
@@ -293,7 +225,7 @@ fn quiet<M: ObservableMotion + ?Sized>(
 }
 
 /// All exact steady states of the scene.
-pub(crate) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, EquilibriumError> {
+pub(super) fn exact_states(scene: &Scene) -> Result<Vec<Equilibrium>, EquilibriumError> {
     equilibria(&scene.beam, scene.obstacles.as_ref())
 }
 
@@ -335,7 +267,7 @@ impl Nearest {
 }
 
 /// A contact state in words.
-pub(crate) fn name_of(contact: Phase) -> &'static str {
+pub(super) fn name_of(contact: Phase) -> &'static str {
     match contact {
         Phase::Free => "free",
         Phase::Upper => "on the upper obstacle",

@@ -3,10 +3,10 @@
 
 use convergence_study::internal::chart::{self, Chart, DOTTED, SOLID};
 
-use super::{Experiment, Trace, group::OfExperiment};
-use crate::kinds::prelude::*;
+use super::{OfExperiment, Trace, trace::SAME_TIME};
+use crate::studies::paper::{ELEMENTS, Experiment, STEPS, T_END};
 use crate::{figures, run::Sample};
-use convergence_judge::text::number::{plain_text, short_text};
+use convergence_judge::text::number::{max_or_nan, plain_text, short_text};
 
 /// A quantity over time.
 pub(super) type Points = Vec<(f64, f64)>;
@@ -28,8 +28,6 @@ struct PlottedCurve {
     drawn: Points,
     second: Points,
     paper: Option<Points>,
-    /// The paper's algorithm and its resolution, for the legend.
-    by_the_paper: String,
 }
 
 /// What a figure shows of each run.
@@ -37,10 +35,10 @@ struct PlottedCurve {
 pub(super) struct PlottedSeries {
     /// Its name in the legend; `None`: that of β.
     pub(super) label: Option<&'static str>,
-    pub(super) value: fn(&Experiment, &Sample) -> f64,
+    pub(super) value: fn(Experiment, &Sample) -> f64,
     /// The curve starts here.
     pub(super) from: f64,
-    /// Whether the whole curve is shown; otherwise it ends at the scene's t_end, as in the paper.
+    /// Whether the whole curve is shown; otherwise it ends at t_end, as in the paper.
     pub(super) until_steady: bool,
 }
 
@@ -83,10 +81,10 @@ impl Plotted {
     fn push(&mut self, runs: &OfExperiment<'_>, quantity: &PlottedSeries) {
         let OfExperiment { experiment, .. } = *runs;
         let drawn = quantity.points(experiment, &runs.first.trace);
-        let beam = &experiment.scene.beam;
+        let beta = experiment.beta;
         let (label, look) = match quantity.label {
             Some(label) => (label.to_owned(), self.curves.len()),
-            None => (figures::beta_label(beam), figures::look_of_beta(beam.beta)),
+            None => (figures::beta_label(beta), figures::look_of_beta(beta)),
         };
         self.chart.curve(label, drawn.iter().copied()).look = Some(look);
         self.curves.push(PlottedCurve {
@@ -95,7 +93,6 @@ impl Plotted {
             paper: runs
                 .paper
                 .map(|paper| quantity.points(experiment, &paper.trace)),
-            by_the_paper: by_the_paper(experiment),
         });
     }
 
@@ -159,7 +156,7 @@ impl Plotted {
         for (place, curve) in self.curves.iter().enumerate() {
             if let Some(points) = &curve.paper {
                 chart.series[place].dashes = Some(SOLID);
-                let dots = chart.curve(&curve.by_the_paper, points.iter().copied());
+                let dots = chart.curve(by_the_paper(), points.iter().copied());
                 dots.look = Some(INK);
                 dots.dashes = Some(DOTTED);
                 dots.width = 1.2;
@@ -187,12 +184,12 @@ pub(super) const U_TIP: PlottedSeries = PlottedSeries {
 };
 
 impl PlottedSeries {
-    pub(super) fn points(&self, experiment: &Experiment, trace: &Trace) -> Points {
+    pub(super) fn points(&self, experiment: Experiment, trace: &Trace) -> Points {
         let end = if self.until_steady {
             f64::INFINITY
         } else {
             // Time levels of a one-step scheme differ from t_end by round-off.
-            experiment.scene.t_end * (1.0 + SAME_TIME)
+            T_END * (1.0 + SAME_TIME)
         };
         let mut points = vec![];
         for point in &trace.points {
@@ -203,9 +200,6 @@ impl PlottedSeries {
         points
     }
 }
-
-/// Relative difference of two times that are the same up to round-off.
-const SAME_TIME: f64 = 1e-9;
 
 /// The largest difference as far as both go, in decades on a logarithmic axis; NaN if there is
 /// none, or times differ.
@@ -226,7 +220,8 @@ pub(super) fn largest_difference(is_log: bool, one: &Points, other: &Points) -> 
     differences.reduce(max_or_nan).unwrap_or(f64::NAN)
 }
 
-fn by_the_paper(Experiment { scene, .. }: &Experiment) -> String {
-    let h = 1.0 / scene.mesh.elements() as f64;
-    format!("(4.1)-(4.5), h = {h}, δt = {}", plain_text(scene.dt()))
+/// The paper's algorithm and its resolution, for the legend.
+fn by_the_paper() -> String {
+    let [h, dt] = [1.0 / ELEMENTS as f64, T_END / STEPS as f64];
+    format!("(4.1)-(4.5), h = {h}, δt = {}", plain_text(dt))
 }

@@ -90,9 +90,9 @@ pub mod study {
     pub mod readings {
         pub use crate::study::readings::{guarded, not_finite, table};
     }
-    pub use crate::study::{Described, STEPS, first_repeated, run_cases_here};
     #[cfg(feature = "files")]
-    pub use crate::study::{StudyFile, allow_only};
+    pub use crate::study::StudyFile;
+    pub use crate::study::{Described, STEPS, first_repeated, run_cases_here};
     pub mod coverage {
         pub use crate::study::coverage::NO_RESULT;
     }

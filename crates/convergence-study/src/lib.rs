@@ -151,7 +151,7 @@ pub mod variants {
 #[doc(inline)]
 pub use crate::{
     input::{
-        Complaint, Field, Form, InputError, Key, Keys, Misread, Section,
+        Complaint, Document, InputError, Misread,
         table::{
             Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
         },
@@ -165,7 +165,7 @@ pub use crate::{
 pub mod file {
     pub use crate::input::{
         AllowedText, Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range,
-        Refusal, Texts, named_file, within,
+        Refusal, Texts, named_file, schema::of as schema, within,
     };
 }
 

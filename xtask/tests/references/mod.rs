@@ -187,7 +187,7 @@ fn schema_and_readers_of_studies_allow_the_same_keys() {
     let stricter = BTreeSet::from_iter(stricter);
     assert_eq!(stricter, BTreeSet::from(STRICTER), "{differing:#?}");
     let tried: usize = known.values().map(BTreeSet::len).sum();
-    assert!(tried > 700, "{tried}");
+    assert!(tried > 650, "{tried}");
 }
 
 /// The schema of files that are no studies.

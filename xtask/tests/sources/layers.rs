@@ -71,18 +71,14 @@ const LIBRARIES: [(&str, &[&str]); 11] = [
 ];
 
 /// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 10] = [
+const CRATES: [(&str, &[&str]); 9] = [
     (
         "convergence-calibration",
         &["convergence-judge", "convergence-study"],
     ),
     ("convergence-judge", &[]),
-    ("convergence-keys", &[]),
     ("manufacture", &[]),
-    (
-        "convergence-study",
-        &["convergence-judge", "convergence-keys", "manufacture"],
-    ),
+    ("convergence-study", &["convergence-judge", "manufacture"]),
     ("convergence-study-tests", &["convergence-study"]),
     ("thermobeam", &[]),
     ("thermobeam-exact", &["manufacture", "thermobeam"]),
@@ -90,7 +86,6 @@ const CRATES: [(&str, &[&str]); 10] = [
         "thermobeam-study",
         &[
             "convergence-judge",
-            "convergence-keys",
             "convergence-study",
             "thermobeam",
             "thermobeam-exact",

@@ -4,8 +4,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use convergence_study::{
-    Claim, Form, Header, InputError, Key, KindRow, Project, Section, Study, boxed_study,
-    internal::{cli, program},
+    Claim, Document, Header, InputError, KindRow, Project, Study, boxed_study, described,
+    file::Positive,
+    internal::{cli, input::schema, program},
     levels,
 };
 
@@ -16,12 +17,7 @@ const PROJECT: Project = Project {
     kinds: &[
         KindRow {
             name: "power",
-            keys: &[&[&[Key::new(
-                "exponent",
-                Form::Positive,
-                "errors are h^exponent",
-            )]]],
-            schema: None,
+            schema: schema::of::<PowerFile>,
             read,
             why: "",
             judged: "",
@@ -35,12 +31,18 @@ const PROJECT: Project = Project {
     ..Project::new("powers", "powers")
 };
 
+/// A study of this kind.
+#[derive(serde::Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PowerFile {
+    /// errors are h^exponent
+    exponent: Positive,
+}
+
 /// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no
 /// baseline.
-fn read(header: Header, root: &Section<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
-    let exponent = root
-        .require("exponent", "a number > 0")?
-        .number_where("a number > 0", |value| value > 0.0)?;
+fn read(header: Header, root: &Document<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
+    let exponent = described(root, |file: PowerFile| Ok(file.exponent.get()))?;
     let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
     Ok(boxed_study(

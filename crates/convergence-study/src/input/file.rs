@@ -1,4 +1,4 @@
-//! A table of a file as a struct: serde reads it, and an error names file, line, column, field, what
+//! A file as a struct: serde reads it, and an error names file, line, column, field, what
 //! was found and what is allowed. What a struct cannot say, a condition between fields or an
 //! expression that must be parsed, is a [`Refusal`], which names its field.
 //!
@@ -15,9 +15,18 @@ use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::{Complaint, Field, InputError, Misread, Section, schema, shorten};
+use super::{Complaint, InputError, SourceText, schema, settings, shorten};
 use crate::text::names::nearest;
 use crate::text::visible;
+
+/// An error of a reader of texts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Misread {
+    /// Byte offset in the text.
+    pub offset: usize,
+    /// What is wrong, in words.
+    pub reason: String,
+}
 
 /// Why a file that was read is refused: at which field, and why.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,19 +109,6 @@ impl Refusal {
         Self::of(path, None, complaint)
     }
 
-    /// The error about a value that was looked up.
-    pub(super) fn about(self, field: &Field<'_>) -> InputError {
-        match *self.0 {
-            Reason::File(error) => error,
-            Reason::Field { wrong, .. } => match wrong {
-                Wrong::Written { more, allowed } => {
-                    field.refuse(field.as_written() + &more, allowed)
-                }
-                Wrong::Other { complaint, .. } => field.complain(0, complaint),
-            },
-        }
-    }
-
     fn of(path: impl Into<String>, offset: Option<usize>, complaint: Complaint) -> Self {
         Self(Box::new(Reason::Field {
             path: path.into(),
@@ -154,7 +150,14 @@ pub fn named_file(path: &str, name: &str, folder: &Path) -> Result<PathBuf, Refu
     }
 }
 
-/// A field of a table that has been looked up: its value, if it is there, and the place to name.
+/// A TOML file.
+#[derive(Debug, Clone, Copy)]
+pub struct Document<'a> {
+    pub(super) source: SourceText<'a>,
+    pub(super) table: &'a DeTable<'a>,
+}
+
+/// A field that has been looked up: its value, if it is there, and the place to name.
 struct Found<'a> {
     value: Option<&'a Spanned<DeValue<'a>>>,
     key: Range<usize>,
@@ -167,25 +170,26 @@ impl Found<'_> {
     }
 }
 
-impl<'a> Section<'a> {
-    /// The table as a struct.
+impl<'a> Document<'a> {
+    /// The document as a struct.
     ///
     /// # Errors
     /// A key that is unknown or missing, or a value that is not allowed.
     pub fn read<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, InputError> {
-        self.read_beside(&[])
+        self.read_keys(|_| true)
     }
 
-    /// The table as a struct that does not have these keys, which were read before.
-    pub fn read_beside<T: DeserializeOwned + JsonSchema>(
+    /// The topmost keys for which `is_read` holds as a struct; the others are read elsewhere.
+    pub(crate) fn read_keys<T: DeserializeOwned + JsonSchema>(
         &self,
-        known: &[&str],
+        is_read: impl Fn(&str) -> bool,
     ) -> Result<T, InputError> {
-        let mut table = self.table.clone();
-        for key in known {
-            table.remove(*key);
-        }
-        let table = toml::Deserializer::from(Spanned::new(self.span.clone(), table));
+        let own = self.table.iter();
+        let own = own.filter(|(key, _)| is_read(key.get_ref()));
+        let table = own
+            .map(|(key, value)| (key.clone(), value.clone()))
+            .collect();
+        let table = toml::Deserializer::from(Spanned::new(0..0, table));
         serde_path_to_error::deserialize(table).map_err(|error| {
             let path = match error.path().to_string() {
                 root if root == "." => String::new(),
@@ -195,7 +199,20 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// An error of this table.
+    /// Whether it has this topmost key.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.table.contains_key(key)
+    }
+
+    /// Every value: its dotted path, such as `expect[0].tolerance`, and its text.
+    ///
+    /// Numbers have one text however they are written: 0.05 and 5e-2 are equal. A list of plain
+    /// values is one value.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        settings::of_table(self.table)
+    }
+
+    /// The error of a refusal.
     pub fn locate(&self, refusal: Refusal) -> InputError {
         let (path, wrong) = match *refusal.0 {
             Reason::Field { path, wrong } => (path, wrong),
@@ -268,7 +285,7 @@ impl<'a> Section<'a> {
     fn find(&self, path: &str) -> Found<'a> {
         let mut found = Found {
             value: None,
-            key: self.span.clone(),
+            key: 0..0,
         };
         let mut table = Some(self.table);
         let mut rest = path;
@@ -304,8 +321,7 @@ impl<'a> Section<'a> {
         let text = self.text_of(found).zip(offset);
         let inside = text.and_then(|(text, offset)| Some(self.raw(found).find(text)? + offset));
         let start = found.start() + inside.unwrap_or(0);
-        let path = joined(&self.path, path);
-        let path = Some(path).filter(|path| !path.is_empty());
+        let path = Some(path.to_owned()).filter(|path| !path.is_empty());
         self.source.error(start, path, complaint)
     }
 

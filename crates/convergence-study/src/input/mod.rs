@@ -1,17 +1,14 @@
 //! Reads TOML files; every error names file, line, field, the value found and the values allowed.
 //!
-//! A thin layer over the spanned values of the `toml` crate: a [`Section`] is a table with its
-//! place in the file, a [`Field`] a value with its place. Readers take values from them and never
+//! A [`Document`] is read into a struct, and finds the place of a field in the file: readers never
 //! compute the position of a message.
 
 pub(crate) mod advice;
 mod file;
-mod keys;
 mod ranges;
 pub(crate) mod schema;
 mod settings;
 pub(crate) mod table;
-mod values;
 
 use std::fmt;
 use std::fs::File;
@@ -25,18 +22,17 @@ use toml::de::{DeTable, DeValue};
 use advice::{CommandLine, Surface, Text};
 use table::Offer;
 
-pub use convergence_keys::{Form, Key, Keys};
-
 use crate::text::names::did_you_mean;
 use crate::text::visible;
 
 pub(crate) use crate::text::visible::visible;
-pub use file::{Refusal, named_file, within};
+pub use file::{Document, Misread, Refusal, named_file, within};
 pub use ranges::{
     AllowedText, Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range, Texts,
 };
-pub(crate) use values::shorten;
-pub use values::{Field, Misread, POSITIVE, Section};
+
+/// A finite number > 0, in words.
+pub const POSITIVE: &str = "a finite number > 0";
 
 /// A place in a text file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -237,15 +233,18 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     })
 }
 
-/// Parses `text` and passes its topmost table to `read`.
+/// Parses `text` and passes the document to `read`.
 pub fn parse<T>(
     text: &str,
     file: &str,
-    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+    read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     let source = SourceText { file, text };
     let root = table(source, text)?;
-    read(&Section::root(source, &root))
+    read(&Document {
+        source,
+        table: &root,
+    })
 }
 
 /// As [`parse`]; `read` also receives the folder of the file, to which the file names in it are
@@ -253,7 +252,7 @@ pub fn parse<T>(
 pub fn parse_beside<T>(
     text: &str,
     file: &Path,
-    read: impl FnOnce(&Section<'_>, &Path) -> Result<T, InputError>,
+    read: impl FnOnce(&Document<'_>, &Path) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     let folder = file.parent().unwrap_or(Path::new("."));
     parse(text, &file.display().to_string(), |root| read(root, folder))
@@ -266,7 +265,7 @@ pub fn parse_overlaid<T>(
     text: &str,
     overlay: &str,
     file: &str,
-    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+    read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     let whole = format!("{text}\n{overlay}");
     let source = SourceText { file, text: &whole };
@@ -280,7 +279,25 @@ pub fn parse_overlaid<T>(
             _ => drop(root.insert(key, value)),
         }
     }
-    read(&Section::root(source, &root))
+    read(&Document {
+        source,
+        table: &root,
+    })
+}
+
+/// A piece of a file on one line, cut where a message would become unreadable.
+pub(crate) fn shorten(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let line: String = text
+        .chars()
+        .take(LONGEST)
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    if text.chars().nth(LONGEST).is_some() {
+        format!("{line}...")
+    } else {
+        line
+    }
 }
 
 /// The topmost table of `text`, whose places are those of `source`.

@@ -22,7 +22,7 @@ use crate::text::number::plain_text;
 /// A study of a program.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct ProgramFile {
+pub(crate) struct ProgramFile {
     /// what is run
     program: ProgramTable,
     /// the resolutions at which it is run

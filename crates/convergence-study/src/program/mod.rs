@@ -39,12 +39,12 @@ mod values;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use crate::input::{InputError, Keys, Section, schema};
+use crate::input::{Refusal, schema};
 use crate::judge::verdict::Floor;
 use crate::project::{Project, Template};
 use crate::study::until_decided::Next;
 use crate::study::{
-    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, described, read_study,
+    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study,
 };
 use answer::Expectation;
 use command::Invocation;
@@ -61,8 +61,7 @@ pub use taylor::ROW as TAYLOR;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "program",
-    keys: &[],
-    schema: Some(schema::of::<ProgramFile>),
+    schema: schema::of::<ProgramFile>,
     read: read_study::<Program>,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
@@ -124,14 +123,10 @@ pub(crate) struct Program {
 const VARIANT: &str = "MANUFACTURE_VARIANT";
 
 impl FromFile for Program {
-    const KEYS: &'static [Keys] = &[];
+    type File = ProgramFile;
 
-    fn from_document(
-        header: &Header,
-        root: &Section<'_>,
-        folder: &Path,
-    ) -> Result<Self, InputError> {
-        described(root, |file: ProgramFile| file.program(folder, header.guard))
+    fn from_file(file: ProgramFile, header: &Header, folder: &Path) -> Result<Self, Refusal> {
+        file.program(folder, header.guard)
     }
 }
 

@@ -8,11 +8,10 @@ use std::path::Path;
 
 use super::sources::SourceFile;
 use crate::input::advice::CommandLine;
-use crate::input::{InputError, Keys, Section, schema};
+use crate::input::{Refusal, schema};
 use crate::rates::{self, Request, SourceTable, Tables};
 use crate::study::{
-    Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources, described,
-    read_study,
+    Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources, read_study,
 };
 use crate::text::visible::visible;
 use file::TableFile;
@@ -20,8 +19,7 @@ use file::TableFile;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "table",
-    keys: &[],
-    schema: Some(schema::of::<TableFile>),
+    schema: schema::of::<TableFile>,
     read: read_study::<Table>,
     why: "The table holds errors of a program whose exact solution is known; theory gives the order.",
     judged: "The table is read and judged as `rates` does: every number is a step, an error, or set aside, and a doubt is inconclusive. \
@@ -45,10 +43,10 @@ pub(super) struct Read {
 }
 
 impl FromFile for Table {
-    const KEYS: &'static [Keys] = &[];
+    type File = TableFile;
 
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        described(root, |file: TableFile| file.table(folder))
+    fn from_file(file: TableFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
+        file.table(folder)
     }
 }
 

@@ -8,20 +8,17 @@ use std::path::Path;
 
 use super::answer::{Answer, Expectation};
 use super::launch::{CaseParameter, Launch};
-use crate::input::{InputError, Keys, Section, schema};
+use crate::input::{Refusal, schema};
 use crate::judge::taylor::{Along, Finding, Judged, Second};
 use crate::judge::verdict::FEWEST_LEVELS;
-use crate::study::{
-    Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, described, read_study,
-};
+use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study};
 use crate::taylor::{MOST_DRAWN_ANEW, steps_from};
 use file::TaylorFile;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "taylor",
-    keys: &[],
-    schema: Some(schema::of::<TaylorFile>),
+    schema: schema::of::<TaylorFile>,
     read: read_study::<Taylor>,
     why: "By Taylor's theorem J(m + εd) differs from J(m) + ε dJ·d by a remainder of second order in ε, if dJ·d is the derivative of J.",
     judged: "The program is run at steps from `eps` down to the noise of J, in several directions. The differences of J, extrapolated to ε = 0, \
@@ -78,10 +75,10 @@ struct Direction {
 }
 
 impl FromFile for Taylor {
-    const KEYS: &'static [Keys] = &[];
+    type File = TaylorFile;
 
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        described(root, |file: TaylorFile| file.taylor(folder))
+    fn from_file(file: TaylorFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
+        file.taylor(folder)
     }
 }
 

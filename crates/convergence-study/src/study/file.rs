@@ -15,33 +15,32 @@ use super::erased::{Described, Study, boxed_study};
 use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{
-    self, AllowedText, Choice, Choices, Form, InputError, Key, Keys, Number, Positive, Range,
-    Refusal, Section, Texts, schema,
+    self, AllowedText, Choice, Choices, Document, InputError, Number, Positive, Range, Refusal,
+    Texts, schema,
 };
 use crate::interval::Interval;
 use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::text::visible;
 
 /// Reads a study of one kind from the document of its file.
-pub(crate) type Reader = fn(Header, &Section<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
+pub(crate) type Reader = fn(Header, &Document<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
 
 /// What a study file describes: its tables beside `[study]` as a struct, and what is made of it.
 pub fn described<F: DeserializeOwned + JsonSchema, T>(
-    root: &Section<'_>,
+    root: &Document<'_>,
     build: impl FnOnce(F) -> Result<T, Refusal>,
 ) -> Result<T, InputError> {
-    let file = root.read_beside(&[STUDY])?;
+    let file = root.read_keys(|key| key != STUDY)?;
     build(file).map_err(|refusal| root.locate(refusal))
 }
 
 /// The reader of a kind.
 pub fn read_study<K: FromFile + 'static>(
     header: Header,
-    root: &Section<'_>,
+    root: &Document<'_>,
     folder: &Path,
 ) -> Result<Box<dyn Study>, InputError> {
-    allow_only(root, K::KEYS)?;
-    let kind = K::from_document(&header, root, folder)?;
+    let kind = described(root, |file| K::from_file(file, &header, folder))?;
     Ok(boxed_study(header, kind))
 }
 
@@ -51,11 +50,8 @@ pub struct KindRow {
     /// The value of `[study] kind`. Kinds that differ in the source of their numbers alone have the
     /// same word before a `/`: `orders/vibration`.
     pub name: &'static str,
-    /// The keys of its files beside `[study]`: one of these sets. Without any, its reader refuses
-    /// unknown keys itself, and the schema allows all.
-    pub keys: &'static [Keys],
-    /// The JSON schema of the struct that its files are read into, in place of `keys`.
-    pub schema: Option<fn() -> Value>,
+    /// The JSON schema of its files beside `[study]`: that of [`FromFile::File`].
+    pub schema: fn() -> Value,
     /// Its reader.
     pub read: Reader,
     /// Why the claim should hold.
@@ -122,24 +118,17 @@ impl StudyFile {
     ) -> Result<Self, InputError> {
         let study = input::parse_beside(text, path, |root, folder| {
             let header = Header::from_document(root)?;
-            if let Some(earlier) = earlier
-                .iter()
-                .find(|earlier| earlier.study.header().id == header.id)
-            {
+            let mut earlier = earlier.iter();
+            if let Some(earlier) = earlier.find(|earlier| earlier.study.header().id == header.id) {
                 let found = format!(
                     "\"{}\", which {} has too",
                     header.id,
                     visible::path(&earlier.path)
                 );
-                return Err(root.require("study", "a table")?.section()?.refuse(
-                    "id",
-                    found,
-                    "an id that no other study has",
-                ));
+                let allowed = "an id that no other study has";
+                return Err(root.locate(Refusal::new("study.id", found, allowed)));
             }
             let row = row(kinds, root, &header)?;
-            // For a reader that is not made by `reader`.
-            allow_only(root, row.keys)?;
             (row.read)(header, root, folder)
         })?;
         Ok(Self {
@@ -151,7 +140,7 @@ impl StudyFile {
 
 fn row<'k>(
     kinds: &'k [KindRow],
-    root: &Section<'_>,
+    root: &Document<'_>,
     header: &Header,
 ) -> Result<&'k KindRow, InputError> {
     if let Some(row) = kinds.iter().find(|row| row.name == header.kind) {
@@ -161,12 +150,15 @@ fn row<'k>(
         .iter()
         .map(|row| format!("\"{}\"", row.name))
         .collect();
-    let study = root.require("study", "a table")?.section()?;
+    const KIND: &str = "study.kind";
     // A file without kind has the default kind, which not every project knows.
-    study.require("kind", &names.join(", "))?;
+    if !header.settings.iter().any(|(path, _)| path == KIND) {
+        return Err(root.locate(Refusal::missing(KIND, &names.join(", "))));
+    }
     let expected = KindRow::with_source(kinds, &header.kind)
         .map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
-    Err(study.refuse("kind", format!("\"{}\"", header.kind), expected))
+    let found = format!("\"{}\"", header.kind);
+    Err(root.locate(Refusal::new(KIND, found, expected)))
 }
 
 /// A kind of study that a file describes.
@@ -174,10 +166,9 @@ fn row<'k>(
 /// ```
 /// use std::path::Path;
 ///
-/// use convergence_study::file::{Count, within};
-/// use convergence_study::{Case, CaseFailure, Claim, FromFile, Header, InputError, Keys, Kind};
-/// use convergence_study::{KindRow, Order, Outcome, Ran, Section, completion_check, described};
-/// use convergence_study::read_study;
+/// use convergence_study::file::{Count, Refusal, schema, within};
+/// use convergence_study::{Case, CaseFailure, Claim, FromFile, Header, InputError, Kind, Order};
+/// use convergence_study::{KindRow, Outcome, Ran, completion_check, read_study};
 /// use schemars::JsonSchema;
 /// use serde::Deserialize;
 ///
@@ -206,21 +197,18 @@ fn row<'k>(
 /// }
 ///
 /// impl FromFile for Sums {
-///     const KEYS: &'static [Keys] = &[];
+///     type File = SumsFile;
 ///
-///     fn from_document(_: &Header, root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-///         described(root, |SumsFile { sum }| {
-///             let claim = sum.order.claim(None, None).map_err(within("sum"))?;
-///             Ok(Self { terms: sum.terms.get(), claim })
-///         })
+///     fn from_file(SumsFile { sum }: SumsFile, _: &Header, _: &Path) -> Result<Self, Refusal> {
+///         let claim = sum.order.claim(None, None).map_err(within("sum"))?;
+///         Ok(Self { terms: sum.terms.get(), claim })
 ///     }
 /// }
 ///
 /// // How a project lists the kind, for its files and their reference page.
 /// const ROW: KindRow = KindRow {
 ///     name: "sums",
-///     keys: Sums::KEYS,
-///     schema: None,
+///     schema: schema::<SumsFile>,
 ///     read: read_study::<Sums>,
 ///     why: "The series converges.",
 ///     judged: "Every sum must be finite.",
@@ -257,19 +245,17 @@ fn row<'k>(
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait FromFile: Kind + Sized {
-    /// The keys of the file beside `[study]`, as in [`KindRow`].
-    const KEYS: &'static [Keys];
+    /// The tables of its files beside `[study]`.
+    type File: DeserializeOwned + JsonSchema;
 
-    /// Reads the study from the document of its file.
+    /// The study that a file describes.
     ///
-    /// * `header`: the table `[study]`, already read.
-    /// * `root`: the document.
+    /// * `header`: the table `[study]`.
     /// * `folder`: the folder of the file; names of other files are relative to it.
-    fn from_document(
-        header: &Header,
-        root: &Section<'_>,
-        folder: &Path,
-    ) -> Result<Self, InputError>;
+    ///
+    /// # Errors
+    /// Values that do not go together.
+    fn from_file(file: Self::File, header: &Header, folder: &Path) -> Result<Self, Refusal>;
 
     /// Reads a study from `text`; messages name `file`, and other files are searched for next to
     /// it.
@@ -291,11 +277,8 @@ impl<K: FromFile> Described<K> {
     pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         input::parse_beside(text, file, |root, folder| {
             let header = Header::from_document(root)?;
-            allow_only(root, K::KEYS)?;
-            Ok(Self {
-                kind: K::from_document(&header, root, folder)?,
-                header,
-            })
+            let kind = described(root, |file| K::from_file(file, &header, folder))?;
+            Ok(Self { header, kind })
         })
     }
 
@@ -305,20 +288,14 @@ impl<K: FromFile> Described<K> {
     }
 }
 
-/// The table `[study]` beside the keys of a kind.
-const STUDY_TABLE: Key = Key::new(STUDY, Form::Named(&[], &Form::Text), "");
-
-/// Refuses the keys that a file of a kind may not have; none if no set is declared.
-pub fn allow_only(root: &Section<'_>, sets: &[Keys]) -> Result<(), InputError> {
-    if sets.is_empty() {
-        Ok(())
-    } else {
-        root.allow_only(&[STUDY_TABLE], sets)
-    }
-}
-
 /// The table that every study file has.
 pub(crate) const STUDY: &str = "study";
+
+/// What every study file has.
+#[derive(Debug, Deserialize, JsonSchema)]
+struct StudyOfFile {
+    study: StudyTable,
+}
 
 /// The table `[study]`: what a study is about.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -400,11 +377,12 @@ impl Range for Guard {
 
 impl Header {
     /// Reads `[study]` of a document, and records every value of the document.
-    pub fn from_document(root: &Section<'_>) -> Result<Self, InputError> {
+    pub fn from_document(root: &Document<'_>) -> Result<Self, InputError> {
         let missing = || Refusal::missing(STUDY, "a table with id, claim and tier");
-        let study = root.section(STUDY)?;
-        let study = study.ok_or_else(|| root.locate(missing()))?;
-        let table: StudyTable = study.read()?;
+        if !root.has(STUDY) {
+            return Err(root.locate(missing()));
+        }
+        let StudyOfFile { study: table } = root.read_keys(|key| key == STUDY)?;
         let kind = table.kind.map_or(DEFAULT_KIND.to_owned(), AllowedText::get);
         Ok(Self {
             id: table.id.get(),

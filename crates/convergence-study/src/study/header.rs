@@ -66,7 +66,7 @@ pub struct Header {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub guard: Option<f64>,
     /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of
-    /// `input::Section::settings`: the baseline keeps a hash of them, so that none changes
+    /// `input::Document::settings`: the baseline keeps a hash of them, so that none changes
     /// unnoticed. Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,

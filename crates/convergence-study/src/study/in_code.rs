@@ -5,7 +5,7 @@ use super::erased::{Described, Study};
 use super::header::{Header, Tier};
 use super::kind::{Case, CaseFailure, Kind, Ran, completion_check};
 use super::measured::Sheet;
-use super::outcome::{Figure, LevelErrors, NamedRate, Outcome, Quantity};
+use super::outcome::{Check, Figure, LevelErrors, NamedRate, Outcome, Quantity};
 use super::over_levels::Levels;
 use crate::judge::verdict::Verdict;
 
@@ -147,6 +147,12 @@ impl<R: Runs> Kind for InCode<R> {
         if shown.len() < all {
             let have = shown.len();
             let words = format!("{have} of {all} runs have a result, so nothing else is judged");
+            // A run that was not made fails as one without a result does.
+            let verdict = Verdict::Fail;
+            let completion = Check {
+                verdict,
+                ..completion
+            };
             return Outcome::new(words, vec![], vec![completion]);
         }
         let Findings {

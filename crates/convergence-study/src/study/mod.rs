@@ -34,7 +34,7 @@ pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, STEPS, first_repeated
 #[cfg(feature = "reports")]
 pub(crate) use file::{Constant, Lines, ORDER};
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, Order, StudyFile, allow_only, described, read_study};
+pub use file::{FromFile, KindRow, Order, StudyFile, described, read_study};
 #[cfg(feature = "command-line")]
 pub(crate) use file::{STUDY, study_schema};
 pub use header::{Header, Tier};

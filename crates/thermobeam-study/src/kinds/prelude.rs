@@ -6,9 +6,9 @@ pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
 pub(crate) use convergence_study::file::{Choice, Count, Positive, Refusal, named_file, within};
 pub(crate) use convergence_study::internal::input::schema;
 pub(crate) use convergence_study::{
-    Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Keys, Kind,
-    KindRow, NamedRate, Outcome, Quantity, Ran, Reading, Section, Subject, Table, Verdict,
-    completion_check, described, read_study,
+    Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow,
+    NamedRate, Outcome, Quantity, Ran, Reading, Subject, Table, Verdict, completion_check,
+    read_study,
 };
 
 pub(crate) use schemars::JsonSchema;

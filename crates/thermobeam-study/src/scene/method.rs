@@ -1,9 +1,7 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
-use convergence_study::{
-    file::{Count, Number, Refusal},
-    internal::input::POSITIVE,
-};
+use convergence_study::file::{Count, Number, Refusal};
+use convergence_study::internal::input::POSITIVE;
 use thermobeam::dg::DgStepping;
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::Stepping;

@@ -58,7 +58,7 @@ use crate::expression::Expression;
 
 use convergence_judge::text::number::counted;
 use convergence_study::{
-    InputError, Section,
+    Document, InputError,
     file::{Refusal, within},
     internal::input,
 };
@@ -140,7 +140,7 @@ impl Scene {
         })
     }
 
-    fn from_document(root: &Section<'_>, name: String) -> Result<Self, InputError> {
+    fn from_document(root: &Document<'_>, name: String) -> Result<Self, InputError> {
         Self::new(root.read()?, name).map_err(|refusal| root.locate(refusal))
     }
 

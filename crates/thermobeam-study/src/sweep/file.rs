@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use convergence_study::{
-    InputError, Section,
+    Document, InputError,
     file::{Refusal, named_file},
 };
 use schemars::JsonSchema;
@@ -62,10 +62,13 @@ pub(super) struct Described {
 }
 
 impl Described {
-    pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+    pub(super) fn read(root: &Document<'_>, folder: &Path) -> Result<Self, InputError> {
         let file: SweepFile = root.read()?;
-        let set = root.section("set")?;
-        let common = set.map_or(vec![], |set| set.settings());
+        let common = root.settings().into_iter().filter_map(|(path, value)| {
+            let name = path.strip_prefix("set.")?.to_owned();
+            Some((name, value))
+        });
+        let common = common.collect();
         let described = Self::new(file, common, folder, |path| root.start_of(path));
         described.map_err(|refusal| root.locate(refusal))
     }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::{STUDY, other_files, study_schema, tables};
+use super::{STUDY, other_files, study_schema};
 use crate::input::schema::allowed;
 use crate::project::{Project, Term};
 use crate::study::KindRow;
@@ -52,7 +52,7 @@ impl Page {
         ] {
             let _ = writeln!(self.text, "- {what}: {text}");
         }
-        self.tables(&title, "", &tables(row));
+        self.tables(&title, "", &(row.schema)());
     }
 
     /// The words of a project.

@@ -17,7 +17,7 @@ use crate::study::{Lines, Order};
 /// A table or a log that exists.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct TableFile {
+pub(crate) struct TableFile {
     /// the table, and how it is read
     table: TableTable,
     /// a column, and what is claimed of it

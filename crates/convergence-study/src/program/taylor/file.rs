@@ -15,7 +15,7 @@ use crate::taylor::{DIRECTIONS, FARTHEST};
 /// A test of derivatives that a program computes.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct TaylorFile {
+pub(crate) struct TaylorFile {
     /// what is run
     program: TaylorProgramTable,
     /// the steps, and how exact the derivatives must be

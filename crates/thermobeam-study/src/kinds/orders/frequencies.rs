@@ -60,7 +60,7 @@ pub struct Frequencies {
 /// A study of frequencies as it is written.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct FrequenciesFile {
+pub struct FrequenciesFile {
     /// frequencies and meshes
     frequencies: FrequenciesTable,
 }
@@ -123,8 +123,7 @@ impl FrequenciesTable {
 impl ErrorSource for Frequencies {
     const ROW: KindRow = KindRow {
         name: "orders/frequencies",
-        keys: &[],
-        schema: Some(schema::of::<FrequenciesFile>),
+        schema: schema::of::<FrequenciesFile>,
         read: read_study::<Orders<Self>>,
         why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
               a scalar equation.",
@@ -134,16 +133,15 @@ impl ErrorSource for Frequencies {
     };
 
     /// Number of elements.
+    type File = FrequenciesFile;
     type Data = usize;
     /// The first discrete frequencies, ascending.
     type Found = Vec<f64>;
 
-    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        described(root, |file: FrequenciesFile| {
-            file.frequencies
-                .frequencies()
-                .map_err(within("frequencies"))
-        })
+    fn from_file(file: FrequenciesFile, _: &Path) -> Result<Self, Refusal> {
+        file.frequencies
+            .frequencies()
+            .map_err(within("frequencies"))
     }
 
     fn exercise(&self) -> Exercise {

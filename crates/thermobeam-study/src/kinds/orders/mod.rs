@@ -18,13 +18,14 @@ use std::ops::{Deref, DerefMut};
 use convergence_study::{
     Grid, LevelErrors, Prose, Untested,
     internal::study::{
-        allow_only,
         header::SettingWords,
         over_levels::{Levels, rate_table, summary},
         until_decided::{self, Looks, Next},
     },
     variants::Variants,
 };
+
+use serde::de::DeserializeOwned;
 
 use super::prelude::*;
 use crate::kinds::settings::Exercise;
@@ -34,18 +35,18 @@ pub trait ErrorSource: Send + Sync + Sized + 'static {
     /// The row of the table of kinds.
     const ROW: KindRow;
 
+    /// The tables of its files beside `[study]`.
+    type File: DeserializeOwned + JsonSchema;
     /// The input of a run.
     type Data: Clone + Send + Sync;
     /// What a run measures.
     type Found: Send;
 
-    /// Reads the source from the document of its study.
-    ///
-    /// * `folder`: the folder of the file; names of other files are relative to it.
+    /// The source that a file describes, as in [`FromFile`].
     ///
     /// # Errors
-    /// [`InputError`] with file, line, field, the value found and the values allowed.
-    fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+    /// Values that do not go together.
+    fn from_file(file: Self::File, folder: &Path) -> Result<Self, Refusal>;
 
     /// What its items exercise.
     fn exercise(&self) -> Exercise;
@@ -162,26 +163,16 @@ impl<S> DerefMut for Orders<S> {
 }
 
 impl<S: ErrorSource> FromFile for Orders<S> {
-    // The reader checks the kind first: a file of another kind has other keys.
-    const KEYS: &'static [Keys] = &[];
+    type File = S::File;
 
-    fn from_document(
-        header: &Header,
-        root: &Section<'_>,
-        folder: &Path,
-    ) -> Result<Self, InputError> {
-        // Studies of other kinds name files of a source.
+    fn from_file(file: S::File, header: &Header, folder: &Path) -> Result<Self, Refusal> {
+        // A file of another kind may have the same tables.
         if header.kind != S::ROW.name {
-            let study = root.require("study", "a table")?.section()?;
             let found = format!("\"{}\"", header.kind);
-            return Err(study.refuse(
-                "kind",
-                found,
-                format!("\"{}\" for this reader", S::ROW.name),
-            ));
+            let allowed = format!("\"{}\" for this reader", S::ROW.name);
+            return Err(Refusal::new("study.kind", found, allowed));
         }
-        allow_only(root, S::ROW.keys)?;
-        S::read(root, folder).map(Self)
+        S::from_file(file, folder).map(Self)
     }
 }
 

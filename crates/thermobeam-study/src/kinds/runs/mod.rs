@@ -17,23 +17,22 @@ use convergence_study::{
     Coverage, LevelErrors,
     internal::study::{header::SettingWords, readings},
 };
+use serde::de::DeserializeOwned;
 
 /// A list of runs, and what is claimed of them.
 pub trait Runs: Sized + Send + Sync {
-    /// The keys of its files, as in [`KindRow`].
-    const KEYS: &'static [Keys] = &[];
+    /// The tables of its files beside `[study]`.
+    type File: DeserializeOwned + JsonSchema;
     /// What distinguishes a run from the others.
     type Run: Clone + PartialEq + Send + Sync;
     /// What a run shows.
     type Shown: Send;
 
-    /// Reads the study from the document of its file.
-    ///
-    /// * `folder`: the folder of the file; names of other files are relative to it.
+    /// The study that a file describes, as in [`FromFile`].
     ///
     /// # Errors
-    /// [`InputError`] with file, line, field, the value found and the values allowed.
-    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError>;
+    /// Values that do not go together.
+    fn from_file(file: Self::File, folder: &Path) -> Result<Self, Refusal>;
 
     /// What the items of a case exercise; those of the study as a whole without one.
     fn exercise(&self, case: Option<&str>) -> Exercise;
@@ -180,10 +179,10 @@ impl<'r, R: Runs> Results<'r, R> {
 pub struct RunStudy<R>(pub R);
 
 impl<R: Runs> FromFile for RunStudy<R> {
-    const KEYS: &'static [Keys] = R::KEYS;
+    type File = R::File;
 
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        R::from_document(root, folder).map(Self)
+    fn from_file(file: R::File, _: &Header, folder: &Path) -> Result<Self, Refusal> {
+        R::from_file(file, folder).map(Self)
     }
 }
 

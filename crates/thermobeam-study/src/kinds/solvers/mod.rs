@@ -55,8 +55,7 @@ pub use step::FixedPointStep;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "solvers",
-    keys: &[],
-    schema: Some(schema::of::<SolversFile>),
+    schema: schema::of::<SolversFile>,
     read: read_study::<Solvers>,
     why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
           it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \
@@ -129,7 +128,7 @@ fn results<R>(
 /// A study of the two solvers as it is written: at least one part.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct SolversFile {
+pub struct SolversFile {
     /// measured contraction against the spectral radius
     contraction: Option<ContractionTable>,
     /// the fixed point against Newton
@@ -139,27 +138,25 @@ struct SolversFile {
 }
 
 impl FromFile for Solvers {
-    const KEYS: &'static [Keys] = &[];
+    type File = SolversFile;
 
-    fn from_document(_: &Header, root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        described(root, |file: SolversFile| {
-            let contraction = file.contraction.map(|table| table.grid()).transpose();
-            let comparison = file.comparison.map(|table| table.comparison(folder));
-            let map = file.map.map(|table| table.map()).transpose();
-            let study = Self {
-                contraction: contraction.map_err(within("contraction"))?,
-                comparison: comparison.transpose().map_err(within("comparison"))?,
-                map: map.map_err(within("map"))?,
-            };
-            if study.contraction.is_none() && study.comparison.is_none() && study.map.is_none() {
-                let allowed = format!(
-                    "at least one table for kind \"{}\": contraction, comparison, map",
-                    ROW.name
-                );
-                return Err(Refusal::missing("contraction", &allowed));
-            }
-            Ok(study)
-        })
+    fn from_file(file: SolversFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
+        let contraction = file.contraction.map(|table| table.grid()).transpose();
+        let comparison = file.comparison.map(|table| table.comparison(folder));
+        let map = file.map.map(|table| table.map()).transpose();
+        let study = Self {
+            contraction: contraction.map_err(within("contraction"))?,
+            comparison: comparison.transpose().map_err(within("comparison"))?,
+            map: map.map_err(within("map"))?,
+        };
+        if study.contraction.is_none() && study.comparison.is_none() && study.map.is_none() {
+            let allowed = format!(
+                "at least one table for kind \"{}\": contraction, comparison, map",
+                ROW.name
+            );
+            return Err(Refusal::missing("contraction", &allowed));
+        }
+        Ok(study)
     }
 }
 

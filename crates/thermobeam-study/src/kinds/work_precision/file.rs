@@ -26,7 +26,7 @@ use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 /// A study of work against errors, as it is written.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct WorkPrecisionFile {
+pub struct WorkPrecisionFile {
     /// the problem: a solution, a scene or a vibration
     #[serde(rename = "work-precision")]
     problem: ProblemTable,
@@ -135,19 +135,14 @@ const QUICK: usize = 1_000_000;
 const FULL: usize = 10_000_000;
 
 impl FromFile for WorkPrecision {
-    const KEYS: &'static [Keys] = &[];
+    type File = WorkPrecisionFile;
 
-    fn from_document(
-        header: &Header,
-        root: &Section<'_>,
-        folder: &Path,
-    ) -> Result<Self, InputError> {
-        let most = if header.tier == Tier::Quick {
-            QUICK
-        } else {
-            FULL
+    fn from_file(file: WorkPrecisionFile, header: &Header, folder: &Path) -> Result<Self, Refusal> {
+        let most = match header.tier {
+            Tier::Quick => QUICK,
+            Tier::Full => FULL,
         };
-        described(root, |file: WorkPrecisionFile| file.study(folder, most))
+        file.study(folder, most)
     }
 }
 

@@ -57,8 +57,7 @@ use thermobeam::solve::Solver;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "work-precision",
-    keys: &[],
-    schema: Some(schema::of::<file::WorkPrecisionFile>),
+    schema: schema::of::<file::WorkPrecisionFile>,
     read: read_study::<WorkPrecision>,
     why: "Every method pays for a smaller error with more work. At each error that two methods both reach, the ratio of their work \
           is measured. High orders pay little more for ten digits than for five.",

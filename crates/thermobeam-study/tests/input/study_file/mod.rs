@@ -270,8 +270,9 @@ fn the_header_of_any_kind_is_read_without_the_rest() {
         (found.id.as_str(), found.kind.as_str(), found.tier),
         ("a-1.2", "runs/energy", Tier::Quick)
     );
+    let whole = [STUDY, "kind = \"runs/energy\"\n", EXACT, REFINE, EXPECT];
     says(
-        &refusal(&[&text]),
+        &refusal(&whole),
         &["5:8: study.kind: found \"runs/energy\"; expected \"orders/manufactured\""],
     );
     assert_eq!(

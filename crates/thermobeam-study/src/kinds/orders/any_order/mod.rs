@@ -101,7 +101,7 @@ pub struct AnyOrder {
 /// A study of orders as it is written: an exact solution with loads, or a free vibration.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct AnyOrderFile {
+pub struct AnyOrderFile {
     /// the coefficients of the equations (1.1), beside exact
     beam: Option<BeamTable>,
     /// the obstacles at the free end, (1.3), beside exact; without the table there are none
@@ -185,8 +185,7 @@ impl AnyOrderFile {
 impl ErrorSource for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
-        keys: &[],
-        schema: Some(schema::of::<AnyOrderFile>),
+        schema: schema::of::<AnyOrderFile>,
         read: read_study::<Orders<Self>>,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
@@ -197,11 +196,12 @@ impl ErrorSource for AnyOrder {
                   is stopped too early: look at the highest degree that still passes.",
     };
 
+    type File = AnyOrderFile;
     type Data = AnyOrderRun;
     type Found = JudgedErrors;
 
-    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        described(root, |file: AnyOrderFile| file.study())
+    fn from_file(file: AnyOrderFile, _: &Path) -> Result<Self, Refusal> {
+        file.study()
     }
 
     fn exercise(&self) -> Exercise {

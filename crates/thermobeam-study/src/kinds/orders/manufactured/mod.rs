@@ -72,7 +72,7 @@ const PREPARATION: f64 = 50.0;
 /// A study of errors against a manufactured solution.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct ManufacturedFile {
+pub struct ManufacturedFile {
     /// the coefficients of the equations (1.1)
     #[serde(default)]
     beam: BeamTable,
@@ -113,8 +113,7 @@ pub struct Convergence {
 impl ErrorSource for Convergence {
     const ROW: KindRow = KindRow {
         name: "orders/manufactured",
-        keys: &[],
-        schema: Some(schema::of::<ManufacturedFile>),
+        schema: schema::of::<ManufacturedFile>,
         read: read_study::<Orders<Self>>,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
@@ -127,36 +126,35 @@ impl ErrorSource for Convergence {
     };
 
     /// Elements and steps.
+    type File = ManufacturedFile;
     type Data = (usize, usize);
     /// The error in each norm, the maximum over the time levels.
     type Found = Norms;
 
-    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        described(root, |file: ManufacturedFile| {
-            let theory = Coefficients::new(&file.beam, file.obstacles.as_ref())?;
-            let refine = file.refine.refine().map_err(within("refine"))?;
-            let exact = file.exact.manufactured(&theory.beam, refine.t_end);
-            let expect = expected_norms(&file.expect)?;
-            let is_order =
-                |(_, claim): &(Norm, Claim)| *claim == Claim::new(claim.order, claim.tolerance);
-            if refine.grid && !expect.iter().all(is_order) {
-                let allowed = "orders alone, for a grid has one in h and in dt";
-                return Err(Refusal::new(
-                    "expect",
-                    "a least order or a constant",
-                    allowed,
-                ));
-            }
-            let constant = file.constant.map(|constant| constant.within(&refine));
-            Ok(Self {
-                constant: constant.transpose()?,
-                theory,
-                solver: controlled(file.control.as_ref(), theory)?,
-                exact: exact.map_err(within("exact"))?,
-                refine,
-                expect,
-                formulas: None,
-            })
+    fn from_file(file: ManufacturedFile, _: &Path) -> Result<Self, Refusal> {
+        let theory = Coefficients::new(&file.beam, file.obstacles.as_ref())?;
+        let refine = file.refine.refine().map_err(within("refine"))?;
+        let exact = file.exact.manufactured(&theory.beam, refine.t_end);
+        let expect = expected_norms(&file.expect)?;
+        let is_order =
+            |(_, claim): &(Norm, Claim)| *claim == Claim::new(claim.order, claim.tolerance);
+        if refine.grid && !expect.iter().all(is_order) {
+            let allowed = "orders alone, for a grid has one in h and in dt";
+            return Err(Refusal::new(
+                "expect",
+                "a least order or a constant",
+                allowed,
+            ));
+        }
+        let constant = file.constant.map(|constant| constant.within(&refine));
+        Ok(Self {
+            constant: constant.transpose()?,
+            theory,
+            solver: controlled(file.control.as_ref(), theory)?,
+            exact: exact.map_err(within("exact"))?,
+            refine,
+            expect,
+            formulas: None,
         })
     }
 

@@ -104,7 +104,7 @@ pub struct SelfConvergence {
 /// A study of rates without an exact solution, as it is written.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct SelfConvergenceFile {
+pub struct SelfConvergenceFile {
     /// the beam
     scene: SceneTable,
     /// the levels
@@ -247,8 +247,7 @@ impl SelfConvergenceFile {
 impl ErrorSource for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
-        keys: &[],
-        schema: Some(schema::of::<SelfConvergenceFile>),
+        schema: schema::of::<SelfConvergenceFile>,
         read: read_study::<Orders<Self>>,
         why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
               the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
@@ -258,11 +257,12 @@ impl ErrorSource for SelfConvergence {
     };
 
     /// Number of the run: the levels, then the two references.
+    type File = SelfConvergenceFile;
     type Data = usize;
     type Found = Traced;
 
-    fn read(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        described(root, |file: SelfConvergenceFile| file.study(folder))
+    fn from_file(file: SelfConvergenceFile, folder: &Path) -> Result<Self, Refusal> {
+        file.study(folder)
     }
 
     fn exercise(&self) -> Exercise {

@@ -71,7 +71,7 @@ pub struct Vibrated {
 /// A study of damped vibrations.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct VibrationFile {
+pub struct VibrationFile {
     /// the coefficients of a linear beam, whose damped modes are exact: a = rho = 0, written out
     #[serde(default)]
     beam: BeamTable,
@@ -113,8 +113,7 @@ struct HeatTable {
 impl ErrorSource for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
-        keys: &[],
-        schema: Some(schema::of::<VibrationFile>),
+        schema: schema::of::<VibrationFile>,
         read: read_study::<Orders<Self>>,
         why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
               in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
@@ -125,22 +124,21 @@ impl ErrorSource for Vibration {
     };
 
     /// Elements and steps.
+    type File = VibrationFile;
     type Data = (usize, usize);
     type Found = Vibrated;
 
-    fn read(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        described(root, |file: VibrationFile| {
-            let theory = linear_beam(&file.beam)?;
-            let refine = file.refine.refine().map_err(within("refine"))?;
-            bounded(&refine).map_err(within("refine"))?;
-            Ok(Self {
-                theory,
-                solver: controlled(file.control.as_ref(), theory)?,
-                modes: modes(&file.mode, &refine)?,
-                heat: heat(&file.heat, &refine)?,
-                refine,
-                expect: expected_norms(&file.expect)?,
-            })
+    fn from_file(file: VibrationFile, _: &Path) -> Result<Self, Refusal> {
+        let theory = linear_beam(&file.beam)?;
+        let refine = file.refine.refine().map_err(within("refine"))?;
+        bounded(&refine).map_err(within("refine"))?;
+        Ok(Self {
+            theory,
+            solver: controlled(file.control.as_ref(), theory)?,
+            modes: modes(&file.mode, &refine)?,
+            heat: heat(&file.heat, &refine)?,
+            refine,
+            expect: expected_norms(&file.expect)?,
         })
     }
 

@@ -30,14 +30,13 @@ pub mod random;
 
 use super::RunStudy;
 use crate::kinds::prelude::*;
-use convergence_study::Study;
+use convergence_study::{Document, Study, described};
 use one_by_one::listed;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/energy",
-    keys: &[],
-    schema: Some(schema::of::<EnergyFile>),
+    schema: schema::of::<EnergyFile>,
     read,
     why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
           Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
@@ -51,7 +50,7 @@ pub const ROW: KindRow = KindRow {
 /// A study of the energy, by one of three tables.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct EnergyFile {
+pub struct EnergyFile {
     /// beams, and how they are run
     energy: Option<listed::EnergyTable>,
     /// scenes, and what is claimed of their runs
@@ -80,7 +79,7 @@ impl EnergyFile {
 }
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
-fn read(header: Header, root: &Section<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
+fn read(header: Header, root: &Document<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     match described(root, |file: EnergyFile| file.only_table())? {
         "random" => read_study::<RunStudy<random::RandomScenes>>(header, root, folder),
         _ => read_study::<RunStudy<one_by_one::EnergyRuns>>(header, root, folder),

@@ -100,24 +100,23 @@ pub(super) struct RandomTable {
 }
 
 impl Runs for RandomScenes {
+    type File = EnergyFile;
     /// Number of the batch.
     type Run = usize;
     type Shown = Batch;
 
-    fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        described(root, |file: EnergyFile| {
-            let RandomTable {
-                batches,
-                steps,
-                seed,
-            } = file
-                .random
-                .ok_or_else(|| Refusal::missing("random", "random scenes"))?;
-            Ok(Self {
-                batches: batches.get(),
-                steps: steps.get(),
-                seed: seed.get() as u64,
-            })
+    fn from_file(file: EnergyFile, _: &Path) -> Result<Self, Refusal> {
+        let RandomTable {
+            batches,
+            steps,
+            seed,
+        } = file
+            .random
+            .ok_or_else(|| Refusal::missing("random", "random scenes"))?;
+        Ok(Self {
+            batches: batches.get(),
+            steps: steps.get(),
+            seed: seed.get() as u64,
         })
     }
 

@@ -24,7 +24,7 @@ use crate::scene::{
 /// A study of whole scenes.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct ScenesFile {
+pub struct ScenesFile {
     /// scenes, and what their runs must answer
     pub(super) case: Vec<CaseTable>,
 }

@@ -66,8 +66,7 @@ pub use shown::{COUNTS, NUMBERS, Shown};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/scenes",
-    keys: &[],
-    schema: Some(schema::of::<ScenesFile>),
+    schema: schema::of::<ScenesFile>,
     read: read_study::<RunStudy<Scenes>>,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
@@ -133,15 +132,14 @@ struct Most {
 const CHOSEN: &str = "chosen_u_tip";
 
 impl Runs for Scenes {
+    type File = ScenesFile;
     /// Number of the scene.
     type Run = usize;
     type Shown = Shown;
 
-    fn from_document(root: &Section<'_>, _: &Path) -> Result<Self, InputError> {
-        described(root, |file: ScenesFile| {
-            let scenes = named_cases(file.case, CaseTable::whole, |whole| &whole.case.name)?;
-            Ok(Self { scenes })
-        })
+    fn from_file(file: ScenesFile, _: &Path) -> Result<Self, Refusal> {
+        let scenes = named_cases(file.case, CaseTable::whole, |whole| &whole.case.name)?;
+        Ok(Self { scenes })
     }
 
     fn exercise(&self, case: Option<&str>) -> Exercise {

@@ -135,28 +135,27 @@ impl EnergyHistory {
 }
 
 impl Runs for EnergyRuns {
+    type File = EnergyFile;
     /// Number of the run.
     type Run = usize;
     type Shown = EnergyHistory;
 
-    fn from_document(root: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
-        described(root, |file: EnergyFile| {
-            if let Some(energy) = file.energy {
-                let runs = energy.runs(folder).map_err(within("energy"))?;
-                let histories = true;
-                return Ok(Self { runs, histories });
-            }
-            let cases = file.case.unwrap_or_default();
-            let mut runs = named_cases(cases, listed::CaseTable::run, |run| &run.name)?;
-            let is_claimed = runs.iter().any(|run| run.drift.is_some());
-            // The drift of cases that claim a bound; of all where none does.
-            for run in &mut runs {
-                run.is_drawn = !run.is_bounded && (run.drift.is_some() || !is_claimed);
-            }
-            Ok(Self {
-                runs,
-                histories: false,
-            })
+    fn from_file(file: EnergyFile, folder: &Path) -> Result<Self, Refusal> {
+        if let Some(energy) = file.energy {
+            let runs = energy.runs(folder).map_err(within("energy"))?;
+            let histories = true;
+            return Ok(Self { runs, histories });
+        }
+        let cases = file.case.unwrap_or_default();
+        let mut runs = named_cases(cases, listed::CaseTable::run, |run| &run.name)?;
+        let is_claimed = runs.iter().any(|run| run.drift.is_some());
+        // The drift of cases that claim a bound; of all where none does.
+        for run in &mut runs {
+            run.is_drawn = !run.is_bounded && (run.drift.is_some() || !is_claimed);
+        }
+        Ok(Self {
+            runs,
+            histories: false,
         })
     }
 

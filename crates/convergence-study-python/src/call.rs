@@ -24,16 +24,18 @@ pub(crate) const OF_JUDGE: &[Argument] = &[
 
 impl<'py> Call<'py> {
     /// A function with its first argument and the claim.
+    ///
+    /// * `claim`: the argument that has it, and its value.
     pub(crate) fn new(
         py: Python<'py>,
         function: &str,
         first: &str,
-        order: Option<&Bound<'_, PyAny>>,
+        claim: (&str, Option<&Bound<'_, PyAny>>),
         arguments: &'static [Argument],
     ) -> PyResult<Self> {
         let mut start = format!("{function}({first}");
-        if let Some(order) = order {
-            start += &format!(", {}={}", Argument::Order.name(), order.repr()?);
+        if let (name, Some(claim)) = claim {
+            start += &format!(", {name}={}", claim.repr()?);
         }
         Ok(Self {
             py,

@@ -1,6 +1,6 @@
 //! The levels that a study computes.
 
-use convergence_study::internal::study::until_decided::FIRST;
+use convergence_study::internal::study::until_decided::first_levels;
 use pyo3::prelude::*;
 
 use crate::values::{numbers, refuse};
@@ -74,9 +74,11 @@ impl LevelChoice {
     }
 
     /// What tells the levels apart at the first look.
-    pub(crate) fn counts(&self) -> Vec<usize> {
+    ///
+    /// * `order`: the highest that is claimed.
+    pub(crate) fn counts(&self, order: f64) -> Vec<usize> {
         match self {
-            Self::Auto => FIRST.to_vec(),
+            Self::Auto => first_levels(|n| n.powf(-order)).to_vec(),
             Self::Counts(counts) => counts.clone(),
             Self::Steps(steps) => (1..=steps.len()).collect(),
         }

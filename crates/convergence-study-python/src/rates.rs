@@ -16,6 +16,7 @@ use crate::values::{self, Claims, refuse};
 /// The object that `rates --format json` prints, as text.
 ///
 /// * `source`: a text with tables, or the path of a file.
+/// * `order`: the orders that are claimed, or factors if `by_factor`.
 /// * `round_off`: the size of the solution, and the relative round-off of its numbers.
 ///
 /// # Errors
@@ -30,6 +31,7 @@ pub(crate) fn rates(
     source: &str,
     is_text: bool,
     order: Option<&Bound<'_, PyAny>>,
+    by_factor: bool,
     tolerance: Option<f64>,
     floor: f64,
     round_off: [Option<f64>; 2],
@@ -39,7 +41,9 @@ pub(crate) fn rates(
     let _ = values::floor_of(floor)?;
     let [scale, eps] = round_off;
     let request = Request {
-        claims: claimed(py, order, tolerance)?,
+        // The tolerance of a factor is that of its logarithm.
+        claims: claimed(py, order, tolerance.filter(|_| !by_factor))?,
+        by_factor,
         tolerance,
         floor,
         scale,
@@ -52,7 +56,12 @@ pub(crate) fn rates(
     } else {
         (Tables::File(source), literal(py, source))
     };
-    let call = Call::new(py, "rates", &first, order, &Argument::ALL)?;
+    let claim = if by_factor {
+        "factor"
+    } else {
+        Argument::Order.name()
+    };
+    let call = Call::new(py, "rates", &first, (claim, order), &Argument::ALL)?;
     let found = py.detach(|| object(PROJECT.command, tables, &request));
     let found = found.map_err(|refusal| refuse(refusal.words(&call)))?;
     Ok(found.to_string())

@@ -432,7 +432,7 @@ pub(crate) fn study(
         seconds: None,
         options,
     };
-    let mut counts = choice.counts();
+    let mut counts = choice.counts(claims.highest_order());
     let mut seconds = vec![];
     while results.counts.len() < counts.len() {
         let count = counts[results.counts.len()];

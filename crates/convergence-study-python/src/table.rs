@@ -73,7 +73,7 @@ pub(crate) fn judge_table(
         claimed: claims.names(),
         ..chosen.choice()?
     };
-    let call = Call::new(table.py(), function, "table", order, OF_JUDGE)?;
+    let call = Call::new(table.py(), function, "table", ("order", order), OF_JUDGE)?;
     let Some(columns) = values::columns(table)? else {
         return Ok(None);
     };

@@ -188,6 +188,20 @@ pub(crate) enum Claims {
 }
 
 impl Claims {
+    /// The highest order that is claimed; 0 without one.
+    pub(crate) fn highest_order(&self) -> f64 {
+        let named = match self {
+            Self::Named(named) => &named[..],
+            Self::ForAll(_) => &[],
+        };
+        let for_all = match self {
+            Self::ForAll(claim) => claim.as_ref(),
+            Self::Named(_) => None,
+        };
+        let claims = named.iter().map(|(_, claim)| claim).chain(for_all);
+        claims.map(|claim| claim.order).fold(0.0, f64::max)
+    }
+
     pub(crate) fn read(order: Option<&Bound<'_, PyAny>>, tolerance: Option<f64>) -> PyResult<Self> {
         let Some(by_name) = order.and_then(|order| order.cast::<PyDict>().ok()) else {
             return Ok(Self::ForAll(optional_claim(order, tolerance)?));

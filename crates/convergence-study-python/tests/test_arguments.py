@@ -384,3 +384,33 @@ def test_rates_of_samples_and_of_errors_near_round_off():
     assert cs.rates(text, order=6, floor=told["offered_floor"])["verdict"] == "pass"
     [told] = cs.rates(text, order=6, scale=1e-9)["rates"]
     assert told["code"] != "round-off"
+
+
+def test_high_orders_begin_with_coarser_levels_and_no_level_is_added_below_the_floor():
+    for order, first in [(2, 8), (7, 4), (10, 2)]:
+        study = cs.study(lambda n: n**-order, order=order)
+        assert study.verdict == "pass" and study.table()["h"][0] == 1 / first, order
+    calls = []
+
+    def first_order(n):
+        calls.append(n)
+        return 1 / n
+
+    study = cs.study(first_order, order=2, floor=0.008)
+    assert calls == [8, 16, 32, 64] and "the next error would be below the floor" in study.summary
+    assert study.verdict == "fail"
+
+
+def test_factors_are_claimed_of_errors_that_fall_exponentially():
+    text = "n,e\n" + "".join(f"{n},{2.0 * 3.0**-n:.10e}\n" for n in range(2, 9))
+    for factor, verdict in [(3, "pass"), (">=3", "pass"), ({"e": 3}, "pass"), (5, "fail"), (">=5", "fail")]:
+        found = cs.rates(text, factor=factor, step="n")
+        assert found["verdict"] == verdict, factor
+    assert found["rates"][0]["factor"]["fitted"] == pytest.approx(3)
+    for name, value in {"order": 2, "dim": 1, "ratio": 2, "samples": "mean"}.items():
+        with pytest.raises(ValueError, match=f"{name}: expected none beside factor, found {value!r}"):
+            cs.rates(text, factor=3, **{name: value})
+    with pytest.raises(ValueError, match="factor > 1"):
+        cs.rates(text, factor=0.5, step="n")
+    with pytest.raises(ValueError, match="expected step=COLUMN, the count or degree that the factor is about"):
+        cs.rates("n,cells,e\n2,4,1e-1\n4,16,1e-2\n8,64,1e-3\n", factor=3)

@@ -118,7 +118,7 @@ pub mod study {
         #[cfg(feature = "files")]
         pub use crate::study::until_decided::budget;
         pub use crate::study::until_decided::{
-            FIRST, Looks, Next, conclude, is_settled, next, next_by_time,
+            FIRST, Looks, Next, conclude, first_levels, is_settled, next, next_by_time,
         };
     }
 }

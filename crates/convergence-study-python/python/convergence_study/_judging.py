@@ -121,8 +121,8 @@ def study(
     """Computes levels and judges the rates of their errors.
 
     solve: called level by level, in the thread of the caller; returns a dict of errors by name, or one error. n: whole numbers, each an
-    argument of solve, or None or "auto": 8, 16, 32, 64, then finer ones until every rate has a verdict, at most 8 levels, while the next one
-    fits the budget (seconds). The step is 1/n, or the value that solve returns with the errors as "h" or "dt". h: in place of n, the steps
+    argument of solve, or None or "auto": 8, 16, 32, 64, or coarser ones for an order above 6, then finer ones until every rate has a verdict, at most 8
+    levels, while the next one fits the budget (seconds) and its errors are above the floor. The step is 1/n, or the value that solve returns with the errors as "h" or "dt". h: in place of n, the steps
     themselves, each an argument of solve. order: as for judge; a dict has orders by name, and other errors are not judged; one number applies
     to every error. floor: as for judge. name: its name in reports. allow_inconclusive: whether assert_passes() accepts that verdict.
 
@@ -156,18 +156,25 @@ def rates(
     scale: float | None = None,
     eps: float | None = None,
     samples: str | None = None,
+    factor: Order = None,
 ) -> dict[str, Any]:
     """What the program prints: the object of `convergence-study rates --format json`, as a dict.
 
     path_or_text: a file, or a text of several lines with a table, a log, a list or JSON. values: the columns of values that tend to an unknown
     limit. lines: where the table is, such as "3-9", or several of them. scale: the size of the solution, and eps: the relative round-off of its
-    numbers, which say what may be round-off. samples: "mean", "rms" or "weak": rows with equal steps are samples, at least ten of each. The other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
+    numbers, which say what may be round-off. samples: "mean", "rms" or "weak": rows with equal steps are samples, at least ten of each. factor: in place of
+    order, where convergence is exponential: by which the errors fall for each unit of a count or a degree, a number > 1, ">=3", or a dict. The
+    other arguments as for judge. Raises ValueError or TypeError, which names the place in the text or the argument.
     """
     source, is_text = _source(path_or_text)
-    order = dict(order) if isinstance(order, Mapping) else order
+    for name, value in {"order": order, "dim": dim, "ratio": ratio, "samples": samples}.items():
+        if factor is not None and value is not None:
+            raise ValueError(f"{name}: expected none beside factor, found {value!r}")
+    claim = order if factor is None else factor
+    claim = dict(claim) if isinstance(claim, Mapping) else claim
     chosen = _chosen(step, columns, names, dim, ratio, values, lines, samples)
     round_off = [optional("scale", scale), optional("eps", eps)]
-    return json.loads(_native.rates(source, is_text, order, optional("tolerance", tolerance), number("floor", floor), round_off, chosen))
+    return json.loads(_native.rates(source, is_text, claim, factor is not None, optional("tolerance", tolerance), number("floor", floor), round_off, chosen))
 
 
 def studied(solve, n, h, order, tolerance, options, variants):

@@ -90,7 +90,14 @@ def study_of(judgements: list[Judgement], options: Mapping[str, Any]) -> Study: 
 def guarded(baseline: Union[str, PathLike[str]]) -> list[tuple[str, str]]: ...
 def finish(studies: list[Study], request: Mapping[str, Any]) -> tuple[list[str], bool]: ...
 def rates(
-    source: str, is_text: bool, order: Any, tolerance: Optional[float], floor: float, round_off: list[Optional[float]], chosen: Mapping[str, Any]
+    source: str,
+    is_text: bool,
+    order: Any,
+    by_factor: bool,
+    tolerance: Optional[float],
+    floor: float,
+    round_off: list[Optional[float]],
+    chosen: Mapping[str, Any],
 ) -> str: ...
 def norms(errors: list[float], weights: list[float], boundary: Optional[list[bool]]) -> list[tuple[str, float]]: ...
 def taylor(

@@ -14,7 +14,7 @@ use super::refine::{Refine, RefineTable};
 use crate::input::{
     AllowedText, Choice, Choices, Number, POSITIVE, Positive, Range, Refusal, visible, within,
 };
-use crate::judge::claims::{Bound, order_of_factor};
+use crate::judge::claims::{self, Bound, order_of_factor};
 use crate::judge::verdict::{Floor, Of, WIDEST_TOLERANCE};
 use crate::study::{Claim, Constant, Lines, ORDER, Order};
 use crate::text::number::plain_text;
@@ -128,6 +128,7 @@ impl ProgramFile {
     pub(super) fn program(self, folder: &Path, guard: Option<f64>) -> Result<Program, Refusal> {
         let refine = self.refine.refine().map_err(within("refine"))?;
         let expect = expectations(self.expect, &refine)?;
+        let refine = refine.beginning_for(|count| fastest(&expect, count));
         let table = self.program;
         let in_program = within("program");
         let values = &refine.cases()[0].parameters;
@@ -157,6 +158,20 @@ impl ProgramFile {
             most_levels: None,
         })
     }
+}
+
+/// The error at a count that falls fastest of all claimed, in units of its constant.
+fn fastest(expect: &[Expectation], count: f64) -> f64 {
+    let claimed = expect.iter().filter(|expected| expected.exact.is_none());
+    let errors = claimed.map(|expected| {
+        let step = if expected.by_degree {
+            claims::step_of_degree(count)
+        } else {
+            1.0 / count
+        };
+        step.powf(expected.claim.order)
+    });
+    errors.fold(1.0, f64::min)
 }
 
 impl ProgramTable {

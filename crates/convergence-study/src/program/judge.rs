@@ -140,6 +140,7 @@ pub(super) fn next(study: &Program, ran: &[CaseRun]) -> Option<Next> {
     }
     let now = rates(study, ran);
     let looks = Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]));
+    let looks = looks.of_errors(&levels(study, ran));
     Some(until_decided::next_by_time(&looks, &seconds, budget))
 }
 

@@ -120,6 +120,20 @@ impl Refine {
         !self.grid && self.samples.is_none() && sequences.all(Sequence::is_count)
     }
 
+    /// The same, beginning with levels that suit the fastest error, if the levels are left to the
+    /// study.
+    ///
+    /// * `error`: at a count, in units of its constant.
+    pub(super) fn beginning_for(mut self, error: impl Fn(f64) -> f64) -> Self {
+        if self.budget.is_some() {
+            let first = until_decided::first_levels(error).map(|count| count as f64);
+            for sequence in [&mut self.space, &mut self.time].into_iter().flatten() {
+                sequence.values = first.into();
+            }
+        }
+        self
+    }
+
     /// The number of time steps.
     pub(super) fn times(&self) -> usize {
         self.time.as_ref().map_or(0, |time| time.values.len())

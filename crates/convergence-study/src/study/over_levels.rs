@@ -318,6 +318,21 @@ impl Levels {
         judged.with_reason(Reason::NoResult, &unknown)
     }
 
+    /// The names of the errors that would be below the floor at the next level, if they fall on as
+    /// between the last two.
+    pub(super) fn below_floor_next(&self) -> Vec<String> {
+        let floor = self.floor.value();
+        let is_below = |column: &&ErrorColumn| {
+            let points = self.points(column);
+            let [.., before, last] = &points[..] else {
+                return false;
+            };
+            floor > 0.0 && last.error * (last.error / before.error).min(1.0) <= floor
+        };
+        let below = self.columns.iter().filter(is_below);
+        below.map(|column| column.name.clone()).collect()
+    }
+
     /// The same with only the coarsest levels.
     pub fn coarsest(&self, levels: usize) -> Self {
         let refinements = self.refinements.iter().take(levels).cloned();

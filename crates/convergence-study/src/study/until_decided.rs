@@ -19,6 +19,21 @@ use crate::study::over_levels::Levels;
 /// Levels at the first look, each twice as fine as the previous one.
 pub const FIRST: [usize; 4] = [8, 16, 32, 64];
 
+/// The error at the fourth level, of a solution of size one, below which a study begins with coarser
+/// levels: that of the next one would be near round-off.
+const SMALLEST_FIRST: f64 = 1e-11;
+
+/// Levels at the first look: [`FIRST`], or coarser ones for errors that fall fast.
+///
+/// * `error`: at a count, for the fastest of the errors claimed, in units of its constant.
+pub fn first_levels(error: impl Fn(f64) -> f64) -> [usize; 4] {
+    let begins_with = |first: usize| FIRST.map(|count| count * first / FIRST[0]);
+    let mut usable = [8, 4].map(begins_with).into_iter();
+    let usable = usable.find(|levels| error(levels[3] as f64) >= SMALLEST_FIRST);
+    // Few schemes have a single cell.
+    usable.unwrap_or(begins_with(2))
+}
+
 /// Most levels.
 pub(crate) const MOST_LEVELS: usize = 8;
 
@@ -33,6 +48,8 @@ pub enum Next {
     Beyond(Reason),
     /// It ends with `MOST_LEVELS`.
     Most,
+    /// It ends: the next errors would be below the floor, and tell nothing.
+    BelowFloor,
     /// It ends: the next level would cost this much.
     TooDear(f64),
 }
@@ -44,6 +61,8 @@ pub struct Looks<'r> {
     pub now: &'r [NamedRate],
     /// The same names without the finest level; empty at the first look.
     pub before: Vec<NamedRate>,
+    /// The names of errors that would be below the floor at the next level.
+    below_floor: Vec<String>,
 }
 
 impl<'r> Looks<'r> {
@@ -59,7 +78,21 @@ impl<'r> Looks<'r> {
         } else {
             vec![]
         };
-        Self { now, before }
+        Self {
+            now,
+            before,
+            below_floor: vec![],
+        }
+    }
+
+    /// The same of rates of these errors, which may be below the floor at the next level.
+    #[must_use]
+    pub fn of_errors(self, levels: &Levels) -> Self {
+        let below_floor = levels.below_floor_next();
+        Self {
+            below_floor,
+            ..self
+        }
     }
 
     /// The two looks at errors over levels.
@@ -69,10 +102,11 @@ impl<'r> Looks<'r> {
         Self::new(now, levels.refinements.len(), |count| {
             levels.coarsest(count).judge()
         })
+        .of_errors(levels)
     }
 
-    /// The reasons of the rates that are not decided yet.
-    fn open(&self) -> Vec<Reason> {
+    /// The rates that are not decided yet, with their reasons.
+    fn open(&self) -> Vec<(&str, Reason)> {
         let earlier = |name: &str| {
             let named = self.before.iter().find(|named| named.name == name);
             named.map(|named| named.rate.verdict)
@@ -83,7 +117,7 @@ impl<'r> Looks<'r> {
                 let kind = now.rate.kind;
                 !kind.is_final() && !is_settled(kind.verdict(), earlier(&now.name))
             })
-            .map(|now| now.rate.kind)
+            .map(|now| (now.name.as_str(), now.rate.kind))
             .collect()
     }
 }
@@ -109,11 +143,18 @@ fn can_change(reason: Reason) -> bool {
 /// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
 pub fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
     let open = looks.open();
-    let Some(&first) = open.first() else {
+    let Some(&(_, first)) = open.first() else {
         return Next::Decided;
     };
-    if !open.iter().copied().any(can_change) {
+    let mut may_change = open
+        .iter()
+        .filter(|(_, reason)| can_change(*reason))
+        .peekable();
+    if may_change.peek().is_none() {
         return Next::Beyond(first);
+    }
+    if may_change.all(|(name, _)| looks.below_floor.iter().any(|below| below == name)) {
+        return Next::BelowFloor;
     }
     if levels >= MOST_LEVELS {
         return Next::Most;
@@ -196,6 +237,9 @@ fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit:
         Next::Beyond(reason) => {
             format!("{undecided}: {}, which no finer level mends", reason.text())
         }
+        Next::BelowFloor => {
+            format!("{undecided}: the next error would be below the floor")
+        }
         Next::Most => format!("{undecided}, the most that are tried"),
         Next::TooDear(cost) => {
             format!(
@@ -267,7 +311,8 @@ pub fn budget(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::judge_pairs;
+    use crate::judge::verdict::{Floor, judge_pairs};
+    use crate::study::over_levels::{Axis, Claim, ErrorColumn, Refinement};
 
     /// The rates of errors on so many levels, each claimed to be of second order.
     fn rates(levels: usize, errors: &[fn(f64) -> f64]) -> Vec<NamedRate> {
@@ -330,6 +375,40 @@ mod tests {
         assert_eq!(verdict(4, late), Verdict::Fail);
         assert_ne!(verdict(5, late), Verdict::Fail);
         assert_eq!(after(5, &[late], 1.0), Next::Another);
+    }
+
+    #[test]
+    fn high_orders_begin_with_coarser_levels() {
+        let of_order = |order: i32| first_levels(|n| n.powi(-order));
+        for (order, first) in [(2, 8), (6, 8), (7, 4), (8, 2), (40, 2)] {
+            assert_eq!(of_order(order)[0], first, "{order}");
+        }
+        assert_eq!(of_order(8), [2, 4, 8, 16]);
+        assert_eq!(first_levels(|n| 3f64.powf(-n)), [2, 4, 8, 16]);
+    }
+
+    #[test]
+    fn no_level_is_added_whose_error_would_be_below_the_floor() {
+        let levels = |floor: f64| {
+            let refinements = (0..4).map(|k| {
+                let n = 8 << k;
+                Refinement::new(format!("n = {n}"), &[("n", n)], 1.0 / n as f64)
+            });
+            let refinements: Vec<Refinement> = refinements.collect();
+            let errors = refinements.iter().map(|level| Some(level.step));
+            let column = ErrorColumn::new("e", Claim::new(2.0, 0.25), errors);
+            let levels = Levels::new(Axis::Space, refinements.clone(), [column]);
+            levels.with_floor(Floor::new(floor).unwrap())
+        };
+        let after = |floor: f64| {
+            let levels = levels(floor);
+            let now = levels.judge();
+            next(&Looks::of(&levels, &now), 4, 1.0, 1.0, 9.0)
+        };
+        // The last error is 1/64.
+        assert_eq!(after(0.0), Next::Another);
+        assert_eq!(after(0.007), Next::Another);
+        assert_eq!(after(0.008), Next::BelowFloor);
     }
 
     #[test]

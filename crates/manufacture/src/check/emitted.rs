@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::session::{Question, Session};
 use super::{Finding, finding};
 use crate::Sampling;
-use crate::against::{Right, ask, questions};
+use crate::against::questions;
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::derive::{Part, Role};
@@ -122,17 +122,9 @@ pub(crate) fn run(
             points,
             ..*sampling
         };
-        let mut of_model = values(model, language, &mut answer, sampling)?;
         // All models read parameters by the same statements; these differ where a value does.
-        if variant.is_empty() || model.graph.parameters != *base {
-            of_model.extend(values_with_settings(
-                model,
-                language,
-                &mut answer,
-                sampling,
-            )?);
-        }
-        for mut finding in of_model {
+        let with_others = variant.is_empty() || model.graph.parameters != *base;
+        for mut finding in values(model, language, &mut answer, sampling, with_others)? {
             name.clone_into(&mut finding.key);
             if !variant.is_empty() {
                 finding.text = format!("{variant}: {}", finding.text);
@@ -218,57 +210,28 @@ fn printed(command: &[String], question: &Path, variant: &str) -> Result<String,
         .map_err(|_| failed("expected text, found other bytes".to_owned()))
 }
 
-/// What differs from the values of a model.
+/// What differs from the values of a model, with the parameters of the file, then with others.
+///
+/// * `with_others`: whether other parameters are tried, too.
 fn values(
     model: &Model,
     language: Language,
     answer: &mut AnswerProgram<'_>,
     sampling: &Sampling,
+    with_others: bool,
 ) -> Result<Vec<Finding>, InputError> {
-    let Sampling { seed, points, .. } = *sampling;
-    let name = language.name();
-    let faces = model
-        .problem
-        .faces
-        .iter()
-        .filter(|face| !face.data.is_empty());
-    let faces = faces.map(|face| Some(face.name.as_str()));
+    let functions = functions(model, language);
+    let rounds = rounds(model, &functions);
+    let other = settings(model);
+    let mut settings: Vec<&[ParameterValue]> = vec![&[]];
+    if with_others && !other.is_empty() {
+        settings.push(&other);
+    }
     let mut findings = vec![];
-    for face in std::iter::once(None).chain(faces) {
-        let questions = questions(model, face, seed, points)?;
-        let right = Right::new(model, &questions);
-        let arguments: Vec<String> = face.map(str::to_owned).into_iter().collect();
-        let compared = answer
-            .to(&arguments, questions.text.clone())
-            .and_then(|text| ask::read(&text, name, &right.names(), questions.points.len()));
-        match compared {
-            Ok(answers) => findings.extend(differences(&right, &answers, name)),
-            Err(error) => findings.push(finding("emitted", name, error.to_string(), None)),
+    for settings in settings {
+        for round in &rounds {
+            findings.extend(round.held(model, answer, settings, sampling)?);
         }
-    }
-    let functions = functions(model, language);
-    findings.extend(others(&functions).held(model, answer, &[], sampling)?);
-    Ok(findings)
-}
-
-/// What differs from the values of a model with other parameters; nothing without parameters.
-fn values_with_settings(
-    model: &Model,
-    language: Language,
-    answer: &mut AnswerProgram<'_>,
-    sampling: &Sampling,
-) -> Result<Vec<Finding>, InputError> {
-    let settings = settings(model);
-    let mut findings = vec![];
-    if settings.is_empty() {
-        return Ok(findings);
-    }
-    let functions = functions(model, language);
-    for round in rounds(model, &functions)
-        .iter()
-        .chain([&others(&functions)])
-    {
-        findings.extend(round.held(model, answer, &settings, sampling)?);
     }
     Ok(findings)
 }
@@ -281,33 +244,27 @@ struct Round<'f> {
     functions: Vec<&'f EmittedFunction>,
 }
 
-/// All functions but sources and data.
-fn others(functions: &[EmittedFunction]) -> Round<'_> {
-    Round {
-        argument: OTHERS.to_owned(),
-        face: None,
-        functions: emit::others(functions),
-    }
-}
-
-/// The sources, and the data of each face.
+/// The sources, the data of each face, and all other functions.
 fn rounds<'f>(model: &'f Model, functions: &'f [EmittedFunction]) -> Vec<Round<'f>> {
+    let of = |role: Role| functions.iter().filter(move |f| f.role == role);
     let mut rounds = vec![Round {
         argument: String::new(),
         face: None,
-        functions: functions
-            .iter()
-            .filter(|f| f.role == Role::Source)
-            .collect(),
+        functions: of(Role::Source).collect(),
     }];
     for (index, face) in model.problem.faces.iter().enumerate() {
-        let of_face = |f: &&EmittedFunction| f.role == Role::Datum && f.part == Part::Face(index);
+        let data = of(Role::Datum).filter(|f| f.part == Part::Face(index));
         rounds.push(Round {
             argument: face.name.clone(),
             face: Some(&face.name),
-            functions: functions.iter().filter(of_face).collect(),
+            functions: data.collect(),
         });
     }
+    rounds.push(Round {
+        argument: OTHERS.to_owned(),
+        face: None,
+        functions: emit::others(functions),
+    });
     rounds.retain(|round| !round.functions.is_empty());
     rounds
 }
@@ -428,29 +385,4 @@ fn difference(right: &SizedValue, found: f64) -> f64 {
     } else {
         difference / right.size
     }
-}
-
-fn differences(
-    right: &Right<'_>,
-    answers: &[ask::ForeignQuantity],
-    language: &str,
-) -> Vec<Finding> {
-    let mut findings = vec![];
-    for place in right.places() {
-        let name = right.name(place);
-        let Some(answer) = answers.iter().find(|answer| answer.name == name) else {
-            let text = format!("no answer about {name}");
-            findings.push(finding("emitted", language, text, None));
-            continue;
-        };
-        let values = right.values(place);
-        let pairs = values.iter().zip(&answer.values);
-        let shares = pairs.map(|(right, found)| difference(right, *found));
-        let worst = shares.fold(0.0, f64::max);
-        if worst > 0.0 {
-            let text = format!("{name} differs by {worst:.3e} of its size");
-            findings.push(finding("emitted", language, text, Some(worst)));
-        }
-    }
-    findings
 }

@@ -144,11 +144,12 @@ fn what_stands_inside_a_term_and_changed_arguments_are_named() {
         &["x", "y"],
         &[],
     );
-    named(
-        "S(x,y,t,2) + D(x,y,t,2) + R(x,y,t,2)",
-        "parameter",
-        &["a"],
-        &[2.0],
+    let changed = "S(x,y,t,2) + D(x,y,t,2) + R(x,y,t,2)";
+    named(changed, "parameter", &["a"], &[2.0]);
+    let sentence = &of(&format!("print(repr({changed}))"), None, "u")[0].sentence;
+    assert_eq!(
+        sentence,
+        "u: test.toml:10:5: in parameters.a: your source has `2` where the file has `1.7`"
     );
     named(
         "S(x,y,t) + D(x,y,t) + R(x,y,t)**1.1",

@@ -11,9 +11,8 @@ use crate::Sampling;
 use crate::against::questions;
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{SizedValue, Tape};
-use crate::derive::{Part, Role};
 use crate::emit::{
-    self, Alternative, Answering, EmittedFunction, Language, OTHERS, accept, emit, functions,
+    Alternative, AnsweredTogether, Answering, Language, accept, answered_together, emit, functions,
 };
 use crate::language::tree::Tree;
 use crate::model::Model;
@@ -221,7 +220,7 @@ fn values(
     with_others: bool,
 ) -> Result<Vec<Finding>, InputError> {
     let functions = functions(model, language);
-    let rounds = rounds(model, &functions);
+    let rounds = answered_together(model, &functions);
     let other = settings(model);
     let mut settings: Vec<&[ParameterValue]> = vec![&[]];
     if with_others && !other.is_empty() {
@@ -234,39 +233,6 @@ fn values(
         }
     }
     Ok(findings)
-}
-
-/// Functions that an answering program evaluates together.
-struct Round<'f> {
-    /// What asks for them.
-    argument: String,
-    face: Option<&'f str>,
-    functions: Vec<&'f EmittedFunction>,
-}
-
-/// The sources, the data of each face, and all other functions.
-fn rounds<'f>(model: &'f Model, functions: &'f [EmittedFunction]) -> Vec<Round<'f>> {
-    let of = |role: Role| functions.iter().filter(move |f| f.role == role);
-    let mut rounds = vec![Round {
-        argument: String::new(),
-        face: None,
-        functions: of(Role::Source).collect(),
-    }];
-    for (index, face) in model.problem.faces.iter().enumerate() {
-        let data = of(Role::Datum).filter(|f| f.part == Part::Face(index));
-        rounds.push(Round {
-            argument: face.name.clone(),
-            face: Some(&face.name),
-            functions: data.collect(),
-        });
-    }
-    rounds.push(Round {
-        argument: OTHERS.to_owned(),
-        face: None,
-        functions: emit::others(functions),
-    });
-    rounds.retain(|round| !round.functions.is_empty());
-    rounds
 }
 
 /// All parameters that depend on no other, a thousandth larger.
@@ -287,7 +253,7 @@ fn settings(model: &Model) -> Vec<ParameterValue> {
         .collect()
 }
 
-impl Round<'_> {
+impl AnsweredTogether<'_> {
     /// Holds the functions to their values, with other parameters. A definition may lack a value
     /// where no source has it: there nothing is compared.
     fn held(
@@ -307,7 +273,7 @@ impl Round<'_> {
             .iter()
             .flat_map(|f| f.roots.clone())
             .collect();
-        let mut arguments = vec![self.argument.clone()];
+        let mut arguments = vec![self.argument.to_owned()];
         for ParameterValue { parameter, value } in settings {
             let name = &model.problem.parameters[*parameter].name;
             arguments.push(format!("{name}={value:?}"));

@@ -6,8 +6,9 @@ use crate::derive::{DerivedQuantity, Part, Role, Tensor, components, quantity};
 use crate::language::is_of_name;
 use crate::model::Model;
 
-/// The argument that asks the answering program for [`others`]; no face has this name.
-pub(crate) const OTHERS: &str = ":others";
+/// The argument that asks the answering program for functions besides sources and data; no face
+/// has this name.
+const OTHERS: &str = ":others";
 
 /// A function of the coordinates and time.
 #[derive(Debug, Clone)]
@@ -121,19 +122,49 @@ fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
     functions
 }
 
-/// The functions that the answering programs evaluate together, besides sources and data.
-pub(crate) fn others(functions: &[EmittedFunction]) -> Vec<&EmittedFunction> {
-    const OTHERS: [Role; 5] = [
+/// Functions that an answering program evaluates together.
+pub(crate) struct AnsweredTogether<'f> {
+    /// What asks for them.
+    pub(crate) argument: &'f str,
+    /// The face on which they are asked for.
+    pub(crate) face: Option<&'f str>,
+    pub(crate) functions: Vec<&'f EmittedFunction>,
+}
+
+/// The sources, the data of each face, and the functions of the domain besides sources.
+pub(crate) fn answered_together<'f>(
+    model: &'f Model,
+    functions: &'f [EmittedFunction],
+) -> Vec<AnsweredTogether<'f>> {
+    const REST: [Role; 5] = [
         Role::Exact,
         Role::Gradient,
         Role::Definition,
         Role::Term,
         Role::Sources,
     ];
-    let functions = functions.iter();
-    functions
-        .filter(|function| OTHERS.contains(&function.role))
-        .collect()
+    let of = |roles: &[Role], part: Part| {
+        let functions = functions.iter();
+        functions
+            .filter(|f| roles.contains(&f.role) && f.part == part)
+            .collect()
+    };
+    let in_domain = |argument: &'f str, roles: &[Role]| AnsweredTogether {
+        argument,
+        face: None,
+        functions: of(roles, Part::Interior),
+    };
+    let mut groups = vec![in_domain("", &[Role::Source])];
+    for (index, face) in model.problem.faces.iter().enumerate() {
+        groups.push(AnsweredTogether {
+            argument: &face.name,
+            face: Some(&face.name),
+            functions: of(&[Role::Datum], Part::Face(index)),
+        });
+    }
+    groups.push(in_domain(OTHERS, &REST));
+    groups.retain(|group| !group.functions.is_empty());
+    groups
 }
 
 /// The order of the roles in a file.

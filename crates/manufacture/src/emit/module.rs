@@ -4,12 +4,12 @@ mod writer;
 
 use serde::Serialize;
 
-use super::functions::{EmittedFunction, OTHERS, functions, others};
+use super::functions::{AnsweredTogether, EmittedFunction, answered_together, functions};
 use super::lower::Body;
 use super::parameters::{ModuleParameter, parameters};
 use super::{Alternative, Language};
 use crate::arithmetic::quadrature::{self, POINTS};
-use crate::derive::{Part, Role};
+use crate::derive::Role;
 use crate::model::Model;
 use crate::problem::Norm;
 
@@ -152,7 +152,10 @@ impl<'m> Module<'m> {
                 .iter()
                 .any(|helper| helper.name.starts_with("branch")),
             changes: variants.iter().any(|variant| !variant.changes.is_empty()),
-            groups: groups(model, &emitted),
+            groups: answered_together(model, &emitted)
+                .into_iter()
+                .map(group)
+                .collect(),
             prefix: writer.prefix,
             variants,
             rules,
@@ -222,23 +225,13 @@ fn norms(
     errors
 }
 
-fn groups(model: &Model, functions: &[EmittedFunction]) -> Vec<AnswerGroup> {
-    let of = |role: Role, part: Part| {
-        let functions = functions.iter();
-        functions
-            .filter(|f| f.role == role && f.part == part)
-            .collect()
-    };
-    let mut groups = vec![group("", of(Role::Source, Part::Interior))];
-    for (index, face) in model.problem.faces.iter().enumerate() {
-        groups.push(group(&face.name, of(Role::Datum, Part::Face(index))));
-    }
-    groups.push(group(OTHERS, others(functions)));
-    groups.retain(|group| !group.functions.is_empty());
-    groups
-}
-
-fn group(face: &str, functions: Vec<&EmittedFunction>) -> AnswerGroup {
+fn group(
+    AnsweredTogether {
+        argument,
+        functions,
+        ..
+    }: AnsweredTogether<'_>,
+) -> AnswerGroup {
     const LONGEST: usize = 48;
     let mut names = vec![String::new()];
     for name in functions.iter().flat_map(|f| &f.components) {
@@ -264,7 +257,7 @@ fn group(face: &str, functions: Vec<&EmittedFunction>) -> AnswerGroup {
         count += function.roots.len();
     }
     AnswerGroup {
-        face: face.to_owned(),
+        face: argument.to_owned(),
         names,
         functions: answers,
         count,

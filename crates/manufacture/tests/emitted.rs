@@ -220,38 +220,70 @@ fn definitions_terms_and_joint_sources_are_emitted() {
     assert!(findings(&text, Language::C).is_empty());
 }
 
-/// The check compares each of them: a slip in one that no source calls is found.
+/// The check compares each function that an answering program has: a slip in one is found in it.
 #[test]
-fn a_slip_in_an_emitted_definition_is_found() {
+fn a_slip_in_each_emitted_function_is_found() {
     if !foreign_tools::are_here(&[foreign_tools::C]) {
         return;
     }
     let text = crate::files::plane(
         "u = \"sin(x)*exp(y)\"",
         "k = \"1 + u^2\"",
-        "heat = \"-div(k*grad(u))\"",
+        "heat = \"-div(k*grad(u))\"\n[equations.other]\nloss = \"k*u\"\ngain = \"-x*y\"",
     );
-    let slip = text.replace("k = \"1 + u^2\"", "k = \"1.001 + u^2\"");
-    let folder = tempfile::tempdir().unwrap();
-    let [right, wrong] = [&text, &slip].map(|text| read(text).emit(Language::C)[0].text.clone());
-    let function = |text: &str| {
-        let start = text.find("double test_define_k(").unwrap();
-        let end = start + text[start..].find("\n}\n").unwrap();
-        text[start..end].to_owned()
-    };
-    assert_ne!(function(&right), function(&wrong));
-    for file in read(&text).emit(Language::C) {
-        let changed = file.text.replace(&function(&right), &function(&wrong));
-        std::fs::write(folder.path().join(&file.name), changed).unwrap();
+    let text = text + "[boundary.x_max]\nflux = \"dot(grad(u), n)\"\n";
+    let manufacture = read(&text);
+    let files = manufacture.emit(Language::C);
+    for (function, component) in [
+        ("exact_u", "exact_u"),
+        ("gradient_u", "gradient_u_x"),
+        ("define_k", "define_k"),
+        ("term_other_loss", "term_other_loss"),
+        ("source_heat", "heat"),
+        ("sources", "sources_1"),
+        ("boundary_x_max_flux", "flux"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        for EmittedFile { name, text } in &files {
+            let slipped = slipped(text, &format!("test_{function}("));
+            std::fs::write(folder.path().join(name), slipped).unwrap();
+        }
+        let findings = manufacture
+            .check_built(Language::C, folder.path(), &sampling())
+            .unwrap();
+        let first = findings.first().map(|finding| finding.text.as_str());
+        let start = format!("{component} differs by ");
+        assert!(
+            first.is_some_and(|text| text.starts_with(&start)),
+            "{function}: {findings:#?}"
+        );
     }
-    let findings = read(&text)
-        .check_built(Language::C, folder.path(), &sampling())
-        .unwrap();
-    assert_eq!(findings.len(), 1, "{findings:#?}");
-    assert!(
-        findings[0].text.starts_with("define_k differs by"),
-        "{findings:#?}"
-    );
+}
+
+/// The first value of a function a thousandth larger.
+fn slipped(text: &str, function: &str) -> String {
+    let Some(start) = text.find(function) else {
+        return text.to_owned();
+    };
+    let (before, body) = text.split_at(start);
+    let mut body = body.to_owned();
+    for value in ["return ", "out[0] = "] {
+        let at = body
+            .find(value)
+            .filter(|at| *at < body.find("\n}\n").unwrap_or(0));
+        if let Some(at) = at {
+            let from = at + value.len();
+            let to = from + body[from..].find(';').unwrap();
+            body = format!(
+                "{}1.001*({}){}",
+                &body[..from],
+                &body[from..to],
+                &body[to..]
+            );
+            break;
+        }
+    }
+    format!("{before}{body}")
 }
 
 /// The words of a command that compiles the files of a language in a folder at its strictest.

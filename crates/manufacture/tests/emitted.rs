@@ -240,7 +240,7 @@ fn a_slip_in_each_emitted_function_is_found() {
         ("define_k", "define_k"),
         ("term_other_loss", "term_other_loss"),
         ("source_heat", "heat"),
-        ("sources", "sources_1"),
+        ("sources", "sources_x"),
         ("boundary_x_max_flux", "flux"),
     ] {
         let folder = tempfile::tempdir().unwrap();

@@ -221,8 +221,10 @@ rate & \multicolumn{{2}}{{r}}{{\textbf{{1.9990--2.0010}}}} & \multicolumn{{2}}{{
     // A level that is set aside has a mark, which is explained.
     let latex = with(&["--floor", "1e-2"]);
     assert!(
-        latex.contains(r"$2.5000 \cdot 10^{-3}^{c}$")
-            && latex.contains(r"{\footnotesize $^{c}$ set aside: not above the floor 1e-2} \\"),
+        latex.contains(r"$2.5000 \cdot 10^{-3}$\textsuperscript{c}")
+            && latex.contains(
+                r"{\footnotesize \textsuperscript{c} set aside: not above the floor 1e-2} \\"
+            ),
         "{latex}"
     );
 }

@@ -148,6 +148,12 @@ fn the_answered_numbers_are_guarded_and_a_looser_claim_is_found() {
     assert_eq!(verify(&["--bless"]).0, Some(0));
     let (status, out, err) = verify(&[]);
     assert_eq!(status, Some(0), "{out}{err}");
+    // The page that is committed has no digits of round-off.
+    let page = fs::read_to_string(place.folder.path().join("reports/README.md")).unwrap();
+    assert!(
+        page.contains("(dJ·d is right to 1e-7 in 3 directions)"),
+        "{page}"
+    );
     let baseline = fs::read_to_string(place.folder.path().join("studies/baseline.json")).unwrap();
     for name in ["seed = 3: dJ·d", "seed = 3: J", "dJ·d right to"] {
         assert!(baseline.contains(name), "{baseline}");

@@ -100,22 +100,22 @@ fn number(cell: &str) -> String {
         None if plain == "-" => return "--".to_owned(),
         None => plain.to_owned(),
     };
-    format!("${number}{mark}$")
+    format!("${number}${mark}")
 }
 
 /// A mark of a level that is set aside.
 fn symbol(mark: &str) -> &'static str {
     match mark {
-        "_" => "^{c}",
-        "'" => "^{b}",
-        _ => "^{a}",
+        "_" => "\\textsuperscript{c}",
+        "'" => "\\textsuperscript{b}",
+        _ => "\\textsuperscript{a}",
     }
 }
 
 /// The meaning of a mark.
 fn note(line: &str) -> String {
     let (mark, words) = line.split_once(' ').unwrap_or((line, ""));
-    format!("${}$ {}", symbol(mark), escaped(words))
+    format!("{} {}", symbol(mark), escaped(words))
 }
 
 /// A text in LaTeX, without commands of its own.

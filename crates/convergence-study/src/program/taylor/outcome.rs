@@ -35,6 +35,16 @@ pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     let numbers = judged.iter().flat_map(|one| study.measured(one));
     let sheet = Sheet::new("Derivatives", study.first(), numbers);
     let mut outcome = Outcome::of_judged_sheet(summary(&judged, drawn_anew), checks, sheet);
+    // The report that is committed has no digits of round-off.
+    if outcome.verdict.is_pass() {
+        let directions = counted(judged.len(), "direction");
+        let names = if study.second {
+            "dJ·d and d'Hd are"
+        } else {
+            "dJ·d is"
+        };
+        outcome.headline = format!("{names} right to {:e} in {directions}", study.to).into();
+    }
     outcome.figures.push(figure(study, &judged));
     outcome
 }

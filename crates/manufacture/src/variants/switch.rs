@@ -35,8 +35,7 @@ impl Switch {
             Switch::Coordinate(name) | Switch::Time(name) | Switch::Field(name) => {
                 format!("constant_{name}")
             }
-            Switch::Face(name) => format!("flat_{name}"),
-            Switch::BothFaces(name) => format!("flat_{name}"),
+            Switch::Face(name) | Switch::BothFaces(name) => format!("flat_{name}"),
             Switch::AllFaces => "flat_faces".to_owned(),
             Switch::AllFacesBut(name) => format!("flat_but_{name}"),
             Switch::Initial => "flat_initial".to_owned(),
@@ -45,41 +44,10 @@ impl Switch {
         }
     }
 
-    /// The sort of part.
-    pub fn part(&self) -> &'static str {
-        match self {
-            Switch::Coordinate(_) => "coordinate",
-            Switch::Time(_) => "time",
-            Switch::Face(_) => "face",
-            Switch::BothFaces(_) => "both_faces",
-            Switch::AllFaces => "all_faces",
-            Switch::AllFacesBut(_) => "all_faces_but",
-            Switch::Initial => "initial",
-            Switch::AllFacesAndInitial => "all_faces_and_initial",
-            Switch::Parameter(_) => "parameter",
-            Switch::Field(_) => "field",
-        }
-    }
-
-    /// The name of the part, where there are several of its sort.
-    pub fn name(&self) -> Option<&str> {
-        match self {
-            Switch::AllFaces | Switch::Initial | Switch::AllFacesAndInitial => None,
-            Switch::Coordinate(name)
-            | Switch::Time(name)
-            | Switch::Face(name)
-            | Switch::BothFaces(name)
-            | Switch::AllFacesBut(name)
-            | Switch::Parameter(name)
-            | Switch::Field(name) => Some(name),
-        }
-    }
-
     /// What the variant switches off, in words.
     pub fn words(&self) -> String {
         match self {
-            Switch::Coordinate(name) => format!("all that acts along {name}"),
-            Switch::Time(name) => format!("all that acts along {name}"),
+            Switch::Coordinate(name) | Switch::Time(name) => format!("all that acts along {name}"),
             Switch::Face(name) => format!("the data at {name}"),
             Switch::BothFaces(name) => format!("the data at {name}_min and {name}_max"),
             Switch::AllFaces => "the data at all faces".to_owned(),

@@ -65,6 +65,16 @@ pub(super) enum Scalar {
     Number,
 }
 
+impl JsonSchema for Scalar {
+    fn schema_name() -> Cow<'static, str> {
+        "Scalar".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }] })
+    }
+}
+
 /// A scalar, a vector, or the rows of a tensor.
 #[derive(Debug)]
 pub(super) enum TensorEntry {
@@ -72,8 +82,22 @@ pub(super) enum TensorEntry {
     List(Vec<Located<TensorEntry>>),
 }
 
+impl JsonSchema for TensorEntry {
+    fn schema_name() -> Cow<'static, str> {
+        "TensorEntry".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let scalar = Scalar::json_schema(generator);
+        let vector = json_schema!({ "type": "array", "items": scalar });
+        let tensor = json_schema!({ "type": "array", "items": vector });
+        json_schema!({ "anyOf": [scalar, vector, tensor] })
+    }
+}
+
 /// A value of `[boundary]` or `[initial]`: one that is given, or one that must hold.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema)]
+#[schemars(untagged)]
 pub(super) enum DatumEntry {
     Given(TensorEntry),
     Held(HeldTable),
@@ -90,17 +114,21 @@ pub(super) struct HeldTable {
 }
 
 /// An equation: a text that is cut into terms, or terms by name.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema)]
+#[schemars(untagged)]
 pub(super) enum EquationEntry {
     Sum(Scalar),
     Terms(Named<Scalar>),
 }
 
 /// `[boundary.NAME]`: its data, and where they are.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, JsonSchema)]
 pub(super) struct FaceEntry {
+    /// the side that the data are on, such as `x_max`; without it the name of the table
     pub(super) face: Option<Located<String>>,
+    /// in place of `face`: a function that is negative inside and zero on the face
     pub(super) level: Option<Located<Scalar>>,
+    #[schemars(flatten)]
     pub(super) data: Named<DatumEntry>,
 }
 
@@ -109,8 +137,6 @@ trait Entry: Sized {
     const EXPECTED: &'static str = "an expression as a text, or a number";
 
     fn scalar(scalar: Scalar) -> Self;
-
-    fn schema(generator: &mut SchemaGenerator) -> Schema;
 
     fn list<'de, A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
         Err(de::Error::invalid_type(Unexpected::Seq, &Self::EXPECTED))
@@ -125,22 +151,11 @@ impl Entry for Scalar {
     fn scalar(scalar: Scalar) -> Self {
         scalar
     }
-
-    fn schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }] })
-    }
 }
 
 impl Entry for TensorEntry {
     fn scalar(scalar: Scalar) -> Self {
         Self::One(scalar)
-    }
-
-    fn schema(generator: &mut SchemaGenerator) -> Schema {
-        let scalar = Scalar::schema(generator);
-        let vector = json_schema!({ "type": "array", "items": scalar });
-        let tensor = json_schema!({ "type": "array", "items": vector });
-        json_schema!({ "anyOf": [scalar, vector, tensor] })
     }
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
@@ -158,12 +173,6 @@ impl Entry for DatumEntry {
         Self::Given(TensorEntry::One(scalar))
     }
 
-    fn schema(generator: &mut SchemaGenerator) -> Schema {
-        let given = TensorEntry::schema(generator);
-        let held = HeldTable::json_schema(generator);
-        json_schema!({ "anyOf": [given, held] })
-    }
-
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
         TensorEntry::list(list).map(Self::Given)
     }
@@ -176,12 +185,6 @@ impl Entry for DatumEntry {
 impl Entry for EquationEntry {
     fn scalar(scalar: Scalar) -> Self {
         Self::Sum(scalar)
-    }
-
-    fn schema(generator: &mut SchemaGenerator) -> Schema {
-        let sum = Scalar::schema(generator);
-        let terms = Named::<Scalar>::json_schema(generator);
-        json_schema!({ "anyOf": [sum, terms] })
     }
 
     fn table<'de, A: MapAccess<'de>>(table: A) -> Result<Self, A::Error> {
@@ -231,16 +234,6 @@ macro_rules! read_entries {
                 deserializer.deserialize_any(ReadsEntry(PhantomData))
             }
         }
-
-        impl JsonSchema for $entry {
-            fn schema_name() -> Cow<'static, str> {
-                stringify!($entry).into()
-            }
-
-            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-                Self::schema(generator)
-            }
-        }
     )*};
 }
 
@@ -269,28 +262,5 @@ impl<'de> Deserialize<'de> for FaceEntry {
             }
         }
         deserializer.deserialize_map(ReadsFace)
-    }
-}
-
-impl JsonSchema for FaceEntry {
-    fn schema_name() -> Cow<'static, str> {
-        "FaceEntry".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": "object",
-            "properties": {
-                "face": {
-                    "type": "string",
-                    "description": "the side that the data are on, such as `x_max`; without it the name of the table",
-                },
-                "level": {
-                    "anyOf": Scalar::schema(generator).get("anyOf"),
-                    "description": "in place of `face`: a function that is negative inside and zero on the face",
-                },
-            },
-            "additionalProperties": DatumEntry::schema(generator),
-        })
     }
 }

@@ -26,6 +26,37 @@ impl Design {
     }
 }
 
+impl Design {
+    /// The same flat by a weight: of a field that is its own Taylor polynomial nothing is left
+    /// without that.
+    pub(super) fn weighed(self, intervals: &[[f64; 2]]) -> Self {
+        let steps = self.variation.steps.into_iter().map(|step| match step {
+            VariationStep::Flatten {
+                variable,
+                end,
+                degree,
+            } => {
+                let [low, high] = intervals[variable];
+                // One end of the bubble lies behind the other side.
+                let behind = 2.0 * (low + high - end) - end;
+                VariationStep::Weigh(Bubble {
+                    variable,
+                    interval: [end.min(behind), end.max(behind)],
+                    degree,
+                })
+            }
+            step => step,
+        });
+        Self {
+            variation: Variation {
+                steps: steps.collect(),
+                ..self.variation
+            },
+            switch: self.switch,
+        }
+    }
+}
+
 /// A side of the box that has data.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BoxSide {

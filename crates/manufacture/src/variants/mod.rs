@@ -154,12 +154,10 @@ pub(crate) fn variants<'m>(
         .filter(|design| !is_left_out(&design.switch))
         .collect();
     for design in designs {
-        match usable(base, &design, sampling) {
+        let switch = design.switch.clone();
+        match usable(base, design, sampling) {
             Ok(variant) => variants.usable.push(variant),
-            Err(why) => variants.left_out.push(LeftOutVariant {
-                switch: design.switch,
-                why,
-            }),
+            Err(why) => variants.left_out.push(LeftOutVariant { switch, why }),
         }
     }
     Ok(variants)
@@ -168,17 +166,11 @@ pub(crate) fn variants<'m>(
 /// The root mean square of all fields over points of the domain.
 fn size(model: &Model, sampling: &Sampling) -> Result<f64, InputError> {
     let squares = squares(model, sampling)?.into_iter();
-    Ok(squares.map(|square| square.value).sum::<f64>().sqrt())
+    Ok(squares.sum::<f64>().sqrt())
 }
 
-/// The mean square of a field.
-struct MeanSquare {
-    field: String,
-    value: f64,
-}
-
-/// Of all fields, over points of the domain.
-fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<MeanSquare>, InputError> {
+/// The mean square of each field over points of the domain.
+fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<f64>, InputError> {
     let points = Sampler::new(model, sampling.seed).points(Part::Interior, sampling.points)?;
     let squares = model.of_role(Role::Exact).map(|field| {
         let rows = TensorRows::new(&model.graph, std::iter::once(&field.tensor));
@@ -186,23 +178,21 @@ fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<MeanSquare>, InputE
             .iter()
             .flat_map(|point| rows.at(point).tensors.remove(0));
         let sum: f64 = values.map(|part| part.value.powi(2)).sum();
-        MeanSquare {
-            field: field.name.clone(),
-            value: sum / points.len() as f64,
-        }
+        sum / points.len() as f64
     });
     Ok(squares.collect())
 }
 
-/// The field that a flat design makes zero: all that is done to it would be switched off.
-fn vanished(base: &Model, design: &Design, sampling: &Sampling) -> Option<String> {
+/// Whether a flat design makes a field zero: then all that is done to that is switched off.
+fn vanishes(base: &Model, design: &Design, sampling: &Sampling) -> Result<bool, InputError> {
     const ZERO: f64 = 1e-20;
-    let flat = Model::new(problem(&base.problem, design, BTreeMap::new()));
-    let flat = flat.ok().filter(|_| design.is_flat())?;
-    let [whole, left] = [base, &flat].map(|model| squares(model, sampling));
-    let mut pairs = whole.ok()?.into_iter().zip(left.ok()?);
-    let zero = pairs.find(|(whole, left)| whole.value > 0.0 && left.value <= ZERO * whole.value);
-    zero.map(|(whole, _)| whole.field)
+    if !design.is_flat() {
+        return Ok(false);
+    }
+    let flat = Model::new(problem(&base.problem, design, BTreeMap::new()))?;
+    let [whole, left] = [squares(base, sampling)?, squares(&flat, sampling)?];
+    let mut pairs = whole.into_iter().zip(left);
+    Ok(pairs.any(|(whole, left)| whole > 0.0 && left <= ZERO * whole))
 }
 
 /// The values of a field at a point.
@@ -259,17 +249,16 @@ fn scaled(values: Vec<Values>, scale: f64) -> BTreeMap<String, Vec<f64>> {
 }
 
 /// The variant, or in words why it cannot be used.
-fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant, String> {
+fn usable(base: &Model, design: Design, sampling: &Sampling) -> Result<Variant, String> {
     let Sampling { seed, points, .. } = *sampling;
-    if let Some(field) = vanished(base, design, sampling) {
-        return Err(format!("{field} would be zero everywhere"));
-    }
+    let in_words = |error: InputError| error.to_string();
+    let design = match vanishes(base, &design, sampling).map_err(in_words)? {
+        true => design.weighed(&base.problem.intervals),
+        false => design,
+    };
     let mut why = String::new();
-    for lift in lifts(base, design) {
-        let model = match Model::new(problem(&base.problem, design, lift)) {
-            Ok(model) => model,
-            Err(error) => return Err(error.to_string()),
-        };
+    for lift in lifts(base, &design) {
+        let model = Model::new(problem(&base.problem, &design, lift)).map_err(in_words)?;
         // A pole is refused as bad input; here it is a reason.
         let findings = match check::failures(&model, seed, points) {
             Ok(findings) => findings,
@@ -284,7 +273,7 @@ fn usable(base: &Model, design: &Design, sampling: &Sampling) -> Result<Variant,
         let Some(first) = failures.first() else {
             return Ok(Variant {
                 switch: design.switch.clone(),
-                size: size(&model, sampling).map_err(|error| error.to_string())?,
+                size: size(&model, sampling).map_err(in_words)?,
                 model,
             });
         };

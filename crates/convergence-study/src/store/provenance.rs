@@ -15,7 +15,7 @@ use crate::store::{SCHEMA, read_if_there};
 /// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// [`SCHEMA`].
+    /// `SCHEMA`.
     pub schema: u32,
     /// Version of this crate.
     pub crate_version: String,

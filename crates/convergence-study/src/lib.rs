@@ -128,12 +128,13 @@ pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
         About, Axis, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorsOverLevels,
-        Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind, LevelErrors, Measured,
-        Must, NamedRate, Origin, Outcome, Quantity, Ran, Reading, Recorded, Refinement, Reused,
-        Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier, Untested, boxed_study,
+        Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind, LevelErrors,
+        LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity, Ran, Reading,
+        Recorded, Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table,
+        Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
-        levels, measured,
+        levels, levels_of_samples, measured,
         norms::norms,
         unnoticed,
     },
@@ -189,6 +190,7 @@ pub use crate::cli::run_command_line;
 #[doc = include_str!("../book/src/rust.md")]
 #[doc = include_str!("../book/src/gradients.md")]
 #[doc = include_str!("../book/src/kinds.md")]
+#[doc = include_str!("../book/src/scatter.md")]
 #[doc = include_str!("../book/src/values.md")]
 #[doc = include_str!("../book/src/which.md")]
 struct Pages;

@@ -5,7 +5,7 @@ use crate::judge::claims::{Bound, Claim};
 use crate::judge::fit::Level;
 use crate::judge::shown::{self, Shown};
 use crate::judge::verdict::{Floor, Verdict};
-use crate::study::{ErrorsOverLevels, IntoErrors, NamedRate};
+use crate::study::{ErrorsOverLevels, IntoErrors, LevelsOfSamples, NamedRate};
 
 /// Judges errors against the order that theory claims, in any test; the tolerance is
 /// that of [`Claim::usual`].
@@ -54,6 +54,28 @@ where
     F: Fn(usize) -> R + Send + Sync,
 {
     /// Runs all levels, on all threads of the machine, and judges them.
+    pub fn run(&self) -> Finished {
+        run_kind(&self.header, self)
+    }
+
+    /// Runs and judges it, for a test.
+    ///
+    /// # Panics
+    /// As [`Finished::assert_passes`].
+    #[track_caller]
+    pub fn assert_passes(&self) -> Finished {
+        let finished = self.run();
+        finished.assert_passes();
+        finished
+    }
+}
+
+impl<R, F> LevelsOfSamples<F>
+where
+    R: IntoErrors,
+    F: Fn(usize, usize) -> R + Send + Sync,
+{
+    /// Runs all samples, on all threads of the machine, and judges the levels.
     pub fn run(&self) -> Finished {
         run_kind(&self.header, self)
     }

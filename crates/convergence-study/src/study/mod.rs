@@ -14,6 +14,7 @@ pub(crate) mod grid;
 pub(crate) mod header;
 mod in_code;
 pub(crate) mod kind;
+mod levels_of_samples;
 mod measured;
 mod must;
 pub(crate) mod norms;
@@ -40,6 +41,7 @@ pub(crate) use file::{STUDY, study_schema};
 pub use header::{Header, Tier};
 pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
+pub use levels_of_samples::{LevelsOfSamples, levels_of_samples};
 pub use measured::{Measured, Recorded, Sheet, Shown, measured};
 pub use must::Must;
 pub use outcome::{

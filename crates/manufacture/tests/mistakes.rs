@@ -361,6 +361,20 @@ fn a_factor_of_time_alone_that_was_forgotten_is_named() {
     );
 }
 
+/// By its value, with its line: also where the file has zero, which no factor changes.
+#[test]
+fn a_parameter_with_another_value_is_named() {
+    for [old, new] in [["0", "0.5"], ["0.7", "1.4"]] {
+        let file = format!(
+            "[manufacture]\nname = \"rod\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n[parameters]\nb = {old}\n\
+             [exact]\nu = \"sin(2*x)\"\n[equations]\nbalance = \"-d(u, x, x) + sin(b*u)*cos(b*x)\"\n"
+        );
+        let values = [format!("b = {old}"), format!("b = {new}")];
+        let [before, after] = values.each_ref().map(String::as_str);
+        named(&file, [before, after], "parameter", [old, new]);
+    }
+}
+
 /// Whether all components that are wrong have this cause, and an edit with a line.
 #[track_caller]
 fn all_are(found: &[Comparison], cause: &str) {

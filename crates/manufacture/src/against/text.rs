@@ -159,8 +159,8 @@ fn rewritten(
 fn parameter(problem: &Problem, home: &Home, factor: f64) -> f64 {
     let values = problem.parameter_values(&[]).unwrap_or_default();
     match home {
-        Home::Parameter(place) => simple(factor * values[*place]),
-        _ => f64::NAN,
+        Home::Parameter(place) if values[*place] != 0.0 => simple(factor * values[*place]),
+        _ => factor,
     }
 }
 

@@ -7,14 +7,14 @@ mod walk;
 
 use std::collections::BTreeMap;
 
-use super::bench::{Alteration, Rewrite};
+use super::bench::{Alteration, FACTOR, Rewrite};
 use super::site::{self, Home};
 use crate::derive::{Basis, Part};
 use crate::language::tree::{Tree, TreeKind};
 use crate::problem::{Problem, System, mentions};
 
 pub(crate) use trees::number;
-use trees::times_factor;
+use trees::{name, times_factor};
 use walk::{Role, Walk};
 
 /// What an edit does.
@@ -74,7 +74,7 @@ pub(crate) enum EditKind {
     Parameters,
     /// The normal of a face points inwards.
     Normal,
-    /// A parameter times an unknown factor.
+    /// A parameter times an unknown factor; one that is zero by an unknown number.
     Parameter,
     /// The values of one time at all times.
     Time,
@@ -193,11 +193,15 @@ fn of_all(problem: &Problem, part: Part) -> Vec<Candidate> {
             add(EditKind::Coordinates, Alteration::Exchange([first, second]));
         }
     }
-    for (parameter, entry) in problem.parameters.iter().enumerate() {
+    let values = problem.parameter_values(&[]).unwrap_or_default();
+    for (parameter, value) in values.into_iter().enumerate() {
         let rewrite = Rewrite {
             home: Home::Parameter(parameter),
             route: vec![],
-            new: times_factor(&entry.expression.tree),
+            new: match value {
+                0.0 => name(FACTOR),
+                _ => times_factor(&problem.parameters[parameter].expression.tree),
+            },
         };
         add(EditKind::Parameter, Alteration::Rewrite(rewrite));
     }

@@ -8,7 +8,8 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-use super::answer::{Answer, Expectation};
+use super::answer::Answer;
+use super::expectation::Expectation;
 use super::guard::{Ending, NotStarted, Running};
 use super::launch::CaseParameter;
 use super::output::{NoAnswer, read_last_words, read_output};

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Program;
-use super::answer::Expectation;
+use super::expectation::Expectation;
 use super::kept::Kept;
 use super::launch::{COMMAND, LaunchKeys, SECONDS};
 use super::refine::{Refine, RefineTable};

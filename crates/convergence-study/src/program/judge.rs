@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use super::answer::{Answer, Expectation};
+use super::answer::Answer;
+use super::expectation::Expectation;
 use super::{CaseRun, Program, refine, samples, values};
 use crate::chart::{self, Chart, Series};
 use crate::judge::claims;

@@ -7,7 +7,7 @@
 //!
 //! | file | holds |
 //! | --- | --- |
-//! | `file.rs`, `refine.rs` | the study file: tables, resolutions |
+//! | `file.rs`, `refine.rs`, `expectation.rs` | the study file: tables, resolutions, claims |
 //! | `launch.rs`, `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
 //! | `kept.rs` | answers that are taken again |
 //! | `answer.rs`, `lines.rs`, `once.rs` | its answer: an object, or lines |
@@ -21,6 +21,7 @@
 mod answer;
 pub(crate) mod begin;
 mod command;
+mod expectation;
 mod file;
 pub(crate) mod guard;
 mod judge;
@@ -46,8 +47,8 @@ use crate::study::until_decided::Next;
 use crate::study::{
     Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study,
 };
-use answer::Expectation;
 use command::Invocation;
+use expectation::Expectation;
 use file::ProgramFile;
 use kept::Kept;
 use launch::Launch;

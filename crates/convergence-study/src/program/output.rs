@@ -5,7 +5,8 @@ use std::io::{ErrorKind, Read};
 
 use serde_json::{Map, Value};
 
-use super::answer::{self, Expectation, STEPS_AND_WORK, object_of_lines};
+use super::answer::{self, STEPS_AND_WORK, object_of_lines};
+use super::expectation::Expectation;
 use super::lines::{self, NamedText};
 use crate::text::visible::visible;
 

@@ -6,7 +6,8 @@ mod outcome;
 
 use std::path::Path;
 
-use super::answer::{Answer, Expectation};
+use super::answer::Answer;
+use super::expectation::Expectation;
 use super::launch::{CaseParameter, Launch};
 use crate::input::{Refusal, schema};
 use crate::judge::taylor::{Along, Finding, Judged, Second};

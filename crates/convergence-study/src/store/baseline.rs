@@ -34,6 +34,7 @@
 //! did not pass is not blessed.
 
 mod change;
+mod hash;
 mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,13 +46,14 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
-use crate::store::{atomic, content_hash, read_if_there};
+use crate::store::{atomic, read_if_there};
 use crate::study::{Header, Must, Quantity, Sources};
 use crate::text::json;
 
 use change::meets;
 pub(crate) use change::without_baseline;
 pub use change::{GuardedChange, Movement};
+use hash::{Lines, Names, hash, names};
 
 /// Version of the file format.
 const SCHEMA: u32 = 3;
@@ -421,58 +423,6 @@ impl Baseline {
 
 fn find<'f>(finished: &'f [Finished], id: &str) -> Option<&'f Finished> {
     finished.iter().find(|finished| finished.header.id == *id)
-}
-
-/// What the hash of a study says of its lines in the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Lines {
-    /// They are those that were blessed, with these settings.
-    Whole,
-    /// With the numbers of the run that the file lacks they would be: somebody has deleted them.
-    Deleted,
-    /// The settings are others, or the lines.
-    Others,
-}
-
-/// The names of numbers, and whether each has a claim.
-type Names = BTreeMap<String, bool>;
-
-/// * `has_sources`: whether there are hashes of the files of a table.
-fn names(numbers: &[Quantity], claims: &[(String, Must)], has_sources: bool) -> Names {
-    let numbers = numbers.iter();
-    let numbers = numbers.map(|quantity| (quantity.name.clone(), quantity.claim.is_some()));
-    let claims = claims.iter().map(|(name, _)| (name.clone(), true));
-    let sources = has_sources.then(|| (change::SOURCES.to_owned(), false));
-    numbers.chain(claims).chain(sources).collect()
-}
-
-impl Blessed {
-    fn names(&self) -> Names {
-        let numbers = self.numbers.iter();
-        let numbers = numbers.map(|(name, number)| (name.clone(), number.claim.is_some()));
-        let claims = self.claims.keys().map(|name| (name.clone(), true));
-        let sources = self.sources.is_some();
-        let sources = sources.then(|| (change::SOURCES.to_owned(), false));
-        numbers.chain(claims).chain(sources).collect()
-    }
-}
-
-/// The hash of every value of a study's file, of the labels of its cases, and of its names.
-fn hash(
-    Header {
-        settings, cases, ..
-    }: &Header,
-    names: &Names,
-) -> String {
-    let mut lines: Vec<String> = settings
-        .iter()
-        .map(|(path, value)| format!("{path} = {value}\n"))
-        .collect();
-    lines.sort_unstable();
-    lines.extend(cases.iter().map(|label| format!("case {label}\n")));
-    let names = names.iter();
-    lines.extend(names.map(|(name, claimed)| format!("number {name}, claimed: {claimed}\n")));
-    format!("{:016x}", content_hash(lines.concat().as_bytes()))
 }
 
 fn acceptable(

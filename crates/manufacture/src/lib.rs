@@ -15,7 +15,7 @@
 //! Jets walk the tree and share no rule of derivatives with the graph. Named terms are summed in
 //! alphabetical order, so that the emitted bytes do not depend on the order of keys.
 
-pub mod against;
+mod against;
 mod arithmetic;
 mod at;
 pub mod check;

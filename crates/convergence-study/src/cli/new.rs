@@ -5,7 +5,6 @@ use std::process::{Command, Stdio};
 use std::{env, fs};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use manufacture::against::{CommandWords, command_words};
 use serde_json::json;
 
 use super::exit::{CommandOutcome, Unusable};
@@ -144,13 +143,28 @@ fn is_python3(command: &str) -> bool {
     version.is_ok_and(|version| version.status.success() && version.stdout.starts_with(b"Python 3"))
 }
 
-/// The words of a command.
+/// The words of a command, as a shell separates them: by blanks outside quotes.
 ///
 /// # Errors
 /// No word, and a quote without its end, in words.
 pub(super) fn words(command: &str) -> Result<Vec<String>, String> {
-    let CommandWords { words, open_quote } = command_words(command);
-    if let Some(quote) = open_quote {
+    let mut words = vec![];
+    let mut word: Option<String> = None;
+    let mut quote: Option<char> = None;
+    for c in command.chars() {
+        if quote == Some(c) {
+            quote = None;
+        } else if quote.is_none() && (c == '"' || c == '\'') {
+            quote = Some(c);
+            word.get_or_insert_default();
+        } else if quote.is_none() && c.is_whitespace() {
+            words.extend(word.take());
+        } else {
+            word.get_or_insert_default().push(c);
+        }
+    }
+    words.extend(word);
+    if let Some(quote) = quote {
         return Err(format!("found {quote} without its end; expected another"));
     }
     if words.is_empty() {

@@ -14,39 +14,6 @@ pub(crate) struct ForeignQuantity {
     pub(crate) units: Vec<f64>,
 }
 
-/// A command in one text, taken apart.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CommandWords {
-    /// The program and its arguments.
-    pub words: Vec<String>,
-    /// A quote that has no end.
-    pub open_quote: Option<char>,
-}
-
-/// The words of a command, as a shell separates them: by blanks outside quotes.
-pub fn command_words(command: &str) -> CommandWords {
-    let mut words = vec![];
-    let mut word: Option<String> = None;
-    let mut quote: Option<char> = None;
-    for c in command.chars() {
-        if quote == Some(c) {
-            quote = None;
-        } else if quote.is_none() && (c == '"' || c == '\'') {
-            quote = Some(c);
-            word.get_or_insert_default();
-        } else if quote.is_none() && c.is_whitespace() {
-            words.extend(word.take());
-        } else {
-            word.get_or_insert_default().push(c);
-        }
-    }
-    words.extend(word);
-    CommandWords {
-        words,
-        open_quote: quote,
-    }
-}
-
 /// Points as lines under a line of names.
 pub(crate) fn question(names: &[String], points: &[Vec<f64>]) -> String {
     let mut text = names.join(" ") + "\n";

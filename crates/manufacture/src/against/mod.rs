@@ -22,7 +22,6 @@ mod solve;
 pub(crate) mod text;
 mod whole;
 
-pub use ask::{CommandWords, command_words};
 pub use cause::Edit;
 
 use serde::Serialize;

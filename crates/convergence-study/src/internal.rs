@@ -87,9 +87,6 @@ pub mod store {
     }
 }
 pub mod study {
-    pub mod readings {
-        pub use crate::study::readings::{guarded, not_finite, table};
-    }
     #[cfg(feature = "files")]
     pub use crate::study::StudyFile;
     pub use crate::study::{Described, STEPS, first_repeated, run_cases_here};
@@ -97,7 +94,7 @@ pub mod study {
         pub use crate::study::coverage::NO_RESULT;
     }
     pub mod header {
-        pub use crate::study::header::{SettingWords, is_name, study};
+        pub use crate::study::header::is_name;
     }
     pub mod kind {
         pub use crate::study::kind::{judge, run_cases_here};

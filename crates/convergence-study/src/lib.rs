@@ -129,9 +129,9 @@ pub use crate::{
     study::{
         About, Axis, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorsOverLevels,
         Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind, LevelErrors,
-        LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity, Ran, Reading,
-        Recorded, Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table,
-        Tier, Untested, boxed_study,
+        LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity, Ran, Recorded,
+        Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier,
+        Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
         levels, levels_of_samples, measured,
@@ -174,7 +174,7 @@ pub mod file {
 #[doc(inline)]
 pub use crate::{
     program::{PROJECT as PROGRAMS, ROW as PROGRAM, TABLE, TAYLOR},
-    project::{FileSchema, Front, Project, SourcePlace, Statement, Template, Term},
+    project::{FileSchema, Front, Project, Statement, Template, Term},
     verify::{
         Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,
     },

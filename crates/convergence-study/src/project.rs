@@ -32,8 +32,6 @@ pub struct Project {
     pub templates: &'static [Template],
     /// The beginning of the report of a passing run.
     pub front: Front,
-    /// Where to look when a study fails.
-    pub places: &'static [SourcePlace],
     /// About how many seconds a unit of the cost of its cases takes on one thread; `None` if that
     /// is not known.
     pub seconds_per_cost: Option<f64>,
@@ -62,7 +60,6 @@ impl Project {
                 plot: "",
                 verified: "",
             },
-            places: &[],
             seconds_per_cost: None,
         }
     }
@@ -95,15 +92,6 @@ pub struct Statement {
     pub study: &'static str,
     /// The name of the rate that does; empty for the study's key numbers.
     pub rate: &'static str,
-}
-
-/// Where to look in the sources.
-#[derive(Debug, Clone, Copy)]
-pub struct SourcePlace {
-    /// The value of a setting, or the name of a field.
-    pub word: &'static str,
-    /// The place that belongs to it.
-    pub place: &'static str,
 }
 
 /// Commented files to start from, which run unchanged.

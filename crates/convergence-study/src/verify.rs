@@ -255,7 +255,7 @@ fn run_and_write(
     let blessing = bless(&mut baseline, &finished, request);
     let changes = baseline.compare(&finished, request.scope.known());
     let command = request.scope.command(project);
-    let record = diagnosed(project, studies, request, finished, &changes);
+    let record = diagnosed(project, request, finished, &changes);
     // Everything is prepared before anything is written.
     let provenance = Provenance::collect(
         &request.root,
@@ -295,7 +295,6 @@ fn run_and_write(
 /// The record of a run, with the diagnosis of one that does not pass.
 fn diagnosed(
     project: &Project,
-    studies: &[Box<dyn Study>],
     request: &VerifyRequest,
     finished: Vec<Finished>,
     changes: &[GuardedChange],
@@ -304,7 +303,7 @@ fn diagnosed(
     let verdict = verdict(&finished, changes);
     let name = request.scope.name();
     let mut record = Record::new(name, &command, verdict, Some(changes), finished);
-    record.diagnosis = diagnose(project, studies, &record.studies, changes);
+    record.diagnosis = diagnose(&record.studies, changes);
     record
 }
 

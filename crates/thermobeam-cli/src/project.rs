@@ -4,7 +4,7 @@ use convergence_study::{
     Front, Project, Statement, Template,
     internal::{input::schema, program},
 };
-use thermobeam_study::kinds::{KINDS, PLACES, TERMS};
+use thermobeam_study::kinds::{KINDS, TERMS};
 use thermobeam_study::scene::SceneFile;
 
 /// The beam's kinds of study and words, under the command that users type: `thermobeam`, or
@@ -32,7 +32,6 @@ pub const fn project(command: &'static str) -> Project {
         tables: &[("scene", schema::of::<SceneFile>)],
         templates: &TEMPLATES,
         front: FRONT,
-        places: &PLACES,
         seconds_per_cost: Some(NODE_STEP),
     }
 }

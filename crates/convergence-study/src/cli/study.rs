@@ -117,7 +117,7 @@ pub(super) fn run_files(
             finished.untested = untested(study.as_ref(), effort);
         }
     }
-    let record = record(project, &studies, &finished, &command);
+    let record = record(&finished, &command);
     let verdict = record.verdict;
     let findings = Findings {
         project,

@@ -3,11 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::project::Project;
 use crate::run::Finished;
 use crate::store::GuardedChange;
-use crate::study::header::{self, STUDY, SettingWords};
-use crate::study::{NamedRate, Origin, Outcome, Study, Subject};
+use crate::study::header::{self, SettingWords};
+use crate::study::{NamedRate, Origin, Outcome, Subject};
 use crate::text::lists::{and_more, distinct};
 
 /// Most studies, changed claims and settings that are named.
@@ -16,15 +15,12 @@ const NAMED: usize = 3;
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Diagnosis {
-    /// Claims that changed, in words. They may be the cause: then no place is named.
+    /// Claims that changed, in words: they may be the cause.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
     /// What failing cases share.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shared: Option<Shared>,
-    /// Where to look.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub look_at: Vec<String>,
     /// The studies with the clearest failures, the worst first.
     pub clearest: Vec<String>,
 }
@@ -53,14 +49,8 @@ struct Case {
 
 /// Diagnoses a run that does not pass; `None` for one in which no study fails and no number moved.
 ///
-/// * `studies`: those that have run; of one that is missing only the file is known.
 /// * `changes`: differences from the baseline.
-pub fn diagnose(
-    project: &Project,
-    studies: &[Box<dyn Study + '_>],
-    finished: &[Finished],
-    changes: &[GuardedChange],
-) -> Option<Diagnosis> {
+pub fn diagnose(finished: &[Finished], changes: &[GuardedChange]) -> Option<Diagnosis> {
     let any_fails = finished
         .iter()
         .any(|study| !study.outcome.verdict.is_pass());
@@ -77,15 +67,9 @@ pub fn diagnose(
         .filter(|change| change.movement.is_of_claims())
         .map(GuardedChange::to_string)
         .collect();
-    let shared = shared(&cases(studies, finished, &moved));
-    let look_at = match &shared {
-        Some(shared) if claims.is_empty() => places(project, shared),
-        _ => vec![],
-    };
     Some(Diagnosis {
         claims,
-        shared,
-        look_at,
+        shared: shared(&cases(finished, &moved)),
         clearest: clearest(finished),
     })
 }
@@ -98,11 +82,7 @@ fn is_number(change: &GuardedChange) -> bool {
 /// The cases of the studies in which something fails or has moved.
 ///
 /// * `moved`: numbers that moved, if no study fails.
-fn cases(
-    studies: &[Box<dyn Study + '_>],
-    finished: &[Finished],
-    moved: &[&GuardedChange],
-) -> Vec<Case> {
+fn cases(finished: &[Finished], moved: &[&GuardedChange]) -> Vec<Case> {
     let mut cases = vec![];
     for (
         place,
@@ -111,15 +91,11 @@ fn cases(
         },
     ) in finished.iter().enumerate()
     {
-        let known = studies.iter().find(|study| study.header().id == header.id);
         let mut own: Vec<Case> = vec![];
         for (subject, fails) in items(&header.id, outcome, moved) {
             // A ratio of two methods is about both.
             for side in subject.sides() {
-                let settings = match known {
-                    Some(study) => study.settings(&side),
-                    None => header::of_file(header, &side),
-                };
+                let settings = header::settings(header, &side);
                 match own.iter_mut().find(|case| case.settings == settings) {
                     Some(case) => case.fails |= fails,
                     None => own.push(Case {
@@ -146,7 +122,11 @@ fn items(id: &str, outcome: &Outcome, moved: &[&GuardedChange]) -> Vec<(Subject,
     for check in &outcome.checks {
         // That a case has ended says nothing of its numbers.
         if check.origin != Origin::Completion || !check.verdict.is_pass() {
-            let quantity = check.quantity();
+            // A run that failed is of no field.
+            let quantity = match check.origin {
+                Origin::Completion => String::new(),
+                _ => check.quantity(),
+            };
             let subject = Subject {
                 quantity,
                 ..check.subject.clone()
@@ -179,7 +159,7 @@ fn shared(cases: &[Case]) -> Option<Shared> {
         let passes_too = cases
             .iter()
             .any(|case| !case.fails && case.settings.contains(setting));
-        if setting.0 == STUDY || studies < 2 || passes_too {
+        if studies < 2 || passes_too {
             continue;
         }
         match &mut best {
@@ -201,13 +181,6 @@ fn shared(cases: &[Case]) -> Option<Shared> {
         }
     }
     best
-}
-
-/// Where to look: the places that belong to the settings.
-fn places(project: &Project, shared: &Shared) -> Vec<String> {
-    let known = project.places.iter();
-    let named = known.filter(|known| shared.settings.iter().any(|(_, value)| value == known.word));
-    named.map(|known| known.place.to_owned()).collect()
 }
 
 /// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then
@@ -259,9 +232,6 @@ impl Diagnosis {
             let values: Vec<&str> = values.take(NAMED).collect();
             let values = values.join(", ");
             lines.push(("shared", format!("{values}: {cases} of {failing} failing cases, of {studies} studies, and no passing case of a study that fails")));
-        }
-        if !self.look_at.is_empty() {
-            lines.push(("look at", self.look_at.join("; ")));
         }
         lines
     }

@@ -3,10 +3,9 @@
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use super::header::{Header, SettingWords};
+use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
 use super::outcome::Outcome;
-use super::subject::Subject;
 use super::variants::Variants;
 
 /// A study of any kind, as the runner sees it.
@@ -19,9 +18,6 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
-
-    /// The settings that an item exercises, as [`Kind::settings`] states them.
-    fn settings(&self, subject: &Subject) -> Vec<SettingWords>;
 
     /// As [`Kind::keep_answers`].
     fn keep_answers(&self, _folder: &Path, _may_reuse: bool) {}
@@ -111,10 +107,6 @@ impl<K: Kind> Study for Described<K> {
 
     fn untested(&self) -> Vec<Untested> {
         self.kind.untested()
-    }
-
-    fn settings(&self, subject: &Subject) -> Vec<SettingWords> {
-        self.kind.settings(&self.header, subject)
     }
 
     fn keep_answers(&self, folder: &Path, may_reuse: bool) {

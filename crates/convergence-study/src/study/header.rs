@@ -118,45 +118,43 @@ pub fn is_name(text: &str) -> bool {
         && text.chars().all(|c| plain(c) || c == '.' || c == '-')
 }
 
-/// A setting: its key, and its value in words that can stand alone, such as `axis` and
-/// `refined in space`.
-pub type SettingWords = (String, String);
+/// A setting: its key, and its value in words that can stand alone, such as `heat.rate` and
+/// `heat.rate 0.5`.
+pub(crate) type SettingWords = (String, String);
 
-/// The setting that only the items of one study share.
-pub(crate) const STUDY: &str = "study";
-
-/// That setting: if nothing else separates, a study fails alone.
-pub fn study(header: &Header) -> SettingWords {
-    (STUDY.to_owned(), format!("{} alone", header.id))
+/// The settings of an item: kind, field, method, every value of the study's file, and of the entry
+/// of a list that has the name of its case.
+///
+/// * `subject`: what the item is about; without a quantity it is of no field.
+pub(crate) fn settings(header: &Header, subject: &Subject) -> Vec<SettingWords> {
+    let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
+    let mut settings = vec![pair("kind", &header.kind)];
+    let field = Some(&subject.quantity).filter(|field| !field.is_empty());
+    settings.extend(field.map(|field| pair("field", field)));
+    settings.extend(subject.method.as_deref().map(|name| pair("method", name)));
+    let entry = subject.case.as_deref();
+    let entry = entry.and_then(|case| entry_of(header, case));
+    for (path, value) in &header.settings {
+        let is_own = !path.starts_with("study.") && !path.contains('[');
+        let of_entry = entry.and_then(|entry| path.strip_prefix(entry));
+        // Each value of a list, such as a word of a command, is a separate setting.
+        let values = || value.trim_matches(['[', ']']).split(", ");
+        let path = match of_entry {
+            Some(path) => path.trim_start_matches('.'),
+            None if is_own => path,
+            None => continue,
+        };
+        settings.extend(values().map(|value| pair(path, value.trim_matches('"'))));
+    }
+    settings
 }
 
-/// The settings of an item that exist in any project: study, kind, field, and every value of the
-/// study's file.
-///
-/// * `subject`: what the item is about; its quantity is known.
-pub(crate) fn of_file(header: &Header, subject: &Subject) -> Vec<SettingWords> {
-    let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
-    let is_own = |path: &str| !path.starts_with("study.") && !path.contains('[');
-    let own = [
-        study(header),
-        pair("field", &subject.quantity),
-        pair("kind", &header.kind),
-    ];
-    // Each entry of a list, such as the words of a command, is a separate setting.
-    let entries = |(path, value): &SettingWords| {
-        let entries = value.trim_matches(['[', ']']).split(", ").enumerate();
-        let entry = |(k, entry): (usize, &str)| {
-            (
-                format!("{path}[{k}]"),
-                format!("{path} {}", entry.trim_matches('"')),
-            )
-        };
-        entries.map(entry).collect::<Vec<_>>()
-    };
-    let of_file = header
-        .settings
-        .iter()
-        .filter(|(path, _)| is_own(path))
-        .flat_map(entries);
-    own.into_iter().chain(of_file).collect()
+/// The entry of a list that has the name of a case, such as `case[3]`.
+fn entry_of<'h>(header: &'h Header, case: &str) -> Option<&'h str> {
+    let quoted = format!("{case:?}");
+    let mut named = header.settings.iter();
+    named.find_map(|(path, value)| {
+        let entry = path.strip_suffix("].name")?;
+        (*value == quoted).then(|| &path[..=entry.len()])
+    })
 }

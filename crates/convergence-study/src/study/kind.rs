@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use super::coverage::{Coverage, NO_RESULT};
-use super::header::{self, Header, SettingWords};
 use super::outcome::{Check, Origin, Outcome};
 use super::subject::Subject;
 use super::variants::Variants;
@@ -190,14 +189,6 @@ pub trait Kind: Send + Sync {
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must
     /// show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
-
-    /// The settings that an item exercises, each with its key: by these a diagnosis separates
-    /// failing from passing items. By default the values of the study's file.
-    ///
-    /// * `subject`: what the item is about; its quantity is known.
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
-        header::of_file(header, subject)
-    }
 
     /// Says where answers of expensive cases are kept, if the study keeps any.
     ///

@@ -142,6 +142,13 @@ impl Measured {
         self.value.is_some_and(|value| !value.is_finite())
     }
 
+    /// Names of those that are NaN or infinite, for
+    /// [`completion_check`](super::kind::completion_check).
+    pub fn not_finite(numbers: &[Self]) -> Vec<String> {
+        let broken = numbers.iter().filter(|one| one.is_broken());
+        broken.map(|one| one.name.clone()).collect()
+    }
+
     /// `case: name`; the name alone for the study as a whole.
     pub(crate) fn in_case(&self, name: &str) -> String {
         match self.case.as_str() {

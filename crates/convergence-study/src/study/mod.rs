@@ -20,7 +20,6 @@ mod must;
 pub(crate) mod norms;
 pub(crate) mod outcome;
 pub(crate) mod over_levels;
-pub(crate) mod readings;
 pub(crate) mod sampled;
 pub(crate) mod subject;
 pub(crate) mod until_decided;
@@ -50,5 +49,4 @@ pub use outcome::{
 };
 pub(crate) use over_levels::Claim;
 pub use over_levels::{Axis, Refinement};
-pub use readings::Reading;
 pub use subject::{Sort, Subject};

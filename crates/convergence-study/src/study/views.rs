@@ -36,8 +36,16 @@ impl Measured {
 }
 
 impl Sheet {
-    /// `None` if none of its numbers is shown.
-    fn table(&self) -> Option<Table> {
+    /// What the baseline guards of its numbers; one without a value is NaN.
+    pub fn quantities(&self) -> Vec<Quantity> {
+        self.measured
+            .iter()
+            .filter_map(Measured::quantity)
+            .collect()
+    }
+
+    /// A row for each case, a column for each name; `None` if none of its numbers is shown.
+    pub fn table(&self) -> Option<Table> {
         let is_shown = |one: &&Measured| one.shown != Shown::Hidden;
         let shown: Vec<&Measured> = self.measured.iter().filter(is_shown).collect();
         let names = distinct(shown.iter().map(|one| one.name.as_str()));
@@ -71,10 +79,9 @@ impl Outcome {
             checks.push(check.about(Subject::of("claims")));
         }
         let headline = in_short(&all, headline);
-        let quantities = all.iter().filter_map(|one| one.quantity()).collect();
         Self {
             tables: sheets.iter().filter_map(Sheet::table).collect(),
-            quantities,
+            quantities: sheets.iter().flat_map(Sheet::quantities).collect(),
             headline: headline.as_str().into(),
             sheets,
             ..Self::new(headline, vec![], checks)

@@ -8,10 +8,8 @@ use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Finished};
 use crate::store::{Provenance, Record, diagnosis::diagnose};
-use crate::study::Study;
 
-/// Writes a report on studies that have run, without a baseline. Of what their items exercise it
-/// knows the values of their files.
+/// Writes a report on studies that have run, without a baseline.
 ///
 /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
 pub fn write_report(
@@ -21,7 +19,7 @@ pub fn write_report(
 ) -> Result<(), VerificationError> {
     publish(
         project,
-        record(project, &[], finished, project.command),
+        record(finished, project.command),
         run::available().get(),
         folder,
     )
@@ -30,15 +28,9 @@ pub fn write_report(
 /// The record of studies that have run without a baseline.
 ///
 /// * `command`: the command that ran them.
-pub(crate) fn record(
-    project: &Project,
-    studies: &[Box<dyn Study>],
-    finished: &[Finished],
-    command: &str,
-) -> Record {
-    let diagnosis = diagnose(project, studies, finished, &[]);
+pub(crate) fn record(finished: &[Finished], command: &str) -> Record {
     Record {
-        diagnosis,
+        diagnosis: diagnose(finished, &[]),
         ..Record::new(
             "files",
             command,

@@ -1,50 +1,21 @@
 //! Which settings a diagnosis names, and its words.
 
-use std::num::NonZeroUsize;
-
 use convergence_study::{
-    Case, CaseFailure, Check, Finished, Header, Kind, Outcome, Ran, Study, Subject, boxed_study,
+    Check, Finished, Header, Outcome, Subject,
     internal::{
-        program,
         report::text_of_diagnosis,
-        run::run,
         store::{GuardedChange, Movement, diagnosis::diagnose},
-        study::header::SettingWords,
     },
 };
 
 use super::fake::{Does, fake, finished};
 
-/// A study whose items exercise nothing but their method.
-struct Methods;
-
-impl Kind for Methods {
-    type Data = ();
-    type Found = ();
-
-    fn cases(&self) -> Vec<Case<()>> {
-        vec![Case::new("all", 1.0, ())]
-    }
-
-    fn run(&self, (): &()) -> Result<(), CaseFailure> {
-        Ok(())
-    }
-
-    fn judge(&self, _: &[Ran<(), ()>]) -> Outcome {
-        Outcome::new("", vec![], vec![Check::that(true, "c", "")])
-    }
-
-    fn settings(&self, _: &Header, subject: &Subject) -> Vec<SettingWords> {
-        vec![method(subject.method.as_deref().unwrap_or_default())]
-    }
-}
-
-fn method(name: &str) -> SettingWords {
-    ("method".to_owned(), name.to_owned())
+fn method(name: &str) -> (String, String) {
+    ("method".to_owned(), format!("method {name}"))
 }
 
 /// A study whose checks are about these methods; those of `failing` fail.
-fn of_methods(id: &str, failing: &[Subject], passing: &[&str]) -> (Box<dyn Study>, Outcome) {
+fn of_methods(id: &str, failing: &[Subject], passing: &[&str]) -> Finished {
     let mut checks = vec![];
     for subject in failing {
         checks.push(Check::that(false, "c", "").about(subject.clone()));
@@ -52,24 +23,52 @@ fn of_methods(id: &str, failing: &[Subject], passing: &[&str]) -> (Box<dyn Study
     for method in passing {
         checks.push(Check::that(true, "c", "").about(Subject::of("error").by(*method)));
     }
-    let study = boxed_study(Header::new(id, "c"), Methods);
-    (study, Outcome::new("", vec![], checks))
+    with(Header::new(id, "c"), checks)
+}
+
+/// A study that has run.
+fn with(header: Header, checks: Vec<Check>) -> Finished {
+    let mut finished = finished(vec![fake("", Does::Converge).erased()]).remove(0);
+    finished.header = header;
+    finished.outcome = Outcome::new("", vec![], checks);
+    finished
 }
 
 fn by(method: &str) -> Subject {
-    Subject::of("work").by(method)
+    Subject::of("error").by(method)
 }
 
 /// What is named of studies with these outcomes.
-fn named(studies: Vec<(Box<dyn Study>, Outcome)>) -> Vec<SettingWords> {
-    let (studies, outcomes): (Vec<_>, Vec<_>) = studies.into_iter().unzip();
-    let mut ran: Vec<Finished> = run(&studies, NonZeroUsize::MIN, &|_| ()).unwrap();
-    for (ran, outcome) in ran.iter_mut().zip(outcomes) {
-        ran.outcome = outcome;
-    }
-    let found = diagnose(&program::PROJECT, &studies, &ran, &[]).expect("a check fails");
+fn named(studies: Vec<Finished>) -> Vec<(String, String)> {
+    let found = diagnose(&studies, &[]).expect("a check fails");
     assert_eq!(text_of_diagnosis(&found).is_empty(), found.shared.is_none());
     found.shared.map_or(vec![], |shared| shared.settings)
+}
+
+/// Values of the file, and of the entry with the name of the case; not those of other entries.
+#[test]
+fn the_settings_of_a_case_are_the_values_of_its_file_and_of_its_entry() {
+    let study = |id: &str, coupling: &str| {
+        let mut header = Header::new(id, "c");
+        for (path, value) in [
+            ("heat.rate", coupling),
+            ("case[0].name", "\"bounces\""),
+            ("case[0].heat.size", "2"),
+            ("case[1].name", "\"rests\""),
+            ("case[1].heat.size", "1"),
+        ] {
+            header.settings.push((path.to_owned(), value.to_owned()));
+        }
+        let about = |case: &str| Subject::of("u").in_case(case);
+        let fails = Check::that(false, "c", "").about(about("bounces"));
+        let passes = Check::that(true, "c", "").about(about("rests"));
+        with(header, vec![fails, passes])
+    };
+    let pair = |path: &str, value: &str| (path.to_owned(), format!("{path} {value}"));
+    assert_eq!(
+        named(vec![study("a", "0.5"), study("b", "0")]),
+        [pair("name", "bounces"), pair("heat.size", "2")]
+    );
 }
 
 #[test]
@@ -119,11 +118,11 @@ fn numbers_that_moved_are_failing_cases_where_all_studies_pass() {
     let studies = ["a", "b"].map(|id| fake(id, Does::Converge).erased());
     let ran = finished(studies.into());
     let changes = ["a", "b"].map(|id| moved(id, "finest error", 2.0, 3.0));
-    let found = diagnose(&program::PROJECT, &[], &ran, &changes).expect("numbers moved");
+    let found = diagnose(&ran, &changes).expect("numbers moved");
     let shared = found.shared.expect("both are of one field");
     assert_eq!((shared.cases, shared.studies), (2, 2));
-    assert_eq!(diagnose(&program::PROJECT, &[], &ran, &[]), None);
-    let one = diagnose(&program::PROJECT, &[], &ran, &changes[..1]).expect("a number moved");
+    assert_eq!(diagnose(&ran, &[]), None);
+    let one = diagnose(&ran, &changes[..1]).expect("a number moved");
     assert_eq!(one.lines(), []);
 }
 

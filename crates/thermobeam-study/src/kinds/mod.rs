@@ -8,12 +8,10 @@ mod interval;
 pub mod orders;
 pub(crate) mod prelude;
 pub mod runs;
-pub mod settings;
 pub mod solvers;
 pub mod tables;
 pub mod work_precision;
 
-pub use settings::PLACES;
 pub use tables::TERMS;
 
 use convergence_study::{

@@ -7,8 +7,8 @@ pub(crate) use convergence_study::file::{Choice, Count, Positive, Refusal, named
 pub(crate) use convergence_study::internal::input::schema;
 pub(crate) use convergence_study::{
     Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow,
-    NamedRate, Outcome, Quantity, Ran, Reading, Subject, Table, Verdict, completion_check,
-    read_study,
+    Measured, NamedRate, Outcome, Quantity, Ran, Sheet, Subject, Table, Verdict, completion_check,
+    measured, read_study,
 };
 
 pub(crate) use schemars::JsonSchema;

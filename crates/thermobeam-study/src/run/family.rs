@@ -122,11 +122,6 @@ impl Family {
         }
     }
 
-    /// The mesh whose grading all others follow, if they are not uniform.
-    pub(crate) fn grading(&self) -> Option<&Mesh> {
-        self.grading.as_ref()
-    }
-
     /// The exact solution, if there is one.
     pub fn exact(&self) -> Option<&Manufactured> {
         match &self.start {

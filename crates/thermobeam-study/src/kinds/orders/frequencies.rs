@@ -23,10 +23,7 @@ use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 use super::{ErrorSource, Orders, Runs, Series, SourceResult};
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::{
-        settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration},
-        tables::{Layout, level_of_mesh},
-    },
+    kinds::tables::{Layout, level_of_mesh},
     scene::{
         file::{Degree, Formula, OfS},
         limits::{self, Elements},
@@ -142,11 +139,6 @@ impl ErrorSource for Frequencies {
         file.frequencies
             .frequencies()
             .map_err(within("frequencies"))
-    }
-
-    fn exercise(&self) -> Exercise {
-        let linear = ActiveTerms::default();
-        Exercise::new(FREE_VIBRATIONS, Integration::Exact, linear).on(self.layout.nodes())
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

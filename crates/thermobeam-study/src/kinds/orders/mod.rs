@@ -18,7 +18,6 @@ use std::ops::{Deref, DerefMut};
 use convergence_study::{
     Grid, LevelErrors, Prose, Untested,
     internal::study::{
-        header::SettingWords,
         over_levels::{Levels, rate_table, summary},
         until_decided::{self, Looks, Next},
     },
@@ -28,7 +27,6 @@ use convergence_study::{
 use serde::de::DeserializeOwned;
 
 use super::prelude::*;
-use crate::kinds::settings::Exercise;
 
 /// Where the errors of a study come from.
 pub trait ErrorSource: Send + Sync + Sized + 'static {
@@ -47,9 +45,6 @@ pub trait ErrorSource: Send + Sync + Sized + 'static {
     /// # Errors
     /// Values that do not go together.
     fn from_file(file: Self::File, folder: &Path) -> Result<Self, Refusal>;
-
-    /// What its items exercise.
-    fn exercise(&self) -> Exercise;
 
     /// The runs, coarse to fine.
     fn cases(&self) -> Vec<Case<Self::Data>>;
@@ -239,10 +234,6 @@ impl<S: ErrorSource> Kind for Orders<S> {
             }
             None => outcome,
         }
-    }
-
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
-        self.0.exercise().settings(header, subject)
     }
 
     fn untested(&self) -> Vec<Untested> {

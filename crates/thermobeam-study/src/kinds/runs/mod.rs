@@ -1,7 +1,7 @@
 //! Studies of runs: a list of runs of beams, and a list of checks on what they show.
 //!
 //! A kind of this sort is a type with [`Runs`]. It declares the numbers of a run once, as
-//! [`Reading`]s: these give completion, table and guarded numbers. It judges by the checks of
+//! [`Measured`]s: these give completion, table and guarded numbers. It judges by the checks of
 //! [`checks`]. [`RunStudy`] does for all of them what does not depend on the kind.
 
 pub mod cases;
@@ -12,11 +12,7 @@ pub(crate) mod side_by_side;
 pub(crate) mod watch;
 
 use super::prelude::*;
-use crate::kinds::settings::Exercise;
-use convergence_study::{
-    Coverage, LevelErrors,
-    internal::study::{header::SettingWords, readings},
-};
+use convergence_study::{Coverage, LevelErrors};
 use serde::de::DeserializeOwned;
 
 /// A list of runs, and what is claimed of them.
@@ -34,9 +30,6 @@ pub trait Runs: Sized + Send + Sync {
     /// Values that do not go together.
     fn from_file(file: Self::File, folder: &Path) -> Result<Self, Refusal>;
 
-    /// What the items of a case exercise; those of the study as a whole without one.
-    fn exercise(&self, case: Option<&str>) -> Exercise;
-
     /// The runs, in the order in which they are judged.
     fn runs(&self) -> Vec<Case<Self::Run>>;
 
@@ -46,9 +39,9 @@ pub trait Runs: Sized + Send + Sync {
     /// Why there is no result, with step, time and numbers.
     fn run(&self, run: &Self::Run) -> Result<Self::Shown, CaseFailure>;
 
-    /// The numbers of a result: none may be NaN or infinite. A number that the run lacks has no
-    /// value.
-    fn numbers(&self, run: &Self::Run, shown: &Self::Shown) -> Vec<Reading>;
+    /// The numbers of a result, without a case: none may be NaN or infinite. A number that the run
+    /// lacks has no value.
+    fn numbers(&self, run: &Self::Run, shown: &Self::Shown) -> Vec<Measured>;
 
     /// The title of a table with a row for each run and its numbers, whose guarded numbers count,
     /// and the head of its first column; `None` if the rows of all tables combine runs.
@@ -70,8 +63,8 @@ pub struct Findings {
     pub headline: String,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
-    /// Tables, with the numbers in them that the baseline guards.
-    pub listings: Vec<Listing>,
+    /// Tables beside that of the runs.
+    pub tables: Vec<Table>,
     /// Figures.
     pub figures: Vec<Figure>,
     /// Items other than cases: how many were judged, and why not the others.
@@ -80,7 +73,7 @@ pub struct Findings {
     pub rates: Vec<NamedRate>,
     /// Errors over levels.
     pub levels: Vec<LevelErrors>,
-    /// Guarded numbers that are in no listing.
+    /// Guarded numbers beside those of the runs.
     pub quantities: Vec<Quantity>,
 }
 
@@ -94,43 +87,6 @@ impl Findings {
                 counted(all, "run")
             ),
             ..Self::default()
-        }
-    }
-}
-
-/// A table, and the numbers in it that the baseline guards.
-#[derive(Debug)]
-pub struct Listing {
-    table: Table,
-    guarded: Vec<Quantity>,
-}
-
-impl Listing {
-    /// Readings in rows.
-    ///
-    /// * `first`: heads of the leading cells, which are not readings.
-    pub(crate) fn of(
-        title: impl Into<String>,
-        first: &[&str],
-        rows: impl IntoIterator<Item = Row>,
-    ) -> Self {
-        let rows: Vec<Row> = rows.into_iter().collect();
-        Self {
-            table: readings::table(title, first, &rows),
-            guarded: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
-        }
-    }
-}
-
-/// The leading cells of a row, and its readings.
-pub(crate) type Row = (Vec<String>, Vec<Reading>);
-
-impl From<Table> for Listing {
-    /// Without guarded numbers.
-    fn from(table: Table) -> Self {
-        Self {
-            table,
-            guarded: vec![],
         }
     }
 }
@@ -198,11 +154,6 @@ impl<R: Runs> Kind for RunStudy<R> {
         self.0.run(run)
     }
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
-        let exercise = self.0.exercise(subject.case.as_deref());
-        exercise.settings(header, subject)
-    }
-
     fn judge(&self, ran: &[Ran<R::Run, R::Shown>]) -> Outcome {
         let numbers = self.numbers(ran);
         let lacking = numbers.iter().filter(|ran| ran.ok().is_none()).count();
@@ -210,7 +161,7 @@ impl<R: Runs> Kind for RunStudy<R> {
             summary,
             headline,
             checks,
-            listings,
+            tables,
             figures,
             coverage,
             rates,
@@ -226,20 +177,17 @@ impl<R: Runs> Kind for RunStudy<R> {
                 shown: shown.collect(),
             })
         };
-        let complete = completion_check(&numbers, |numbers| readings::not_finite(numbers));
+        let complete = completion_check(&numbers, |numbers| Measured::not_finite(numbers));
         let checks = [vec![complete], checks].concat();
-        let (tables, guarded): (Vec<_>, Vec<_>) = self
-            .table_of_runs(numbers)
-            .into_iter()
-            .chain(listings)
-            .map(|listing| (listing.table, listing.guarded))
-            .unzip();
+        let own = self.sheet(numbers);
+        let own_quantities = own.as_ref().map_or(vec![], Sheet::quantities);
+        let own_table = own.as_ref().and_then(Sheet::table).into_iter();
         Outcome {
             coverage,
-            tables,
+            tables: own_table.chain(tables).collect(),
             figures,
             levels,
-            quantities: [guarded.concat(), quantities].concat(),
+            quantities: [own_quantities, quantities].concat(),
             headline: headline.into(),
             ..Outcome::new(summary, rates, checks)
         }
@@ -248,7 +196,7 @@ impl<R: Runs> Kind for RunStudy<R> {
 
 impl<R: Runs> RunStudy<R> {
     /// The numbers of each run of the study in place of its result, or why there is none.
-    fn numbers(&self, ran: &[Ran<R::Run, R::Shown>]) -> Vec<Ran<(), Vec<Reading>>> {
+    fn numbers(&self, ran: &[Ran<R::Run, R::Shown>]) -> Vec<Ran<(), Vec<Measured>>> {
         let mut numbers = vec![];
         for Case { label, cost, data } in self.0.runs() {
             let found = match ran.iter().find(|ran| ran.case.data == data) {
@@ -263,11 +211,21 @@ impl<R: Runs> RunStudy<R> {
         numbers
     }
 
-    fn table_of_runs(&self, numbers: Vec<Ran<(), Vec<Reading>>>) -> Option<Listing> {
+    /// The numbers of the runs, if the study shows them.
+    fn sheet(&self, numbers: Vec<Ran<(), Vec<Measured>>>) -> Option<Sheet> {
         let [title, first] = self.0.table()?;
-        let rows = numbers
-            .into_iter()
-            .filter_map(|ran| Some((vec![ran.case.label], ran.found.ok()?)));
-        Some(Listing::of(title, &[first], rows))
+        let of_run = |ran: Ran<(), Vec<Measured>>| {
+            let case = ran.case.label;
+            let numbers = ran.found.unwrap_or_default().into_iter();
+            numbers.map(move |one| Measured {
+                case: case.clone(),
+                ..one
+            })
+        };
+        Some(Sheet::new(
+            title,
+            first,
+            numbers.into_iter().flat_map(of_run),
+        ))
     }
 }

@@ -1,20 +1,14 @@
 //! The difference between the fixed point and Newton's method on a scene, against the fixed point's
 //! tolerance.
 
-use convergence_study::internal::{
-    chart::{self, Band, Chart},
-    study::readings,
-};
+use convergence_study::internal::chart::{self, Band, Chart};
 
 use super::{SolverResult, SolverTask, numbers, results};
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::{
-        runs::{
-            checks::agree,
-            side_by_side::{SideBySide, SolverComparison, StepOfBoth},
-        },
-        settings::{ActiveTerms, ItemMethod},
+    kinds::runs::{
+        checks::agree,
+        side_by_side::{SideBySide, SolverComparison, StepOfBoth},
     },
     run::ObservableMotion,
     scene::{
@@ -80,10 +74,6 @@ pub struct Agreement {
 }
 
 impl Comparison {
-    pub(super) fn terms(&self) -> ActiveTerms {
-        ActiveTerms::of(&self.scene.beam, self.scene.obstacles.as_ref())
-    }
-
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         // Some four iterations of 60 ns per step and element; the unit of the runner is 25 ns.
         let cost = (self.elements * self.steps) as f64 * 10.0;
@@ -133,19 +123,14 @@ impl Comparison {
         let distance = last.map_or(f64::NAN, |last| last.solvers.distance);
         let summary =
             format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
-        let rows: Vec<_> = all
-            .iter()
-            .map(|agreement| {
-                (
-                    vec![format!("{:e}", agreement.tolerance)],
-                    agreement.readings(),
-                )
-            })
-            .collect();
         let title = "Fixed point against Newton's method on the scene";
+        let numbers = all.iter().flat_map(|agreement| agreement.numbers());
         Outcome {
             headline: summary.clone().into(),
-            tables: vec![readings::table(title, &["tolerance"], &rows)],
+            tables: Sheet::new(title, "tolerance", numbers)
+                .table()
+                .into_iter()
+                .collect(),
             figures: vec![iterations(last.unwrap_or(&Agreement::default()))],
             ..Outcome::new(
                 summary,
@@ -157,16 +142,17 @@ impl Comparison {
 }
 
 impl Agreement {
-    pub(super) fn readings(&self) -> Vec<Reading> {
+    pub(super) fn numbers(&self) -> Vec<Measured> {
+        let one = |name: &str, value: f64| measured(format!("{:e}", self.tolerance), name, value);
         let SolverComparison {
             distance,
             mean_iterations,
             most_iterations,
         } = self.solvers;
         vec![
-            Reading::new("distance to Newton", distance).scientific(3),
-            Reading::new("mean iterations", mean_iterations).fixed(3),
-            Reading::new("most iterations", most_iterations as f64).fixed(0),
+            one("distance to Newton", distance).scientific(3),
+            one("mean iterations", mean_iterations).fixed(3),
+            one("most iterations", most_iterations as f64).fixed(0),
         ]
     }
 
@@ -175,7 +161,7 @@ impl Agreement {
     fn check(&self) -> Check {
         let subject = Subject::of("distance to Newton's method")
             .in_case(format!("eta* = {:e}", self.tolerance))
-            .by(ItemMethod::FixedPoint);
+            .by("fixed-point");
         agree(
             "both solvers",
             subject,

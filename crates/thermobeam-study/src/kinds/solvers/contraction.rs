@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use convergence_study::{Coverage, internal::study::readings};
+use convergence_study::Coverage;
 
 use super::{
     SolverResult, SolverTask, numbers, results,
@@ -12,7 +12,6 @@ use super::{
 use crate::kinds::prelude::*;
 use crate::{
     figures,
-    kinds::settings::{ActiveTerms, ItemMethod},
     run::{driver::Driver, run_to},
     scene::limits::{self, Elements},
 };
@@ -99,22 +98,6 @@ impl ContractionGrid {
         cases
     }
 
-    /// The terms at the place that a case is named after, or at any.
-    pub(super) fn terms(&self, case: Option<&str>) -> ActiveTerms {
-        let mut terms = ActiveTerms::default();
-        for known in self.cases() {
-            let SolverTask::Contraction(place) = known.data else {
-                continue;
-            };
-            let one = ActiveTerms::of(&place.beam(), Some(&place.obstacles()));
-            if Some(&*known.label) == case {
-                return one;
-            }
-            terms = terms.or(one);
-        }
-        terms
-    }
-
     /// The beam at rest in contact, before it is disturbed.
     fn state(&self, place: MeasuredPoint) -> Result<Problem, MeshError> {
         let mesh = Mesh::uniform(self.elements)?;
@@ -181,17 +164,15 @@ impl ContractionGrid {
         });
         let all = self.cases().len();
         let summary = format!("{}; {}", increments(&points, all), known_factors(&points));
-        let rows: Vec<_> = points.iter().map(|point| point.row()).collect();
+        let numbers = points.iter().flat_map(|point| point.numbers());
+        let title = "Contraction factor in contact";
+        let sheet = Sheet::new(title, "dt, epsilon, zeta", numbers);
         Outcome {
             headline: summary.clone().into(),
             coverage: vec![factors_judged(&points, all)],
-            tables: vec![readings::table(
-                "Contraction factor in contact",
-                &["dt", "epsilon", "zeta"],
-                &rows,
-            )],
+            tables: sheet.table().into_iter().collect(),
             figures: vec![figure(&points)],
-            quantities: readings::guarded(rows.iter().flat_map(|(_, readings)| readings)),
+            quantities: sheet.quantities(),
             ..Outcome::new(
                 summary,
                 vec![],
@@ -358,27 +339,20 @@ impl Contraction {
         self.deviation <= LINEAR
     }
 
-    pub(super) fn readings(&self) -> Vec<Reading> {
-        let name = self.place.to_string();
-        let subject = Subject::of("contraction").by(ItemMethod::FixedPoint);
-        vec![
-            Reading::new("alpha", self.alpha).fixed(5),
-            Reading::new("gamma", self.gamma),
-            Reading::new("spectral radius", self.radius).fixed(5),
-            Reading::new("measured", self.measured)
-                .fixed(5)
-                .guarded(format!("contraction, {name}"), 1e-2)
-                .about(subject.at(name)),
-            Reading::new("deviation", self.deviation),
-            Reading::new("iterations", self.iterations as f64).fixed(0),
-        ]
-    }
-
-    /// The row of a table: dt, ε, ζ and the readings.
-    fn row(&self) -> (Vec<String>, Vec<Reading>) {
+    pub(super) fn numbers(&self) -> Vec<Measured> {
         let MeasuredPoint { dt, epsilon, zeta } = self.place;
-        let cells = vec![format!("{dt:e}"), format!("{epsilon:e}"), zeta.to_string()];
-        (cells, self.readings())
+        let case = format!("{dt:e}, {epsilon:e}, {zeta}");
+        let one = |name: &str, value: f64| measured(&case, name, value);
+        vec![
+            one("alpha", self.alpha).fixed(5),
+            one("gamma", self.gamma).hidden(),
+            one("spectral radius", self.radius).fixed(5),
+            one("measured", self.measured)
+                .fixed(5)
+                .recorded_as(format!("contraction, {}", self.place), 1e-2),
+            one("deviation", self.deviation).hidden(),
+            one("iterations", self.iterations as f64).fixed(0),
+        ]
     }
 
     fn checks(&self) -> Vec<Check> {
@@ -405,7 +379,7 @@ impl Contraction {
     fn subject(&self, quantity: &str) -> Subject {
         Subject::of(quantity)
             .in_case(self.place.to_string())
-            .by(ItemMethod::FixedPoint)
+            .by("fixed-point")
     }
 }
 

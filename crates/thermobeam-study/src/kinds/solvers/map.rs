@@ -27,7 +27,6 @@ use crate::{
     kinds::{
         interval::SampledInterval,
         runs::watch::{Watched, Worst, watched},
-        settings::ActiveTerms,
     },
     scene::limits::{self, Elements},
 };
@@ -196,12 +195,6 @@ impl Map {
         beam
     }
 
-    /// The terms at the least value of the second parameter.
-    pub(super) fn terms(&self) -> ActiveTerms {
-        let obstacles = Obstacles::default();
-        ActiveTerms::of(&self.beam(self.range.low), Some(&obstacles))
-    }
-
     /// The scene at a value of the second parameter.
     fn problem(&self, value: f64) -> Result<Problem, MeshError> {
         let mut obstacles = Obstacles {
@@ -296,24 +289,24 @@ pub struct NewtonSteps {
 }
 
 impl MapPoint {
-    pub(super) fn readings(&self) -> Vec<Reading> {
+    pub(super) fn numbers(&self) -> Vec<Measured> {
         let step = self.step;
         let contraction = step.contraction.filter(|_| step.converged);
-        let mut readings = vec![
-            Reading::new("alpha", unless_infinite(step.alpha)),
-            Reading::new("gamma", unless_infinite(step.gamma)),
-            Reading::new("contraction", contraction),
+        let mut numbers = vec![
+            measured("", "alpha", unless_infinite(step.alpha)),
+            measured("", "gamma", unless_infinite(step.gamma)),
+            measured("", "contraction", contraction),
         ];
         if let Some(steps) = self.newton {
-            readings.push(Reading::new("contact force", steps.contact_force));
-            readings.extend(
+            numbers.push(measured("", "contact force", steps.contact_force));
+            numbers.extend(
                 steps
                     .worst
                     .named()
-                    .map(|(name, value)| Reading::new(name, value)),
+                    .map(|(name, value)| measured("", name, value)),
             );
         }
-        readings
+        numbers
     }
 }
 

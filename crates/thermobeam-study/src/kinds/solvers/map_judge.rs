@@ -6,12 +6,9 @@ use super::{
     results,
 };
 use crate::kinds::prelude::*;
-use crate::kinds::{
-    runs::{checks::energy_and_balance, watch::Worst},
-    settings::ItemMethod,
-};
+use crate::kinds::runs::{checks::energy_and_balance, watch::Worst};
 use convergence_judge::text::number::{min_or_nan, plain_text};
-use convergence_study::{Coverage, internal::study::readings};
+use convergence_study::Coverage;
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
 /// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
@@ -75,21 +72,18 @@ impl MapResults<'_> {
              {boundary} where gamma <= {ALONE}; {residual}",
             self.count()
         );
-        let lines: Vec<_> = self
-            .lines
-            .iter()
-            .map(|line| (vec![plain_text(line.value)], line.readings()))
-            .collect();
-        let mut quantities = readings::guarded(lines.iter().flat_map(|(_, readings)| readings));
+        let title = "Boundary of the fixed point's convergence, by bisection in dt";
+        let numbers = self.lines.iter().flat_map(|line| line.numbers());
+        let lines = Sheet::new(title, self.map.over.name(), numbers);
+        let mut quantities = lines.quantities();
         // A point next to the boundary may fall on either side.
         let name = "points with a fixed point";
-        let subject = Subject::of(name).by(ItemMethod::FixedPoint);
+        let subject = Subject::of(name).by("fixed-point");
         quantities.push(Quantity::new(name, converged as f64, 1e-2).about(subject));
-        let title = "Boundary of the fixed point's convergence, by bisection in dt";
         Outcome {
             headline: format!("{boundary}, {residual}").into(),
             coverage: self.coverage(),
-            tables: vec![readings::table(title, &[self.map.over.name()], &lines)],
+            tables: lines.table().into_iter().collect(),
             figures: self.figures(),
             quantities,
             ..Outcome::new(summary, vec![], checks)
@@ -175,7 +169,7 @@ impl MapResults<'_> {
                 "{fast} points with small factors, {beyond} with a large alpha, {wrong} of them against the prediction"
             ),
         )
-        .about(Subject::of("convergence of the fixed point").by(ItemMethod::FixedPoint))
+        .about(Subject::of("convergence of the fixed point").by("fixed-point"))
     }
 
     /// Newton's method must converge wherever its operator is known to be definite.
@@ -261,21 +255,21 @@ impl Boundary {
         is_alone.then(|| self.difference().map_or(f64::NAN, f64::abs))
     }
 
-    pub(super) fn readings(&self) -> Vec<Reading> {
-        let at = format!("{} = {:e}", self.over.name(), self.value);
-        let name = format!("boundary at {at}");
-        let mut dt = Reading::new("dt found", self.found.map(|step| step.dt)).scientific(4);
-        if self.found.is_some() {
-            let subject = Subject::of("boundary").by(ItemMethod::FixedPoint).at(at);
-            dt = dt.guarded(name, 1e-2).about(subject);
-        }
+    pub(super) fn numbers(&self) -> Vec<Measured> {
+        let one = |name: &str, value: Option<f64>| measured(plain_text(self.value), name, value);
+        let name = format!("boundary at {} = {:e}", self.over.name(), self.value);
+        let dt = one("dt found", self.found.map(|step| step.dt)).scientific(4);
         let percent = self.difference().map(|difference| 100.0 * difference);
+        let in_words = percent.map_or("-".to_owned(), |percent| format!("{percent:+.3} %"));
         vec![
-            Reading::new("dt where alpha = 1", self.predicted).scientific(4),
-            dt,
-            Reading::new("difference", percent).shown(|percent| format!("{percent:+.3} %")),
-            Reading::new("alpha there", self.found.map(|step| step.alpha)).fixed(4),
-            Reading::new("gamma there", self.found.map(|step| step.gamma)).scientific(1),
+            one("dt where alpha = 1", self.predicted).scientific(4),
+            match self.found {
+                Some(_) => dt.recorded_as(name, 1e-2),
+                None => dt,
+            },
+            one("difference", percent).words(in_words),
+            one("alpha there", self.found.map(|step| step.alpha)).fixed(4),
+            one("gamma there", self.found.map(|step| step.gamma)).scientific(1),
         ]
     }
 
@@ -313,6 +307,6 @@ impl Boundary {
         };
         let case = format!("{} = {}", self.over.name(), plain_text(self.value));
         let subject = Subject::of("boundary").in_case(case);
-        check.about(subject.by(ItemMethod::FixedPoint))
+        check.about(subject.by("fixed-point"))
     }
 }

@@ -40,10 +40,8 @@ mod spectrum;
 mod step;
 
 use super::prelude::*;
-use crate::kinds::settings::{ActiveTerms, Exercise, Integration};
 use comparison::{Comparison, ComparisonTable};
 use contraction::{ContractionGrid, ContractionTable};
-use convergence_study::internal::study::{header::SettingWords, readings};
 use map::{Map, MapTable};
 
 pub use super::runs::side_by_side::SolverComparison;
@@ -104,12 +102,12 @@ pub enum SolverResult {
 
 impl SolverResult {
     /// Its numbers, which must be finite.
-    fn readings(&self) -> Vec<Reading> {
+    fn numbers(&self) -> Vec<Measured> {
         match self {
-            SolverResult::Contraction(point) => point.readings(),
-            SolverResult::Comparison(agreement) => agreement.readings(),
-            SolverResult::Row(row) => row.points.iter().flat_map(MapPoint::readings).collect(),
-            SolverResult::Boundary(boundary) => boundary.readings(),
+            SolverResult::Contraction(point) => point.numbers(),
+            SolverResult::Comparison(agreement) => agreement.numbers(),
+            SolverResult::Row(row) => row.points.iter().flat_map(MapPoint::numbers).collect(),
+            SolverResult::Boundary(boundary) => boundary.numbers(),
         }
     }
 }
@@ -178,19 +176,6 @@ impl Kind for Solvers {
     type Data = SolverTask;
     type Found = SolverResult;
 
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
-        let case = subject.case.as_deref();
-        let mut terms = ActiveTerms::default();
-        for part in [
-            self.contraction.as_ref().map(|grid| grid.terms(case)),
-            self.comparison.as_ref().map(Comparison::terms),
-            self.map.as_ref().map(Map::terms),
-        ] {
-            terms = terms.or(part.unwrap_or_default());
-        }
-        Exercise::new("maps of the solvers", Integration::PAPER, terms).settings(header, subject)
-    }
-
     fn cases(&self) -> Vec<Case<SolverTask>> {
         let mut cases: Vec<_> = self
             .contraction
@@ -222,7 +207,7 @@ impl Kind for Solvers {
         let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
         let map = self.map.iter().map(|map| map.judge(ran));
         let parts = contraction.chain(comparison).chain(map);
-        let completion = completion_check(ran, |found| readings::not_finite(&found.readings()));
+        let completion = completion_check(ran, |found| Measured::not_finite(&found.numbers()));
         Outcome::of_parts(completion, parts)
     }
 }

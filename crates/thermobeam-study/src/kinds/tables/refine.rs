@@ -9,7 +9,6 @@ use convergence_study::{
 use crate::kinds::prelude::*;
 use crate::{
     expression::Expression,
-    kinds::settings::{ActiveTerms, Exercise, Integration, Nodes, axis_in_words},
     scene::{
         file::{Formula, OfS, Schemes, SolverKeys, Solvers},
         limits::{self, Elements},
@@ -63,18 +62,6 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// What the meshes are like.
-    pub(crate) fn nodes(&self) -> Nodes {
-        match self {
-            Self { map: Some(_), .. } => Nodes::Graded,
-            Self {
-                perturbation: Some(_),
-                ..
-            } => Nodes::Perturbed,
-            _ => Nodes::Uniform,
-        }
-    }
-
     /// Nodes at the images of a map, which is checked on every mesh.
     pub(crate) fn new(
         map: Option<&Formula<OfS>>,
@@ -151,17 +138,6 @@ pub struct Refine {
 }
 
 impl Refine {
-    /// What a study with this refinement exercises.
-    pub(crate) fn exercise(&self, topic: &'static str, terms: ActiveTerms) -> Exercise {
-        Exercise::new(
-            topic,
-            Integration::of(&self.scheme, self.settings.solver),
-            terms,
-        )
-        .refined_in(axis_in_words(self.axis))
-        .on(self.layout.nodes())
-    }
-
     /// The runs as (elements, steps), coarse to fine.
     pub fn cases(&self) -> Vec<(usize, usize)> {
         if self.axis == Axis::Both && !self.grid {

@@ -9,7 +9,6 @@ use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::min_or_nan;
 use convergence_study::Must;
-use convergence_study::internal::study::readings;
 
 /// Allowed relative change of a ratio of work.
 const RATIO_TOLERANCE: f64 = 0.05;
@@ -144,7 +143,7 @@ pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> 
         .iter()
         .map(|&measure| fastest(study, measure, ran))
         .collect();
-    outcome.tables.push(all_runs(ran));
+    outcome.tables.extend(all_runs(ran));
     outcome.figures = measures
         .iter()
         .map(|&measure| drawn(study, measure, ran))
@@ -270,21 +269,22 @@ fn sentence(target: &Target, runs: &[Costed]) -> String {
     )
 }
 
-/// The readings that are not finite; none of a neighbour that did not finish.
+/// The numbers that are not finite; none of a neighbour that did not finish.
 fn not_finite(run: &Measurement) -> Vec<String> {
     if *run == Measurement::UNFINISHED {
         return vec![];
     }
-    readings::not_finite(&readings_of(run))
+    Measured::not_finite(&numbers_of("", run))
 }
 
 /// The measured errors and the counted work of a run.
-fn readings_of(Measurement { errors, spent, .. }: &Measurement) -> Vec<Reading> {
+fn numbers_of(label: &str, Measurement { errors, spent, .. }: &Measurement) -> Vec<Measured> {
+    let one = |name: &str, value: f64| measured(label, name, value).scientific(2);
     vec![
-        Reading::new(ErrorMeasure::Theorem34.name(), errors.norm).scientific(2),
-        Reading::new(ErrorMeasure::Tip.name(), errors.tip).scientific(2),
-        Reading::new("element-steps", spent.node_steps).scientific(2),
-        Reading::new("node-solves", spent.node_solves).scientific(2),
+        one(ErrorMeasure::Theorem34.name(), errors.norm),
+        one(ErrorMeasure::Tip.name(), errors.tip),
+        one("element-steps", spent.node_steps),
+        one("node-solves", spent.node_solves),
     ]
 }
 
@@ -314,17 +314,12 @@ fn fastest(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measu
     Table::new(title, head, rows)
 }
 
-fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Table {
-    let mut rows = vec![];
-    for ran in ran {
-        let readings = ran.ok().map_or_else(Vec::new, readings_of);
-        rows.push((vec![ran.case.label.clone()], readings));
-    }
-    readings::table(
-        "Largest errors over time, and counted work",
-        &["run"],
-        &rows,
-    )
+fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Option<Table> {
+    let found = ran
+        .iter()
+        .filter_map(|ran| Some((ran.case.label.as_str(), ran.ok()?)));
+    let numbers = found.flat_map(|(label, run)| numbers_of(label, run));
+    Sheet::new("Largest errors over time, and counted work", "run", numbers).table()
 }
 
 fn drawn(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measurement>]) -> Figure {

@@ -47,10 +47,8 @@ use std::sync::OnceLock;
 use crate::kinds::prelude::*;
 use crate::{
     error::{ErrorMeasure, Errors, Evaluator, polynomials::Polynomials},
-    kinds::settings::{ActiveTerms, Exercise, Integration, Nodes},
     run::family::Family,
 };
-use convergence_study::internal::study::header::SettingWords;
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
 use thermobeam::solve::Solver;
 
@@ -241,17 +239,6 @@ impl Trial {
 impl Kind for WorkPrecision {
     type Data = Trial;
     type Found = Measurement;
-
-    fn settings(&self, header: &Header, subject: &Subject) -> Vec<SettingWords> {
-        let Family {
-            beam, obstacles, ..
-        } = &self.family;
-        let terms = ActiveTerms::of(beam, obstacles.as_ref());
-        let grading = self.family.grading();
-        Exercise::new("cost", Integration::PAPER, terms)
-            .on(grading.map_or(Nodes::Uniform, Nodes::of_mesh))
-            .settings(header, subject)
-    }
 
     fn cases(&self) -> Vec<Case<Trial>> {
         let near = self

@@ -36,10 +36,7 @@ use crate::kinds::prelude::*;
 use crate::{
     error::free_vibration,
     exact::{any_order::ErrorMeter, defect::Defect, solution::Manufactured},
-    kinds::{
-        settings::{ActiveTerms, Exercise, FREE_VIBRATIONS, Integration, MANUFACTURED},
-        tables::{ControlTable, ExactTable, Layout, controlled, mean_width},
-    },
+    kinds::tables::{ControlTable, ExactTable, Layout, controlled, mean_width},
     run::{dg::DgMotion, run_to},
     scene::{
         Coefficients,
@@ -202,19 +199,6 @@ impl ErrorSource for AnyOrder {
 
     fn from_file(file: AnyOrderFile, _: &Path) -> Result<Self, Refusal> {
         file.study()
-    }
-
-    fn exercise(&self) -> Exercise {
-        let theory = &self.theory;
-        let terms = ActiveTerms::of(&theory.beam, theory.obstacles.as_ref());
-        let topic = if self.loaded {
-            MANUFACTURED
-        } else {
-            FREE_VIBRATIONS
-        };
-        Exercise::new(topic, Integration::AnyOrder, terms)
-            .refined_in(self.over.in_words())
-            .on(self.layout.nodes())
     }
 
     fn cases(&self) -> Vec<Case<AnyOrderRun>> {

@@ -7,10 +7,7 @@ use crate::{
         constants,
         norm::{Norm, Norms},
     },
-    kinds::{
-        settings::ItemMethod,
-        tables::{Layout, Refine},
-    },
+    kinds::tables::{Layout, Refine},
 };
 use thermobeam::{mesh::MeshError, scheme::EULER_CRANK_NICOLSON};
 
@@ -86,7 +83,7 @@ impl Convergence {
             "the error in the norm of (3.14) is {name} {step}, {name} known before the run, within {within:e}"
         );
         let evidence = format!("{name} = {predicted:.6}, measured {measured:.6}, ratio {ratio:.6}");
-        let subject = Subject::of(Norm::Theorem34.name()).by(ItemMethod::OneStep);
+        let subject = Subject::of(Norm::Theorem34.name()).by("one-step");
         Some(Check::that((ratio - 1.0).abs() <= within, claim, evidence).about(subject))
     }
 }

@@ -53,7 +53,6 @@ use crate::{
     },
     kinds::{
         orders::planted::untested::untested,
-        settings::{ActiveTerms, Exercise, MANUFACTURED},
         tables::{
             ControlTable, ExactTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms,
             mean_width,
@@ -156,12 +155,6 @@ impl ErrorSource for Convergence {
             expect,
             formulas: None,
         })
-    }
-
-    fn exercise(&self) -> Exercise {
-        let theory = &self.theory;
-        let terms = ActiveTerms::of(&theory.beam, theory.obstacles.as_ref());
-        self.refine.exercise(MANUFACTURED, terms)
     }
 
     fn variants(&self) -> Option<Variants> {

@@ -55,9 +55,8 @@ pub use crate::error::reference::Traced;
 use crate::kinds::prelude::*;
 use crate::{
     error::reference::fine_mesh,
-    kinds::{
-        settings::{CONTACT, Exercise, Integration, axis_in_words},
-        tables::{Discretisation, DiscretisationTable, Refine, claimed_once, two_discretisations},
+    kinds::tables::{
+        Discretisation, DiscretisationTable, Refine, claimed_once, two_discretisations,
     },
     scene::{
         Method, Scene,
@@ -263,11 +262,6 @@ impl ErrorSource for SelfConvergence {
 
     fn from_file(file: SelfConvergenceFile, folder: &Path) -> Result<Self, Refusal> {
         file.study(folder)
-    }
-
-    fn exercise(&self) -> Exercise {
-        let integration = Integration::of_scene(&self.scene);
-        Exercise::of_scene(CONTACT, integration, &self.scene).refined_in(axis_in_words(self.axis))
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

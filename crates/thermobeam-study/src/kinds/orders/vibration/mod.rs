@@ -18,11 +18,8 @@ use crate::{
         solution::Factors,
         sources::Nodal,
     },
-    kinds::{
-        settings::{ActiveTerms, Exercise, FREE_VIBRATIONS},
-        tables::{
-            ControlTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms, mean_width,
-        },
+    kinds::tables::{
+        ControlTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms, mean_width,
     },
     run::{ObservableMotion, driver::Driver},
     scene::{Coefficients, file::BeamTable, limits},
@@ -140,12 +137,6 @@ impl ErrorSource for Vibration {
             refine,
             expect: expected_norms(&file.expect)?,
         })
-    }
-
-    fn exercise(&self) -> Exercise {
-        let theory = &self.theory;
-        let terms = ActiveTerms::of(&theory.beam, theory.obstacles.as_ref());
-        self.refine.exercise(FREE_VIBRATIONS, terms)
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {

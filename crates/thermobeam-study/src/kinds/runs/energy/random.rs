@@ -19,14 +19,11 @@
 use super::{EnergyFile, beams::wild};
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::{
-        runs::{
-            Findings, Listing, Results, Runs,
-            cases::End,
-            checks::{Condition, all, at_most, energy_and_balance},
-            watch::{CLOSED, Watched, Worst, watched},
-        },
-        settings::{ActiveTerms, ENERGY, Exercise, Integration, Nodes},
+    kinds::runs::{
+        Findings, Results, Runs,
+        cases::End,
+        checks::{Condition, all, at_most, energy_and_balance},
+        watch::{CLOSED, Watched, Worst, watched},
     },
     run::RunError,
     scene::limits,
@@ -120,10 +117,6 @@ impl Runs for RandomScenes {
         })
     }
 
-    fn exercise(&self, _case: Option<&str>) -> Exercise {
-        Exercise::new(ENERGY, Integration::PAPER, ActiveTerms::ALL).on(Nodes::Perturbed)
-    }
-
     fn runs(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
@@ -144,10 +137,10 @@ impl Runs for RandomScenes {
         Ok(batch)
     }
 
-    fn numbers(&self, _: &usize, batch: &Batch) -> Vec<Reading> {
+    fn numbers(&self, _: &usize, batch: &Batch) -> Vec<Measured> {
         let named = batch.worst.named().into_iter();
         named
-            .map(|(name, value)| Reading::new(name, value))
+            .map(|(name, value)| measured("", name, value))
             .collect()
     }
 
@@ -184,7 +177,7 @@ impl Runs for RandomScenes {
             headline: format!("{headline}; largest residual {largest}"),
             checks,
             coverage: vec![total.coverage()],
-            listings: vec![Listing::from(counts), Listing::from(self.table(&listed))],
+            tables: vec![counts, self.table(&listed)],
             figures: vec![residuals(&total.scenes, closes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
             quantities: vec![Quantity::new("answers", answers as f64, 1e-3)],

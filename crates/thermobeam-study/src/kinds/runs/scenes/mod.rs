@@ -44,10 +44,7 @@ use super::{
 use crate::kinds::prelude::*;
 use crate::{
     accuracy::reach,
-    kinds::{
-        settings::{Exercise, Integration, ItemMethod},
-        tables::cost_of_run,
-    },
+    kinds::tables::cost_of_run,
     run::{
         simulate::{Recording, Simulator},
         together::{Together, run_together},
@@ -142,13 +139,6 @@ impl Runs for Scenes {
         Ok(Self { scenes })
     }
 
-    fn exercise(&self, case: Option<&str>) -> Exercise {
-        let scenes = self.scenes.iter().map(|whole| &whole.case.scene);
-        let named = scenes.clone().find(|scene| Some(&*scene.name) == case);
-        let integration = named.map_or(Integration::PAPER, Integration::of_scene);
-        Exercise::of_scenes("whole scenes", integration, scenes, case)
-    }
-
     fn runs(&self) -> Vec<Case<usize>> {
         let mut runs = vec![];
         for (place, Whole { case, .. }) in self.scenes.iter().enumerate() {
@@ -180,7 +170,7 @@ impl Runs for Scenes {
     }
 
     /// All numbers and counts of a run; a run without a step has no change of the energy.
-    fn numbers(&self, place: &usize, shown: &Shown) -> Vec<Reading> {
+    fn numbers(&self, place: &usize, shown: &Shown) -> Vec<Measured> {
         let whole = &self.scenes[*place];
         let ClaimedScene { name, scene, .. } = &whole.case;
         let solver = scene
@@ -193,20 +183,21 @@ impl Runs for Scenes {
             format!("{:.1e}", farthest.distance)
         };
         let mut numbers = vec![
-            Reading::text("scheme", scene.method.name()),
-            Reading::text("solver", solver),
-            Reading::text("end", shown.end.name()),
-            Reading::text("farthest from its answer", farthest.name),
-            Reading::text("by", by),
+            measured("", "scheme", None).words(scene.method.name()),
+            measured("", "solver", None).words(solver),
+            measured("", "end", None).words(shown.end.name()),
+            measured("", "farthest from its answer", None).words(farthest.name),
+            measured("", "by", None).words(by),
         ];
         let without_a_step = usize::from(shown.counts[0] == 0);
         let of_levels = NUMBERS.len() - without_a_step;
         for (of, value) in NUMBERS.into_iter().zip(shown.numbers).take(of_levels) {
-            numbers.push(Reading::new(of, value).guarded_in(name, of, TOLERANCE));
+            let number = measured("", of, value).hidden();
+            numbers.push(number.recorded_as(format!("{name}: {of}"), TOLERANCE));
         }
         for (of, count) in COUNTS.into_iter().zip(shown.counts) {
-            let count = Reading::new(of, count as f64).fixed(0);
-            numbers.push(count.guarded_in(name, of, COUNT_TOLERANCE));
+            let count = measured("", of, count as f64).fixed(0);
+            numbers.push(count.recorded_as(format!("{name}: {of}"), COUNT_TOLERANCE));
         }
         numbers
     }
@@ -433,7 +424,7 @@ fn contacts_counted(shown: &[(&Whole, &Shown)]) -> Check {
     );
     all(
         "a step of a one-step scheme counts as one in contact where the free end has passed an obstacle",
-        Subject::of("contact").by(ItemMethod::OneStep),
+        Subject::of("contact").by("one-step"),
         [Condition::that(wrong.is_empty(), evidence)],
     )
 }

@@ -9,7 +9,6 @@ use crate::{
             energy::{beams::smooth, bound::Stability},
             watch::SOLVED,
         },
-        settings::Nodes,
         tables::Layout,
     },
     run::simulate,
@@ -73,7 +72,6 @@ impl EnergyTable {
             for (place, scheme) in self.schemes.iter().enumerate() {
                 runs.push(EnergyRun {
                     name: format!("{}, {}", beam.name, scheme.name),
-                    nodes: Nodes::of_mesh(&beam.problem.mesh),
                     problem: beam.problem.clone(),
                     stepping: Stepping {
                         scheme: scheme.value,
@@ -195,7 +193,6 @@ impl CaseTable {
         }
         Ok(EnergyRun {
             name,
-            nodes: Nodes::of_scene(&scene),
             problem: simulate::problem(&scene),
             stepping,
             steps: scene.steps(),

@@ -38,14 +38,11 @@ use recorder::Recorder;
 
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::{
-        runs::{
-            Findings, Listing, Results, Runs,
-            cases::{End, named_cases},
-            checks::{Condition, all, at_most, ended},
-            watch::{Worst, of_allowed},
-        },
-        settings::{ActiveTerms, ENERGY, Exercise, Integration, ItemMethod, Nodes},
+    kinds::runs::{
+        Findings, Results, Runs,
+        cases::{End, named_cases},
+        checks::{Condition, all, at_most, ended},
+        watch::{Worst, of_allowed},
     },
     run::{ObservableMotion, driver::Driver, run_to},
 };
@@ -67,8 +64,6 @@ struct EnergyRun {
     name: String,
     /// The scene's, or a beam with random coefficients and smooth random data.
     problem: Problem,
-    /// Where the nodes of its mesh are.
-    nodes: Nodes,
     stepping: Stepping,
     steps: usize,
     /// In words.
@@ -128,9 +123,9 @@ pub struct EnergyAt {
 }
 
 impl EnergyHistory {
-    /// A reading of the completed steps, of which there may be none.
-    fn of_steps(&self, name: &str, value: f64) -> Reading {
-        Reading::new(name, (self.steps > 0).then_some(value))
+    /// A number of the completed steps, of which there may be none.
+    fn of_steps(&self, name: &str, value: f64) -> Measured {
+        measured("", name, (self.steps > 0).then_some(value))
     }
 }
 
@@ -157,16 +152,6 @@ impl Runs for EnergyRuns {
             runs,
             histories: false,
         })
-    }
-
-    fn exercise(&self, case: Option<&str>) -> Exercise {
-        let named = self.runs.iter().find(|run| Some(&*run.name) == case);
-        let runs = match named {
-            Some(run) => std::slice::from_ref(run),
-            None => &self.runs,
-        };
-        let all = runs.iter().map(EnergyRun::exercise).reduce(Exercise::and);
-        all.unwrap_or(Exercise::new(ENERGY, Integration::PAPER, ActiveTerms::ALL))
     }
 
     fn runs(&self) -> Vec<Case<usize>> {
@@ -201,16 +186,16 @@ impl Runs for EnergyRuns {
     }
 
     /// A run without a step has no residuals.
-    fn numbers(&self, place: &usize, found: &EnergyHistory) -> Vec<Reading> {
+    fn numbers(&self, place: &usize, found: &EnergyHistory) -> Vec<Measured> {
         let run = &self.runs[*place];
         let mut numbers = vec![
-            Reading::text("elements", run.problem.mesh.elements().to_string()),
-            Reading::text("dt", plain_text(run.stepping.dt)),
-            Reading::text("steps", found.steps.to_string()),
-            Reading::text("in contact", found.contact_steps.to_string()),
-            Reading::text("end", found.end.name()),
-            Reading::text("most iterations", found.most_iterations.to_string()),
-            Reading::new("initial energy", found.initial_energy).scientific(4),
+            measured("", "elements", None).words(run.problem.mesh.elements().to_string()),
+            measured("", "dt", None).words(plain_text(run.stepping.dt)),
+            measured("", "steps", None).words(found.steps.to_string()),
+            measured("", "in contact", None).words(found.contact_steps.to_string()),
+            measured("", "end", None).words(found.end.name()),
+            measured("", "most iterations", None).words(found.most_iterations.to_string()),
+            measured("", "initial energy", found.initial_energy).scientific(4),
             found.of_steps("rise", found.worst.rise).scientific(1),
             found
                 .of_steps("residual", found.worst.residual)
@@ -218,14 +203,18 @@ impl Runs for EnergyRuns {
             found
                 .of_steps("sum of residuals", found.drift.abs())
                 .scientific(1),
-            found.of_steps("rise over its bound", found.worst.risen),
-            found.of_steps("residual over its bound", found.worst.open),
+            found
+                .of_steps("rise over its bound", found.worst.risen)
+                .hidden(),
+            found
+                .of_steps("residual over its bound", found.worst.open)
+                .hidden(),
         ];
         if let Some(share) = found.of_bound {
-            numbers.push(Reading::new("of the bound (3.12)", share).fixed(3));
+            numbers.push(measured("", "of the bound (3.12)", share).fixed(3));
         }
         if let Some(lost) = found.lost {
-            numbers.push(Reading::new("lost of the energy (2.9)", lost).fixed(3));
+            numbers.push(measured("", "lost of the energy (2.9)", lost).fixed(3));
         }
         numbers
     }
@@ -278,11 +267,7 @@ impl Runs for EnergyRuns {
             coverage: vec![results.coverage("runs for the balance", |_, found| {
                 (found.steps == 0).then_some("without a step")
             })],
-            listings: self
-                .balance(&drawn)
-                .map(Listing::from)
-                .into_iter()
-                .collect(),
+            tables: self.balance(&drawn).into_iter().collect(),
             figures: self.figure(&drawn).into_iter().collect(),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
             ..Findings::default()
@@ -291,22 +276,6 @@ impl Runs for EnergyRuns {
 }
 
 impl EnergyRun {
-    fn exercise(&self) -> Exercise {
-        let Problem {
-            beam, obstacles, ..
-        } = &self.problem;
-        let Stepping {
-            scheme, settings, ..
-        } = &self.stepping;
-        let integration = Integration::of(scheme, settings.solver);
-        Exercise::new(
-            ENERGY,
-            integration,
-            ActiveTerms::of(beam, obstacles.as_ref()),
-        )
-        .on(self.nodes)
-    }
-
     /// Largest rise or residual of a run in units of its bound.
     fn share_of(&self, EnergyHistory { worst, .. }: &EnergyHistory) -> f64 {
         match self.share {
@@ -334,7 +303,7 @@ impl EnergyRun {
         };
         let subject = Subject::of("energy and balance")
             .in_case(&self.name)
-            .by(ItemMethod::of_scheme(&self.stepping.scheme));
+            .by(self.stepping.scheme.name);
         if self.end == End::Unbalanced {
             let open = found.worst.open;
             let open = Condition::that(open > 1.0, of_allowed(open));
@@ -400,7 +369,6 @@ mod tests {
         let stepping = scene.one_step().expect("a one-step scheme");
         let result = |loaded: bool| {
             let run = EnergyRun {
-                nodes: Nodes::Uniform,
                 name: "s".to_owned(),
                 problem: simulate::problem(&scene),
                 stepping: Stepping { loaded, ..stepping },

@@ -1,5 +1,5 @@
 //! What the failing cases of a run have in common. A setting is named only where two studies agree
-//! on it and no passing case of theirs has it: what a single study shows is said by its own checks.
+//! on it and no passing case has it: what a single study shows is said by its own checks.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,8 +25,8 @@ pub struct Diagnosis {
     pub clearest: Vec<String>,
 }
 
-/// Settings that the same failing cases have, of two studies or more, and that no passing case of
-/// the studies that fail has.
+/// Settings that the same failing cases have, of two studies or more, and that no passing case
+/// has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Shared {
     /// The settings.
@@ -79,7 +79,7 @@ fn is_number(change: &GuardedChange) -> bool {
     !change.movement.is_of_claims() && change.movement.weight() > 0.0
 }
 
-/// The cases of the studies in which something fails or has moved.
+/// The cases of all studies.
 ///
 /// * `moved`: numbers that moved, if no study fails.
 fn cases(finished: &[Finished], moved: &[&GuardedChange]) -> Vec<Case> {
@@ -106,9 +106,7 @@ fn cases(finished: &[Finished], moved: &[&GuardedChange]) -> Vec<Case> {
                 }
             }
         }
-        if own.iter().any(|case| case.fails) {
-            cases.append(&mut own);
-        }
+        cases.append(&mut own);
     }
     cases
 }
@@ -231,7 +229,7 @@ impl Diagnosis {
             let values = settings.iter().map(|(_, value)| value.as_str());
             let values: Vec<&str> = values.take(NAMED).collect();
             let values = values.join(", ");
-            lines.push(("shared", format!("{values}: {cases} of {failing} failing cases, of {studies} studies, and no passing case of a study that fails")));
+            lines.push(("shared", format!("{values}: {cases} of {failing} failing cases, of {studies} studies, and no passing case of any study")));
         }
         lines
     }

@@ -14,17 +14,8 @@ pub(crate) fn main() {
     let [token, mode, n, rest @ ..] = &arguments[..] else {
         exit(64)
     };
-    if let Some(mode) = mode.strip_prefix("taylor-") {
-        let seed = rest.first().map_or(1.0, |seed| seed.parse().unwrap());
-        println!(
-            "{}",
-            super::differentiable::answer(mode, n.parse().unwrap(), seed)
-        );
-        exit(0)
-    }
-    if let Some(mode) = mode.strip_prefix("random-") {
-        let seed = rest.first().map_or(1, |seed| seed.parse().unwrap());
-        println!("{}", super::random::answer(mode, n.parse().unwrap(), seed));
+    if let Some(answer) = of_seed(mode, n, rest) {
+        println!("{answer}");
         exit(0)
     }
     let n: u32 = if mode == "stdin" {
@@ -76,6 +67,18 @@ pub(crate) fn main() {
         exit(0)
     }
     println!("{}", answer(n));
+}
+
+/// What the programs answer that draw at random by a seed.
+fn of_seed(mode: &str, number: &str, rest: &[String]) -> Option<String> {
+    let seed = rest.first().map_or("1", String::as_str);
+    if let Some(mode) = mode.strip_prefix("taylor-") {
+        let [step, seed] = [number, seed].map(|word| word.parse().unwrap());
+        return Some(super::differentiable::answer(mode, step, seed));
+    }
+    let mode = mode.strip_prefix("random-")?;
+    let (n, seed) = (number.parse().unwrap(), seed.parse().unwrap());
+    Some(super::random::answer(mode, n, seed))
 }
 
 fn answer(n: u32) -> String {

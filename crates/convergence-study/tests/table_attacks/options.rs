@@ -101,7 +101,7 @@ fn a_floor_is_offered_by_a_command_which_passes_and_none_above_a_wrong_limit() {
         assert!(answer(&found).contains("round-off, if the solution is of size 1"));
         let (_, call) = found
             .text
-            .split_once("rates text --order 6 --floor ")
+            .split_once("rates FILE --order 6 --floor ")
             .expect("a command");
         let floor = call.lines().next().and_then(|floor| floor.parse().ok());
         let with_floor = Request {

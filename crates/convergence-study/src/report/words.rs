@@ -27,11 +27,15 @@ pub fn sentence(finished: &[Finished], changes: Option<&[GuardedChange]>) -> Str
         .into_iter()
         .filter_map(|(verdict, words)| count_of_studies(finished, verdict, words))
         .collect();
-    let studies = match finished.len() {
-        0 => "no study was run".to_owned(),
+    let studies = match finished {
+        [] => "no study was run".to_owned(),
+        [only] => match only.outcome.verdict {
+            Verdict::Pass => "the study passes".to_owned(),
+            Verdict::Fail => "the study fails".to_owned(),
+            Verdict::Inconclusive => "the study is inconclusive".to_owned(),
+        },
         _ if !counts.is_empty() => counts.join(", "),
-        1 => "the study passes".to_owned(),
-        n => format!("all {n} studies pass"),
+        all => format!("all {} studies pass", all.len()),
     };
     match changes {
         Some(changes) => format!("{studies}; {}", baseline_in_words(finished, changes)),

@@ -20,7 +20,7 @@ use convergence_study::{
     },
 };
 use serde::Serialize;
-use thermobeam_study::kinds::work_precision::method::Trial;
+use thermobeam_study::kinds::work_precision::method::{Trial, no_clock};
 use thermobeam_study::kinds::work_precision::{Target, WorkPrecision};
 use thermobeam_study::scene::Scene;
 
@@ -155,7 +155,7 @@ impl Problem {
 /// # Errors
 /// A run that does not finish.
 fn timed(study: &WorkPrecision, trial: &Trial) -> Result<Timed, CaseFailure> {
-    let errors = study.measure(trial, cpu_seconds)?.errors;
+    let errors = study.measure(trial, no_clock)?.errors;
     let mut seconds = f64::INFINITY;
     for _ in 0..REPEATS {
         seconds = seconds.min(study.seconds(trial, cpu_seconds)?);

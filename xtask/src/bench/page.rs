@@ -37,7 +37,6 @@ impl Problem {
         let drawing = |measure: ErrorMeasure| {
             let title = format!("Error in {} over run time, by method", measure.in_words());
             let [seconds, error] = ["run time (CPU seconds)", "largest error (dimensionless)"];
-            let names = METHODS.map(|method| method.name);
             let runs = self.costed(measure);
             Drawing {
                 file: format!("{}-{}-seconds.svg", self.study, measure.name()),
@@ -46,7 +45,7 @@ impl Problem {
                     self.in_words,
                     measure.in_words()
                 ),
-                svg: compared::figure(&title, seconds, error, &runs, &names),
+                svg: compared::figure(&title, seconds, error, &runs),
             }
         };
         ErrorMeasure::ALL.map(drawing).into()

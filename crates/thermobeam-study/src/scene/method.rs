@@ -116,11 +116,7 @@ impl Method {
             };
         };
         let degree = degree.unwrap_or(DEGREE);
-        let shortest = mesh
-            .nodes()
-            .windows(2)
-            .map(|x| x[1] - x[0])
-            .fold(f64::INFINITY, f64::min);
+        let shortest = mesh.lengths().fold(f64::INFINITY, f64::min);
         let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest {
             1
         } else {

@@ -1,5 +1,4 @@
-//! Common parts of scenes and study files: functions, the tables `[beam]` and `[obstacles]`, the
-//! mesh, the stepping keys.
+//! The coefficients of scenes and study files, and the refusals of a mapped mesh.
 
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};

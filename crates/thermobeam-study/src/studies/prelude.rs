@@ -7,6 +7,12 @@ pub(super) use convergence_study::{
     measured,
 };
 
+/// A number that counts what must not happen.
+pub(super) fn none(case: impl Into<String>, name: &str, happened: bool) -> Measured {
+    let count = f64::from(u8::from(happened));
+    measured(case, name, count).fixed(0).must_be(Must::Count(0))
+}
+
 /// What a run shows.
 ///
 /// # Panics

@@ -101,7 +101,7 @@ pub struct AtRest {
 impl AtRest {
     /// The beam at rest since `t`, by its values at the nodes of `mesh`.
     ///
-    /// * `meant`: the exact states of which the nearest is found.
+    /// * `is_candidate`: the exact states of which the nearest is found.
     ///
     /// # Errors
     /// The steady states cannot be found.

@@ -129,8 +129,8 @@ impl ErrorSource for Frequencies {
         failure: "Mass, stiffness or coupling of the discretisation is wrong.",
     };
 
-    /// Number of elements.
     type File = FrequenciesFile;
+    /// Number of elements.
     type Data = usize;
     /// The first discrete frequencies, ascending.
     type Found = Vec<f64>;

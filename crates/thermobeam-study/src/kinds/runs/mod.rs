@@ -12,7 +12,7 @@ pub(crate) mod side_by_side;
 pub(crate) mod watch;
 
 use super::prelude::*;
-use convergence_study::{Coverage, LevelErrors};
+use convergence_study::Coverage;
 use serde::de::DeserializeOwned;
 
 /// A list of runs, and what is claimed of them.
@@ -69,10 +69,6 @@ pub struct Findings {
     pub figures: Vec<Figure>,
     /// Items other than cases: how many were judged, and why not the others.
     pub coverage: Vec<Coverage>,
-    /// Judged rates.
-    pub rates: Vec<NamedRate>,
-    /// Errors over levels.
-    pub levels: Vec<LevelErrors>,
     /// Guarded numbers beside those of the runs.
     pub quantities: Vec<Quantity>,
 }
@@ -98,20 +94,6 @@ pub struct Results<'r, R: Runs> {
 }
 
 impl<'r, R: Runs> Results<'r, R> {
-    /// What a run of the study shows.
-    ///
-    /// # Panics
-    /// The study has no such run.
-    pub fn of(&self, run: &R::Run) -> &'r R::Shown {
-        self.optional(run).expect("a run of the study")
-    }
-
-    /// The same; `None` if the study has no such run.
-    pub fn optional(&self, run: &R::Run) -> Option<&'r R::Shown> {
-        let known = self.shown.iter().find(|(known, _)| *known == run);
-        known.map(|(_, shown)| *shown)
-    }
-
     /// Every run, with what it shows.
     pub fn all(&self) -> impl Iterator<Item = (&'r R::Run, &'r R::Shown)> {
         self.shown.iter().copied()
@@ -164,8 +146,6 @@ impl<R: Runs> Kind for RunStudy<R> {
             tables,
             figures,
             coverage,
-            rates,
-            levels,
             quantities,
         } = if lacking > 0 || numbers.is_empty() {
             Findings::of_incomplete(lacking, numbers.len())
@@ -186,10 +166,9 @@ impl<R: Runs> Kind for RunStudy<R> {
             coverage,
             tables: own_table.chain(tables).collect(),
             figures,
-            levels,
             quantities: [own_quantities, quantities].concat(),
             headline: headline.into(),
-            ..Outcome::new(summary, rates, checks)
+            ..Outcome::new(summary, vec![], checks)
         }
     }
 }

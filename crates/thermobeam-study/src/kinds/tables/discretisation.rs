@@ -103,17 +103,10 @@ impl DiscretisationTable {
         let [elements, degree] = [self.elements.get(), self.degree.get()];
         // Elements of different lengths need more memory.
         limits::memory_of_dg("elements", elements, 1, degree, self.time_degree.get())?;
-        Ok(Discretisation {
-            elements,
-            degree,
-            stepping: DgStepping {
-                degree: self.time_degree.get(),
-                dt,
-                restart_dt,
-                growth: self.growth.get(),
-                ..DgStepping::default()
-            },
-        })
+        Ok(Discretisation::new(
+            [elements, degree, self.time_degree.get()],
+            [dt, restart_dt, self.growth.get()],
+        ))
     }
 }
 

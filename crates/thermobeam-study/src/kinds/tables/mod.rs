@@ -18,7 +18,7 @@ use crate::{
     },
     scene::{
         Coefficients, Method, Scene,
-        file::{BeamTable, Formula, Given, OfT, OfX},
+        file::{Formula, Given, OfT, OfX},
     },
 };
 
@@ -300,10 +300,7 @@ pub(crate) fn controlled(
         };
         let path = format!("control.{name}");
         let Some(coefficient) = solver.get_mut(name) else {
-            let names = BeamTable::default()
-                .given()
-                .map(|(name, _)| name)
-                .join(", ");
+            let names = Coefficients::OF_BEAM.join(", ");
             return Err(Refusal::written_and(
                 path,
                 " without a table [obstacles]",

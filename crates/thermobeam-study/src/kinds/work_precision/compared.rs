@@ -56,14 +56,15 @@ fn slope(front: &[(f64, f64)]) -> Option<f64> {
 }
 
 /// Error over cost, all methods. The legend has the order in the cost, which is the power by which
-/// the error of a one-step method falls; along the front of dG the degrees change, so that no power describes it.
+/// the error of a one-step method falls; along the front of dG the degrees change, so that no power
+/// describes it.
 ///
 /// * `title`: what one should see.
 /// * `cost`, `error`: labels of the axes.
-pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed], names: &[&str]) -> String {
+pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed]) -> String {
     let mut chart = Chart::empty(Axis::log(cost), Axis::log(error)).titled(title);
-    for (k, name) in names.iter().enumerate() {
-        let own = runs.iter().filter(|run| run.method == *name);
+    for (k, method) in METHODS.iter().enumerate() {
+        let own = runs.iter().filter(|run| run.method == method.name);
         let points = front(
             own.map(|run| (run.cost, run.error))
                 .filter(|(cost, error)| *cost > 0.0 && *error > 0.0 && error.is_finite()),
@@ -71,11 +72,8 @@ pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed], names: &[&s
         if points.is_empty() {
             continue;
         }
-        let method = METHODS.iter().find(|method| method.name == *name);
-        let in_words = method.map_or(*name, |method| method.in_words);
-        let power = method
-            .filter(|method| method.one_step.is_some())
-            .and_then(|_| slope(&points));
+        let in_words = method.in_words;
+        let power = method.one_step.and_then(|_| slope(&points));
         let label = match power {
             Some(power) => format!("{in_words}: order {:.2} in the cost", -power),
             None => in_words.to_owned(),

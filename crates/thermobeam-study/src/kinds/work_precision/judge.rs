@@ -3,7 +3,7 @@
 use super::{
     Target, WorkPrecision,
     compared::{Costed, cheapest, figure},
-    method::{METHODS, Measurement, Trial},
+    method::{Measurement, Trial},
 };
 use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
@@ -323,14 +323,12 @@ fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Option<Table> {
 }
 
 fn drawn(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measurement>]) -> Figure {
-    let names = METHODS.map(|method| method.name);
     let title = format!("Error in {} over work, by method", measure.in_words());
     let svg = figure(
         &title,
         "counted work (elements × linear solves)",
         "largest error (dimensionless)",
         &costed(ran, measure),
-        &names,
     );
     let caption = format!(
         "Error in {} over counted work, for each of {} methods the runs that no other run of it beats.",

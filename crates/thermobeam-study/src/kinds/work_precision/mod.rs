@@ -107,12 +107,6 @@ impl WorkPrecision {
         self.trials.contains(trial)
     }
 
-    /// The number of times at which errors are measured: steps of a one-step method are a multiple
-    /// of it.
-    pub fn observations(&self) -> usize {
-        self.observations
-    }
-
     /// The listed runs.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
@@ -137,7 +131,7 @@ impl WorkPrecision {
     ///
     /// # Errors
     /// [`CaseFailure`] of a run that does not finish.
-    pub fn reference(&self) -> Result<Option<&(Polynomials, Errors)>, CaseFailure> {
+    fn reference(&self) -> Result<Option<&(Polynomials, Errors)>, CaseFailure> {
         let Some([one, other]) = &self.reference else {
             return Ok(None);
         };

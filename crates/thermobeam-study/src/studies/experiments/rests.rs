@@ -47,9 +47,7 @@ pub(super) fn several(rests: &Rests<'_>) -> Sheet {
         ]
         .map(Some);
         let case = format!("β = {beta}");
-        let unstable = f64::from(u8::from(!rest.is_stable()));
-        let unstable = measured(&case, "rests where it is not stable", unstable);
-        let unstable = unstable.fixed(0).must_be(Must::Count(0));
+        let unstable = none(&case, "rests where it is not stable", !rest.is_stable());
         at_rest(case, rest, claims).into_iter().chain([unstable])
     });
     Sheet::new(words, "axial force", numbers)

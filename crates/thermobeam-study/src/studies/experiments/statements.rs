@@ -131,8 +131,7 @@ impl OfExperiment<'_> {
 
     /// Whether something happened that must not.
     fn none(&self, name: &str, happened: bool) -> Measured {
-        let count = f64::from(u8::from(happened));
-        self.one(name, count).fixed(0).must_be(Must::Count(0))
+        none(self.experiment.name, name, happened)
     }
 
     /// The numbers of an experiment. The digits of an end at zero are those of the remaining motion,

@@ -124,8 +124,8 @@ impl ErrorSource for Convergence {
                   wrong coefficient, or the quadrature is too coarse. Look which norm fails, and from which level on.",
     };
 
-    /// Elements and steps.
     type File = ManufacturedFile;
+    /// Elements and steps.
     type Data = (usize, usize);
     /// The error in each norm, the maximum over the time levels.
     type Found = Norms;

@@ -255,8 +255,8 @@ impl ErrorSource for SelfConvergence {
                   reference fail, scheme and reference solve different equations.",
     };
 
-    /// Number of the run: the levels, then the two references.
     type File = SelfConvergenceFile;
+    /// Number of the run: the levels, then the two references.
     type Data = usize;
     type Found = Traced;
 

@@ -120,8 +120,8 @@ impl ErrorSource for Vibration {
                   can be to blame.",
     };
 
-    /// Elements and steps.
     type File = VibrationFile;
+    /// Elements and steps.
     type Data = (usize, usize);
     type Found = Vibrated;
 

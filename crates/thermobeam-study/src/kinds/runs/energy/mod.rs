@@ -28,9 +28,9 @@ mod bound;
 pub mod one_by_one;
 pub mod random;
 
-use super::RunStudy;
+use super::{RunStudy, Runs};
 use crate::kinds::prelude::*;
-use convergence_study::{Document, Study, described};
+use convergence_study::{Document, Study, boxed_study, described};
 use one_by_one::listed;
 
 /// The row of the table of kinds.
@@ -80,8 +80,16 @@ impl EnergyFile {
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Document<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    match described(root, |file: EnergyFile| file.only_table())? {
-        "random" => read_study::<RunStudy<random::RandomScenes>>(header, root, folder),
-        _ => read_study::<RunStudy<one_by_one::EnergyRuns>>(header, root, folder),
-    }
+    described(root, |file: EnergyFile| {
+        Ok(match file.only_table()? {
+            "random" => boxed_study(
+                header,
+                RunStudy(random::RandomScenes::from_file(file, folder)?),
+            ),
+            _ => boxed_study(
+                header,
+                RunStudy(one_by_one::EnergyRuns::from_file(file, folder)?),
+            ),
+        })
+    })
 }

@@ -1,14 +1,16 @@
 //! Emitted files, built and run where their tool chain is found.
 
-use std::fs;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use super::session::{Question, Session};
+use super::session::{Question, Session, printed};
 use super::{Finding, finding};
 use crate::Sampling;
-use crate::against::questions;
+use crate::against::{Questions, questions};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::emit::{
@@ -169,44 +171,25 @@ struct AnswerProgram<'p> {
 }
 
 impl AnswerProgram<'_> {
-    fn to(&mut self, arguments: &[String], text: String) -> Result<String, InputError> {
+    fn to(&mut self, arguments: &[String], text: &str) -> Result<String, InputError> {
         let variant = self.variant;
         match self.program {
             Program::Alone { command, question } => {
-                let written = fs::write(&*question, text);
-                written.map_err(|error| {
+                let file = fs::write(&*question, text).and_then(|()| File::open(&*question));
+                let file = file.map_err(|error| {
                     InputError::whole(&question.display().to_string(), error.to_string())
                 })?;
-                printed(&[command, arguments].concat(), question, variant)
+                let command = [command, arguments].concat();
+                printed(&command, file, variant, LIMIT)
+                    .map_err(|error| InputError::whole(&command.join(" "), error.to_string()))
             }
             Program::Session(session) => session.answer(&Question {
                 variant,
                 arguments,
-                text: &text,
+                text,
             }),
         }
     }
-}
-
-/// What a program prints about the question that a file holds.
-///
-/// * `variant`: of the solution; empty for that of the file.
-fn printed(command: &[String], question: &Path, variant: &str) -> Result<String, InputError> {
-    let failed = |problem: String| InputError::whole(&command.join(" "), problem);
-    let output = fs::File::open(question).and_then(|question| {
-        Command::new(&command[0])
-            .args(&command[1..])
-            .env("MANUFACTURE_VARIANT", variant)
-            .stdin(question)
-            .output()
-    });
-    let output = output.map_err(|error| failed(error.to_string()))?;
-    if !output.status.success() {
-        let status = output.status;
-        return Err(failed(format!("expected exit status 0, found {status}")));
-    }
-    String::from_utf8(output.stdout)
-        .map_err(|_| failed("expected text, found other bytes".to_owned()))
 }
 
 /// What differs from the values of a model, with the parameters of the file, then with others.
@@ -226,10 +209,18 @@ fn values(
     if with_others && !other.is_empty() {
         settings.push(&other);
     }
+    // Drawn once for each part of the domain: every point costs an evaluation of all quantities.
+    let mut drawn = BTreeMap::new();
+    for round in &rounds {
+        if let Entry::Vacant(entry) = drawn.entry(round.face) {
+            let Sampling { seed, points, .. } = *sampling;
+            entry.insert(questions(model, round.face, seed, points)?);
+        }
+    }
     let mut findings = vec![];
     for settings in settings {
         for round in &rounds {
-            findings.extend(round.held(model, answer, settings, sampling)?);
+            findings.extend(round.held(model, answer, settings, &drawn[&round.face])?);
         }
     }
     Ok(findings)
@@ -261,9 +252,8 @@ impl AnsweredTogether<'_> {
         model: &Model,
         answer: &mut AnswerProgram<'_>,
         settings: &[ParameterValue],
-        sampling: &Sampling,
+        questions: &Questions,
     ) -> Result<Vec<Finding>, InputError> {
-        let questions = questions(model, self.face, sampling.seed, sampling.points)?;
         let functions = self.functions.iter();
         let names: Vec<&str> = functions
             .flat_map(|f| f.components.iter().map(String::as_str))
@@ -279,7 +269,7 @@ impl AnsweredTogether<'_> {
             arguments.push(format!("{name}={value:?}"));
         }
         let rows = answer
-            .to(&arguments, questions.text.clone())
+            .to(&arguments, &questions.text)
             .map_err(|error| error.to_string())
             .and_then(|text| rows(&text, &names, questions.points.len()));
         let rows = match rows {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use manufacture::{Comparison, Sampling};
+use manufacture::{Comparison, Manufacture, Sampling};
 
 use crate::files::{against, answered, read};
 
@@ -263,6 +263,30 @@ fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
         "{}",
         rounded.sentence
     );
+}
+
+#[test]
+fn the_line_of_a_term_is_that_of_its_own_equation() {
+    let file = "[manufacture]\nname = \"two\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
+                [exact]\nu = \"sin(x)\"\nv = \"cos(x)\"\n[equations.first]\ninertia = \"u\"\nload = \"u^2\"\n\
+                [equations.second]\ninertia = \"v\"\nload = \"v^3\"\n";
+    let sampling = Sampling {
+        points: 40,
+        ..Sampling::default()
+    };
+    let manufacture = Manufacture::parse(file, "two.toml").unwrap();
+    let question = manufacture.question(None, &sampling).unwrap();
+    let mut answer = "first second\n".to_owned();
+    for line in question.text().lines().skip(1) {
+        let x: f64 = line.trim().parse().unwrap();
+        let (u, v) = (x.sin(), x.cos());
+        answer += &format!("{:?} {:?}\n", u + u * u, 2.0 * v + 3.0 * v * v * v);
+    }
+    let found = question.compare(&answer, "other").unwrap();
+    assert_eq!(found[0].cause, "equal", "{}", found[0].sentence);
+    assert_eq!(found[1].terms, ["inertia", "load"], "{}", found[1].sentence);
+    let line = "two.toml:13:";
+    assert!(found[1].sentence.contains(line), "{}", found[1].sentence);
 }
 
 #[test]

@@ -191,8 +191,11 @@ impl<'a, 'm> Component<'a, 'm> {
         let changed: Vec<TermFactor> = changed.collect();
         let factors: Vec<f64> = changed.iter().map(|term| term.factor).collect();
         let words = of_terms(&changed, &labels);
-        let equations = self.right.model.problem.equations.iter();
-        let mut terms = equations.flat_map(|equation| &equation.terms);
+        // Labels of different equations may be equal.
+        let quantity = &self.right.quantities[self.place.quantity].quantity;
+        let mut equations = self.right.model.problem.equations.iter();
+        let equation = equations.find(|equation| equation.name == quantity.name)?;
+        let mut terms = equation.terms.iter();
         let first = &terms
             .find(|term| term.label == changed[0].label)?
             .expression;

@@ -212,9 +212,9 @@ impl<'a, 'm> EditSearch<'a, 'm> {
             }
             let alteration = Some(&candidate.alteration);
             let found = self.bench.altered(alteration, quantity, |altered| {
-                let mut curve = Curve::new(altered.evaluation(), &trial.points);
-                let factors = trial.factors(&mut curve, candidate.change);
                 let evaluation = altered.evaluation();
+                let mut curve = Curve::new(&evaluation, &trial.points);
+                let factors = trial.factors(&mut curve, candidate.change);
                 let matches = factors.into_iter().map(|factor| {
                     let wrong = trial.wrong.iter();
                     let columns = curve.at(factor);

@@ -10,7 +10,7 @@
 //! | `explain.rs`, `whole.rs` | the edit that fits at a few points, then everywhere; what concerns all of a component |
 //! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
 
-pub(crate) mod ask;
+mod ask;
 pub(crate) mod bench;
 pub(crate) mod candidates;
 pub(crate) mod cause;
@@ -33,7 +33,7 @@ use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
-pub(crate) use right::Right;
+use right::Right;
 
 /// What was found out about a quantity of another program.
 #[derive(Debug, Clone, PartialEq, Serialize)]

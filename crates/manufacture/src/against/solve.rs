@@ -48,13 +48,13 @@ pub(super) fn difference(first: &[f64], second: &[f64]) -> Column {
 
 /// A quantity as a function of one unknown factor.
 pub(super) struct Curve<'c> {
-    evaluation: Evaluation<'c>,
+    evaluation: &'c Evaluation<'c>,
     points: &'c [Vec<f64>],
     known: Vec<(f64, Vec<Column>)>,
 }
 
 impl<'c> Curve<'c> {
-    pub(super) fn new(evaluation: Evaluation<'c>, points: &'c [Vec<f64>]) -> Self {
+    pub(super) fn new(evaluation: &'c Evaluation<'c>, points: &'c [Vec<f64>]) -> Self {
         Self {
             evaluation,
             points,

@@ -148,8 +148,7 @@ impl Problem {
         reader: Reader<'_>,
         table: &Located<Named<Vec<Located<Scalar>>>>,
     ) -> Result<(), InputError> {
-        let variables: Vec<String> = self.variables().iter().map(|v| (*v).to_owned()).collect();
-        let variables: Vec<&str> = variables.iter().map(String::as_str).collect();
+        let variables = self.variables();
         known_only(reader, "domain", &table.value, &variables)?;
         let values = self.parameter_values(&[])?;
         let names = self

@@ -130,9 +130,10 @@ pub(crate) fn variants<'m>(
     base: &'m Model,
     sampling: &Sampling,
 ) -> Result<Variants<'m>, InputError> {
+    let whole = squares(base, sampling)?;
     let mut variants = Variants {
         base,
-        size: size(base, sampling)?,
+        size: root(&whole),
         usable: vec![],
         left_out: vec![],
     };
@@ -155,7 +156,7 @@ pub(crate) fn variants<'m>(
         .collect();
     for design in designs {
         let switch = design.switch.clone();
-        match usable(base, design, sampling) {
+        match usable(base, design, &whole, sampling) {
             Ok(variant) => variants.usable.push(variant),
             Err(why) => variants.left_out.push(LeftOutVariant { switch, why }),
         }
@@ -163,10 +164,9 @@ pub(crate) fn variants<'m>(
     Ok(variants)
 }
 
-/// The root mean square of all fields over points of the domain.
-fn size(model: &Model, sampling: &Sampling) -> Result<f64, InputError> {
-    let squares = squares(model, sampling)?.into_iter();
-    Ok(squares.sum::<f64>().sqrt())
+/// The root mean square of all fields, from their mean squares.
+fn root(squares: &[f64]) -> f64 {
+    squares.iter().sum::<f64>().sqrt()
 }
 
 /// The mean square of each field over points of the domain.
@@ -183,16 +183,13 @@ fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<f64>, InputError> {
     Ok(squares.collect())
 }
 
-/// Whether a flat design makes a field zero: then all that is done to that is switched off.
-fn vanishes(base: &Model, design: &Design, sampling: &Sampling) -> Result<bool, InputError> {
+/// Whether a field is zero that was not: then all that is done to it is switched off.
+///
+/// * `whole`, `left`: its mean square in the file, and in the variant.
+fn vanishes(whole: &[f64], left: &[f64]) -> bool {
     const ZERO: f64 = 1e-20;
-    if !design.is_flat() {
-        return Ok(false);
-    }
-    let flat = Model::new(problem(&base.problem, design, BTreeMap::new()))?;
-    let [whole, left] = [squares(base, sampling)?, squares(&flat, sampling)?];
-    let mut pairs = whole.into_iter().zip(left);
-    Ok(pairs.any(|(whole, left)| whole > 0.0 && left <= ZERO * whole))
+    let mut pairs = whole.iter().zip(left);
+    pairs.any(|(whole, left)| *whole > 0.0 && *left <= ZERO * whole)
 }
 
 /// The values of a field at a point.
@@ -221,11 +218,10 @@ fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
         .collect()
 }
 
-/// What may be added to flat fields, which are near zero somewhere: nothing; where this is not
-/// allowed the value at a side, which the file may prescribe; a multiple of the value in the
-/// middle.
+/// What may be added to flat fields, which are near zero somewhere, where this is not allowed: the
+/// value at a side, which the file may prescribe; a multiple of the value in the middle.
 fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
-    let mut lifts = vec![BTreeMap::new()];
+    let mut lifts = vec![];
     if design.is_flat() {
         for BoxSide { coordinate, at, .. } in sides(&base.problem) {
             lifts.push(scaled(values(base, Some((coordinate, at))), 1.0));
@@ -249,16 +245,27 @@ fn scaled(values: Vec<Values>, scale: f64) -> BTreeMap<String, Vec<f64>> {
 }
 
 /// The variant, or in words why it cannot be used.
-fn usable(base: &Model, design: Design, sampling: &Sampling) -> Result<Variant, String> {
+///
+/// * `whole`: the mean square of each field of the file.
+fn usable(
+    base: &Model,
+    design: Design,
+    whole: &[f64],
+    sampling: &Sampling,
+) -> Result<Variant, String> {
     let Sampling { seed, points, .. } = *sampling;
     let in_words = |error: InputError| error.to_string();
-    let design = match vanishes(base, &design, sampling).map_err(in_words)? {
-        true => design.weighed(&base.problem.intervals),
-        false => design,
-    };
+    let mut design = design;
+    let mut unlifted = varied(base, &design, BTreeMap::new())?;
+    if design.is_flat() && vanishes(whole, &squares(&unlifted, sampling).map_err(in_words)?) {
+        design = design.weighed(&base.problem.intervals);
+        unlifted = varied(base, &design, BTreeMap::new())?;
+    }
+    let lifted = lifts(base, &design).into_iter();
+    let lifted = lifted.map(|lifts| varied(base, &design, lifts));
     let mut why = String::new();
-    for lift in lifts(base, &design) {
-        let model = Model::new(problem(&base.problem, &design, lift)).map_err(in_words)?;
+    for model in std::iter::once(Ok(unlifted)).chain(lifted) {
+        let model = model?;
         // A pole is refused as bad input; here it is a reason.
         let findings = match check::failures(&model, seed, points) {
             Ok(findings) => findings,
@@ -273,7 +280,7 @@ fn usable(base: &Model, design: Design, sampling: &Sampling) -> Result<Variant, 
         let Some(first) = failures.first() else {
             return Ok(Variant {
                 switch: design.switch.clone(),
-                size: size(&model, sampling).map_err(in_words)?,
+                size: root(&squares(&model, sampling).map_err(in_words)?),
                 model,
             });
         };
@@ -286,6 +293,15 @@ fn usable(base: &Model, design: Design, sampling: &Sampling) -> Result<Variant, 
         }
     }
     Err(why)
+}
+
+/// The model of a variant, or in words what is wrong with it.
+fn varied(
+    base: &Model,
+    design: &Design,
+    lifts: BTreeMap<String, Vec<f64>>,
+) -> Result<Model, String> {
+    Model::new(problem(&base.problem, design, lifts)).map_err(|error| error.to_string())
 }
 
 /// The problem of a variant.

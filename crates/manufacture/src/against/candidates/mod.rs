@@ -135,7 +135,7 @@ pub(crate) fn all(problem: &Problem, part: Part, quantity: &str) -> Vec<Candidat
 
 /// The terms of an equation or the data of a face, and the definitions that they need: how far each
 /// is from a term.
-pub(crate) fn homes(problem: &Problem, part: Part, quantity: &str) -> Vec<(Home, usize)> {
+fn homes(problem: &Problem, part: Part, quantity: &str) -> Vec<(Home, usize)> {
     let mut homes = vec![];
     if let Part::Face(face) = part {
         let mut data = problem.faces[face].data.iter().enumerate();

@@ -62,7 +62,6 @@ impl Question {
     }
 
     pub(crate) fn request(&self) -> Result<Request, Refused> {
-        self.allows_samples()?;
         let claims = [("order", &self.order), ("factor", &self.factor)];
         let claims: Result<Vec<Claimed>, Refused> = claims
             .into_iter()
@@ -74,7 +73,7 @@ impl Question {
             })
             .collect();
         let samples = self.samples.as_deref().map(str::parse).transpose();
-        Ok(Request {
+        let request = Request {
             claims: claims?,
             by_factor: !self.factor.is_empty(),
             tolerance: self.tolerance,
@@ -87,23 +86,14 @@ impl Question {
                 ..self.choice.clone()
             },
             ..Request::default()
-        })
-    }
-
-    /// Refuses what the command does not accept beside `--samples`.
-    fn allows_samples(&self) -> Result<(), Refused> {
-        let others = [
-            ("--factor", !self.factor.is_empty()),
-            ("--floor", self.floor.is_some()),
-            ("--values", !self.choice.values.is_empty()),
-            ("--ratio", self.choice.ratio.is_some()),
-        ];
-        let beside = others.into_iter().find(|(_, is_there)| *is_there);
-        match (&self.samples, beside) {
-            (Some(_), Some((option, _))) => Err(Refused::because(&format!(
-                "expected --samples without {option}; found both"
+        };
+        // A floor of zero is one, too.
+        let floor = self.floor.and(request.choice.samples).map(|_| "floor");
+        match request.ignored_beside_samples().or(floor) {
+            Some(option) => Err(Refused::because(&format!(
+                "expected --samples without --{option}; found both"
             ))),
-            _ => Ok(()),
+            None => Ok(request),
         }
     }
 }

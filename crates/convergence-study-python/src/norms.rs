@@ -1,6 +1,6 @@
 //! Norms of errors of one level.
 
-use convergence_study::internal::study::norms::{all_norms, largest_inside};
+use convergence_study::internal::study::norms::{INSIDE, all_norms, largest_inside};
 use pyo3::prelude::*;
 
 use crate::values::refuse;
@@ -18,7 +18,7 @@ pub(crate) fn norms(
     let mut found = all_norms(&errors, &weights).map_err(refuse)?.to_vec();
     if let Some(boundary) = boundary {
         let inside = largest_inside(&errors, &boundary).map_err(refuse)?;
-        found.push(("max inside", inside));
+        found.push((INSIDE, inside));
     }
     Ok(found)
 }

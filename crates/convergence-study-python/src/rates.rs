@@ -51,6 +51,10 @@ pub(crate) fn rates(
         choice: chosen.choice()?,
         ..Request::default()
     };
+    if let Some(name) = request.ignored_beside_samples() {
+        let found = format!("{name}: expected none beside samples, whose scatter says how well a level is known");
+        return Err(refuse(found));
+    }
     let (tables, first) = if is_text {
         (Tables::Text(source), "text".to_owned())
     } else {

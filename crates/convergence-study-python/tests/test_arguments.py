@@ -376,6 +376,9 @@ def test_rates_of_samples_and_of_errors_near_round_off():
     assert cs.rates(text, order=2, samples="rms")["verdict"] == "fail"
     with pytest.raises(ValueError, match="samples: expected mean, rms or weak"):
         cs.rates(text, order=1, samples="median")
+    for name, value in {"floor": 1e-9, "values": ["error"], "ratio": 2}.items():
+        with pytest.raises(ValueError, match=f"{name}: expected none beside samples"):
+            cs.rates(text, order=1, samples="mean", **{name: value})
     fine = [0.5**k for k in range(1, 11)]
     noise = [4e-16, 3e-16, 5e-16, 2e-16, 4e-16, 6e-16, 3e-16, 4e-16, 5e-16, 2e-16]
     text = "h L2\n" + "".join(f"{h} {0.3 * h**6 + e:.6e}\n" for h, e in zip(fine, noise))

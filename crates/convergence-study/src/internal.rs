@@ -103,7 +103,7 @@ pub mod study {
         pub use crate::study::outcome::settle;
     }
     pub mod norms {
-        pub use crate::study::norms::{all_norms, largest_inside};
+        pub use crate::study::norms::{INSIDE, all_norms, largest_inside};
     }
     pub mod over_levels {
         pub use crate::study::over_levels::{ErrorColumn, Levels, rate_table, summary};

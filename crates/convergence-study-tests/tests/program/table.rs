@@ -172,6 +172,11 @@ fn what_a_file_may_get_wrong_is_named() {
         ),
         (
             "[[expect]]\nerror = \"L2\"",
+            "samples = \"mean\"\n[[expect]]\nvalue = \"L2\"",
+            "table.samples: found the text \"mean\"; expected samples without floor, ratio and values",
+        ),
+        (
+            "[[expect]]\nerror = \"L2\"",
             "[[expect]]",
             "expect[0].error: missing; expected",
         ),

@@ -192,6 +192,20 @@ impl Request {
         }
     }
 
+    /// What is asked for beside samples, and would be ignored: their scatter says how well a level is
+    /// known. The command line refuses the same options.
+    pub fn ignored_beside_samples(&self) -> Option<&'static str> {
+        self.choice.samples?;
+        let others = [
+            ("factor", self.by_factor),
+            ("floor", self.floor > 0.0),
+            ("values", !self.choice.values.is_empty()),
+            ("ratio", self.choice.ratio.is_some()),
+        ];
+        let ignored = others.into_iter().find(|(_, is_there)| *is_there);
+        ignored.map(|(name, _)| name)
+    }
+
     /// What is known of round-off.
     fn floor(&self) -> Result<Floor, JudgeError> {
         let floor = Floor::new(self.floor)?.of_scale(self.scale.unwrap_or(1.0))?;

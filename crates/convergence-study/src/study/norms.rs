@@ -5,7 +5,7 @@ use crate::text::number::max_or_nan;
 /// The largest error.
 pub(crate) const MAX: &str = "max";
 /// The largest error of points that are not at the boundary.
-pub(crate) const INSIDE: &str = "max inside";
+pub const INSIDE: &str = "max inside";
 
 /// The norms L1, L2, `max` and `max inside` of errors: four errors of one study, which says whether
 /// the boundary has lost the order.

@@ -125,8 +125,9 @@ impl TableTable {
     /// How the table is read.
     fn choice(self, values: Vec<String>) -> Result<Choice, Refusal> {
         let samples = self.samples.map(|of| of.value);
-        if samples.is_some() && (self.floor.is_some() || self.ratio.is_some()) {
-            let allowed = "samples without floor and ratio";
+        let others = self.floor.is_some() || self.ratio.is_some() || !values.is_empty();
+        if samples.is_some() && others {
+            let allowed = "samples without floor, ratio and values";
             return Err(Refusal::written("samples", allowed));
         }
         let lines = self.lines.unwrap_or_default().into_iter().enumerate();

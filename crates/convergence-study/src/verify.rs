@@ -239,8 +239,7 @@ fn run_and_write(
 ) -> Result<Verification, VerificationError> {
     let baseline_file = request.baseline();
     for study in studies {
-        let folder = request.reports.join("local").join("answers");
-        study.keep_answers(&folder.join(&study.header().id), !request.bless);
+        study.keep_answers(&reports.answers(&study.header().id), !request.bless);
     }
     // Blessed runs may take longer than before.
     let allowed =

@@ -7,12 +7,23 @@ use super::{Place, project_of, texts};
 
 /// A project whose study runs a script that notes each run, and answers with the factor of a file.
 fn place(more: &str) -> Place {
+    place_with(more, "factor")
+}
+
+/// The same, whose study does not list the file of the factor: the answers depend on what no listed
+/// file shows.
+fn place_of_unlisted(more: &str) -> Place {
+    place_with(more, "solver.sh")
+}
+
+/// * `more`: a key of the study; `listed`: the file that it lists.
+fn place_with(more: &str, listed: &str) -> Place {
     let place = Place::new("ok", "");
     let script = "echo \"$1\" >> runs\nfactor=$(cat factor)\n\
                   awk -v n=\"$1\" -v c=\"$factor\" 'BEGIN { printf \"L2 = %.17g\\n\", c / (n * n) }'\n";
     place.write_text(&format!(
         "[study]\nid = \"s\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n{more}\n\
-         [program]\ncommand = [\"sh\", \"solver.sh\", \"{{n}}\"]\nfiles = [\"factor\"]\ncache = true\n\
+         [program]\ncommand = [\"sh\", \"solver.sh\", \"{{n}}\"]\nfiles = [\"{listed}\"]\ncache = true\n\
          [refine]\nn = [4, 8, 16, 32, 64]\n[[expect]]\nerror = \"L2\"\norder = 2.0\n"
     ));
     let place = project_of(place);
@@ -118,14 +129,7 @@ fn a_change_that_no_file_shows_is_seen_at_the_cheapest_level() {
     if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
         return;
     }
-    let place = place("");
-    let file = place.studies().join("s.toml");
-    let study = fs::read_to_string(&file).unwrap();
-    fs::write(
-        &file,
-        study.replace("files = [\"factor\"]", "files = [\"solver.sh\"]"),
-    )
-    .unwrap();
+    let place = place_of_unlisted("");
     assert_eq!(place.verify(&["--bless"]).0, Some(0));
     fs::write(place.studies().join("factor"), "1.001\n").unwrap();
     // As often as it is run.
@@ -175,14 +179,7 @@ fn the_cheapest_level_may_scatter_by_the_guard() {
     if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
         return;
     }
-    let place = place("guard = 1e-4");
-    let file = place.studies().join("s.toml");
-    let study = fs::read_to_string(&file).unwrap();
-    fs::write(
-        &file,
-        study.replace("files = [\"factor\"]", "files = [\"solver.sh\"]"),
-    )
-    .unwrap();
+    let place = place_of_unlisted("guard = 1e-4");
     assert_eq!(place.verify(&["--bless"]).0, Some(0));
     fs::write(place.studies().join("factor"), "1.00001\n").unwrap();
     let (status, text) = place.verify(&[]);

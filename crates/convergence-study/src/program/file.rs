@@ -112,11 +112,7 @@ impl Choices for Makers {
     type Value = Of;
 
     fn all() -> Vec<(&'static str, Of)> {
-        vec![
-            ("mean", Of::Mean),
-            ("rms", Of::RootMeanSquare),
-            ("weak", Of::Weak),
-        ]
+        Of::ALL.map(|of| (of.name(), of)).to_vec()
     }
 }
 
@@ -131,7 +127,9 @@ impl ProgramFile {
         let refine = refine.beginning_for(|count| fastest(&expect, count));
         let table = self.program;
         let in_program = within("program");
-        let values = &refine.cases()[0].parameters;
+        // The first run of the coarsest level; no list is empty.
+        let cheapest = refine.cases().swap_remove(0);
+        let values = &cheapest.parameters;
         if refine.samples.is_some() && table.floor.is_some() {
             let allowed = "no floor beside samples, whose scatter says how well a level is known";
             return Err(in_program(Refusal::written("floor", allowed)));
@@ -141,13 +139,12 @@ impl ProgramFile {
         let kept = table.kept_files().map_err(&in_program)?;
         let launch = table.launch_keys().launch(folder, values);
         let launch = launch.map_err(&in_program)?;
-        let kept = kept.map(|files| {
-            Kept::new(&files, &launch.words, &launch.directory, folder, guard).map_err(&in_program)
-        });
         if refine.samples.is_some() && !launch.tells("seed", values) {
             let allowed = "a command with the placeholder {seed}, which tells samples apart";
             return Err(in_program(Refusal::written("command", allowed)));
         }
+        let kept = kept
+            .map(|files| Kept::new(&files, &launch, folder, guard, cheapest).map_err(&in_program));
         Ok(Program {
             floor,
             manufactured,

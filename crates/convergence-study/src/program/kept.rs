@@ -14,13 +14,14 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::Answer;
 use super::command::Invocation;
+use super::launch::Launch;
+use super::refine::RefinedCase;
 use super::sources::SourceFile;
 use crate::input::Refusal;
 use crate::store::{atomic, content_hash, json};
 use crate::study::{CaseFailure, HashedFile};
 use crate::text::named::NamedNumber;
 use crate::text::number::error_text;
-use crate::text::visible::visible;
 
 /// By how much the cheapest case may differ from its kept answer, unless the study has a guard.
 const TOLERANCE: f64 = 1e-6;
@@ -30,6 +31,8 @@ const TOLERANCE: f64 = 1e-6;
 pub(super) struct Kept {
     /// What a result depends on.
     files: Vec<SourceFile>,
+    /// The case that is always run.
+    pub(super) cheapest: RefinedCase,
     /// The relative change tolerated.
     tolerance: f64,
     /// Where they are; unset while nobody asks for them.
@@ -61,25 +64,27 @@ struct KeptAnswer {
 }
 
 impl Kept {
-    /// * `words`: of the command, of which those that are files in its folder count, too.
+    /// * `launch`: words of the command that are files in its folder count, too.
+    /// * `cheapest`: the case that is always run.
     ///
     /// # Errors
     /// A file that is not there.
     pub(super) fn new(
         names: &[String],
-        words: &[String],
-        directory: &Path,
+        launch: &Launch,
         folder: &Path,
         guard: Option<f64>,
+        cheapest: RefinedCase,
     ) -> Result<Self, Refusal> {
         let mut files = SourceFile::all("files", names, folder)?;
-        let of_command = words.iter().map(|word| SourceFile {
+        let of_command = launch.words.iter().map(|word| SourceFile {
             name: word.clone(),
-            path: directory.join(word),
+            path: launch.directory.join(word),
         });
         files.extend(of_command.filter(|file| file.path.is_file()));
         Ok(Self {
             files,
+            cheapest,
             tolerance: guard.unwrap_or(TOLERANCE).max(TOLERANCE),
             place: OnceLock::new(),
         })
@@ -94,52 +99,45 @@ impl Kept {
 
     /// The answer of a case: a kept one, or that of the program.
     ///
-    /// * `label`: of the case; `cheapest`: the case that is always run, with its command.
+    /// * `label`, `invocation`: the case; `of_cheapest`: the command of the case that is always run.
     pub(super) fn answer(
         &self,
         label: &str,
         invocation: &Invocation,
-        (cheapest, of_cheapest): (&str, &Invocation),
+        of_cheapest: &Invocation,
         run: impl FnOnce() -> Result<Answer, CaseFailure>,
     ) -> Result<Answer, CaseFailure> {
         let Some(place) = self.place.get() else {
             return run();
         };
-        let files = self.hashes()?;
+        let files: Vec<HashedFile> = self
+            .files
+            .iter()
+            .map(SourceFile::hashed)
+            .collect::<Result<_, _>>()?;
         let made = Made::new(invocation, &files);
-        let kept = place.read(label).filter(|kept| kept.made == made);
+        let kept = place.may_reuse.then(|| place.read(label)).flatten();
+        let kept = kept.filter(|kept| kept.made == made);
+        let cheapest = &self.cheapest.label;
         let is_cheapest = label == cheapest;
-        if place.may_reuse && !is_cheapest {
-            let is_known = || {
-                let witness = place.read(cheapest);
-                witness.is_some_and(|kept| kept.made == Made::new(of_cheapest, &files))
-            };
-            if let Some(kept) = kept.filter(|_| is_known()) {
-                return Ok(Answer {
-                    is_reused: true,
-                    ..kept.answer
-                });
-            }
-            let answer = run()?;
-            place.write(label, made, &answer)?;
-            return Ok(answer);
+        let is_known = || {
+            let witness = place.read(cheapest);
+            witness.is_some_and(|kept| kept.made == Made::new(of_cheapest, &files))
+        };
+        if let Some(kept) = kept.as_ref().filter(|_| !is_cheapest && is_known()) {
+            return Ok(Answer {
+                is_reused: true,
+                ..kept.answer.clone()
+            });
         }
         let mut answer = run()?;
-        if let Some(kept) = kept.filter(|_| place.may_reuse) {
+        if let Some(kept) = kept.filter(|_| is_cheapest) {
             answer.differs = difference(&kept.answer, &answer, self.tolerance);
         }
         if answer.differs.is_none() {
             place.write(label, made, &answer)?;
         }
         Ok(answer)
-    }
-
-    fn hashes(&self) -> Result<Vec<HashedFile>, CaseFailure> {
-        let hashed = |file: &SourceFile| {
-            let failed = |error| CaseFailure::new(format!("{}: {error}", visible(&file.name)));
-            file.hashed().map_err(failed)
-        };
-        self.files.iter().map(hashed).collect()
     }
 }
 

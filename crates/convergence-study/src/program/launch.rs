@@ -123,8 +123,8 @@ fn words(command: Vec<String>, values: &[CaseParameter]) -> Result<Vec<String>, 
 }
 
 impl Launch {
-    /// Whether the program is told a value of that name: its command has the placeholder, or none,
-    /// and then it reads all values.
+    /// Whether the program receives the value of that name: its command has the placeholder, or no
+    /// placeholder at all, and then it reads all values from standard input.
     ///
     /// * `values`: those of a case.
     pub(super) fn tells(&self, name: &str, values: &[CaseParameter]) -> bool {

@@ -197,14 +197,8 @@ impl Kind for Program {
             })
         };
         let Some(kept) = &self.kept else { return run() };
-        let cheapest = self.refine.cheapest();
-        let of_cheapest = self.launch.invocation(&cheapest.parameters);
-        kept.answer(
-            &case.label,
-            &invocation,
-            (&cheapest.label, &of_cheapest),
-            run,
-        )
+        let of_cheapest = self.launch.invocation(&kept.cheapest.parameters);
+        kept.answer(&case.label, &invocation, &of_cheapest, run)
     }
 
     fn keep_answers(&self, folder: &Path, may_reuse: bool) {

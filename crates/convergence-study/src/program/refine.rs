@@ -186,12 +186,6 @@ impl Refine {
         resolutions.flat_map(seeds).collect()
     }
 
-    /// The first run of the coarsest level.
-    pub(super) fn cheapest(&self) -> RefinedCase {
-        // No list is empty.
-        self.cases().swap_remove(0)
-    }
-
     fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> RefinedCase {
         let given = [(&self.space, in_space), (&self.time, in_time)];
         let given: Vec<_> = given

@@ -1,11 +1,12 @@
 //! Files that a result depends on, with the hashes of their contents.
 
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use crate::input::{Refusal, named_file};
 use crate::store::content_hash;
-use crate::study::HashedFile;
+use crate::study::{CaseFailure, HashedFile};
+use crate::text::visible::visible;
 
 /// A file, by the name that its study has for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +43,12 @@ impl SourceFile {
     }
 
     /// The hash of its content now.
-    pub(super) fn hashed(&self) -> io::Result<HashedFile> {
-        let content = fs::read(&self.path)?;
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub(super) fn hashed(&self) -> Result<HashedFile, CaseFailure> {
+        let content = fs::read(&self.path)
+            .map_err(|error| CaseFailure::new(format!("{}: {error}", visible(&self.name))))?;
         Ok(HashedFile {
             name: self.name.clone(),
             hash: format!("{:016x}", content_hash(&content)),

@@ -13,7 +13,6 @@ use crate::rates::{self, Request, SourceTable, Tables};
 use crate::study::{
     Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources, read_study,
 };
-use crate::text::visible::visible;
 use file::TableFile;
 
 /// The row of the table of kinds.
@@ -53,13 +52,10 @@ impl FromFile for Table {
 impl Table {
     /// The hashes of the table and of its inputs.
     fn sources(&self) -> Result<Sources, CaseFailure> {
-        let hashed = |file: &SourceFile| {
-            let failed = |error| CaseFailure::new(format!("{}: {error}", visible(&file.name)));
-            file.hashed().map_err(failed)
-        };
+        let inputs = self.inputs.iter().map(SourceFile::hashed);
         Ok(Sources {
-            table: hashed(&self.file)?,
-            inputs: self.inputs.iter().map(hashed).collect::<Result<_, _>>()?,
+            table: self.file.hashed()?,
+            inputs: inputs.collect::<Result<_, _>>()?,
         })
     }
 }

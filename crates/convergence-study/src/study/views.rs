@@ -93,11 +93,7 @@ impl Outcome {
     pub(crate) fn of_judged_sheet(summary: String, checks: Vec<Check>, sheet: Sheet) -> Self {
         Self {
             tables: sheet.table().into_iter().collect(),
-            quantities: sheet
-                .measured
-                .iter()
-                .filter_map(Measured::quantity)
-                .collect(),
+            quantities: sheet.quantities(),
             headline: summary.as_str().into(),
             sheets: vec![sheet],
             ..Self::new(summary, vec![], checks)

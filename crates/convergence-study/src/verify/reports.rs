@@ -73,6 +73,11 @@ impl Reports {
         self.local().join("provenance.json")
     }
 
+    /// Where the answers of a study are kept.
+    pub(super) fn answers(&self, id: &str) -> PathBuf {
+        self.local().join("answers").join(id)
+    }
+
     /// The folder of the report on a run that passes, or does not.
     pub(crate) fn folder(&self, is_accepted: bool) -> &Path {
         match &self.failing {

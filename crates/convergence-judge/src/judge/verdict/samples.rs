@@ -36,26 +36,32 @@ pub enum Of {
     Weak,
 }
 
+impl Of {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Mean, Self::RootMeanSquare, Self::Weak];
+
+    /// The name in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mean => "mean",
+            Self::RootMeanSquare => "rms",
+            Self::Weak => "weak",
+        }
+    }
+}
+
 impl FromStr for Of {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "mean" => Ok(Self::Mean),
-            "rms" => Ok(Self::RootMeanSquare),
-            "weak" => Ok(Self::Weak),
-            _ => Err("expected mean, rms or weak".to_owned()),
-        }
+        let known = Self::ALL.into_iter().find(|of| of.name() == text);
+        known.ok_or_else(|| "expected mean, rms or weak".to_owned())
     }
 }
 
 impl Display for Of {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Mean => "mean",
-            Self::RootMeanSquare => "rms",
-            Self::Weak => "weak",
-        })
+        f.write_str(self.name())
     }
 }
 

@@ -48,7 +48,7 @@ struct TaylorProgramTable {
 struct TaylorTable {
     /// the coarsest step, a tenth of the size of m for a direction of length 1; without it 0.1
     eps: Option<Positive>,
-    /// how many directions are tested; without it 3 if the program is told `{seed}`, otherwise 1
+    /// how many directions are tested; without it 3 if the program receives the seed, otherwise 1
     directions: Option<Count<1, 100>>,
     /// whether the program also answers `d2J`, the second derivative along the direction
     #[serde(default)]

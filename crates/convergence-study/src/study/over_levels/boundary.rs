@@ -24,26 +24,17 @@ impl Levels {
         };
         let [max_in_words, inside_in_words] =
             [max, inside].map(|rate| rate.rate_in_words(RATE_PLACES));
-        let claim = format!("{MAX} falls as {INSIDE} does");
+        // Where both claims pass, theory says that the boundary loses it.
+        let (verdict, claim, advice) = if passes(MAX) && passes(INSIDE) {
+            let claim = format!("{MAX} and {INSIDE} fall as claimed");
+            (Verdict::Pass, claim, "")
+        } else {
+            let claim = format!("{MAX} falls as {INSIDE} does");
+            (Verdict::Inconclusive, claim, "; claim both")
+        };
         let evidence = format!(
-            "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}"
+            "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}{advice}"
         );
-        let verdict = if passes(MAX) && passes(INSIDE) {
-            Verdict::Pass
-        } else {
-            Verdict::Inconclusive
-        };
-        // Where both claims pass, theory says that it does not.
-        let claim = if verdict.is_pass() {
-            format!("{MAX} and {INSIDE} fall as claimed")
-        } else {
-            claim
-        };
-        let evidence = if verdict.is_pass() {
-            evidence
-        } else {
-            evidence + "; claim both"
-        };
         Some(Check {
             verdict,
             ..Check::that(false, claim, evidence).about(Subject::of(MAX))

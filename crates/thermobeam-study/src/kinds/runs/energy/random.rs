@@ -181,7 +181,6 @@ impl Runs for RandomScenes {
             figures: vec![residuals(&total.scenes, closes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
             quantities: vec![Quantity::new("answers", answers as f64, 1e-3)],
-            ..Findings::default()
         }
     }
 }

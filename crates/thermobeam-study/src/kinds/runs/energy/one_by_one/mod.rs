@@ -270,7 +270,6 @@ impl Runs for EnergyRuns {
             tables: self.balance(&drawn).into_iter().collect(),
             figures: self.figure(&drawn).into_iter().collect(),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
-            ..Findings::default()
         }
     }
 }

@@ -52,7 +52,9 @@ pub(crate) fn rates(
         ..Request::default()
     };
     if let Some(name) = request.ignored_beside_samples() {
-        let found = format!("{name}: expected none beside samples, whose scatter says how well a level is known");
+        let found = format!(
+            "{name}: expected none beside samples, whose scatter says how well a level is known"
+        );
         return Err(refuse(found));
     }
     let (tables, first) = if is_text {

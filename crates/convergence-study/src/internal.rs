@@ -3,9 +3,7 @@
 
 #[cfg(feature = "command-line")]
 pub mod cli {
-    pub use crate::cli::{
-        COMMANDS, Command, command_line, ended, program, run_command_line, status_of,
-    };
+    pub use crate::cli::{COMMANDS, Command, command_line, ended, program, status_of};
     pub mod exit {
         pub use crate::cli::exit::{CommandOutcome, Unusable, say};
     }
@@ -22,10 +20,10 @@ pub mod cli {
         pub use crate::cli::schema::{MANUFACTURE, of_studies, other_files, page, text};
     }
     pub mod screen {
-        pub use crate::cli::screen::{complain, print, table};
+        pub use crate::cli::screen::complain;
     }
     pub mod workspace {
-        pub use crate::cli::workspace::{root, studies};
+        pub use crate::cli::workspace::root;
     }
 }
 #[cfg(feature = "files")]
@@ -61,38 +59,24 @@ pub mod rates {
 }
 #[cfg(feature = "reports")]
 pub mod report {
-    pub use crate::report::{
-        Findings, LONGEST, NEWEST, SeeAlso, blessing, junit, markdown, sentence, tables,
-        text_of_diagnosis, text_of_failures,
-    };
+    pub use crate::report::markdown;
 }
 pub mod run {
-    pub use crate::run::{
-        Effort, Item, NotPassed, Spent, available, catch, listed, not_passed, run, run_within,
-    };
+    pub use crate::run::{available, catch};
 }
 #[cfg(feature = "reports")]
 pub mod store {
     pub use crate::store::{
-        Baseline, GuardedChange, Movement, Provenance, Record, ReportFolder, ReportSet, Works,
-        content_hash, json, lock,
+        Baseline, GuardedChange, Movement, Provenance, Record, content_hash, json,
     };
     pub mod atomic {
-        pub use crate::store::atomic::{
-            begin_write, naming, prepare_folder, remove_leftovers, write, write_with,
-        };
-    }
-    pub mod diagnosis {
-        pub use crate::store::diagnosis::{Diagnosis, diagnose};
+        pub use crate::store::atomic::{begin_write, naming, prepare_folder, write, write_with};
     }
 }
 pub mod study {
     #[cfg(feature = "files")]
     pub use crate::study::StudyFile;
     pub use crate::study::{Described, STEPS, first_repeated, run_cases_here};
-    pub mod coverage {
-        pub use crate::study::coverage::NO_RESULT;
-    }
     pub mod header {
         pub use crate::study::header::is_name;
     }
@@ -126,5 +110,5 @@ pub mod verify {
 #[cfg(feature = "tables")]
 pub mod where_lost {
     pub use crate::run::Located;
-    pub use crate::where_lost::{Request, Search, figure, located, lost, text_of_located};
+    pub use crate::where_lost::{Search, figure, located, lost, text_of_located};
 }

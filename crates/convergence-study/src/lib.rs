@@ -73,7 +73,10 @@
 // `where_lost`, `project`, `store`, `program`, `report`, `verify`, `cli`. Nothing is
 // public but what is named here and in `internal`, so that the compiler finds what nobody uses.
 // With fewer features some items serve no one: they are searched for with all.
-#![cfg_attr(not(feature = "command-line"), allow(dead_code, unused_imports))]
+#![cfg_attr(
+    not(feature = "command-line"),
+    allow(dead_code, unreachable_pub, unused_imports)
+)]
 
 #[cfg(feature = "tables")]
 mod chart;
@@ -98,6 +101,9 @@ mod run;
 mod store;
 mod study;
 mod taylor;
+#[cfg(test)]
+#[cfg(feature = "reports")]
+mod tests;
 #[cfg(feature = "reports")]
 mod verify;
 #[cfg(feature = "tables")]

@@ -20,5 +20,3 @@ mod table_attacks;
 mod verdict_laws;
 mod verdict_rule;
 mod verdict_tables;
-#[cfg(feature = "reports")]
-mod verification;

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use convergence_study::{
     Claim, Document, Header, InputError, KindRow, Project, Study, boxed_study, described,
     file::Positive,
-    internal::{cli, input::schema, program},
-    levels,
+    internal::{input::schema, program},
+    levels, run_command_line,
 };
 
 /// The order claimed instead of 1.
@@ -52,5 +52,5 @@ fn read(header: Header, root: &Document<'_>, _: &Path) -> Result<Box<dyn Study>,
 }
 
 fn main() -> ExitCode {
-    cli::run_command_line(&PROJECT)
+    run_command_line(&PROJECT)
 }

@@ -62,7 +62,7 @@ pub(super) fn set_colour(colour: Colour) {
 /// Prints to standard output. A reader that closes it early, as `head` does, causes no error.
 ///
 /// No line is a command to GitHub Actions, whatever names and claims it contains.
-pub fn print(text: &str) -> io::Result<()> {
+pub(crate) fn print(text: &str) -> io::Result<()> {
     print_as_is(&visible::without_commands(text))
 }
 
@@ -100,7 +100,7 @@ const GAP: &str = "  ";
 pub(super) const LEAST: usize = 24;
 
 /// Rows under a head, in columns; cells without control characters.
-pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
+pub(crate) fn table(head: &[&str], rows: &[Vec<String>]) -> String {
     table_within(None, head, rows)
 }
 

@@ -40,7 +40,7 @@ pub fn root() -> Result<PathBuf, Unusable> {
 /// # Errors
 /// A folder that cannot be listed, the first file that is not a study, and a study in code with the
 /// id of another one.
-pub fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusable> {
+pub(crate) fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, Unusable> {
     let folder = root.join("studies");
     let paths = toml_files(&folder).map_err(|error| Unusable::file(&folder, &error))?;
     let mut files = StudyFile::read_all(project.kinds, &paths)?;

@@ -35,7 +35,7 @@ fn place(clearest: &[String], study: &NotPassed<'_>) -> Option<usize> {
 ///
 /// * `clearest`: the studies to show, with their first items; `None` for all studies with all of
 ///   them.
-pub fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
+pub(crate) fn text_of_failures(finished: &[Finished], clearest: Option<&[String]>) -> String {
     let mut studies = not_passed(finished);
     let has_reasons = studies.iter().any(|study| !study.advice().is_empty());
     let page = has_reasons.then(|| format!("every reason, and what to try: {REASONS}\n"));
@@ -91,7 +91,7 @@ fn first_items(study: &NotPassed<'_>) -> Vec<String> {
 }
 
 /// The known facts about the cause, line by line under a title; empty without any.
-pub fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
+pub(crate) fn text_of_diagnosis(diagnosis: &Diagnosis) -> String {
     let facts = diagnosis.lines();
     if facts.is_empty() {
         return String::new();

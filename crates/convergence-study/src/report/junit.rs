@@ -95,7 +95,7 @@ impl TestCase {
 ///
 /// # Errors
 /// Those of the template.
-pub fn junit(name: &str, record: &Record) -> io::Result<String> {
+pub(crate) fn junit(name: &str, record: &Record) -> io::Result<String> {
     let mut suites: Vec<Suite<'_>> = record.studies.iter().map(Suite::of).collect();
     if let Some(changes) = &record.changes {
         suites.push(Suite::new("baseline", baseline(&record.studies, changes)));

@@ -25,17 +25,17 @@ use crate::study::Figure;
 use context::Context;
 use templates::render;
 
-pub use failures::{text_of_diagnosis, text_of_failures};
-pub use junit::junit;
+pub(crate) use failures::{text_of_diagnosis, text_of_failures};
+pub(crate) use junit::junit;
 pub(crate) use junit::{Suite, TestCase, junit_of};
 pub use markdown::markdown;
-pub use tables::tables;
-pub use words::{blessing, sentence};
+pub(crate) use tables::tables;
+pub(crate) use words::{blessing, sentence};
 pub(crate) use words::{can_be_blessed, key_numbers, summary};
 
 /// The subject of a report.
 #[derive(Debug, Clone, Copy)]
-pub struct Findings<'f> {
+pub(crate) struct Findings<'f> {
     /// Whose studies they are.
     pub project: &'f Project,
     /// What was found.
@@ -48,7 +48,7 @@ pub struct Findings<'f> {
 
 /// The report on the other tier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct SeeAlso {
+pub(crate) struct SeeAlso {
     /// Its tier.
     pub tier: &'static str,
     /// Its folder, as seen from this one's.
@@ -59,7 +59,7 @@ pub struct SeeAlso {
 
 /// The files of a report that git ignores, and that browsers, programs and continuous integration
 /// read: they show the newest run, whether it passes or not.
-pub const NEWEST: [&str; 4] = ["index.html", "junit.xml", "results.json", "summary.md"];
+pub(crate) const NEWEST: [&str; 4] = ["index.html", "junit.xml", "results.json", "summary.md"];
 
 /// The figures that only the page shows, next to the others; they need not be committed.
 const ONLY_ON_PAGE: &str = "figures/page";
@@ -88,14 +88,14 @@ pub(crate) fn newest(set: &ReportSet) -> ReportSet {
 }
 
 /// Bytes of the longest comment: GitHub takes 65536 characters.
-pub const LONGEST: usize = 65_000;
+pub(crate) const LONGEST: usize = 65_000;
 
 impl Findings<'_> {
     /// All files of a report; all except `index.html` have the same bytes for the same outcomes.
     ///
     /// # Errors
     /// Two figures with the same name, and errors of the writers of JSON and of the templates.
-    pub fn files(&self) -> io::Result<ReportSet> {
+    pub(crate) fn files(&self) -> io::Result<ReportSet> {
         let record = self.record;
         let rates = forest::figure(&record.studies);
         let context = Context::of(self, rates.as_ref());
@@ -126,7 +126,7 @@ impl Findings<'_> {
     ///
     /// # Errors
     /// Those of the template.
-    pub fn digest(&self) -> io::Result<String> {
+    pub(crate) fn digest(&self) -> io::Result<String> {
         Ok(cut(render("digest.md", &Context::of(self, None))?))
     }
 
@@ -141,7 +141,7 @@ impl Findings<'_> {
     }
 
     /// The verdict in one line, without the verdict itself.
-    pub fn sentence(&self) -> String {
+    pub(crate) fn sentence(&self) -> String {
         sentence(&self.record.studies, self.record.changes.as_deref())
     }
 }

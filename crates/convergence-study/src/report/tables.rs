@@ -15,7 +15,7 @@ const CHECKS: &str = "Checks";
 
 /// Rates, checks, errors, the study's own tables, and the cases without a result; none of them is
 /// empty.
-pub fn tables(
+pub(crate) fn tables(
     Finished {
         outcome,
         failed_cases,

@@ -18,7 +18,7 @@ const NAMED: usize = 3;
 /// The verdict on a run in one line, without the verdict itself.
 ///
 /// * `changes`: what moved away from the baseline; `None` without a baseline.
-pub fn sentence(finished: &[Finished], changes: Option<&[GuardedChange]>) -> String {
+pub(crate) fn sentence(finished: &[Finished], changes: Option<&[GuardedChange]>) -> String {
     let verdicts = [
         (Verdict::Fail, "fail"),
         (Verdict::Inconclusive, "inconclusive"),
@@ -147,7 +147,7 @@ impl Counts {
 /// on demand if one of them loosens what is guarded.
 ///
 /// * `command`: the command that was run.
-pub fn blessing(
+pub(crate) fn blessing(
     project: &Project,
     command: &str,
     finished: &[Finished],

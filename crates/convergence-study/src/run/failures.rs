@@ -13,7 +13,7 @@ use crate::text::lists::grouped;
 
 /// Something that a study judged; [`Display`](fmt::Display) gives it in a line.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Item<'f> {
+pub(crate) enum Item<'f> {
     /// Cases that have no result for the same reason.
     Cases {
         /// Their labels; at least one.
@@ -36,7 +36,7 @@ pub enum Item<'f> {
 
 impl Item<'_> {
     /// Its verdict.
-    pub fn verdict(&self) -> Verdict {
+    pub(crate) fn verdict(&self) -> Verdict {
         match self {
             Item::Cases { .. } => Verdict::Fail,
             Item::Rate { rate, .. } => rate.verdict,
@@ -46,7 +46,7 @@ impl Item<'_> {
     }
 
     /// What was judged: the name of a test case.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             Item::Cases { labels, .. } => format!("case {}", cases_in_words(labels)),
             Item::Rate { name, rate } => match rate.order() {
@@ -59,7 +59,7 @@ impl Item<'_> {
     }
 
     /// Why it has its verdict.
-    pub fn why(&self) -> String {
+    pub(crate) fn why(&self) -> String {
         match self {
             Item::Cases { reason, .. } => (*reason).to_owned(),
             Item::Rate { rate, .. } => rate.line(),
@@ -78,7 +78,7 @@ impl Item<'_> {
     }
 
     /// The code of its reason, under which the book says more: rates have one.
-    pub fn code(&self) -> Option<&'static str> {
+    pub(crate) fn code(&self) -> Option<&'static str> {
         match self {
             Item::Rate { rate, .. } => Some(rate.kind.code()),
             _ => None,
@@ -86,7 +86,7 @@ impl Item<'_> {
     }
 
     /// What its reason means, and what to do: for rates that do not pass.
-    pub fn advice(&self) -> Option<String> {
+    pub(crate) fn advice(&self) -> Option<String> {
         match self {
             Item::Rate { rate, .. } => rate.advice(),
             _ => None,
@@ -129,7 +129,7 @@ pub(crate) fn items(finished: &Finished) -> Vec<Item<'_>> {
 
 /// A study that did not pass.
 #[derive(Debug, Clone, PartialEq)]
-pub struct NotPassed<'f> {
+pub(crate) struct NotPassed<'f> {
     /// The study.
     pub study: &'f Finished,
     /// What did not pass of it; at least one item.
@@ -138,7 +138,7 @@ pub struct NotPassed<'f> {
 
 impl<'f> NotPassed<'f> {
     /// What did not pass of a study; `None` for one that passes.
-    pub fn of(study: &'f Finished) -> Option<Self> {
+    pub(crate) fn of(study: &'f Finished) -> Option<Self> {
         if study.outcome.verdict.is_pass() {
             return None;
         }
@@ -152,18 +152,18 @@ impl<'f> NotPassed<'f> {
     }
 
     /// Its id.
-    pub fn id(&self) -> &'f str {
+    pub(crate) fn id(&self) -> &'f str {
         &self.study.header.id
     }
 
     /// Fail or inconclusive.
-    pub fn verdict(&self) -> Verdict {
+    pub(crate) fn verdict(&self) -> Verdict {
         self.study.outcome.verdict
     }
 
     /// What the errors tend to, or what the reasons of its rates mean, each once, then what their
     /// causes are. Of errors that tend to several constants the first is given.
-    pub fn advice(&self) -> Vec<String> {
+    pub(crate) fn advice(&self) -> Vec<String> {
         let mut rates = vec![];
         for item in &self.items {
             if let Item::Rate { rate, .. } = item {
@@ -195,7 +195,7 @@ fn kind_of(tendency: Tendency) -> Discriminant<Tendency> {
 
 /// The studies that did not pass: failed ones first, then inconclusive ones, and last those that
 /// did not pass because others did not.
-pub fn not_passed(finished: &[Finished]) -> Vec<NotPassed<'_>> {
+pub(crate) fn not_passed(finished: &[Finished]) -> Vec<NotPassed<'_>> {
     let mut studies: Vec<NotPassed<'_>> = finished.iter().filter_map(NotPassed::of).collect();
     let ids: HashSet<&str> = studies.iter().map(NotPassed::id).collect();
     studies.sort_by_key(|study| (names_another(study, &ids), Reverse(study.verdict())));

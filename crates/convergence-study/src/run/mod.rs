@@ -32,7 +32,7 @@ use queue::{Counter, Done, Job};
 pub use caught::catch;
 pub(crate) use convergence_judge::time_limit;
 pub(crate) use failures::items;
-pub use failures::{Item, NotPassed, not_passed};
+pub(crate) use failures::{Item, NotPassed, not_passed};
 pub use levels::assert_order;
 pub use located::Located;
 pub(crate) use located::{Fate, VariantRate, VariantRates};
@@ -135,7 +135,7 @@ impl From<NonZeroUsize> for Effort {
 ///
 /// # Errors
 /// [`RunError`], before anything is run.
-pub fn run(
+pub(crate) fn run(
     studies: &[Box<dyn Study + '_>],
     effort: impl Into<Effort>,
     progress: &(dyn Fn(Progress) + Sync),
@@ -144,7 +144,7 @@ pub fn run(
 }
 
 /// The same with a work limit of each case: a case that exceeds it fails.
-pub fn run_within(
+pub(crate) fn run_within(
     studies: &[Box<dyn Study + '_>],
     effort: Effort,
     allowed: Allowed<'_>,
@@ -158,7 +158,7 @@ pub fn run_within(
 }
 
 /// The header of a study with the cases that it lists; with none if it panics.
-pub fn listed(study: &(dyn Study + '_)) -> Header {
+pub(crate) fn listed(study: &(dyn Study + '_)) -> Header {
     let cases = catch(|| study.plan().cases()).unwrap_or_default();
     with_cases(study.header(), &cases)
 }

@@ -92,7 +92,7 @@ fn is_digits(text: &str) -> bool {
 
 /// Removes the unfinished files that killed writers of `path` have left next to it. No other
 /// process may be writing this file.
-pub fn remove_leftovers(path: &Path) -> io::Result<()> {
+pub(crate) fn remove_leftovers(path: &Path) -> io::Result<()> {
     let (Some(folder), Some(name)) = (
         path.parent(),
         path.file_name().and_then(|name| name.to_str()),

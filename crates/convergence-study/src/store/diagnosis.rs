@@ -50,7 +50,7 @@ struct Case {
 /// Diagnoses a run that does not pass; `None` for one in which no study fails and no number moved.
 ///
 /// * `changes`: differences from the baseline.
-pub fn diagnose(finished: &[Finished], changes: &[GuardedChange]) -> Option<Diagnosis> {
+pub(crate) fn diagnose(finished: &[Finished], changes: &[GuardedChange]) -> Option<Diagnosis> {
     let any_fails = finished
         .iter()
         .any(|study| !study.outcome.verdict.is_pass());

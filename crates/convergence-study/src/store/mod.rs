@@ -18,8 +18,8 @@ pub use provenance::Provenance;
 pub use record::Record;
 pub(crate) use record::{FIGURES, SCHEMA};
 pub(crate) use report_folder::README;
-pub use report_folder::{ReportFolder, ReportSet, lock};
-pub use works::Works;
+pub(crate) use report_folder::{ReportFolder, ReportSet, lock};
+pub(crate) use works::Works;
 
 use std::fs::{self, File, OpenOptions};
 use std::io;

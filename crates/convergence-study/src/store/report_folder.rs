@@ -19,7 +19,7 @@ pub(crate) const README: &str = "README.md";
 
 /// The files of a report by their path relative to its folder, with `/` between folders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct ReportSet {
+pub(crate) struct ReportSet {
     files: BTreeMap<String, Vec<u8>>,
 }
 
@@ -28,7 +28,11 @@ impl ReportSet {
     ///
     /// # Errors
     /// A path that already exists in the set or that leads out of the folder.
-    pub fn add(&mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> io::Result<()> {
+    pub(crate) fn add(
+        &mut self,
+        path: impl Into<String>,
+        bytes: impl Into<Vec<u8>>,
+    ) -> io::Result<()> {
         let path = path.into();
         if !stays_inside(&path) {
             return Err(refusal(&path, "has a name that no report may have"));
@@ -46,7 +50,7 @@ impl ReportSet {
     }
 
     /// The files: path and bytes.
-    pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
+    pub(crate) fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
         self.files
             .iter()
             .map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
@@ -81,7 +85,7 @@ fn stays_inside(path: &str) -> bool {
 
 /// The folder of one report, and the workshop in which its next files are prepared.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ReportFolder {
+pub(crate) struct ReportFolder {
     /// Where readers find the report.
     pub folder: PathBuf,
     /// A folder on the same file system, for files that are not yet in place.
@@ -90,7 +94,7 @@ pub struct ReportFolder {
 
 /// Waits until no other process is writing reports, and keeps others waiting until the file is
 /// dropped.
-pub fn lock(path: &Path) -> io::Result<File> {
+pub(crate) fn lock(path: &Path) -> io::Result<File> {
     path.parent().map_or(Ok(()), fs::create_dir_all)?;
     let file = store::open(path, File::options().create(true).append(true))?;
     file.lock()?;
@@ -104,7 +108,7 @@ impl ReportFolder {
     /// # Errors
     /// The error of the operating system. Unless it arises from moving files, the old report is
     /// then untouched.
-    pub fn publish(&self, set: &ReportSet) -> io::Result<()> {
+    pub(crate) fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = atomic::begin_write();
         self.renew(set)?;
         for folder in [FIGURES.to_owned(), format!("{FIGURES}/page")] {
@@ -212,7 +216,7 @@ impl ReportFolder {
     ///
     /// # Errors
     /// The error of the operating system.
-    pub fn tidy(&self) -> io::Result<()> {
+    pub(crate) fn tidy(&self) -> io::Result<()> {
         remove_if_there(&self.before())?;
         remove_if_there(&self.staging())
     }

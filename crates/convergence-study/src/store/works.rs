@@ -20,11 +20,11 @@ const SPARE: u64 = 50;
 /// Tier, study and label of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Works(BTreeMap<String, BTreeMap<String, BTreeMap<String, u64>>>);
+pub(crate) struct Works(BTreeMap<String, BTreeMap<String, BTreeMap<String, u64>>>);
 
 impl Works {
     /// Reads the file; without a file nothing is limited.
-    pub fn read(path: &Path) -> io::Result<Self> {
+    pub(crate) fn read(path: &Path) -> io::Result<Self> {
         let expected = "restore it, or remove it and run `verify --bless`";
         Ok(read_if_there(path, None, [expected; 2])?.unwrap_or_default())
     }
@@ -32,7 +32,7 @@ impl Works {
     /// The most work that a case may do: three times that of its blessing, or of the largest case
     /// of its study if the case is new, plus two per cent of its tier's; `None` for a study that
     /// was never blessed.
-    pub fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
+    pub(crate) fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
         let tier = self.0.get(header.tier.name())?;
         let cases = tier.get(&header.id)?;
         let own = cases.get(label).or_else(|| cases.values().max())?;
@@ -41,7 +41,7 @@ impl Works {
     }
 
     /// Accepts the work of studies that were run; cases that count none are left out.
-    pub fn take(&mut self, finished: &[Finished]) {
+    pub(crate) fn take(&mut self, finished: &[Finished]) {
         for Finished { header, work, .. } in finished {
             self.0
                 .values_mut()
@@ -58,7 +58,7 @@ impl Works {
     }
 
     /// Whether nothing is known.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }

@@ -9,7 +9,7 @@ use std::fmt;
 use crate::text::lists::grouped;
 
 /// The reason why an item of a case that failed is not judged.
-pub const NO_RESULT: &str = "without a result";
+pub(crate) const NO_RESULT: &str = "without a result";
 
 /// The items of one sort: points, cases, pairs, statements.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

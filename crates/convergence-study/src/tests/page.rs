@@ -1,12 +1,10 @@
 use std::collections::BTreeSet;
 
-use convergence_study::{
+use crate::{
     Figure, Finished, Front, Project, Statement, Tier, Verdict,
-    internal::{
-        chart::{Axis, Chart},
-        report::{Findings, SeeAlso},
-        store::Record,
-    },
+    chart::{Axis, Chart},
+    report::{Findings, SeeAlso},
+    store::Record,
 };
 use roxmltree::{Document, Node};
 

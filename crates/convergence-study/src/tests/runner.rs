@@ -1,12 +1,10 @@
 use std::sync::Mutex;
 use std::time::Duration;
 
-use convergence_study::{
+use crate::{
     Header, RunError, Study, Verdict,
-    internal::{
-        run::{self, Effort},
-        store::Works,
-    },
+    run::{self, Effort},
+    store::Works,
 };
 
 use super::fake::{Does, finished, jobs, study};

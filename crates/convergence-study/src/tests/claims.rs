@@ -4,15 +4,13 @@
 use std::fs;
 use std::path::Path;
 
-use convergence_study::{
+use crate::{
     Blessing, Finished, Header, Must, Scope, Sheet, Study, Tier, Verdict, Verification,
-    VerifyRequest,
-    internal::{
-        report::{blessing, junit, sentence},
-        run::listed,
-        store::{Baseline, GuardedChange, diagnosis::diagnose},
-    },
-    measured, verify,
+    VerifyRequest, measured,
+    report::{blessing, junit, sentence},
+    run::listed,
+    store::{Baseline, GuardedChange, diagnosis::diagnose},
+    verify,
 };
 
 use super::fake::{Does, Fake, PROJECT, fake, finished, request};

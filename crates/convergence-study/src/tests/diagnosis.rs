@@ -1,11 +1,9 @@
 //! Which settings a diagnosis names, and its words.
 
-use convergence_study::{
+use crate::{
     Check, Finished, Header, Outcome, Subject,
-    internal::{
-        report::text_of_diagnosis,
-        store::{GuardedChange, Movement, diagnosis::diagnose},
-    },
+    report::text_of_diagnosis,
+    store::{GuardedChange, Movement, diagnosis::diagnose},
 };
 
 use super::fake::{Does, fake, finished};

@@ -3,12 +3,12 @@
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-use convergence_judge::{judge::verdict, time_limit::Patience};
-use convergence_study::{
+use crate::{
     Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, Must, NamedNumber,
     NamedRate, Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest,
-    boxed_study, internal::run,
+    boxed_study, run,
 };
+use convergence_judge::{judge::verdict, time_limit::Patience};
 
 /// The project of these studies; none of them is read from a file.
 pub(crate) const PROJECT: Project = Project::new("fakes", "cargo xtask");

@@ -1,12 +1,10 @@
 //! The report in Markdown and CSV: its parts, their order, and what it says of the baseline.
 
-use convergence_study::{
+use crate::{
     Finished, Verdict,
-    internal::{
-        report::{Findings, LONGEST, junit, sentence},
-        run::not_passed,
-        store::{Baseline, GuardedChange, Movement, Record},
-    },
+    report::{Findings, LONGEST, junit, sentence},
+    run::not_passed,
+    store::{Baseline, GuardedChange, Movement, Record},
 };
 
 use super::fake::{Does, PROJECT, finished, study};

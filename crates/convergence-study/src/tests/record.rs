@@ -1,11 +1,9 @@
 use std::path::Path;
 
-use convergence_study::{
+use crate::{
     NamedNumber, Verdict,
-    internal::{
-        report::Findings,
-        store::{Baseline, Record, json},
-    },
+    report::Findings,
+    store::{Baseline, Record, json},
 };
 use serde_json::Value;
 

@@ -1,13 +1,10 @@
 //! What did not pass: one list, printed by terminal, Markdown, page, JUnit and JSON.
 
-use convergence_study::{
-    Finished, NamedRate, Prose, Verdict,
-    internal::{
-        report::{junit, tables, text_of_failures},
-        run::{Item, NotPassed, not_passed},
-        study::over_levels,
-    },
-    judge_pairs,
+use crate::{
+    Finished, NamedRate, Prose, Verdict, judge_pairs,
+    report::{junit, tables, text_of_failures},
+    run::{Item, NotPassed, not_passed},
+    study::over_levels,
 };
 use roxmltree::Document;
 

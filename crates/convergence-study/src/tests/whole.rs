@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use convergence_study::{
+use crate::{
     Blessing, Header, Progress, Scope, Study, Tier, Verdict, Verification, VerifyRequest,
-    internal::report::NEWEST, verify,
+    report::NEWEST, verify,
 };
 
 use super::fake::{Does, Fake, PROJECT, fake, ids, jobs, request, study};

@@ -1,6 +1,6 @@
 use std::{fs, io};
 
-use convergence_study::{Finished, Quantity, internal::store::Baseline};
+use crate::{Finished, Quantity, store::Baseline};
 
 use super::fake::{Does, Fake, fake, finished, ids, study};
 

@@ -1,8 +1,6 @@
 //! The tables of errors in a report: each error with its rate, none too wide, none with gaps.
 
-use convergence_study::{
-    Finished, LevelErrors, NamedNumber, NamedRate, Table, internal::report::tables, judge_pairs,
-};
+use crate::{Finished, LevelErrors, NamedNumber, NamedRate, Table, judge_pairs, report::tables};
 
 use super::fake::{Does, finished, study};
 

@@ -2,7 +2,7 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use convergence_study::internal::store::{ReportFolder, ReportSet, lock};
+use crate::store::{ReportFolder, ReportSet, lock};
 
 fn set(files: &[(&str, &str)]) -> ReportSet {
     let mut set = ReportSet::default();

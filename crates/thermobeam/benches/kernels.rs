@@ -1,4 +1,6 @@
 //! Run times of the parts of a step against the number of elements: `cargo bench -p thermobeam`.
+//! `cargo xtask bench` has those of whole steps, in
+//! lanes too, and of runs.
 //!
 //! Items are elements: a throughput of 100 Mitem/s is 10 ns per element.
 
@@ -9,13 +11,12 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use thermobeam::ensemble::Ensemble;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::TheoremSquares;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, Scheme};
-use thermobeam::solve::{Level, Settings, Solver};
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
+use thermobeam::solve::{Level, Settings};
 use thermobeam::tridiagonal::TridiagonalFactor;
 
 /// Numbers of elements.
@@ -42,149 +43,65 @@ fn moving_beam(elements: usize) -> Problem {
     }
 }
 
-fn simulation(elements: usize, scheme: Scheme, solver: Solver) -> OneStep {
-    let settings = Settings {
-        solver,
-        ..Settings::default()
+fn simulation(elements: usize) -> OneStep {
+    let stepping = Stepping {
+        scheme: EULER_CRANK_NICOLSON,
+        settings: Settings::default(),
+        dt: DT,
+        loaded: false,
     };
-    OneStep::new(
-        moving_beam(elements),
-        Stepping {
-            scheme,
-            settings,
-            dt: DT,
-            loaded: false,
-        },
-    )
-    .expect("a simulation")
+    OneStep::new(moving_beam(elements), stepping).expect("a simulation")
 }
 
-/// A simulation after eleven steps, and its last two levels.
-fn moved(elements: usize) -> (OneStep, Level, Level) {
-    let mut simulation = simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
+fn timed<T>(bencher: Bencher<'_, '_>, elements: usize, part: impl FnMut() -> T) {
+    bencher.counter(ItemsCount::new(elements)).bench_local(part);
+}
+
+/// Times what is computed from a simulation after eleven steps and its last two levels.
+fn observed<T>(
+    bencher: Bencher<'_, '_>,
+    elements: usize,
+    part: impl Fn(&OneStep, &Level, &Level) -> T,
+) {
+    let mut simulation = simulation(elements);
     for _ in 0..10 {
         simulation.step_once().expect("a step");
     }
     let old = simulation.level();
     simulation.step_once().expect("a step");
     let new = simulation.level();
-    (simulation, old, new)
-}
-
-fn steps(bencher: Bencher<'_, '_>, mut simulation: OneStep) {
-    let elements = simulation.lengths().len();
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.step_once());
-}
-
-#[divan::bench(args = SIZES)]
-fn step_newton(bencher: Bencher<'_, '_>, elements: usize) {
-    steps(
-        bencher,
-        simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton),
-    );
-}
-
-#[divan::bench(args = SIZES)]
-fn step_midpoint(bencher: Bencher<'_, '_>, elements: usize) {
-    steps(bencher, simulation(elements, MIDPOINT, Solver::Newton));
-}
-
-#[divan::bench(args = SIZES)]
-fn step_fixed_point(bencher: Bencher<'_, '_>, elements: usize) {
-    steps(
-        bencher,
-        simulation(elements, EULER_CRANK_NICOLSON, Solver::FixedPoint),
-    );
-}
-
-/// Items are the elements of all four cases.
-#[divan::bench(args = SIZES)]
-fn step_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![moving_beam(elements); 4];
-    let mut ensemble = Ensemble::new(
-        problems,
-        &[DT; 4],
-        EULER_CRANK_NICOLSON,
-        Settings::default(),
-    )
-    .expect("an ensemble");
-    bencher
-        .counter(ItemsCount::new(elements * 4))
-        .bench_local(|| ensemble.step_once());
-}
-
-/// Items are the elements of all four cases.
-#[divan::bench(args = SIZES)]
-fn balances_in_lanes(bencher: Bencher<'_, '_>, elements: usize) {
-    let problems = vec![moving_beam(elements); 4];
-    let mut ensemble = Ensemble::new(
-        problems,
-        &[DT; 4],
-        EULER_CRANK_NICOLSON,
-        Settings::default(),
-    )
-    .expect("an ensemble");
-    ensemble.step_once();
-    let mut balances = vec![];
-    bencher
-        .counter(ItemsCount::new(elements * 4))
-        .bench_local(|| ensemble.balances(black_box(&mut balances)));
-}
-
-#[divan::bench(args = SIZES)]
-fn set_up(bencher: Bencher<'_, '_>, elements: usize) {
-    let build = || simulation(elements, EULER_CRANK_NICOLSON, Solver::Newton);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(build);
-}
-
-#[divan::bench(args = SIZES)]
-fn observe(bencher: Bencher<'_, '_>, elements: usize) {
-    let (simulation, _, mut level) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.observe(black_box(&mut level)));
+    timed(bencher, elements, || {
+        part(&simulation, black_box(&old), black_box(&new))
+    });
 }
 
 #[divan::bench(args = SIZES)]
 fn energy(bencher: Bencher<'_, '_>, elements: usize) {
-    let (simulation, _, level) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.energy(black_box(&level)));
+    observed(bencher, elements, |simulation, _, level| {
+        simulation.energy(level)
+    });
 }
 
 #[divan::bench(args = SIZES)]
 fn energy_scale(bencher: Bencher<'_, '_>, elements: usize) {
-    let (simulation, _, level) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.energy_scale(black_box(&level)));
+    observed(bencher, elements, |simulation, _, level| {
+        simulation.energy_scale(level)
+    });
 }
 
 #[divan::bench(args = SIZES)]
 fn balance(bencher: Bencher<'_, '_>, elements: usize) {
-    let (simulation, old, new) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.balance(black_box(&old), black_box(&new)));
+    observed(bencher, elements, OneStep::balance);
 }
 
 #[divan::bench(args = SIZES)]
 fn rounding(bencher: Bencher<'_, '_>, elements: usize) {
-    let (simulation, old, new) = moved(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| simulation.rounding(black_box(&old), black_box(&new)));
+    observed(bencher, elements, OneStep::rounding);
 }
 
 #[divan::bench(args = SIZES)]
 fn norm_of_theorem_3_4(bencher: Bencher<'_, '_>, elements: usize) {
-    let (simulation, _, level) = moved(elements);
-    bencher.counter(ItemsCount::new(elements)).bench_local(|| {
+    observed(bencher, elements, |simulation, _, level| {
         let Level {
             u,
             v,
@@ -192,18 +109,32 @@ fn norm_of_theorem_3_4(bencher: Bencher<'_, '_>, elements: usize) {
             w,
             theta,
             ..
-        } = black_box(&level);
+        } = level;
         TheoremSquares::of(simulation.lengths(), v, u, w, phi, theta).norm()
     });
+}
+
+#[divan::bench(args = SIZES)]
+fn observe(bencher: Bencher<'_, '_>, elements: usize) {
+    let simulation = simulation(elements);
+    let mut level = simulation.level();
+    timed(bencher, elements, || {
+        simulation.observe(black_box(&mut level));
+    });
+}
+
+#[divan::bench(args = SIZES)]
+fn set_up(bencher: Bencher<'_, '_>, elements: usize) {
+    timed(bencher, elements, || simulation(elements));
 }
 
 #[divan::bench(args = SIZES)]
 fn tridiagonal_factorize(bencher: Bencher<'_, '_>, elements: usize) {
     let lengths = vec![1.0 / elements as f64; elements];
     let mut factor = TridiagonalFactor::new(elements);
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| factor.factorize(black_box(&lengths), 1.0, 0.0, 1.0));
+    timed(bencher, elements, || {
+        factor.factorize(black_box(&lengths), 1.0, 0.0, 1.0)
+    });
 }
 
 #[divan::bench(args = SIZES)]
@@ -214,7 +145,7 @@ fn tridiagonal_solve(bencher: Bencher<'_, '_>, elements: usize) {
         .factorize(&lengths, 1.0, 0.0, 0.0)
         .expect("a definite matrix");
     let mut right = vec![1.0; elements + 1];
-    bencher
-        .counter(ItemsCount::new(elements))
-        .bench_local(|| factor.solve_in_place(black_box(&mut right)));
+    timed(bencher, elements, || {
+        factor.solve_in_place(black_box(&mut right));
+    });
 }

@@ -271,6 +271,20 @@ mod tests {
         }
     }
 
+    fn viscous(zeta: f64) -> Beam {
+        Beam {
+            zeta,
+            ..Beam::default()
+        }
+    }
+
+    fn soft(epsilon: f64) -> Option<Obstacles> {
+        Some(Obstacles {
+            epsilon,
+            ..Obstacles::default()
+        })
+    }
+
     #[test]
     fn the_contact_factor_agrees_with_measured_values() {
         // Measured with an independent implementation, 100 elements, to the digits given.
@@ -282,20 +296,9 @@ mod tests {
             (1e-3, 0.01, 1e-3, 0.230, 5e-4),
         ];
         for (epsilon, zeta, dt, expected, half_a_digit) in rows {
-            let obstacles = Some(Obstacles {
-                epsilon,
-                ..Obstacles::default()
-            });
             let case = Case {
-                obstacles,
-                ..case(
-                    Beam {
-                        zeta,
-                        ..Beam::default()
-                    },
-                    100,
-                    dt,
-                )
+                obstacles: soft(epsilon),
+                ..case(viscous(zeta), 100, dt)
             };
             let alpha = case.contact_contraction(0.0);
             assert!(
@@ -308,24 +311,13 @@ mod tests {
     #[test]
     fn on_one_element_the_contact_factor_is_the_closed_formula() {
         let dt = 0.1;
-        let obstacles = Some(Obstacles {
-            epsilon: 0.01,
-            ..Obstacles::default()
-        });
         for (scheme, slope) in [(EULER_CRANK_NICOLSON, 100.0), (MIDPOINT, 50.0)] {
             // The tip's hat function has the mass 1/3 and the stiffness 1.
             let operator = scheme.inertia / dt / 3.0 + 0.3 + 0.5 * dt * 3.0;
             let case = Case {
-                obstacles,
+                obstacles: soft(0.01),
                 scheme,
-                ..case(
-                    Beam {
-                        zeta: 0.3,
-                        ..Beam::default()
-                    },
-                    1,
-                    dt,
-                )
+                ..case(viscous(0.3), 1, dt)
             };
             let found = case.contact_contraction(2.0);
             assert!(
@@ -337,10 +329,7 @@ mod tests {
 
     #[test]
     fn the_coupling_factor_is_that_of_a_thin_layer_at_the_free_end() {
-        let beam = Beam {
-            zeta: 0.1,
-            ..Beam::default()
-        };
+        let beam = viscous(0.1);
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for (dt, n_value) in [(1e-3, 0.0), (1e-3, 200.0), (1e-2, -0.5)] {
                 let (kappa, sigma) = (scheme.inertia / dt, beam.zeta + 0.5 * dt);
@@ -375,10 +364,9 @@ mod tests {
     fn the_factors_of_heat_and_axial_force_are_those_of_waves_and_layers() {
         let bent: Vec<f64> = (0..=1000).map(|i| (f64::from(i) * 1e-3).powi(2)).collect();
         let beam = Beam {
-            zeta: 0.1,
             a: 1.0,
             rho: 1.0,
-            ..Beam::default()
+            ..viscous(0.1)
         };
         for scheme in [EULER_CRANK_NICOLSON, MIDPOINT] {
             for dt in [1e-3_f64, 1e-4] {
@@ -406,22 +394,17 @@ mod tests {
             }
             .contraction(&u)
         };
+        let beam = |a: f64, rho: f64| Beam {
+            a,
+            rho,
+            ..Beam::default()
+        };
         let obstacles = Some(Obstacles::default());
-        let (hot, stiff) = (
-            Beam {
-                a: 20.0,
-                ..Beam::default()
-            },
-            Beam {
-                rho: 1e3,
-                ..Beam::default()
-            },
-        );
         for (beam, obstacles, slope, factor, of) in [
             (Beam::default(), obstacles, 0.0, 3.038, Loop::Contact),
             (Beam::default(), None, 0.0, 5.08e-4, Loop::Rotation),
-            (hot, None, 0.0, 1.843, Loop::Heat),
-            (stiff, None, 1.0, 0.44232, Loop::AxialForce),
+            (beam(20.0, 1.0), None, 0.0, 1.843, Loop::Heat),
+            (beam(0.017, 1e3), None, 1.0, 0.44232, Loop::AxialForce),
         ] {
             let (found, named) = largest(beam, obstacles, slope);
             assert!(

@@ -1,33 +1,19 @@
 //! Steps allocate no memory: all memory is allocated when a simulation is set up.
 
-use std::f64::consts::PI;
+use crate::scenes::{by, paper, simulate, uniform, with};
 use thermobeam::ensemble::Ensemble;
-use thermobeam::mesh::Mesh;
-use thermobeam::one_step::{BYTES_PER_ELEMENT, InitialValues, OneStep, Problem, Stepping};
-use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::one_step::{BYTES_PER_ELEMENT, OneStep, Problem, Stepping};
 use thermobeam::scheme::SCHEMES;
 use thermobeam::solve::{Settings, Solver};
 
 /// The paper's beam, moving towards its upper obstacle, with or without heat.
-fn moving_beam(heated: bool) -> Problem {
-    let mesh = Mesh::uniform(20).unwrap();
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    let mut beam = Beam::default();
-    for (i, &x) in mesh.nodes().iter().enumerate() {
-        initial.u_t[i] = 20.0 * x * (x - 1.0) * (x - 1.0);
-        if heated {
-            initial.theta[i] = (PI * x).sin();
-        }
-    }
+fn moving_beam(heated: bool, elements: usize) -> Problem {
+    let mut problem = paper(uniform(elements), (0.0, 0.0));
     if !heated {
-        beam.a = 0.0;
+        problem.beam.a = 0.0;
+        problem.initial.theta.fill(0.0);
     }
-    Problem {
-        beam,
-        obstacles: Some(Obstacles::default()),
-        mesh,
-        initial,
-    }
+    problem
 }
 
 /// Number of allocations in 500 steps with their energies and balances, and number of steps that
@@ -57,17 +43,8 @@ fn the_time_loop_allocates_nothing() {
     for scheme in SCHEMES {
         for solver in Solver::ALL {
             for heated in [false, true] {
-                let settings = Settings {
-                    solver,
-                    ..Settings::default()
-                };
-                let stepping = Stepping {
-                    scheme,
-                    settings,
-                    dt: 1e-3,
-                    loaded: false,
-                };
-                let simulation = OneStep::new(moving_beam(heated), stepping).unwrap();
+                let stepping = with(scheme, by(solver), 1e-3);
+                let simulation = simulate(&moving_beam(heated, 20), stepping);
                 let (count, touching) = allocations(simulation);
                 assert_eq!(count, 0, "{} {solver:?} heated: {heated}", scheme.name);
                 assert!(
@@ -81,11 +58,14 @@ fn the_time_loop_allocates_nothing() {
 
 #[test]
 fn lanes_with_their_balances_allocate_nothing() {
-    let (problems, dt) = (
-        [true, false, true, true, false].map(moving_beam).to_vec(),
-        [1e-3; 5],
-    );
-    let mut ensemble = Ensemble::new(problems, &dt, SCHEMES[0], Settings::default()).unwrap();
+    let problems = [true, false, true, true, false].map(|heated| moving_beam(heated, 20));
+    let mut ensemble = Ensemble::new(
+        problems.to_vec(),
+        &[1e-3; 5],
+        SCHEMES[0],
+        Settings::default(),
+    )
+    .unwrap();
     let mut balances = Vec::with_capacity(5);
     let info = allocation_counter::measure(|| {
         for _ in 0..500 {
@@ -100,17 +80,11 @@ fn lanes_with_their_balances_allocate_nothing() {
 #[test]
 fn loads_are_allocated_once() {
     for solver in Solver::ALL {
-        let settings = Settings {
-            solver,
-            ..Settings::default()
-        };
         let stepping = Stepping {
-            scheme: SCHEMES[0],
-            settings,
-            dt: 1e-3,
             loaded: true,
+            ..with(SCHEMES[0], by(solver), 1e-3)
         };
-        let mut simulation = OneStep::new(moving_beam(true), stepping).unwrap();
+        let mut simulation = simulate(&moving_beam(true, 20), stepping);
         simulation.load_mut();
         assert_eq!(allocations(simulation).0, 0, "{solver:?}");
     }
@@ -124,24 +98,10 @@ fn the_allocation_counter_counts() {
 
 /// Bytes of a simulation with the given number of elements, its data included.
 fn bytes(elements: usize, solver: Solver, heated: bool) -> i64 {
-    let problem = Problem {
-        mesh: Mesh::uniform(elements).unwrap(),
-        initial: InitialValues::at_rest(&Mesh::uniform(elements).unwrap(), 0.0),
-        ..moving_beam(heated)
-    };
-    let settings = Settings {
-        solver,
-        ..Settings::default()
-    };
-    let stepping = Stepping {
-        scheme: SCHEMES[0],
-        settings,
-        dt: 1e-3,
-        loaded: false,
-    };
+    let problem = moving_beam(heated, elements);
     let mut kept = None;
     let info = allocation_counter::measure(|| {
-        kept = Some(OneStep::new(problem.clone(), stepping).unwrap());
+        kept = Some(simulate(&problem, with(SCHEMES[0], by(solver), 1e-3)));
     });
     assert!(kept.is_some());
     info.bytes_current

@@ -1,14 +1,15 @@
 //! Cases in lanes agree bitwise with single runs, and a failed case does not affect the others.
 
+use crate::scenes::{advance, after, launched, on_nodes, simulate, uniform, with};
 use thermobeam::energy::Balance;
 use thermobeam::ensemble::Ensemble;
 use thermobeam::error::{SetupError, StepFailure};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
+use thermobeam::one_step::{InitialValues, OneStep, Problem};
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
-use thermobeam::solve::Settings;
+use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES, Scheme};
+use thermobeam::solve::{Level, Settings};
 
 /// Number of elements, not a multiple of four.
 const N: usize = 22;
@@ -32,15 +33,8 @@ fn bits(balance: &Balance) -> [u64; 6] {
 fn problem(k: usize) -> Problem {
     let grading = 0.1 * k as f64;
     let mesh = Mesh::mapped(N, |s| (1.0 - grading) * s + grading * s * s).unwrap();
-    let nodes = mesh.nodes().to_vec();
-    let on = |f: &dyn Fn(f64) -> f64| nodes.iter().map(|&x| f(x)).collect::<Vec<_>>();
     let theta_a = [0.0, 20.0, -3.0, 0.0][k];
-    let initial = InitialValues {
-        u: on(&|x| 0.01 * x * (x - 2.0)),
-        u_t: on(&|x| 20.0 * x * (x - 1.0) * (x - 1.0)),
-        theta: on(&|x| theta_a * (1.0 - x) + (3.0 * x * (1.0 - x))),
-        ..InitialValues::at_rest(&mesh, 0.0)
-    };
+    let theta = on_nodes(&mesh, &|x| theta_a * (1.0 - x) + (3.0 * x * (1.0 - x)));
     let beam = Beam {
         beta: [-0.5, 0.0, 5.0, 1.0][k],
         rho: [1.0, 0.0, 1e4, 10.0][k],
@@ -48,12 +42,36 @@ fn problem(k: usize) -> Problem {
         ..Beam::default()
     };
     let obstacles = (k != 3).then(Obstacles::default);
-    Problem {
-        beam,
-        obstacles,
-        mesh,
-        initial,
+    let start: [&dyn Fn(f64) -> f64; 2] = [&|x| 0.01 * x * (x - 2.0), &|x| {
+        20.0 * x * (x - 1.0) * (x - 1.0)
+    }];
+    let mut problem = launched(mesh, beam, obstacles, start);
+    problem.initial.theta = theta;
+    problem
+}
+
+fn in_lanes(problems: Vec<Problem>, dt: &[f64], scheme: Scheme) -> Ensemble {
+    Ensemble::new(problems, dt, scheme, Settings::default()).unwrap()
+}
+
+fn alone(problem: &Problem, dt: f64, scheme: Scheme) -> OneStep {
+    simulate(problem, with(scheme, Settings::default(), dt))
+}
+
+/// The level of a lane, every value of which is written.
+fn lane(ensemble: &Ensemble, k: usize) -> Level {
+    let mut level = Level::new(N + 1);
+    for values in [
+        &mut level.u,
+        &mut level.v,
+        &mut level.phi,
+        &mut level.w,
+        &mut level.theta,
+    ] {
+        values.fill(f64::NAN);
     }
+    ensemble.observe(k, &mut level);
+    level
 }
 
 const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
@@ -61,23 +79,8 @@ const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 #[test]
 fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
     for scheme in SCHEMES {
-        let settings = Settings::default();
-        let mut ensemble =
-            Ensemble::new((0..4).map(problem).collect(), &DT, scheme, settings).unwrap();
-        let mut alone: Vec<OneStep> = (0..4)
-            .map(|k| {
-                OneStep::new(
-                    problem(k),
-                    Stepping {
-                        scheme,
-                        settings,
-                        dt: DT[k],
-                        loaded: false,
-                    },
-                )
-                .unwrap()
-            })
-            .collect();
+        let mut ensemble = in_lanes((0..4).map(problem).collect(), &DT, scheme);
+        let mut alone: Vec<OneStep> = (0..4).map(|k| alone(&problem(k), DT[k], scheme)).collect();
         let mut balances = vec![];
         ensemble.balances(&mut balances);
         assert_eq!(balances.len(), 4);
@@ -91,45 +94,26 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
             for (k, simulation) in alone.iter_mut().enumerate() {
                 let old = simulation.level();
                 let report = simulation.step_once().unwrap();
-                assert_eq!(
-                    ensemble.report(k).unwrap(),
-                    report,
-                    "{}: case {k}",
-                    scheme.name
-                );
                 let level = simulation.level();
-                let mut lane = level.clone();
-                lane.u[3] = f64::NAN;
-                ensemble.observe(k, &mut lane);
-                assert_eq!(lane, level, "{}: case {k}", scheme.name);
+                let case = format!("{}: case {k}", scheme.name);
+                assert_eq!(ensemble.report(k).unwrap(), report, "{case}");
+                assert_eq!(lane(&ensemble, k), level, "{case}");
                 assert_eq!(
                     [ensemble.tip(k), ensemble.contact_force(k)],
                     [level.u[N], level.contact_force]
                 );
+                let balance = simulation.balance(&old, &level);
+                assert_eq!(bits(&balances[k]), bits(&balance), "{case}");
+                let own = &ensemble.cases()[k];
+                assert_eq!(own.energy_scale(&level), simulation.energy_scale(&level));
+                assert_eq!(own.energy(&level), simulation.energy(&level));
                 assert_eq!(
-                    bits(&balances[k]),
-                    bits(&simulation.balance(&old, &level)),
-                    "{}: case {k}",
-                    scheme.name
-                );
-                assert_eq!(
-                    ensemble.cases()[k].energy_scale(&level),
-                    simulation.energy_scale(&level)
-                );
-                assert_eq!(
-                    ensemble.cases()[k].energy(&level),
-                    simulation.energy(&level)
-                );
-                assert_eq!(
-                    ensemble.cases()[k].rounding(&old, &level),
+                    own.rounding(&old, &level),
                     simulation.rounding(&old, &level)
                 );
-                let alone = simulation.work();
+                let (work, alone) = (ensemble.work_of(k), simulation.work());
                 assert_eq!(
-                    (
-                        ensemble.work_of(k).passes,
-                        ensemble.work_of(k).factorizations
-                    ),
+                    (work.passes, work.factorizations),
                     (alone.passes, alone.factorizations)
                 );
             }
@@ -142,8 +126,7 @@ fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
 fn an_ensemble_counts_a_pass_once_per_group() {
     let dt = [DT, DT].concat();
     let problems = (0..8).map(|k| problem(k % 4)).collect();
-    let mut ensemble =
-        Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, Settings::default()).unwrap();
+    let mut ensemble = in_lanes(problems, &dt, EULER_CRANK_NICOLSON);
     (0..20).for_each(|_| ensemble.step_once());
     let of = |k: usize| ensemble.work_of(k);
     assert_eq!(
@@ -161,79 +144,16 @@ fn an_ensemble_counts_a_pass_once_per_group() {
 
 #[test]
 fn any_number_of_cases_agrees_bitwise_with_single_runs() {
-    let settings = Settings::default();
     for count in [1, 3, 5, 8] {
         let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
         let problems = (0..count).map(|k| problem(k % 4)).collect();
-        let mut ensemble = Ensemble::new(problems, &dt, EULER_CRANK_NICOLSON, settings).unwrap();
+        let mut ensemble = in_lanes(problems, &dt, EULER_CRANK_NICOLSON);
         (0..50).for_each(|_| ensemble.step_once());
         assert_eq!((ensemble.cases().len(), ensemble.steps()), (count, 50));
         for (k, &dt) in dt.iter().enumerate() {
-            let stepping = Stepping {
-                scheme: EULER_CRANK_NICOLSON,
-                settings,
-                dt,
-                loaded: false,
-            };
-            let mut alone = OneStep::new(problem(k % 4), stepping).unwrap();
-            for _ in 0..50 {
-                alone.step_once().unwrap();
-            }
-            let mut lane = alone.level();
-            lane.u.fill(f64::NAN);
-            ensemble.observe(k, &mut lane);
-            assert_eq!(lane, alone.level(), "case {k} of {count}");
-        }
-    }
-}
-
-#[test]
-fn an_unheated_case_beside_a_heated_one_agrees_bitwise_with_a_single_run() {
-    let cold = |k: usize| {
-        let mut problem = problem(k);
-        problem.beam = Beam {
-            a: 0.0,
-            theta_a: 0.0,
-            ..problem.beam
-        };
-        problem.initial.theta.fill(0.0);
-        problem
-    };
-    let settings = Settings::default();
-    for scheme in SCHEMES {
-        let mut ensemble =
-            Ensemble::new(vec![cold(0), problem(1)], &DT[..2], scheme, settings).unwrap();
-        let mut alone = OneStep::new(
-            cold(0),
-            Stepping {
-                scheme,
-                settings,
-                dt: DT[0],
-                loaded: false,
-            },
-        )
-        .unwrap();
-        assert_eq!(
-            [0, 1].map(|k| ensemble.is_heated(k)),
-            [alone.is_heated(), true]
-        );
-        let mut old = alone.level();
-        let mut balances = vec![];
-        let mut lane = old.clone();
-        for _ in 0..100 {
-            ensemble.step_once();
-            ensemble.balances(&mut balances);
-            alone.step_once().unwrap();
-            let level = alone.level();
-            ensemble.observe(0, &mut lane);
-            assert_eq!(lane, level, "{}", scheme.name);
-            assert_eq!(
-                bits(&balances[0]),
-                bits(&alone.balance(&old, &level)),
-                "{}",
-                scheme.name
-            );
-            old = level;
+            let stepping = with(EULER_CRANK_NICOLSON, Settings::default(), dt);
+            let expected = after(&problem(k % 4), stepping, 50);
+            assert_eq!(lane(&ensemble, k), expected, "case {k} of {count}");
         }
     }
 }
@@ -262,29 +182,27 @@ fn unlike(k: usize) -> Problem {
 #[test]
 fn unlike_cases_of_one_group_agree_bitwise_with_single_runs() {
     let dt = |k: usize| [1e-3, 1e-4, 1e-2, 1e-3, 0.1][k];
-    let settings = Settings::default();
+    let mut balances = vec![];
     for scheme in SCHEMES {
         for first in 0..UNLIKE {
             let members = [0, 1, 2, 3].map(|place| (first + place) % UNLIKE);
-            let problems = members.map(unlike).to_vec();
-            let mut ensemble = Ensemble::new(problems, &members.map(dt), scheme, settings).unwrap();
+            let mut ensemble = in_lanes(members.map(unlike).to_vec(), &members.map(dt), scheme);
             (0..50).for_each(|_| ensemble.step_once());
-            for (lane, &k) in members.iter().enumerate() {
-                let stepping = Stepping {
-                    scheme,
-                    settings,
-                    dt: dt(k),
-                    loaded: false,
-                };
-                let mut alone = OneStep::new(unlike(k), stepping).unwrap();
-                assert_eq!(alone.is_heated(), matches!(k, 1..=3));
-                for _ in 0..50 {
-                    alone.step_once().unwrap();
-                }
-                let mut level = alone.level();
-                level.u.fill(f64::NAN);
-                ensemble.observe(lane, &mut level);
-                assert_eq!(level, alone.level(), "{}: {members:?}: {k}", scheme.name);
+            ensemble.balances(&mut balances);
+            for (place, &k) in members.iter().enumerate() {
+                let mut alone = alone(&unlike(k), dt(k), scheme);
+                advance(&mut alone, 49);
+                let old = alone.level();
+                advance(&mut alone, 1);
+                let (case, level) = (format!("{}: {members:?}: {k}", scheme.name), alone.level());
+                assert_eq!(lane(&ensemble, place), level, "{case}");
+                let balance = alone.balance(&old, &level);
+                assert_eq!(bits(&balances[place]), bits(&balance), "{case}");
+                assert_eq!(
+                    [ensemble.is_heated(place), alone.is_heated()],
+                    [matches!(k, 1..=3); 2],
+                    "{case}"
+                );
             }
         }
     }
@@ -295,14 +213,7 @@ fn an_ensemble_needs_equal_numbers_of_elements_and_one_time_step_per_case() {
     let new = |problems, dt: &[f64]| {
         Ensemble::new(problems, dt, EULER_CRANK_NICOLSON, Settings::default()).err()
     };
-    let short = Mesh::uniform(3).unwrap();
-    let initial = InitialValues::at_rest(&short, 0.0);
-    let other = Problem {
-        mesh: short,
-        initial,
-        beam: Beam::default(),
-        obstacles: None,
-    };
+    let other = launched(uniform(3), Beam::default(), None, [&|_| 0.0, &|_| 0.0]);
     let found = |field, found, expected| {
         Some(SetupError::Length {
             field,
@@ -335,56 +246,22 @@ fn a_case_that_fails_keeps_its_last_level_and_leaves_the_others_alone() {
         problem
     };
     let dt = [1e-4, 1e-3, 10.0, 0.1];
-    let settings = Settings::default();
-    let mut ensemble = Ensemble::new(
-        (0..4).map(buckled).collect(),
-        &dt,
-        EULER_CRANK_NICOLSON,
-        settings,
-    )
-    .unwrap();
-    let before = OneStep::new(
-        buckled(2),
-        Stepping {
-            scheme: EULER_CRANK_NICOLSON,
-            settings,
-            dt: 10.0,
-            loaded: false,
-        },
-    )
-    .unwrap();
-    for _ in 0..50 {
-        ensemble.step_once();
-    }
+    let mut ensemble = in_lanes((0..4).map(buckled).collect(), &dt, EULER_CRANK_NICOLSON);
+    (0..50).for_each(|_| ensemble.step_once());
     let error = ensemble.report(2).unwrap_err();
     assert_eq!((error.step, error.dt), (1, 10.0));
     assert!(
         matches!(error.failure, StepFailure::Indefinite { .. }),
         "{error}"
     );
-    let mut lane = before.level();
-    ensemble.observe(2, &mut lane);
-    assert_eq!(lane, before.level());
-    assert_eq!(ensemble.tip(2), lane.u[N]);
+    assert_eq!(ensemble.tip(2), lane(&ensemble, 2).u[N]);
     let mut balances = vec![];
     ensemble.balances(&mut balances);
-    let open: Vec<bool> = balances
-        .iter()
-        .map(|balance| balance.residual.is_nan())
-        .collect();
-    assert_eq!(open, [false, false, true, false]);
-    for k in [0, 1, 3] {
-        let stepping = Stepping {
-            scheme: EULER_CRANK_NICOLSON,
-            settings,
-            dt: dt[k],
-            loaded: false,
-        };
-        let mut alone = OneStep::new(problem(k), stepping).unwrap();
-        for _ in 0..50 {
-            alone.step_once().unwrap();
-        }
-        ensemble.observe(k, &mut lane);
-        assert_eq!(lane, alone.level(), "case {k}");
+    for (k, balance) in balances.iter().enumerate() {
+        assert_eq!(balance.residual.is_nan(), k == 2);
+        let stepping = with(EULER_CRANK_NICOLSON, Settings::default(), dt[k]);
+        let steps = if k == 2 { 0 } else { 50 };
+        let expected = after(&buckled(k), stepping, steps);
+        assert_eq!(lane(&ensemble, k), expected, "case {k}");
     }
 }

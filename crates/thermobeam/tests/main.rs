@@ -3,10 +3,11 @@
 #![allow(clippy::disallowed_methods, reason = "steps are tested one by one")]
 
 mod allocation;
+mod dense;
 mod dg;
 mod drawn;
 mod lanes;
 mod motion;
-mod p1_matrices;
 mod random_scenes;
+mod scenes;
 mod solver;

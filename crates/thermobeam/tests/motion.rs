@@ -1,49 +1,30 @@
 //! What every motion promises, by both methods.
 
-use thermobeam::dg::{Dg, DgProblem, DgStepping, InitialFunctions};
-use thermobeam::mesh::Mesh;
+use crate::scenes::{by, launched, of_any_order, simulate, uniform, with};
+use thermobeam::dg::{DgProblem, DgStepping, InitialFunctions};
 use thermobeam::motion::{Motion, TipRange};
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
-use thermobeam::solve::{Settings, Solver};
+use thermobeam::solve::Solver;
 
 /// A beam that is thrown at its upper obstacle, by both methods of [`OneStep`] and by [`Dg`].
 fn motions() -> [Box<dyn Motion>; 3] {
     let beam = Beam::default();
     let obstacles = Some(Obstacles::default());
-    let mesh = Mesh::uniform(40).unwrap();
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u_t = mesh.nodes().to_vec();
-    let problem = Problem {
-        beam,
-        obstacles,
-        mesh,
-        initial,
-    };
-    let [newton, fixed_point] = Solver::ALL.map(|solver| {
-        let stepping = Stepping {
-            scheme: MIDPOINT,
-            settings: Settings {
-                solver,
-                ..Settings::default()
-            },
-            dt: 1e-3,
-            loaded: false,
-        };
-        OneStep::new(problem.clone(), stepping).unwrap()
-    });
+    let problem = launched(uniform(40), beam, obstacles, [&|_| 0.0, &|x| x]);
+    let [newton, fixed_point] =
+        Solver::ALL.map(|solver| simulate(&problem, with(MIDPOINT, by(solver), 1e-3)));
     let problem = DgProblem {
         beam,
         obstacles,
-        mesh: Mesh::uniform(2).unwrap(),
+        mesh: uniform(2),
         degree: 6,
         initial: InitialFunctions {
             u_t: Box::new(|x| x),
             ..InitialFunctions::at_rest(0.0)
         },
     };
-    let dg = Dg::new(problem, DgStepping::default()).unwrap();
+    let dg = of_any_order(problem, DgStepping::default());
     [Box::new(newton), Box::new(fixed_point), Box::new(dg)]
 }
 

@@ -6,14 +6,14 @@
 //! reduced to a small one. The scenes are the same in every run; `PROPTEST_RNG_SEED` and
 //! `PROPTEST_CASES` select others.
 
-use crate::drawn::at_least;
+use crate::drawn::{at_least, mesh};
+use crate::scenes::{fields, with};
 use proptest::prelude::*;
 use thermobeam::energy::Balance;
 use thermobeam::error::{StepError, StepFailure};
 use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::mesh::Mesh;
 use thermobeam::norms::{max_or_nan, slope_squared};
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
+use thermobeam::one_step::{InitialValues, OneStep, Problem};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};
 use thermobeam::solve::{Level, Settings, Solver, Stopping};
@@ -68,21 +68,6 @@ fn obstacles() -> impl Strategy<Value = Option<Obstacles>> {
     prop_oneof![1 => Just(None), 8 => pair.prop_map(Some)]
 }
 
-/// Elements whose lengths differ by factors up to 1000, also between neighbours.
-fn mesh() -> impl Strategy<Value = Mesh> {
-    prop::collection::vec(-3.0..0.0, 1..24).prop_map(|logs: Vec<f64>| {
-        let lengths: Vec<f64> = logs.iter().map(|log| 10f64.powf(*log)).collect();
-        let total: f64 = lengths.iter().sum();
-        let mut nodes = vec![0.0];
-        nodes.extend(lengths.iter().scan(0.0, |x, h| {
-            *x += h / total;
-            Some(*x)
-        }));
-        nodes[lengths.len()] = 1.0;
-        Mesh::from_nodes(nodes).expect("lengths of a thousandth at least")
-    })
-}
-
 /// Coefficients of four modes or, if `rough`, nodal values in turn.
 #[derive(Debug, Clone)]
 struct Field {
@@ -107,7 +92,7 @@ fn field(size: f64) -> impl Strategy<Value = Field> {
 
 fn problem() -> impl Strategy<Value = Problem> {
     let fields = (field(0.1), field(2.0), field(0.1), field(2.0), field(5.0));
-    (beam(), obstacles(), mesh(), fields).prop_map(
+    (beam(), obstacles(), mesh(23), fields).prop_map(
         |(beam, obstacles, mesh, (u, u_t, phi, phi_t, theta))| {
             let nodes = mesh.nodes();
             let values = |field: &Field| {
@@ -204,13 +189,8 @@ fn run(
         stopping: Stopping::below(tolerance(solver)),
         ..Settings::default()
     };
-    let stepping = Stepping {
-        scheme,
-        settings,
-        dt,
-        loaded: false,
-    };
-    let mut simulation = OneStep::new(problem.clone(), stepping).expect("a valid scene");
+    let mut simulation =
+        OneStep::new(problem.clone(), with(scheme, settings, dt)).expect("a valid scene");
     let mut old = simulation.level();
     let mut scale = simulation.energy_scale(&old);
     for _ in 0..STEPS {
@@ -227,12 +207,8 @@ fn run(
         };
         prop_assert!(report.iterations <= settings.stopping.max_iterations());
         let new = simulation.level();
-        let fields = [&new.u, &new.v, &new.phi, &new.w, &new.theta];
-        prop_assert!(
-            fields
-                .iter()
-                .all(|field| field.iter().all(|value| value.is_finite()))
-        );
+        let is_finite = |(_, values): (_, &[f64])| values.iter().all(|value| value.is_finite());
+        prop_assert!(fields(&new).into_iter().all(is_finite));
         scale = max_or_nan(scale, simulation.energy_scale(&new));
         let mut allowed = simulation.rounding(&old, &new).total();
         if solver == Solver::FixedPoint {

@@ -223,43 +223,41 @@ mod tests {
             u: end(2.0),
             ..still.clone()
         };
-        near(terms(&moved), 20.0 * 2.0 * 2.0 / h);
-        near(
-            terms(&Level {
-                v: end(-5.0),
-                ..moved.clone()
-            }),
-            (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0,
-        );
-        near(
-            terms(&Level {
-                w: end(-5.0),
-                ..moved.clone()
-            }),
-            (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0,
-        );
-        let swinging = Level {
-            v: end(-5.0),
-            w: end(3.0),
-            ..moved.clone()
-        };
-        near(
-            terms(&swinging),
-            (20.0 * 2.0 + 0.25 * 8.0) * 2.0 / h + h * 64.0,
-        );
         let turned = Level {
             phi: end(-3.0),
             ..still.clone()
         };
-        near(terms(&turned), 4.0 * 3.0 * 3.0 / h);
+        let moving = |v: f64, w: f64| Level {
+            v: end(v),
+            w: end(w),
+            ..moved.clone()
+        };
         let warm = Level {
             theta: vec![4.0, 0.0],
-            ..turned
+            ..turned.clone()
         };
-        near(
-            terms(&warm),
-            (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0,
-        );
+        for (level, expected) in [
+            (moved.clone(), 20.0 * 2.0 * 2.0 / h),
+            (
+                moving(-5.0, 0.0),
+                (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0,
+            ),
+            (
+                moving(0.0, -5.0),
+                (20.0 * 2.0 + 0.25 * 5.0) * 2.0 / h + h * 25.0,
+            ),
+            (
+                moving(-5.0, 3.0),
+                (20.0 * 2.0 + 0.25 * 8.0) * 2.0 / h + h * 64.0,
+            ),
+            (turned, 4.0 * 3.0 * 3.0 / h),
+            (
+                warm,
+                (4.0 * 3.0 * 3.0 + dt * 16.0) / h + 0.5 * 4.0 * 3.0 + h * 16.0,
+            ),
+        ] {
+            near(terms(&level), expected);
+        }
 
         // The displacement of a node matters at either end of an element: 1 here, for values of 3.
         let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level {
@@ -270,47 +268,39 @@ mod tests {
             case(beam, None, dt, &[h, h]).rounding(&old, &new).residual / (32.0 * f64::EPSILON);
         near(both, 2.0 * 4.0 * 3.0 / h);
 
-        let between = case(
-            beam,
-            Some(Obstacles {
-                epsilon: 0.5,
-                g1: -1.0,
-                g2: 0.5,
-            }),
-            dt,
-            &[h],
-        );
-        let touching = Level {
-            v: end(5.0),
-            ..moved
+        let obstacles = Obstacles {
+            epsilon: 0.5,
+            g1: -1.0,
+            g2: 0.5,
         };
-        let delta = 8.0 * f64::EPSILON * (2.0 + dt * 5.0);
-        let expected = 2.0 * (3.0 * delta + delta * delta / 0.5);
-        for (old, new) in [(&still, &touching), (&touching, &still)] {
-            let rounding = between.rounding(old, new);
-            assert!((rounding.contact / expected - 1.0).abs() < 1e-14);
-            assert_eq!(rounding.total(), rounding.residual + rounding.contact);
-        }
+        let between = case(beam, Some(obstacles), dt, &[h]);
         // A tip exactly at the obstacle has no force, but its rounding error has an energy that the
-        // obstacle stores.
-        let level = Level {
+        // obstacle stores. The force of the step matters if it is larger than those of the law: 7
+        // against 3.
+        let touching = moving(5.0, 0.0);
+        let at = Level {
             u: end(0.5),
             ..still.clone()
         };
-        let delta_at = 8.0 * f64::EPSILON * 0.5;
-        let rounding = between.rounding(&level, &level);
-        assert!(
-            (rounding.contact / (2.0 * delta_at * delta_at / 0.5) - 1.0).abs() < 1e-14,
-            "{rounding:?}"
-        );
-        // The force of the step matters if it is larger than those of the law: 7 against 3.
         let pressed = Level {
             contact_force: -7.0,
-            ..touching
+            ..touching.clone()
         };
-        let rounding = between.rounding(&still, &pressed);
-        assert!(
-            (rounding.contact / (2.0 * (7.0 * delta + delta * delta / 0.5)) - 1.0).abs() < 1e-14
-        );
+        let delta = 8.0 * f64::EPSILON * (2.0 + dt * 5.0);
+        let delta_at = 8.0 * f64::EPSILON * 0.5;
+        for (old, new, force, delta) in [
+            (&still, &touching, 3.0, delta),
+            (&touching, &still, 3.0, delta),
+            (&at, &at, 0.0, delta_at),
+            (&still, &pressed, 7.0, delta),
+        ] {
+            let rounding = between.rounding(old, new);
+            let expected = 2.0 * (force * delta + delta * delta / 0.5);
+            assert!(
+                (rounding.contact / expected - 1.0).abs() < 1e-14,
+                "{rounding:?}, not {expected}"
+            );
+            assert_eq!(rounding.total(), rounding.residual + rounding.contact);
+        }
     }
 }

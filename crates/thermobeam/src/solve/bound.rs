@@ -202,36 +202,28 @@ mod tests {
         );
         assert_eq!(newton.kept_contraction(0, 1.0), 0.0);
 
-        let mut newton = stepper(-5.0, 0.0);
-        passed(&mut newton, -4.0, -4.0);
-        let lost = newton.bound(0);
-        assert!(newton.coercivity(0, -5.0) < 0.0);
-        assert_eq!(
-            [lost.increment, lost.remaining, lost.contraction],
-            [f64::INFINITY; 3]
-        );
-        assert_eq!(
-            (
-                newton.kept_contraction(0, -5.0),
-                newton.kept_contraction(0, -4.0)
-            ),
-            (f64::INFINITY, 0.0)
-        );
+        // λ = 1.25 B + m/4 is negative, and exactly zero.
+        for beta in [-5.0, -5.0 * BUCKLING] {
+            let mut newton = stepper(beta, 0.0);
+            passed(&mut newton, -4.0, -4.0);
+            let lost = newton.bound(0);
+            let coercivity = newton.coercivity(0, beta);
+            assert_eq!(coercivity == 0.0, beta > -5.0);
+            assert!(coercivity <= 0.0);
+            assert_eq!(
+                [lost.increment, lost.remaining, lost.contraction],
+                [f64::INFINITY; 3]
+            );
+            assert_eq!(
+                [beta, -4.0].map(|m| newton.kept_contraction(0, m)),
+                [f64::INFINITY, 0.0]
+            );
+        }
     }
 
+    /// q = (m - m̄)/(4 λ) is exactly one half.
     #[test]
-    fn the_bound_is_infinite_at_zero_coercivity_and_at_contraction_one_half() {
-        // λ = 1.25 B + m/4 is exactly zero.
-        let mut newton = stepper(-5.0 * BUCKLING, 0.0);
-        passed(&mut newton, -4.0, -4.0);
-        assert_eq!(newton.coercivity(0, -5.0 * BUCKLING), 0.0);
-        let lost = newton.bound(0);
-        assert_eq!(
-            [lost.increment, lost.remaining, lost.contraction],
-            [f64::INFINITY; 3]
-        );
-
-        // q = (m - m̄)/(4 λ) is exactly one half.
+    fn the_bound_is_infinite_at_contraction_one_half() {
         let mut newton = stepper(1.0, 0.0);
         let lambda = newton.coercivity(0, 1.0);
         passed(&mut newton, 2.0 * lambda, 0.0);

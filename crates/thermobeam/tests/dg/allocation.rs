@@ -1,19 +1,13 @@
 //! Neither a step nor its observation allocates memory.
 
-use super::scenes::{experiment, simulate};
-use thermobeam::dg::{DgLevel, DgStepping, Field};
+use crate::scenes::{experiment, of_any_order, of_degree};
+use thermobeam::dg::{DgLevel, Field};
 use thermobeam::motion::Motion;
 
 #[test]
 fn steps_and_their_observation_allocate_nothing() {
     for q in 0..=5 {
-        let mut simulation = simulate(
-            experiment(0.0, 0.0, 9),
-            DgStepping {
-                degree: q,
-                ..DgStepping::default()
-            },
-        );
+        let mut simulation = of_any_order(experiment((0.0, 0.0), 9), of_degree(q));
         let mut level = DgLevel::new(simulation.space());
         let info = allocation_counter::measure(|| {
             while simulation.step(1.0).unwrap().is_some() {

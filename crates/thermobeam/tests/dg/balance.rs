@@ -1,10 +1,11 @@
-//! The energy balance closes to round-off in every step, including contact events.
+//! The energy balance closes to round-off in every step, including contact events and loads.
 
-use super::scenes::{EXPERIMENTS, experiment, larger, simulate};
-use thermobeam::dg::{Dg, DgProblem, DgStepping};
+use crate::scenes::{EXPERIMENTS, experiment, of_any_order, of_degree, soft};
+use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
-use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::norms::max_or_nan;
+use thermobeam::parameters::Beam;
 
 /// Largest residual of a step, the sum of residuals, and the largest rise of the energy.
 fn residuals(simulation: &mut Dg, t: f64) -> (f64, f64, f64) {
@@ -26,38 +27,31 @@ fn residuals(simulation: &mut Dg, t: f64) -> (f64, f64, f64) {
             balance.viscous >= 0.0 && balance.thermal >= 0.0 && balance.inertial >= 0.0,
             "{balance:?}"
         );
-        worst = larger(worst, balance.residual.abs());
+        worst = max_or_nan(worst, balance.residual.abs());
         sum += balance.residual;
-        rise = larger(rise, balance.change);
+        rise = max_or_nan(rise, balance.change);
     }
     (worst, sum, rise)
 }
 
 #[test]
 fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time() {
-    for (beta, theta_a) in EXPERIMENTS {
+    for one in EXPERIMENTS {
         for q in 0..=5 {
-            let stepping = DgStepping {
-                degree: q,
-                ..DgStepping::default()
-            };
-            let mut simulation = simulate(experiment(beta, theta_a, 10), stepping);
+            let mut simulation = of_any_order(experiment(one, 10), of_degree(q));
             let scale = simulation.energy(simulation.level()).total();
             // The full time of the paper for one degree.
             let (worst, sum, rise) = residuals(&mut simulation, if q == 2 { 10.0 } else { 2.0 });
             let events = simulation.events().len();
-
-            assert!(
-                simulation.events().len() >= 3,
-                "beta {beta}, theta_a {theta_a}, q = {q}: {events} events"
-            );
+            let case = format!("{one:?}, q = {q}, {events} events");
+            assert!(events >= 3, "{case}");
             assert!(
                 sum.abs() <= 2e-14 * scale && worst <= 1e-14 * scale,
-                "q = {q}: {worst:e} {sum:e}"
+                "{case}: {worst:e} {sum:e}"
             );
             assert!(
                 rise <= 1e-13 * scale,
-                "beta {beta}, theta_a {theta_a}, q = {q}: the energy rises by {rise:e}"
+                "{case}: the energy rises by {rise:e}"
             );
         }
     }
@@ -65,7 +59,7 @@ fn the_balance_of_all_experiments_closes_to_round_off_for_every_degree_in_time()
 
 #[test]
 fn the_change_in_the_balance_is_the_difference_of_the_energies() {
-    let mut simulation = simulate(experiment(-0.5, 20.0, 9), DgStepping::default());
+    let mut simulation = of_any_order(experiment((-0.5, 20.0), 9), DgStepping::default());
     while simulation.step(0.5).unwrap().is_some() {
         let [old, new] = [simulation.old_level(), simulation.level()]
             .map(|level| simulation.energy(level).total());
@@ -87,36 +81,45 @@ fn every_beam_and_obstacle_has_an_answer_whose_balance_closes() {
                         a: 0.3,
                         ..Beam::default()
                     };
-                    let obstacles = Some(Obstacles {
-                        epsilon,
-                        ..Obstacles::default()
-                    });
-                    let mesh = Mesh::mapped(elements, |s| 1.3 * s - 0.3 * s * s).unwrap();
                     let problem = DgProblem {
                         beam,
-                        obstacles,
-                        mesh,
-                        ..experiment(0.0, 0.0, degree)
+                        obstacles: Some(soft(epsilon)),
+                        mesh: Mesh::mapped(elements, |s| 1.3 * s - 0.3 * s * s).unwrap(),
+                        ..experiment((0.0, 0.0), degree)
                     };
-                    let mut simulation = simulate(
-                        problem,
-                        DgStepping {
-                            degree: q,
-                            ..DgStepping::default()
-                        },
-                    );
+                    let mut simulation = of_any_order(problem, of_degree(q));
                     let scale = simulation.energy(simulation.level()).total();
                     let (worst, _, rise) = residuals(&mut simulation, 0.5);
-                    let case = format!(
-                        "zeta {zeta}, beta {beta}, rho {rho}, epsilon {epsilon}, p {degree}, q {q}"
-                    );
-                    assert!(worst <= 1e-12 * scale, "{case}: {worst:e} of {scale}");
                     assert!(
-                        rise <= 1e-12 * scale,
-                        "{case}: the energy rises by {rise:e}"
+                        worst <= 1e-12 * scale && rise <= 1e-12 * scale,
+                        "{beam:?}, epsilon {epsilon}, p {degree}, q {q}: a balance open by {worst:e} of {scale}, a rise by {rise:e}"
                     );
                 }
             }
         }
+    }
+}
+
+#[test]
+fn the_work_of_the_loads_belongs_to_the_balance() {
+    let loads = |space: &Space| -> Box<thermobeam::dg::Load> {
+        let (space, points) = (space.clone(), Space::gauss(space.degree() + 8));
+        Box::new(move |t, load| {
+            for (k, field) in [Field::U, Field::Phi, Field::Theta].into_iter().enumerate() {
+                let phase = k as f64 + 3.0 * t;
+                space.add_load(field, &points, |x| (phase + 4.0 * x).cos(), load);
+            }
+            load[space.mesh().elements()][0] += (5.0 * t).cos();
+        })
+    };
+    let problem = experiment((0.5, 20.0), 6);
+    let mut simulation = Dg::with_load(problem, of_degree(4), loads).unwrap();
+    let scale = simulation.energy(simulation.level()).total();
+    while simulation.step(0.5).unwrap().is_some() {
+        let balance = simulation.balance();
+        assert!(
+            balance.load != 0.0 && balance.residual.abs() < 1e-13 * scale,
+            "{balance:?}"
+        );
     }
 }

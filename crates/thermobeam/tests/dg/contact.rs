@@ -1,12 +1,14 @@
 //! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and
 //! grazing.
 
-use super::scenes::{advanced, close, experiment, larger, simulate, tip};
+use crate::scenes::{
+    advanced, after, close, experiment, launched, of_any_order, of_degree, soft, tip, with,
+};
 use std::f64::consts::FRAC_PI_2;
 use thermobeam::dg::{ContactEvent, Dg, DgProblem, DgStepping, Field, InitialFunctions, Phase};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, TipRange};
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
+use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
 use thermobeam::solve::Settings;
@@ -30,30 +32,10 @@ fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> DgProblem {
 /// The same by `midpoint` on a fine graded P1 mesh: u(1, t).
 fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
     let mesh = Mesh::mapped(200, |s| 1.0 - (1.0 - s).powi(3)).unwrap();
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u_t = mesh
-        .nodes()
-        .iter()
-        .map(|x| velocity * (FRAC_PI_2 * x).sin())
-        .collect();
-    let problem = Problem {
-        beam: Beam::default(),
-        obstacles: Some(obstacles),
-        mesh,
-        initial,
-    };
-    let steps = 4000;
-    let stepping = Stepping {
-        scheme: MIDPOINT,
-        settings: Settings::default(),
-        dt: t / f64::from(steps),
-        loaded: false,
-    };
-    let mut simulation = OneStep::new(problem, stepping).unwrap();
-    for _ in 0..steps {
-        simulation.step_once().unwrap();
-    }
-    simulation.level().u[200]
+    let thrown = move |x: f64| velocity * (FRAC_PI_2 * x).sin();
+    let problem = launched(mesh, Beam::default(), Some(obstacles), [&|_| 0.0, &thrown]);
+    let stepping = with(MIDPOINT, Settings::default(), t / 4000.0);
+    after(&problem, stepping, 4000).u[200]
 }
 
 /// Runs to the end; the worst residual of the balance, relative to the initial energy, must be
@@ -68,8 +50,8 @@ fn balanced(mut simulation: Dg, t: f64) -> Dg {
         .is_some()
     {
         let balance = simulation.balance();
-        worst = larger(worst, balance.residual.abs());
-        contact = larger(contact, balance.contact.abs());
+        worst = max_or_nan(worst, balance.residual.abs());
+        contact = max_or_nan(contact, balance.contact.abs());
     }
     assert!(
         worst <= 1e-13 * scale,
@@ -88,34 +70,29 @@ fn phases(events: &[ContactEvent]) -> Vec<Phase> {
 
 fn stepping() -> DgStepping {
     DgStepping {
-        degree: 2,
         dt: 0.01,
         restart_dt: 2e-4,
-        ..DgStepping::default()
+        ..of_degree(2)
+    }
+}
+
+/// The first experiment between other obstacles, on one element.
+fn between(obstacles: Obstacles, degree: usize) -> DgProblem {
+    DgProblem {
+        obstacles: Some(obstacles),
+        ..experiment((0.0, 0.0), degree)
     }
 }
 
 #[test]
 fn an_obstacle_at_zero_is_touched_from_the_first_moment() {
-    for (obstacles, velocity, phase) in [
-        (
-            Obstacles {
-                g2: 0.0,
-                ..Obstacles::default()
-            },
-            1.0,
-            Phase::Upper,
-        ),
-        (
-            Obstacles {
-                g1: 0.0,
-                ..Obstacles::default()
-            },
-            -1.0,
-            Phase::Lower,
-        ),
-    ] {
-        let simulation = balanced(simulate(thrown(velocity, obstacles, 10), stepping()), 0.01);
+    let Obstacles { epsilon, g1, g2 } = Obstacles::default();
+    for (g1, g2, velocity, phase) in [(g1, 0.0, 1.0, Phase::Upper), (0.0, g2, -1.0, Phase::Lower)] {
+        let obstacles = Obstacles { epsilon, g1, g2 };
+        let simulation = balanced(
+            of_any_order(thrown(velocity, obstacles, 10), stepping()),
+            0.01,
+        );
         assert_eq!(phases(simulation.events()), [phase]);
         assert_eq!(simulation.events()[0].t, 0.0);
         let expected = by_linear_elements(velocity, obstacles, 0.01);
@@ -124,25 +101,27 @@ fn an_obstacle_at_zero_is_touched_from_the_first_moment() {
     }
 }
 
+/// Obstacles of compliance 1e-2 at -gap and gap.
+fn narrow(gap: f64) -> Obstacles {
+    Obstacles {
+        epsilon: 1e-2,
+        g1: -gap,
+        g2: gap,
+    }
+}
+
 #[test]
 fn two_obstacles_at_one_place_are_touched_in_turn() {
-    let obstacles = Obstacles {
-        epsilon: 1e-2,
-        g1: 0.0,
-        g2: 0.0,
-    };
-    let simulation = balanced(simulate(thrown(1.0, obstacles, 10), stepping()), 3.0);
+    let obstacles = narrow(0.0);
+    let simulation = balanced(of_any_order(thrown(1.0, obstacles, 10), stepping()), 3.0);
     let events = simulation.events();
     assert!(events.len() >= 3, "{events:?}");
     assert!(events.iter().all(|event| event.from != Phase::Free
         && event.to != Phase::Free
         && event.from != event.to));
     let early = advanced(thrown(1.0, obstacles, 10), stepping(), 0.2);
-    close(
-        tip(&early, Field::U),
-        by_linear_elements(1.0, obstacles, 0.2),
-        2e-4,
-    );
+    let expected = by_linear_elements(1.0, obstacles, 0.2);
+    close(tip(&early, Field::U), expected, 2e-4);
     // With g_1 = g_2 = 0 the obstacle is a two-sided spring: started from the other side, the
     // motion is mirrored.
     let mirrored = advanced(thrown(-1.0, obstacles, 10), stepping(), 3.0);
@@ -158,9 +137,9 @@ fn a_free_end_that_starts_beyond_an_obstacle_presses_on_it() {
         };
         let problem = DgProblem {
             initial,
-            ..experiment(0.0, 0.0, 12)
+            ..experiment((0.0, 0.0), 12)
         };
-        let simulation = simulate(problem, stepping());
+        let simulation = of_any_order(problem, stepping());
         assert_eq!(simulation.phase(), phase);
         assert!(simulation.energy(simulation.level()).contact > 1.0);
         let simulation = balanced(simulation, 0.5);
@@ -172,62 +151,45 @@ fn a_free_end_that_starts_beyond_an_obstacle_presses_on_it() {
 #[test]
 fn narrow_gaps_are_crossed() {
     for gap in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
-        let obstacles = Obstacles {
-            epsilon: 1e-2,
-            g1: -gap,
-            g2: gap,
-        };
-        let simulation = balanced(simulate(thrown(1.0, obstacles, 8), stepping()), 1.0);
-        assert!(
-            simulation.events().len() >= 3,
-            "gap {gap}: {:?}",
-            simulation.events()
-        );
+        let simulation = of_any_order(thrown(1.0, narrow(gap), 8), stepping());
+        let simulation = balanced(simulation, 1.0);
+        let events = simulation.events();
+        assert!(events.len() >= 3, "gap {gap}: {events:?}");
     }
 }
 
-/// The first maximum of u(1, t) in the first experiment without obstacles, to round-off.
-fn highest(stepping: DgStepping) -> f64 {
-    let mut simulation = simulate(
-        DgProblem {
-            obstacles: None,
-            ..experiment(0.0, 0.0, 8)
-        },
-        stepping,
-    );
-    let mut top = f64::NEG_INFINITY;
-    while simulation.step(1.0).unwrap().is_some() {
-        let (start, end) = (simulation.old_level().t, simulation.t());
-        let at = |s: f64| {
-            simulation
-                .value(Field::U, 1.0, start + s * (end - start))
-                .unwrap()
-        };
-        for i in 0..=1000 {
-            top = top.max(at(f64::from(i) / 1000.0));
-        }
-    }
-    top
+/// The least and the largest u(1, t) of the last step, at a thousand points.
+fn sampled(simulation: &Dg) -> [f64; 2] {
+    let (start, end) = (simulation.old_level().t, simulation.t());
+    let at = |k: i32| start + (end - start) * f64::from(k) / 1000.0;
+    let values = (0..=1000).map(|k| simulation.value(Field::U, 1.0, at(k)).unwrap());
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| {
+        [low.min(u), high.max(u)]
+    })
 }
 
 #[test]
 fn a_free_end_may_graze_an_obstacle() {
     let stepping = DgStepping::default();
-    let top = highest(stepping);
+    let without = DgProblem {
+        obstacles: None,
+        ..experiment((0.0, 0.0), 8)
+    };
+    let mut simulation = of_any_order(without, stepping);
+    // The first maximum of u(1, t) without obstacles, to round-off.
+    let mut top = f64::NEG_INFINITY;
+    while simulation.step(1.0).unwrap().is_some() {
+        top = top.max(sampled(&simulation)[1]);
+    }
     let mut touched = 0;
     for exponent in 3..=17 {
         for sign in [-1.0, 0.0, 1.0] {
-            let g2 = top + sign * 10.0_f64.powi(-exponent);
             let obstacles = Obstacles {
                 g1: -1.0,
-                g2,
+                g2: top + sign * 10.0_f64.powi(-exponent),
                 ..Obstacles::default()
             };
-            let problem = DgProblem {
-                obstacles: Some(obstacles),
-                ..experiment(0.0, 0.0, 8)
-            };
-            let simulation = balanced(simulate(problem, stepping), 1.2);
+            let simulation = balanced(of_any_order(between(obstacles, 8), stepping), 1.2);
             let found = phases(simulation.events());
             assert!(
                 found
@@ -236,8 +198,7 @@ fn a_free_end_may_graze_an_obstacle() {
                 "{exponent} {sign}: {found:?}"
             );
             touched += usize::from(!found.is_empty());
-            let steps = simulation.steps();
-            let work = simulation.work();
+            let (steps, work) = (simulation.steps(), simulation.work());
             assert!(
                 steps < 150 && work.passes < 400,
                 "{exponent} {sign}: {steps} steps, {work:?}"
@@ -249,29 +210,14 @@ fn a_free_end_may_graze_an_obstacle() {
 
 #[test]
 fn the_range_of_the_tip_has_its_extrema_inside_steps() {
-    let long = DgStepping {
-        degree: 4,
-        dt: 0.02,
-        ..DgStepping::default()
-    };
-    let mut simulation = simulate(experiment(0.0, 0.0, 8), long);
+    let mut simulation = of_any_order(experiment((0.0, 0.0), 8), of_degree(4));
     let start = tip(&simulation, Field::U);
     let TipRange { low, high } = simulation.tip_range();
     assert_eq!([low, high], [start, start]);
     let mut inside = 0;
     while simulation.step(1.0).unwrap().is_some() {
         let TipRange { low, high } = simulation.tip_range();
-        let (from, to) = (simulation.old_level().t, simulation.t());
-        let at = |k: usize| {
-            simulation
-                .value(Field::U, 1.0, from + (to - from) * k as f64 / 1000.0)
-                .unwrap()
-        };
-        let values: Vec<f64> = (0..=1000).map(at).collect();
-        let [least, most] = [
-            values.iter().copied().fold(at(0), f64::min),
-            values.iter().copied().fold(at(0), f64::max),
-        ];
+        let [least, most] = sampled(&simulation);
         // A thousand points miss an extremum by some millionths of the change over the step.
         let slack = 1e-5 * (most - least) + 1e-15;
         assert!(
@@ -282,23 +228,19 @@ fn the_range_of_the_tip_has_its_extrema_inside_steps() {
             high >= most - 1e-15 && high <= most + slack,
             "{high} {most}"
         );
-        inside += usize::from(high > at(0).max(at(1000)) + slack);
+        let ends = [simulation.old_level().t, simulation.t()]
+            .map(|t| simulation.value(Field::U, 1.0, t).unwrap());
+        inside += usize::from(high > ends[0].max(ends[1]) + slack);
     }
     assert!(inside > 0, "no extremum inside a step");
 }
 
 #[test]
 fn without_viscosity_an_impact_takes_the_compliance() {
-    let obstacles = Obstacles {
-        epsilon: 1e-3,
-        ..Obstacles::default()
-    };
-    assert_eq!(
-        [0.0, 0.9e-3].map(|zeta| obstacles.impact_time(zeta)),
-        [1e-3, 1e-3]
-    );
+    let impact_time = |zeta| soft(1e-3).impact_time(zeta);
+    assert_eq!([0.0, 0.9e-3].map(impact_time), [1e-3, 1e-3]);
     close(
-        obstacles.impact_time(0.1),
+        impact_time(0.1),
         (1e-3 * 0.1_f64.sqrt()).powf(2.0 / 3.0),
         1e-17,
     );
@@ -307,28 +249,13 @@ fn without_viscosity_an_impact_takes_the_compliance() {
 #[test]
 fn every_compliance_is_solved() {
     for epsilon in [1e-8, 1e-6, 1e-4, 1e-2, 1.0] {
-        let obstacles = Obstacles {
-            epsilon,
-            ..Obstacles::default()
+        let stepping = DgStepping {
+            restart_dt: (0.2 * soft(epsilon).impact_time(0.1)).min(5e-3),
+            ..DgStepping::default()
         };
-        let problem = DgProblem {
-            obstacles: Some(obstacles),
-            ..experiment(0.0, 0.0, 8)
-        };
-        let restart_dt = (0.2 * obstacles.impact_time(0.1)).min(5e-3);
-        let mut simulation = simulate(
-            problem,
-            DgStepping {
-                restart_dt,
-                ..DgStepping::default()
-            },
-        );
-        simulation
-            .advance(0.7)
-            .unwrap_or_else(|error| panic!("epsilon {epsilon}: {error}"));
+        let simulation = advanced(between(soft(epsilon), 8), stepping, 0.7);
         let events = simulation.events().len();
-        let steps = simulation.steps();
-        let shortened = simulation.shortened();
+        let (steps, shortened) = (simulation.steps(), simulation.shortened());
         assert!(
             events > 0 && steps < 10_000 && shortened == 0,
             "epsilon {epsilon}: {events} events, {steps} steps, {shortened} shortened"
@@ -338,7 +265,7 @@ fn every_compliance_is_solved() {
 
 #[test]
 fn an_event_ends_its_step_on_the_obstacle_exactly() {
-    let mut simulation = simulate(experiment(5.0, 0.0, 10), DgStepping::default());
+    let mut simulation = of_any_order(experiment((5.0, 0.0), 10), DgStepping::default());
     let mut events = 0;
     while let Some(report) = simulation.step(3.0).unwrap() {
         if let Some(event) = report.event {
@@ -366,22 +293,13 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
     for (degree, q) in [(9, 1), (9, 2), (10, 3), (14, 1)] {
         for zeta in [0.0, 1e-3, 0.1] {
             for distance in [0.0, 1e-14, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8] {
-                let mut problem = experiment(-0.5, 20.0, degree);
+                let mut problem = experiment((-0.5, 20.0), degree);
                 problem.beam.zeta = zeta;
                 problem.obstacles = Some(Obstacles {
                     g1: -0.01 - distance,
                     ..Obstacles::default()
                 });
-                let simulation = balanced(
-                    simulate(
-                        problem,
-                        DgStepping {
-                            degree: q,
-                            ..DgStepping::default()
-                        },
-                    ),
-                    0.05,
-                );
+                let simulation = balanced(of_any_order(problem, of_degree(q)), 0.05);
                 assert_eq!(
                     simulation.events(),
                     [],
@@ -401,23 +319,12 @@ fn a_free_end_that_leaves_the_obstacle_on_which_it_rests_does_not_touch_it() {
 #[test]
 fn the_first_contact_lasts_as_long_whatever_the_compliance() {
     for epsilon in [1e-3, 1e-4, 1e-5] {
-        let obstacles = Some(Obstacles {
-            epsilon,
-            ..Obstacles::default()
-        });
         let fine = DgStepping {
             dt: 0.01,
             restart_dt: 1e-5,
             ..DgStepping::default()
         };
-        let simulation = advanced(
-            DgProblem {
-                obstacles,
-                ..experiment(0.0, 0.0, 20)
-            },
-            fine,
-            0.7,
-        );
+        let simulation = advanced(between(soft(epsilon), 20), fine, 0.7);
         let [touch, release] = [simulation.events()[0], simulation.events()[1]];
         assert_eq!([touch.to, release.to], [Phase::Upper, Phase::Free]);
         close(release.t - touch.t, 0.44, 0.01);

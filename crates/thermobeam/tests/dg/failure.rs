@@ -1,10 +1,10 @@
 //! Bad input and failed steps give errors with names and numbers.
 
-use super::scenes::{experiment, simulate};
+use crate::scenes::{experiment, of_any_order, of_degree, soft};
 use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::error::{SetupError, StepError, StepFailure};
 use thermobeam::motion::Motion;
-use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::parameters::Beam;
 
 #[track_caller]
 fn refused(problem: DgProblem, stepping: DgStepping) -> String {
@@ -21,7 +21,7 @@ fn good() -> DgStepping {
 #[test]
 fn settings_out_of_range_are_refused_by_name() {
     for degree in [0, 41, 100] {
-        let message = refused(experiment(0.0, 0.0, degree), good());
+        let message = refused(experiment((0.0, 0.0), degree), good());
         assert_eq!(
             message,
             format!("degree of the elements: expected an integer from 1 to 40, found {degree}")
@@ -29,10 +29,7 @@ fn settings_out_of_range_are_refused_by_name() {
     }
     let cases = [
         (
-            DgStepping {
-                degree: 6,
-                ..good()
-            },
+            of_degree(6),
             "degree in time: expected an integer from 0 to 5, found 6",
         ),
         (
@@ -104,69 +101,56 @@ fn settings_out_of_range_are_refused_by_name() {
         ),
     ];
     for (stepping, message) in cases {
-        assert_eq!(refused(experiment(0.0, 0.0, 4), stepping), message);
+        assert_eq!(refused(experiment((0.0, 0.0), 4), stepping), message);
     }
-    for degree in [1, 40] {
-        for q in [0, 5] {
-            assert!(
-                Dg::new(
-                    experiment(0.0, 0.0, degree),
-                    DgStepping {
-                        degree: q,
-                        ..good()
-                    }
-                )
-                .is_ok()
-            );
-        }
+    for (degree, q) in [(1, 0), (1, 5), (40, 0), (40, 5)] {
+        assert!(Dg::new(experiment((0.0, 0.0), degree), of_degree(q)).is_ok());
     }
 }
 
 #[test]
 fn coefficients_and_initial_data_are_checked() {
-    let base = || experiment(0.0, 0.0, 4);
-    let beam = DgProblem {
-        beam: Beam {
-            rho: -1.0,
-            ..Beam::default()
-        },
-        ..base()
-    };
-    assert_eq!(
-        refused(beam, good()),
-        "rho: expected a finite number >= 0, found -1"
-    );
-    let obstacles = DgProblem {
-        obstacles: Some(Obstacles {
-            epsilon: 0.0,
-            ..Obstacles::default()
-        }),
-        ..base()
-    };
-    assert_eq!(
-        refused(obstacles, good()),
-        "epsilon: expected a finite number > 0, found 0"
-    );
+    let base = || experiment((0.0, 0.0), 4);
     let with = |initial: InitialFunctions| DgProblem { initial, ..base() };
-    let lifted = InitialFunctions {
-        u: Box::new(|x| 0.5 + x),
-        ..InitialFunctions::at_rest(0.0)
-    };
-    assert_eq!(
-        refused(with(lifted), good()),
-        "initial u at x = 0: expected 0 from the boundary condition, found 0.5"
-    );
-    let hot = InitialFunctions {
-        theta: Box::new(|x| 2.0 * (1.0 - x)),
-        ..InitialFunctions::at_rest(0.0)
-    };
-    assert_eq!(
-        refused(with(hot), good()),
-        "initial theta at x = 0: expected 0 from the boundary condition, found 2"
-    );
+    let at_rest = || InitialFunctions::at_rest(0.0);
+    for (problem, message) in [
+        (
+            DgProblem {
+                beam: Beam {
+                    rho: -1.0,
+                    ..Beam::default()
+                },
+                ..base()
+            },
+            "rho: expected a finite number >= 0, found -1",
+        ),
+        (
+            DgProblem {
+                obstacles: Some(soft(0.0)),
+                ..base()
+            },
+            "epsilon: expected a finite number > 0, found 0",
+        ),
+        (
+            with(InitialFunctions {
+                u: Box::new(|x| 0.5 + x),
+                ..at_rest()
+            }),
+            "initial u at x = 0: expected 0 from the boundary condition, found 0.5",
+        ),
+        (
+            with(InitialFunctions {
+                theta: Box::new(|x| 2.0 * (1.0 - x)),
+                ..at_rest()
+            }),
+            "initial theta at x = 0: expected 0 from the boundary condition, found 2",
+        ),
+    ] {
+        assert_eq!(refused(problem, good()), message);
+    }
     let wild = InitialFunctions {
         phi_t: Box::new(|x| 1.0 / (x - x)),
-        ..InitialFunctions::at_rest(0.0)
+        ..at_rest()
     };
     let found = Dg::new(with(wild), good()).err();
     assert!(
@@ -201,7 +185,7 @@ fn pushed(beta: f64) -> DgProblem {
             rho: 0.0,
             ..Beam::default()
         },
-        ..experiment(0.0, 0.0, 6)
+        ..experiment((0.0, 0.0), 6)
     }
 }
 
@@ -212,14 +196,14 @@ fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
         restart_dt: 50.0,
         ..good()
     };
-    let mut simulation = simulate(pushed(-3.0), long);
+    let mut simulation = of_any_order(pushed(-3.0), long);
     let report = simulation.step(50.0).unwrap().expect("a step");
     assert!(
         report.dt < 1.0 && simulation.shortened() > 5,
         "{report:?} {}",
         simulation.shortened()
     );
-    let error = failed(simulate(pushed(-1e6), long));
+    let error = failed(of_any_order(pushed(-1e6), long));
     let StepFailure::Indefinite { pivot, n_value, .. } = error.failure else {
         panic!("{error}")
     };
@@ -231,8 +215,8 @@ fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
 
 #[test]
 fn iterations_that_are_not_enough_are_an_error() {
-    let error = failed(simulate(
-        experiment(0.0, 0.0, 6),
+    let error = failed(of_any_order(
+        experiment((0.0, 0.0), 6),
         DgStepping {
             max_iterations: 1,
             ..good()
@@ -259,10 +243,10 @@ fn numbers_beyond_all_bounds_are_an_error() {
         u_t: Box::new(|x| 1e200 * x),
         ..InitialFunctions::at_rest(0.0)
     };
-    let error = failed(simulate(
+    let error = failed(of_any_order(
         DgProblem {
             initial,
-            ..experiment(0.0, 0.0, 6)
+            ..experiment((0.0, 0.0), 6)
         },
         good(),
     ));
@@ -270,16 +254,6 @@ fn numbers_beyond_all_bounds_are_an_error() {
         matches!(error.failure, StepFailure::NonFinite { .. }),
         "{error}"
     );
-}
-
-#[test]
-fn a_limit_in_the_past_or_no_number_is_no_step() {
-    let mut simulation = simulate(experiment(0.0, 0.0, 6), good());
-    for limit in [0.0, -1.0, f64::NAN] {
-        assert_eq!(simulation.step(limit), Ok(None));
-    }
-    simulation.advance(0.1).unwrap();
-    assert_eq!((simulation.t(), simulation.step(0.05)), (0.1, Ok(None)));
 }
 
 /// If ε is below some 1e-15, rounding errors of u(1) exceed any contact force. Such a run once kept
@@ -292,26 +266,16 @@ fn a_limit_in_the_past_or_no_number_is_no_step() {
 #[test]
 fn contact_that_the_position_cannot_tell_ends_where_its_force_changes_sign() {
     for epsilon in [1e-18, 1e-20, 1e-100] {
-        let obstacles = Obstacles {
-            epsilon,
-            ..Obstacles::default()
-        };
         let initial = InitialFunctions {
             theta: Box::new(|_| 0.0),
-            ..experiment(0.0, 0.0, 12).initial
+            ..experiment((0.0, 0.0), 12).initial
         };
         let problem = DgProblem {
-            obstacles: Some(obstacles),
+            obstacles: Some(soft(epsilon)),
             initial,
-            ..experiment(0.0, 0.0, 12)
+            ..experiment((0.0, 0.0), 12)
         };
-        let mut simulation = simulate(
-            problem,
-            DgStepping {
-                degree: 3,
-                ..DgStepping::default()
-            },
-        );
+        let mut simulation = of_any_order(problem, of_degree(3));
         simulation.advance(0.65).unwrap();
         let [touch, leave] = simulation.events() else {
             panic!("{epsilon}: {:?}", simulation.events())

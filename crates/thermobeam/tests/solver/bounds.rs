@@ -2,46 +2,32 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::scenes::{advance, fields, paper, simulate, stepping, uniform};
-use crate::p1_matrices::P1Matrices;
+use crate::dense::P1Matrices;
+use crate::scenes::{after, below, distance, fields, on_nodes, paper, stepping, uniform, with};
 use nalgebra::DMatrix;
 use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::mesh::Mesh;
-use thermobeam::norms::TheoremSquares;
 use thermobeam::one_step::{InitialValues, Problem};
 use thermobeam::parameters::Beam;
-use thermobeam::solve::{Level, Stopping};
-
-/// √(2D) of a level: the norm of (3.14) of its fields.
-fn size(mesh: &Mesh, level: &Level) -> f64 {
-    let lengths: Vec<f64> = mesh.lengths().collect();
-    let Level {
-        u,
-        v,
-        phi,
-        w,
-        theta,
-        ..
-    } = level;
-    TheoremSquares::of(&lengths, v, u, w, phi, theta).norm()
-}
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
+use thermobeam::solve::Level;
 
 /// A linear beam without heat that buckles in its lowest shape, at the speed of that shape without
 /// inertia.
 fn buckling(beta: f64, zeta: f64) -> Problem {
     let mesh = uniform(32);
     let k = FRAC_PI_2;
-    let shape = |f: &dyn Fn(f64) -> f64, factor: f64| -> Vec<f64> {
-        mesh.nodes().iter().map(|&x| factor * f(x)).collect()
-    };
-    let u = |x: f64| (1.0 + k * k) / k * (1.0 - (k * x).cos());
-    let phi = |x: f64| (k * x).sin();
     let rate = (-beta / BUCKLING - 1.0) / zeta;
+    let u = |factor: f64| {
+        on_nodes(&mesh, &|x| {
+            factor * (1.0 + k * k) / k * (1.0 - (k * x).cos())
+        })
+    };
+    let phi = |factor: f64| on_nodes(&mesh, &|x| factor * (k * x).sin());
     let initial = InitialValues {
-        u: shape(&u, 1.0),
-        u_t: shape(&u, rate),
-        phi: shape(&phi, 1.0),
-        phi_t: shape(&phi, rate),
+        u: u(1.0),
+        u_t: u(rate),
+        phi: phi(1.0),
+        phi_t: phi(rate),
         ..InitialValues::at_rest(&mesh, 0.0)
     };
     let beam = Beam {
@@ -63,12 +49,12 @@ fn buckling(beta: f64, zeta: f64) -> Problem {
 fn share_of_bound(beta: f64, zeta: f64) -> f64 {
     let problem = buckling(beta, zeta);
     let (dt, steps) = (0.02, 1000);
-    let mut simulation = simulate(&problem, stepping(dt));
-    let before = size(&problem.mesh, &simulation.level());
-    advance(&mut simulation, steps);
-    let growth = size(&problem.mesh, &simulation.level()) / before;
+    let size = |steps: usize| {
+        let level = after(&problem, stepping(dt), steps);
+        distance(&problem.mesh, &level, &Level::new(level.u.len()))
+    };
     let t = dt * steps as f64;
-    growth / (beta.powi(2) * t / (4.0 * zeta * BUCKLING.powi(2))).exp()
+    size(steps) / size(0) / (beta.powi(2) * t / (4.0 * zeta * BUCKLING.powi(2))).exp()
 }
 
 /// Two solutions of a linear beam differ by a solution. Without inertia the lowest shape grows at
@@ -151,13 +137,8 @@ fn four_times_the_data_with_a_sixteenth_of_rho_are_four_times_the_solution() {
     for field in [u, u_t, phi, phi_t, theta] {
         field.iter_mut().for_each(|value| *value *= 4.0);
     }
-    let mut settings = stepping(1e-3);
-    settings.settings.stopping = Stopping::below(1e-300);
-    let mut one = simulate(&problem, settings);
-    let mut four = simulate(&scaled, settings);
-    advance(&mut one, 300);
-    advance(&mut four, 300);
-    let (one, four) = (one.level(), four.level());
+    let stepping = with(EULER_CRANK_NICOLSON, below(1e-300), 1e-3);
+    let [one, four] = [&problem, &scaled].map(|problem| after(problem, stepping, 300));
     assert!(one.contact_force > 0.0, "no contact");
     for ((name, one), (_, four)) in fields(&one).into_iter().zip(fields(&four)) {
         let quarter: Vec<f64> = four.iter().map(|value| value / 4.0).collect();

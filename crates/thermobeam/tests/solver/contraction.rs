@@ -1,54 +1,35 @@
 //! The paper's fixed point contracts with the predicted factor, and diverges if that factor exceeds
 //! one.
 
-use super::dense_iteration::{dense_iteration, spectral_radius};
-use super::scenes::{advance, graded, simulate, stepping, uniform};
+use crate::dense::{dense_iteration, spectral_radius};
+use crate::scenes::{after, by, graded, launched, simulate, soft, stepping, uniform, with};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::motion::Motion;
 use thermobeam::norms::slope_squared;
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
+use thermobeam::one_step::{OneStep, Problem};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
 fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> OneStep {
     let settings = Settings {
-        solver: Solver::FixedPoint,
         stopping: Stopping::Converged {
             tolerance,
             max_iterations: 1000,
         },
-        ..Settings::default()
+        ..by(Solver::FixedPoint)
     };
-    simulate(
-        problem,
-        Stepping {
-            scheme,
-            settings,
-            ..stepping(dt)
-        },
-    )
+    simulate(problem, with(scheme, settings, dt))
 }
 
 /// A beam whose tip penetrates the upper obstacle by a fifth of the gap, at rest or moving upwards.
 fn pressed(zeta: f64, epsilon: f64, speed: f64) -> Problem {
-    let mesh = uniform(100);
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u = mesh.nodes().iter().map(|x| 0.12 * x).collect();
-    initial.u_t = mesh.nodes().iter().map(|x| speed * x).collect();
-    let obstacles = Some(Obstacles {
-        epsilon,
-        ..Obstacles::default()
-    });
-    Problem {
-        beam: Beam {
-            zeta,
-            ..Beam::default()
-        },
-        obstacles,
-        mesh,
-        initial,
-    }
+    let beam = Beam {
+        zeta,
+        ..Beam::default()
+    };
+    let start: [&dyn Fn(f64) -> f64; 2] = [&|x| 0.12 * x, &|x| speed * x];
+    launched(uniform(100), beam, Some(soft(epsilon)), start)
 }
 
 fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
@@ -115,16 +96,7 @@ fn above_a_factor_of_one_the_fixed_point_diverges_and_newton_converges() {
         );
         assert_eq!((simulation.steps(), simulation.t()), (0, 0.0));
         assert_eq!(simulation.level(), before);
-        advance(
-            &mut simulate(
-                &problem,
-                Stepping {
-                    scheme,
-                    ..stepping(dt)
-                },
-            ),
-            100,
-        );
+        after(&problem, with(scheme, Settings::default(), dt), 100);
     }
 }
 
@@ -139,26 +111,15 @@ fn below_a_factor_of_one_the_fixed_point_converges() {
 
 #[test]
 fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
-    let mesh = graded(40);
     for dt in [0.01, 0.1, 1.0, 10.0] {
         for scheme in SCHEMES {
-            let mut initial = InitialValues::at_rest(&mesh, 0.0);
-            initial.u_t = mesh
-                .nodes()
-                .iter()
-                .map(|x| 20.0 * x * (x - 1.0) * (x - 1.0))
-                .collect();
             let beam = Beam {
                 rho: 0.0,
                 a: 0.0,
                 ..Beam::default()
             };
-            let problem = Problem {
-                beam,
-                obstacles: None,
-                mesh: mesh.clone(),
-                initial,
-            };
+            let start: [&dyn Fn(f64) -> f64; 2] = [&|_| 0.0, &|x| 20.0 * x * (x - 1.0) * (x - 1.0)];
+            let problem = launched(graded(40), beam, None, start);
             let report = by_fixed_point(&problem, scheme, dt, 1e-12)
                 .step_once()
                 .unwrap();
@@ -181,37 +142,23 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
     }
 }
 
+/// A beam without obstacles, whose free end moves.
+fn swinging(beam: Beam) -> Problem {
+    launched(uniform(50), beam, None, [&|_| 0.0, &|x| x * x])
+}
+
 /// Without obstacles a large a makes the iteration diverge, and a larger ε is not a remedy.
 #[test]
 fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
-    let mesh = uniform(50);
     for (a, diverges) in [(20.0, true), (10.0, false)] {
-        let mut initial = InitialValues::at_rest(&mesh, 0.0);
-        initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
-        let beam = Beam {
+        let problem = swinging(Beam {
             a,
             ..Beam::default()
-        };
-        let problem = Problem {
-            beam,
-            obstacles: None,
-            mesh: mesh.clone(),
-            initial,
-        };
+        });
         let factor = problem.case(EULER_CRANK_NICOLSON, 1e-2).heat_contraction();
         // A hundred iterations, since more would overflow.
-        let settings = Settings {
-            solver: Solver::FixedPoint,
-            ..Settings::default()
-        };
-        let outcome = simulate(
-            &problem,
-            Stepping {
-                settings,
-                ..stepping(1e-2)
-            },
-        )
-        .step_once();
+        let stepping = with(EULER_CRANK_NICOLSON, by(Solver::FixedPoint), 1e-2);
+        let outcome = simulate(&problem, stepping).step_once();
         assert_eq!(
             (outcome.is_err(), factor > 1.0),
             (diverges, diverges),
@@ -240,21 +187,12 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
 /// A factor is that of its loop alone: the four together may converge where one of them would not.
 #[test]
 fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
-    let mesh = uniform(50);
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u_t = mesh.nodes().iter().map(|x| x * x).collect();
-    let beam = Beam {
+    let problem = swinging(Beam {
         zeta: 0.1,
         a: 3.425,
         rho: 0.0,
         ..Beam::default()
-    };
-    let problem = Problem {
-        beam,
-        obstacles: None,
-        mesh,
-        initial,
-    };
+    });
     let factor = problem.case(EULER_CRANK_NICOLSON, 1.0).heat_contraction();
     let dense = dense_iteration(&problem, &EULER_CRANK_NICOLSON, 1.0);
     let [together, heat] = [&dense.all, &dense.heat].map(spectral_radius);
@@ -276,33 +214,21 @@ fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
 /// Contact and axial force move the tip in the same way: two factors below 1 add up to more.
 #[test]
 fn two_loops_with_factors_below_one_diverge_if_they_add() {
-    let mesh = uniform(50);
-    // The tip just touches the obstacle at 0.1.
-    let bend = |x: &f64| (0.1 + 1e-12) * x.powi(16);
-    let u: Vec<f64> = mesh.nodes().iter().map(bend).collect();
-    let obstacles = Some(Obstacles {
-        epsilon: 1e-3,
-        ..Obstacles::default()
-    });
     let beam = Beam {
         zeta: 0.1,
         rho: 1000.0,
         beta: 0.0,
         ..Beam::default()
     };
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u.clone_from(&u);
-    let problem = Problem {
-        beam,
-        obstacles,
-        mesh,
-        initial,
-    };
+    // The tip just touches the obstacle at 0.1.
+    let start: [&dyn Fn(f64) -> f64; 2] = [&|x| (0.1 + 1e-12) * x.powi(16), &|_| 0.0];
+    let problem = launched(uniform(50), beam, Some(soft(1e-3)), start);
+    let u = &problem.initial.u;
     let case = problem.case(EULER_CRANK_NICOLSON, 4e-3);
-    let n_value = beam.axial_force(slope_squared(&case.lengths, &u));
+    let n_value = beam.axial_force(slope_squared(&case.lengths, u));
     let factors = [
         case.contact_contraction(n_value),
-        case.axial_contraction(n_value, &u),
+        case.axial_contraction(n_value, u),
     ];
     let dense = dense_iteration(&problem, &EULER_CRANK_NICOLSON, 4e-3);
     let [together, contact, axial] =
@@ -316,7 +242,7 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
         "{contact} {axial}"
     );
     assert!(
-        case.contraction(&u).0 < 1.0 && (together - 1.1002).abs() < 1e-4,
+        case.contraction(u).0 < 1.0 && (together - 1.1002).abs() < 1e-4,
         "{together}"
     );
 }
@@ -324,9 +250,6 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
 /// Whether a linear beam in lasting contact stays bounded with this number of iterations in each
 /// step; both obstacles stand at 0.
 fn is_stable(iterations: usize, dt: f64) -> bool {
-    let mesh = uniform(20);
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u = mesh.nodes().iter().map(|x| 0.01 * x * x).collect();
     let beam = Beam {
         rho: 0.0,
         a: 0.5,
@@ -337,25 +260,12 @@ fn is_stable(iterations: usize, dt: f64) -> bool {
         g1: 0.0,
         g2: 0.0,
     });
-    let problem = Problem {
-        beam,
-        obstacles,
-        mesh,
-        initial,
-    };
-    let stopping = Stopping::Iterations(iterations);
+    let problem = launched(uniform(20), beam, obstacles, [&|x| 0.01 * x * x, &|_| 0.0]);
     let settings = Settings {
-        solver: Solver::FixedPoint,
-        stopping,
-        ..Settings::default()
+        stopping: Stopping::Iterations(iterations),
+        ..by(Solver::FixedPoint)
     };
-    let mut simulation = simulate(
-        &problem,
-        Stepping {
-            settings,
-            ..stepping(dt)
-        },
-    );
+    let mut simulation = simulate(&problem, with(EULER_CRANK_NICOLSON, settings, dt));
     (0..4000).all(|_| simulation.step_once().is_ok()) && simulation.level().u[20].abs() < 1.0
 }
 
@@ -375,6 +285,16 @@ fn a_single_iteration_is_stable_for_twice_the_step_of_convergence() {
     }
 }
 
+/// A beam at rest under three times its stiffness.
+fn compressed(elements: usize, obstacles: Option<Obstacles>) -> Problem {
+    let beam = Beam {
+        beta: -3.0,
+        zeta: 0.1,
+        ..Beam::default()
+    };
+    launched(uniform(elements), beam, obstacles, [&|_| 0.0, &|_| 0.0])
+}
+
 /// (4.2) has one solution up to dt = 2ζ/(-1 - β) on every mesh, and that is sharp: beyond, only on
 /// coarse ones.
 #[test]
@@ -385,26 +305,12 @@ fn the_fixed_point_runs_up_to_the_limit_of_its_problems() {
         (400, 0.101, false),
         (10, 0.101, true),
     ] {
-        let mesh = uniform(elements);
-        let initial = InitialValues::at_rest(&mesh, 0.0);
-        let problem = Problem {
-            beam: Beam {
-                beta: -3.0,
-                zeta: 0.1,
-                ..Beam::default()
-            },
-            obstacles: Some(Obstacles::default()),
-            mesh,
-            initial,
-        };
+        let problem = compressed(elements, Some(Obstacles::default()));
         let step = by_fixed_point(&problem, EULER_CRANK_NICOLSON, dt, 1e-10).step_once();
-        match step {
-            Ok(_) => assert!(runs, "{elements} elements, dt = {dt}"),
-            Err(error) => {
-                assert!(!runs, "{elements} elements, dt = {dt}: {error}");
-                let words = "dt <= 1.000 zeta is enough for this axial force";
-                assert!(error.to_string().ends_with(words), "{error}");
-            }
+        assert_eq!(step.is_ok(), runs, "{elements} elements, dt = {dt}");
+        if let Err(error) = step {
+            let words = "dt <= 1.000 zeta is enough for this axial force";
+            assert!(error.to_string().ends_with(words), "{error}");
         }
     }
 }
@@ -412,20 +318,8 @@ fn the_fixed_point_runs_up_to_the_limit_of_its_problems() {
 /// The coupled step is definite up to dt = 2ζB/(-B - m), which the message of a refusal names.
 #[test]
 fn a_refused_coupled_step_names_the_step_that_is_enough() {
-    let mesh = uniform(20);
-    let initial = InitialValues::at_rest(&mesh, 0.0);
-    let problem = Problem {
-        beam: Beam {
-            beta: -3.0,
-            zeta: 0.1,
-            ..Beam::default()
-        },
-        obstacles: None,
-        mesh,
-        initial,
-    };
     let message = |dt: f64| {
-        let step = simulate(&problem, stepping(dt)).step_once();
+        let step = simulate(&compressed(20, None), stepping(dt)).step_once();
         step.err().map(|error| error.to_string())
     };
     // 2 B/(3 - B) = 0.6219.

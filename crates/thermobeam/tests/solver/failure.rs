@@ -1,7 +1,7 @@
 //! A failed step returns an error with step and time and leaves the simulation at its level;
 //! invalid input is rejected.
 
-use super::scenes::{paper, simulate, stepping, uniform};
+use crate::scenes::{by, paper, relative_difference, simulate, stepping, uniform};
 use thermobeam::error::{SetupError, StepError, StepFailure, StepMatrix};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
@@ -12,17 +12,11 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 
 fn all_steppings() -> impl Iterator<Item = Stepping> {
     SCHEMES.into_iter().flat_map(|scheme| {
-        Solver::ALL.map(|solver| {
-            let settings = Settings {
-                solver,
-                ..Settings::default()
-            };
-            Stepping {
-                scheme,
-                settings,
-                loaded: true,
-                ..stepping(1e-3)
-            }
+        Solver::ALL.map(|solver| Stepping {
+            scheme,
+            settings: by(solver),
+            loaded: true,
+            ..stepping(1e-3)
         })
     })
 }
@@ -38,25 +32,24 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                     if (component, node) == (2, 10) {
                         continue;
                     }
-                    let mut simulation = simulate(&paper(uniform(10), (-0.5, 20.0)), stepping);
-                    let mut undisturbed = simulate(&paper(uniform(10), (-0.5, 20.0)), stepping);
-                    for _ in 0..3 {
+                    let [mut simulation, mut undisturbed] =
+                        [(); 2].map(|()| simulate(&paper(uniform(10), (-0.5, 20.0)), stepping));
+                    let step = |simulation: &mut OneStep| {
                         simulation.load_mut().unwrap().fill([0.1; 3]);
-                        undisturbed.load_mut().unwrap().fill([0.1; 3]);
                         simulation.step_once().unwrap();
-                        undisturbed.step_once().unwrap();
-                    }
+                    };
+                    (0..3).for_each(|_| step(&mut simulation));
+                    (0..4).for_each(|_| step(&mut undisturbed));
                     let before = simulation.level();
                     simulation.load_mut().unwrap()[node][component] = bad;
                     for _ in 0..2 {
-                        let error = simulation.step_once().unwrap_err();
                         let StepError {
                             step,
                             t,
                             dt,
                             failure,
                             ..
-                        } = error;
+                        } = simulation.step_once().unwrap_err();
                         assert_eq!((step, t, dt), (4, 3.0 * stepping.dt, stepping.dt));
                         assert!(
                             matches!(failure, StepFailure::NonFinite { .. }),
@@ -69,14 +62,8 @@ fn a_load_that_is_not_finite_is_reported_and_the_step_can_be_done_again() {
                             "{stepping:?} {bad} {component} {node}"
                         );
                     }
-                    simulation.load_mut().unwrap().fill([0.1; 3]);
-                    undisturbed.load_mut().unwrap().fill([0.1; 3]);
-                    simulation.step_once().unwrap();
-                    undisturbed.step_once().unwrap();
-                    let difference = super::scenes::relative_difference(
-                        &simulation.level(),
-                        &undisturbed.level(),
-                    );
+                    step(&mut simulation);
+                    let difference = relative_difference(&simulation.level(), &undisturbed.level());
                     assert!(difference <= 1e-9, "{stepping:?}: {difference:e}");
                 }
             }
@@ -212,35 +199,32 @@ fn initial_data_that_violate_a_boundary_condition_are_rejected() {
         ("theta", |i| &mut i.theta, 0, 20.0),
         ("theta", |i| &mut i.theta, 4, 0.0),
     ];
-    for (name, of, node, boundary) in fields {
-        let x = node as f64 / 4.0;
-        let error = rejection(|problem, _| of(&mut problem.initial)[node] = boundary + 1e-9);
+    for (field, of, node, boundary) in fields {
+        let with = |value: f64| rejection(|problem, _| of(&mut problem.initial)[node] = value);
         assert_eq!(
-            error,
-            SetupError::Boundary {
-                field: name,
-                x,
-                found: boundary + 1e-9,
-                allowed: boundary
-            }
-        );
-        let error = rejection(|problem, _| of(&mut problem.initial)[node] = f64::INFINITY);
-        assert_eq!(
-            error,
-            SetupError::NotFinite {
-                field: name,
-                node,
-                found: f64::INFINITY
-            }
-        );
-        let error = rejection(|problem, _| of(&mut problem.initial).push(0.0));
-        assert_eq!(
-            error,
-            SetupError::Length {
-                field: name,
-                found: 6,
-                expected: 5
-            }
+            [
+                with(boundary + 1e-9),
+                with(f64::INFINITY),
+                rejection(|problem, _| of(&mut problem.initial).push(0.0)),
+            ],
+            [
+                SetupError::Boundary {
+                    field,
+                    x: node as f64 / 4.0,
+                    found: boundary + 1e-9,
+                    allowed: boundary,
+                },
+                SetupError::NotFinite {
+                    field,
+                    node,
+                    found: f64::INFINITY,
+                },
+                SetupError::Length {
+                    field,
+                    found: 6,
+                    expected: 5,
+                },
+            ]
         );
     }
     let error = rejection(|problem, _| problem.initial.phi[2] = f64::NAN);
@@ -249,9 +233,17 @@ fn initial_data_that_violate_a_boundary_condition_are_rejected() {
     );
 }
 
+/// The name of the parameter that is rejected.
+#[track_caller]
+fn rejected(change: impl FnOnce(&mut Problem, &mut Stepping)) -> &'static str {
+    match rejection(change) {
+        SetupError::Parameter(parameter) => parameter.name,
+        other => panic!("{other}"),
+    }
+}
+
 #[test]
-fn invalid_settings_are_rejected() {
-    let is_named = |error: &SetupError, name| matches!(error, SetupError::Parameter(parameter) if parameter.name == name);
+fn invalid_settings_are_rejected_by_name() {
     for dt in [0.0, -1.0, f64::INFINITY] {
         let expected = ParameterError {
             name: "dt",
@@ -263,29 +255,26 @@ fn invalid_settings_are_rejected() {
             SetupError::Parameter(expected)
         );
     }
-    assert!(is_named(
-        &rejection(|_, stepping| stepping.dt = f64::NAN),
-        "dt"
-    ));
-    for tolerance in [0.0, -1e-10, f64::NAN, f64::INFINITY] {
-        let error =
-            rejection(|_, stepping| stepping.settings.stopping = Stopping::below(tolerance));
-        assert!(is_named(&error, "tolerance"), "{error}");
-    }
-    let error =
-        rejection(|_, stepping| stepping.settings.stopping = Stopping::default().with_limit(0));
-    assert!(is_named(&error, "max_iterations"), "{error}");
+    assert_eq!(rejected(|_, stepping| stepping.dt = f64::NAN), "dt");
     // Newton's method cannot stop without a test, and the fixed point needs one iteration.
-    for (solver, iterations) in [(Solver::Newton, 2), (Solver::FixedPoint, 0)] {
-        let stopping = Stopping::Iterations(iterations);
-        let error = rejection(|_, stepping| {
-            stepping.settings = Settings {
-                solver,
-                stopping,
-                ..Settings::default()
-            }
-        });
-        assert!(is_named(&error, "iterations"), "{error}");
+    for (solver, stopping, name) in [
+        (Solver::Newton, Stopping::below(0.0), "tolerance"),
+        (Solver::Newton, Stopping::below(-1e-10), "tolerance"),
+        (Solver::Newton, Stopping::below(f64::NAN), "tolerance"),
+        (Solver::Newton, Stopping::below(f64::INFINITY), "tolerance"),
+        (
+            Solver::Newton,
+            Stopping::default().with_limit(0),
+            "max_iterations",
+        ),
+        (Solver::Newton, Stopping::Iterations(2), "iterations"),
+        (Solver::FixedPoint, Stopping::Iterations(0), "iterations"),
+    ] {
+        let settings = Settings {
+            stopping,
+            ..by(solver)
+        };
+        assert_eq!(rejected(|_, stepping| stepping.settings = settings), name);
     }
 }
 
@@ -304,12 +293,10 @@ fn coefficients_out_of_range_are_rejected_by_name() {
         ("g2", |_, obstacles| obstacles.g2 = -1e-9),
     ];
     for (name, change) in changes {
-        let error =
-            rejection(|problem, _| change(&mut problem.beam, problem.obstacles.as_mut().unwrap()));
-        assert!(
-            matches!(&error, SetupError::Parameter(parameter) if parameter.name == name),
-            "{error}"
-        );
+        let changed = |problem: &mut Problem, _: &mut Stepping| {
+            change(&mut problem.beam, problem.obstacles.as_mut().unwrap());
+        };
+        assert_eq!(rejected(changed), name);
     }
 }
 

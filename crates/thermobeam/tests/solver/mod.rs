@@ -1,19 +1,10 @@
-//! Tests of the solver against exact solutions, dense matrices, an independent implementation, and
-//! conservation laws.
-
-mod scenes;
+//! Tests of the solver against dense matrices, an independent implementation, and conservation laws.
 
 mod agreement;
 mod balance;
 mod bounds;
 mod contraction;
-mod dense;
-mod dense_iteration;
-mod dense_step;
 mod failure;
-mod linear;
-mod linear_exact;
-mod nonlinear_exact;
 mod reference;
 mod robustness;
 mod temperature;

@@ -1,32 +1,23 @@
 //! Newton's method converges on the paper's data for all compliances, time steps and Kirchhoff
 //! coefficients.
 
-use super::scenes::{graded, paper, simulate, stepping, uniform};
+use crate::scenes::{after, from, graded, paper, simulate, soft, stepping, uniform, with};
 use thermobeam::error::StepFailure;
 use thermobeam::mesh::Mesh;
 use thermobeam::norms::max_or_nan;
 use thermobeam::one_step::{Problem, Stepping};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::SCHEMES;
+use thermobeam::parameters::Obstacles;
+use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};
 use thermobeam::solve::{Level, Settings, Start};
 
 const BETAS: [f64; 4] = [-0.8, -0.5, 0.0, 5.0];
 
 /// The paper's data with other ρ and ε.
 fn scene(mesh: Mesh, experiment: (f64, f64), rho: f64, epsilon: f64) -> Problem {
-    let problem = paper(mesh, experiment);
-    let obstacles = Some(Obstacles {
-        epsilon,
-        ..Obstacles::default()
-    });
-    Problem {
-        beam: Beam {
-            rho,
-            ..problem.beam
-        },
-        obstacles,
-        ..problem
-    }
+    let mut problem = paper(mesh, experiment);
+    problem.beam.rho = rho;
+    problem.obstacles = Some(soft(epsilon));
+    problem
 }
 
 /// Does 50 steps; returns the largest number of iterations, and the largest residual of the balance
@@ -63,17 +54,8 @@ fn newton_converges_for_every_compliance_step_force_and_stiffness() {
                         for theta_a in [0.0, 20.0] {
                             let (epsilon, dt) = (10f64.powi(log_epsilon), 10f64.powi(log_dt));
                             let problem = scene(mesh.clone(), (beta, theta_a), rho, epsilon);
-                            let settings = Settings {
-                                start: Start::Previous,
-                                ..Settings::default()
-                            };
-                            let (iterations, balance) = run(
-                                &problem,
-                                Stepping {
-                                    settings,
-                                    ..stepping(dt)
-                                },
-                            );
+                            let rough = with(EULER_CRANK_NICOLSON, from(Start::Previous), dt);
+                            let (iterations, balance) = run(&problem, rough);
                             most = most.max(iterations);
                             worst = max_or_nan(worst, balance);
                         }
@@ -97,13 +79,8 @@ fn both_schemes_converge_from_the_extrapolated_start() {
                 for epsilon in [1e-8, 1e-3] {
                     for log_dt in -5..=0 {
                         let problem = scene(graded(30), (beta, 20.0), rho, epsilon);
-                        let (iterations, _) = run(
-                            &problem,
-                            Stepping {
-                                scheme,
-                                ..stepping(10f64.powi(log_dt))
-                            },
-                        );
+                        let dt = 10f64.powi(log_dt);
+                        let (iterations, _) = run(&problem, with(scheme, Settings::default(), dt));
                         assert!(
                             iterations <= 30,
                             "{} {beta} {rho} {epsilon:e}: {iterations}",
@@ -140,17 +117,8 @@ fn a_step_succeeds_despite_a_bad_prediction_of_the_axial_force() {
         for rho in [1.0, 100.0, 1e4] {
             let problem = scene(uniform(30), (-0.8, 0.0), rho, 1e-3);
             let outcome = |start| {
-                let settings = Settings {
-                    start,
-                    ..Settings::default()
-                };
-                let mut simulation = simulate(
-                    &problem,
-                    Stepping {
-                        settings,
-                        ..stepping(dt)
-                    },
-                );
+                let stepping = with(EULER_CRANK_NICOLSON, from(start), dt);
+                let mut simulation = simulate(&problem, stepping);
                 (0..100).map_while(|_| simulation.step_once().ok()).count()
             };
             let (rough, extrapolated) = (outcome(Start::Previous), outcome(Start::Extrapolated));
@@ -175,14 +143,7 @@ fn the_safeguarded_iteration_stops_when_the_bracket_reaches_round_off() {
                         g2: 1e-4,
                     });
                     problem.initial.u_t[1] = 2.0;
-                    let mut simulation = simulate(
-                        &problem,
-                        Stepping {
-                            scheme,
-                            ..stepping(dt)
-                        },
-                    );
-                    super::scenes::advance(&mut simulation, 100);
+                    after(&problem, with(scheme, Settings::default(), dt), 100);
                 }
             }
         }

@@ -1,30 +1,19 @@
 //! The solver omits the temperature if nothing heats the beam, and the result is the same.
 
-use super::scenes::{
-    EXPERIMENTS, advance, paper, relative_difference, schemes_and_meshes, simulate, stepping,
-    uniform,
+use crate::scenes::{
+    EXPERIMENTS, advance, after, below, by, paper, relative_difference, schemes_and_meshes,
+    simulate, stepping, uniform, with,
 };
 use thermobeam::motion::Motion;
-use thermobeam::one_step::{InitialValues, Problem, Stepping};
-use thermobeam::parameters::Beam;
-use thermobeam::solve::{Settings, Solver, Stopping};
+use thermobeam::one_step::{Problem, Stepping};
+use thermobeam::scheme::EULER_CRANK_NICOLSON;
+use thermobeam::solve::Solver;
 
 /// The paper's data without temperature.
-fn cold(problem: Problem) -> Problem {
-    let beam = Beam {
-        a: 0.0,
-        theta_a: 0.0,
-        ..problem.beam
-    };
-    let theta = vec![0.0; problem.initial.theta.len()];
-    Problem {
-        beam,
-        initial: InitialValues {
-            theta,
-            ..problem.initial
-        },
-        ..problem
-    }
+fn cold(mut problem: Problem) -> Problem {
+    (problem.beam.a, problem.beam.theta_a) = (0.0, 0.0);
+    problem.initial.theta.fill(0.0);
+    problem
 }
 
 #[test]
@@ -37,31 +26,20 @@ fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
                     problem.beam.rho = 0.0;
                     problem.obstacles = None;
                 }
-                let settings = Settings {
-                    stopping: Stopping::below(1e-13),
-                    ..Settings::default()
+                let stepping = with(scheme, below(1e-13), 1e-3);
+                assert!(!simulate(&problem, stepping).is_heated());
+                let without = after(&problem, stepping, 300);
+                let loaded = Stepping {
+                    loaded: true,
+                    ..stepping
                 };
-                let stepping = Stepping {
-                    scheme,
-                    settings,
-                    ..stepping(1e-3)
-                };
-                let mut without = simulate(&problem, stepping);
-                let mut with = simulate(
-                    &problem,
-                    Stepping {
-                        loaded: true,
-                        ..stepping
-                    },
-                );
-                assert!(!without.is_heated() && with.is_heated());
-                assert!(without.load_mut().is_none());
+                let mut with = simulate(&problem, loaded);
+                assert!(with.is_heated());
                 for _ in 0..300 {
                     with.load_mut().unwrap().fill([0.0; 3]);
-                    advance(&mut without, 1);
                     advance(&mut with, 1);
                 }
-                let (without, with) = (without.level(), with.level());
+                let with = with.level();
                 let difference = relative_difference(&without, &with);
                 assert!(
                     difference <= 1e-12,
@@ -77,30 +55,18 @@ fn an_unheated_beam_moves_the_same_with_and_without_the_temperature() {
 #[test]
 fn the_temperature_is_computed_when_anything_heats_the_beam() {
     let base = cold(paper(uniform(8), (0.0, 0.0)));
-    let coupled = Problem {
-        beam: Beam {
-            a: 0.017,
-            ..base.beam
-        },
-        ..base.clone()
-    };
-    assert!(simulate(&coupled, stepping(1e-3)).is_heated());
-    let mut warm = base.clone();
+    let [mut coupled, mut warm] = [base.clone(), base.clone()];
+    coupled.beam.a = 0.017;
     warm.initial.theta[3] = 1e-3;
-    assert!(simulate(&warm, stepping(1e-3)).is_heated());
-    let settings = Settings {
-        solver: Solver::FixedPoint,
-        ..Settings::default()
-    };
-    assert!(
-        simulate(
-            &base,
-            Stepping {
-                settings,
-                ..stepping(1e-3)
-            }
-        )
-        .is_heated()
-    );
-    assert!(!simulate(&base, stepping(1e-3)).is_heated());
+    let newton = stepping(1e-3);
+    let fixed_point = with(EULER_CRANK_NICOLSON, by(Solver::FixedPoint), 1e-3);
+    for (problem, stepping, is_heated) in [
+        (&coupled, newton, true),
+        (&warm, newton, true),
+        (&base, fixed_point, true),
+        (&base, newton, false),
+    ] {
+        assert_eq!(simulate(problem, stepping).is_heated(), is_heated);
+    }
+    assert!(simulate(&base, newton).load_mut().is_none());
 }

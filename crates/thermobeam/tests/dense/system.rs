@@ -3,7 +3,7 @@
 //! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in
 //! this order.
 
-use crate::p1_matrices::over_all_nodes;
+use super::p1::over_all_nodes;
 use nalgebra::{DMatrix, DVector};
 use thermobeam::one_step::Problem;
 use thermobeam::parameters::{Beam, Obstacles};

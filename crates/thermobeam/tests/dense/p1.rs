@@ -1,4 +1,4 @@
-//! Dense P1 matrices of the beam, written from the weak form (2.2) and independently of the solver.
+//! Dense P1 matrices, written from the weak form (2.2) and independently of the solver.
 
 use nalgebra::DMatrix;
 use thermobeam::mesh::Mesh;

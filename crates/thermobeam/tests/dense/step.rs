@@ -1,8 +1,8 @@
 //! Single steps of both solvers against a dense solution of (3.7)-(3.8), on random small systems.
 
-use super::dense::{Dense, State};
-use super::scenes::{relative_difference, simulate};
-use crate::drawn::at_least;
+use super::system::{Dense, State};
+use crate::drawn::{at_least, mesh};
+use crate::scenes::{relative_difference, simulate};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -14,7 +14,7 @@ use thermobeam::scheme::{ContactRule, SCHEMES, Scheme};
 use thermobeam::solve::{Settings, Solver, Stopping};
 
 const STEPS: usize = 3;
-const MAX_ELEMENTS: usize = 8;
+const MAX_ELEMENTS: usize = 5;
 
 /// Ranges of the coefficients.
 #[derive(Debug, Clone, Copy)]
@@ -59,18 +59,6 @@ fn integrate(slopes: &[f64], mesh: &Mesh) -> Vec<f64> {
 }
 
 prop_compose! {
-    /// A mesh with ratios of element lengths up to 1000.
-    fn mesh()(logs in vec(-3.0..0.0f64, 1..=MAX_ELEMENTS)) -> Mesh {
-        let parts: Vec<f64> = logs.iter().map(|log| 10f64.powf(*log)).collect();
-        let total: f64 = parts.iter().sum();
-        let mut sum = 0.0;
-        let mut nodes: Vec<f64> = std::iter::once(0.0).chain(parts.iter().map(|part| { sum += part / total; sum })).collect();
-        nodes[parts.len()] = 1.0;
-        Mesh::from_nodes(nodes).unwrap()
-    }
-}
-
-prop_compose! {
     fn beam(range: Range)(
         log_zeta in -3.0..0.0f64, a in -1.0..1.0f64, theta_a in -20.0..20.0f64, beta in range.beta.0..range.beta.1,
         rho in prop_oneof![1 => Just(0.0), 3 => (range.log_rho.0..range.log_rho.1).prop_map(|log: f64| 10f64.powf(log))],
@@ -98,7 +86,7 @@ const BETWEEN: Scheme = Scheme {
 
 prop_compose! {
     fn random(range: Range, solver: Solver)(
-        mesh in mesh(), mut beam in beam(range), obstacles in proptest::option::weighted(0.8, obstacles(range)),
+        mesh in mesh(MAX_ELEMENTS), mut beam in beam(range), obstacles in proptest::option::weighted(0.8, obstacles(range)),
         log_dt in range.log_dt.0..range.log_dt.1, row in 0..=SCHEMES.len(), loaded: bool, cold in proptest::bool::weighted(0.2),
         fields in vec(vec(-1.0..1.0f64, MAX_ELEMENTS), 5),
         loads in vec(vec(proptest::array::uniform3(-1.0..1.0f64), MAX_ELEMENTS + 1), STEPS),

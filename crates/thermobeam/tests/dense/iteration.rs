@@ -1,27 +1,27 @@
 //! The linearised fixed point from dense matrices of (4.2), and the solver's own linear map against
 //! it.
 
-use super::scenes::graded;
-use crate::p1_matrices::P1Matrices;
+use super::P1Matrices;
+use crate::scenes::{graded, launched, soft};
 use nalgebra::{DMatrix, DVector};
 use thermobeam::norms::max_or_nan;
-use thermobeam::one_step::{InitialValues, Problem};
+use thermobeam::one_step::Problem;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};
 
 /// The linearised iteration from dense matrices of (4.2), and three of its loops alone.
-pub(super) struct DenseIteration {
+pub(crate) struct DenseIteration {
     /// All four loops, over (δV, δW).
-    pub(super) all: DMatrix<f64>,
+    pub(crate) all: DMatrix<f64>,
     /// Over δW.
-    pub(super) heat: DMatrix<f64>,
+    pub(crate) heat: DMatrix<f64>,
     /// Over δV.
-    pub(super) contact: DMatrix<f64>,
+    pub(crate) contact: DMatrix<f64>,
     /// Over δV.
-    pub(super) axial: DMatrix<f64>,
+    pub(crate) axial: DMatrix<f64>,
 }
 
-pub(super) fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
+pub(crate) fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
     let values = matrix.complex_eigenvalues();
     values
         .iter()
@@ -31,7 +31,7 @@ pub(super) fn spectral_radius(matrix: &DMatrix<f64>) -> f64 {
 
 /// θ from W, then φ from θ and V, then u from φ, from its own contact force and from its own axial
 /// force; the problem's u is both the old and the new level.
-pub(super) fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DenseIteration {
+pub(crate) fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> DenseIteration {
     let P1Matrices {
         mass: m,
         stiffness: k,
@@ -90,25 +90,19 @@ pub(super) fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> De
 
 /// All loops at once, on a graded mesh: contact, rotation, heat and axial force.
 fn coupled(scheme: &Scheme) -> Problem {
-    let mesh = graded(10);
-    let mut initial = InitialValues::at_rest(&mesh, 0.0);
-    initial.u = mesh.nodes().iter().map(|x| 0.15 * x * x).collect();
     let beam = Beam {
         a: 3.0,
         rho: 500.0,
         beta: 0.3,
         ..Beam::default()
     };
-    let epsilon = 2e-3 / scheme.inertia;
-    Problem {
+    let obstacles = soft(2e-3 / scheme.inertia);
+    launched(
+        graded(10),
         beam,
-        obstacles: Some(Obstacles {
-            epsilon,
-            ..Obstacles::default()
-        }),
-        mesh,
-        initial,
-    }
+        Some(obstacles),
+        [&|x| 0.15 * x * x, &|_| 0.0],
+    )
 }
 
 #[test]

@@ -16,6 +16,7 @@
 
 use std::f64::consts::PI;
 
+use convergence_judge::judge::random::SplitMix;
 use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -28,25 +29,32 @@ const CASES: u64 = 200;
 /// Agreement, relative to the largest load of an equation.
 const AGREEMENT: f64 = 1e-10;
 
-/// SplitMix64.
-pub(crate) struct Random(pub(crate) u64);
+/// A beam that is not heated, and obstacles whose compliance has this logarithm at least.
+pub(crate) fn beam(random: &mut SplitMix, log_epsilon: f64) -> (Beam, Obstacles) {
+    let beam = Beam {
+        zeta: random.within([0.0, 1.0]),
+        a: random.within([-1.0, 1.0]),
+        rho: random.within([0.0, 3.0]),
+        beta: random.within([-1.0, 3.0]),
+        theta_a: 0.0,
+    };
+    let obstacles = Obstacles {
+        epsilon: 10f64.powf(random.within([log_epsilon, 0.0])),
+        g1: random.within([-0.4, 0.0]),
+        g2: random.within([0.0, 0.4]),
+    };
+    (beam, obstacles)
+}
 
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+/// Nodes of so many elements, whose lengths differ by factors up to 3.
+pub(crate) fn nodes(random: &mut SplitMix, elements: usize) -> Vec<f64> {
+    let mut nodes = vec![0.0];
+    for _ in 0..elements {
+        nodes.push(nodes[nodes.len() - 1] + random.within([0.5, 1.5]));
     }
-
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub(crate) fn count(&mut self, low: usize, high: usize) -> usize {
-        low + self.next() as usize % (high - low + 1)
-    }
+    let end = nodes[nodes.len() - 1];
+    nodes.iter_mut().for_each(|x| *x /= end);
+    nodes
 }
 
 /// `(c0 + c1 s + c2 s² + c3 s³) sin(k s + d) exp(m s)`.
@@ -57,12 +65,12 @@ struct Function {
 }
 
 impl Function {
-    fn random(random: &mut Random, polynomial: [f64; 4]) -> Self {
-        let wave = [random.between(0.5, 7.0), random.between(0.0, 2.0 * PI)];
+    fn random(random: &mut SplitMix, polynomial: [f64; 4]) -> Self {
+        let wave = [random.within([0.5, 7.0]), random.within([0.0, 2.0 * PI])];
         Self {
             polynomial,
             wave,
-            growth: random.between(-1.5, 1.5),
+            growth: random.within([-1.5, 1.5]),
         }
     }
 
@@ -109,14 +117,14 @@ struct Term {
 
 impl Term {
     /// A product that meets the boundary conditions: zero at x = 0 for u and φ, at x = 1 for θ.
-    fn random(random: &mut Random, is_heat: bool, t: f64) -> Self {
-        let [b0, b1, b2] = [(); 3].map(|()| random.between(-1.0, 1.0));
+    fn random(random: &mut SplitMix, is_heat: bool, t: f64) -> Self {
+        let [b0, b1, b2] = [(); 3].map(|()| random.within([-1.0, 1.0]));
         let polynomial = if is_heat {
             [b0, b1 - b0, b2 - b1, -b2]
         } else {
             [0.0, b0, b1, b2]
         };
-        let of_time = [(); 4].map(|()| random.between(-1.0, 1.0));
+        let of_time = [(); 4].map(|()| random.within([-1.0, 1.0]));
         let [x, of_time] =
             [polynomial, of_time].map(|polynomial| Function::random(random, polynomial));
         Self {
@@ -139,29 +147,13 @@ struct Case {
 
 impl Case {
     fn random(seed: u64) -> Self {
-        let random = &mut Random(seed);
-        let beam = Beam {
-            zeta: random.between(0.0, 1.0),
-            a: random.between(-1.0, 1.0),
-            rho: random.between(0.0, 3.0),
-            beta: random.between(-1.0, 3.0),
-            theta_a: 0.0,
-        };
-        let epsilon = 10f64.powf(random.between(-3.0, 0.0));
-        let obstacles = Obstacles {
-            epsilon,
-            g1: random.between(-0.4, 0.0),
-            g2: random.between(0.0, 0.4),
-        };
-        let mut nodes = vec![0.0];
-        for _ in 0..random.count(32, 48) {
-            nodes.push(nodes[nodes.len() - 1] + random.between(0.5, 1.5));
-        }
-        let end = nodes[nodes.len() - 1];
-        nodes.iter_mut().for_each(|x| *x /= end);
-        let t = random.between(0.0, 1.0);
+        let random = &mut SplitMix::new(seed);
+        let (beam, obstacles) = beam(random, -3.0);
+        let elements = 32 + random.below(17);
+        let nodes = nodes(random, elements);
+        let t = random.within([0.0, 1.0]);
         let fields = [false, false, true].map(|is_heat| {
-            let count = random.count(1, 2);
+            let count = 1 + random.below(2);
             (0..count)
                 .map(|_| Term::random(random, is_heat, t))
                 .collect()
@@ -362,7 +354,6 @@ fn compare(
     assert_eq!(compared, count, "{what}: every basis function is compared");
 }
 
-/// The space of the solver of any order.
 /// The space that a simulation has.
 pub(crate) fn space(mesh: Mesh, degree: usize) -> Space {
     let problem = DgProblem {

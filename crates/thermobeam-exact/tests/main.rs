@@ -6,6 +6,7 @@ mod drawn;
 mod equilibrium;
 mod errors;
 mod expression;
+mod fixtures;
 mod loads;
 mod p1_matrices;
 mod second_derivation;

@@ -1,23 +1,11 @@
 //! Exact modes against the equations, and frequencies against a dense eigenvalue problem.
 
-use thermobeam::mesh::Mesh;
 use thermobeam_exact::vibration::{
     Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies,
 };
 
+use crate::fixtures::{close, integral, uniform};
 use crate::p1_matrices::P1Matrices;
-
-#[track_caller]
-fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{found} is not {expected} to {tolerance:e}"
-    );
-}
-
-fn uniform(elements: usize) -> Mesh {
-    Mesh::uniform(elements).expect("a uniform mesh")
-}
 
 /// All ω of the pencil (K, M) on n elements, by Cholesky of M and dense eigenvalues.
 fn dense_frequencies(elements: usize) -> Vec<f64> {
@@ -43,30 +31,10 @@ fn dense_frequencies(elements: usize) -> Vec<f64> {
     all
 }
 
-/// ∫₀¹ f by Simpson's rule.
-fn integral(f: impl Fn(f64) -> f64) -> f64 {
-    let n = 4000;
-    let weight = |i: i32| {
-        if i == 0 || i == n {
-            1.0
-        } else {
-            f64::from(2 + 2 * (i % 2))
-        }
-    };
-    (0..=n)
-        .map(|i| weight(i) * f(f64::from(i) / f64::from(n)))
-        .sum::<f64>()
-        / (3.0 * f64::from(n))
-}
-
-#[test]
-fn the_lowest_frequency_is_the_reference() {
-    close(frequencies(1)[0], 1.27396492100, 5.1e-12);
-}
-
 #[test]
 fn frequencies_are_the_zeros_of_the_determinant() {
     let all = frequencies(60);
+    close(all[0], 1.27396492100, 5.1e-12);
     for (i, &omega) in all.iter().enumerate() {
         let (plus, minus) = (
             (omega * omega - omega).sqrt(),
@@ -77,54 +45,12 @@ fn frequencies_are_the_zeros_of_the_determinant() {
         close(determinant, 0.0, 4e-15 * (1.0 + omega));
         assert!(i == 0 || omega > all[i - 1]);
     }
-    // High frequencies come in pairs near (n - 1/2)π, but not symmetrically about it.
+    // High frequencies come in pairs near (n - 1/2)π, but not symmetrically about it: none is
+    // missed.
     let middle = 29.5 * std::f64::consts::PI;
     let split = 0.5 * 0.5_f64.cos();
     close(all[58], middle + (0.125 - split) / middle, 1e-5);
     close(all[59], middle + (0.125 + split) / middle, 1e-5);
-}
-
-#[test]
-fn no_frequency_is_missed() {
-    // P1 frequencies are larger than the exact ones by about ω³h²/24, which identifies each by its
-    // index.
-    let elements = 128;
-    let dense = dense_frequencies(elements);
-    for (i, omega) in frequencies(24).into_iter().enumerate() {
-        let error = dense[i] - omega;
-        let expected = omega.powi(3) / (24.0 * (elements * elements) as f64);
-        assert!(
-            error > 0.0 && error < 1.5 * expected + 1e-4,
-            "{i}: {omega} {} {expected:e}",
-            dense[i]
-        );
-    }
-}
-
-#[test]
-fn the_determinant_is_positive_below_the_first_bracket() {
-    // From ω = 0 to s = 1, ω = (√3 + 1/√3)/2, in steps small against the scale of the function.
-    let end = 2.0 / 3.0_f64.sqrt();
-    for i in 0..=20_000 {
-        let omega = end * f64::from(i) / 20_000.0;
-        let (plus, minus) = (omega * omega - omega, (omega * omega + omega).sqrt());
-        let root = plus.abs().sqrt();
-        let (c, s) = if plus < 0.0 {
-            (root.cosh(), root.sinh())
-        } else {
-            (root.cos(), root.sin())
-        };
-        let sine = if root == 0.0 { 1.0 } else { s / root };
-        let lower = if minus == 0.0 {
-            1.0
-        } else {
-            minus.sin() / minus
-        };
-        assert!(
-            1.0 + c * minus.cos() - omega * omega * sine * lower > 0.09,
-            "{omega}"
-        );
-    }
 }
 
 #[test]
@@ -155,25 +81,6 @@ fn modes_solve_the_equations_and_the_boundary_conditions() {
         at_ends
             .iter()
             .for_each(|value| close(*value, 0.0, 1e-14 * size));
-    }
-}
-
-#[test]
-fn modes_are_orthogonal_and_their_rayleigh_quotient_is_the_frequency() {
-    let modes: Vec<_> = (0..8).map(Mode::new).collect();
-    for (i, a) in modes.iter().enumerate() {
-        for (j, b) in modes.iter().enumerate() {
-            let mass = integral(|x| a.u(x) * b.u(x) + a.phi(x) * b.phi(x));
-            let energy = integral(|x| {
-                (a.u_x(x) - a.phi(x)) * (b.u_x(x) - b.phi(x)) + a.phi_x(x) * b.phi_x(x)
-            });
-            if i == j {
-                close(energy / mass, a.omega().powi(2), 1e-10 * a.omega().powi(2));
-            } else {
-                close(mass, 0.0, 1e-11);
-                close(energy, 0.0, 1e-9);
-            }
-        }
     }
 }
 
@@ -282,33 +189,6 @@ fn a_single_element_of_high_degree_has_the_frequencies_of_the_beam() {
             .iter()
             .zip(&exact)
             .for_each(|(found, exact)| close(*found, *exact, tolerance));
-    }
-}
-
-#[test]
-fn the_first_eight_discrete_frequencies_converge_at_second_order_from_above() {
-    let exact = frequencies(8);
-    let meshes: [&dyn Fn(usize) -> Mesh; 2] = [&uniform, &|n| {
-        Mesh::mapped(n, |s| s + 0.1 * (2.0 * std::f64::consts::PI * s).sin())
-            .expect("a graded mesh")
-    }];
-    for mesh in meshes {
-        let errors = |n: usize| -> Vec<f64> {
-            let found = discrete_frequencies(&mesh(n), 1, 8).expect("eight of them");
-            found
-                .iter()
-                .zip(&exact)
-                .map(|(found, exact)| found - exact)
-                .collect()
-        };
-        for (coarse, fine) in errors(256).iter().zip(errors(512)) {
-            assert!(fine > 0.0);
-            let rate = (coarse / fine).log2();
-            assert!(
-                (1.99..2.01).contains(&rate),
-                "rate {rate}, errors {coarse:e} {fine:e}"
-            );
-        }
     }
 }
 

@@ -1,8 +1,10 @@
 //! Buckling, folds and limit cases.
 
-use super::{close, loaded, obstacles, states};
+use super::roots::bent;
+use super::{loaded, obstacles, states};
+use crate::fixtures::close;
 use std::f64::consts::PI;
-use thermobeam::parameters::Obstacles;
+use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_exact::equilibrium::{
     BUCKLING_VALUES, Completeness, EquilibriumError, Phase, completeness, equilibria,
 };
@@ -78,15 +80,17 @@ fn a_small_load_moves_buckled_states_linearly() {
     for moment in [1e-6, -1e-8, 1e-10, -1e-12] {
         close(sum(moment), slope, 1e-5 + 4e-16 / moment.abs());
     }
-    // For loads below round-off of the amplitude the pair is that of the unloaded beam.
-    let unloaded = states(&loaded(-0.9, 1.0, 0.0), None);
-    for moment in [1e-15, 1e-17, -1e-30, 1e-200] {
-        let found = states(&loaded(-0.9, 1.0, moment), None);
-        assert_eq!(found.len(), 3, "moment {moment:e}");
-        found
-            .iter()
-            .zip(&unloaded)
-            .for_each(|(state, limit)| close(state.u_tip, limit.u_tip, 1e-14));
+    // For loads below round-off of the amplitude each pair is that of the unloaded beam.
+    for beta in [-0.9, -0.99] {
+        let unloaded = states(&loaded(beta, 1.0, 0.0), None);
+        assert_eq!(unloaded.len(), if beta == -0.9 { 3 } else { 7 });
+        for moment in [1e-15, 1e-17, -1e-30, 1e-200] {
+            let found = states(&loaded(beta, 1.0, moment), None);
+            assert_eq!(found.len(), unloaded.len(), "moment {moment:e}");
+            for (state, limit) in found.iter().zip(&unloaded) {
+                close(state.u_tip, limit.u_tip, 1e-14);
+            }
+        }
     }
 }
 
@@ -223,79 +227,34 @@ fn undecidable_equilibria_are_errors() {
     );
 }
 
-/// f, u(1) and the contact force of the law at k, for the root function f(N) = N - β - ρ‖u'‖² with
-/// 1 + N = 1/(1 + k²), by Simpson's rule.
-///
-/// φ'' + k² φ + d = 0, φ(0) = φ'(1) = 0, u' = q (φ + c), q = 1 + k², d = aθ_A + cq: linear in c,
-/// which the support determines.
-fn root_function(beam: [f64; 3], support: Option<[f64; 2]>, k: f64) -> [f64; 3] {
-    let [beta, rho, moment] = beam;
-    let q = 1.0 + k * k;
-    let slope = |x: f64, c: f64| {
-        let phi = (moment + c * q) / (k * k) * ((k * (1.0 - x)).cos() / k.cos() - 1.0);
-        q * (phi + c)
-    };
-    let simpson = |f: &dyn Fn(f64) -> f64| {
-        let n = 40 * (k as usize + 1);
-        let weight = |i: usize| {
-            if i == 0 || i == n {
-                1.0
-            } else {
-                2.0 + 2.0 * (i % 2) as f64
-            }
-        };
-        (0..=n)
-            .map(|i| weight(i) * f(i as f64 / n as f64))
-            .sum::<f64>()
-            / (3.0 * n as f64)
-    };
-    let tip = |c: f64| simpson(&|x| slope(x, c));
-    // u(1) + ε c = g.
-    let c = support.map_or(0.0, |[epsilon, g]| {
-        (g - tip(0.0)) / (tip(1.0) - tip(0.0) + epsilon)
-    });
-    [
-        1.0 / q - (1.0 + beta) - rho * simpson(&|x| slope(x, c).powi(2)),
-        tip(c),
-        -c,
-    ]
-}
-
 /// Whether the law has a state between buckling values: a root of f that the obstacles admit, or a
 /// maximum of f above 0.
 fn has_state_beyond_the_list(
-    beam: [f64; 3],
+    beam: &Beam,
     gap: Option<Obstacles>,
     waves: std::ops::Range<usize>,
 ) -> bool {
     let supports = gap.map_or(vec![None], |o| {
         vec![None, Some([o.epsilon, o.g1]), Some([o.epsilon, o.g2])]
     });
+    let places =
+        waves.flat_map(|wave| (1..40).map(move |i| wave as f64 - 0.5 + f64::from(i) / 40.0));
+    let places: Vec<f64> = places.map(|k| 1.0 / (1.0 + (k * PI).powi(2))).collect();
     supports.into_iter().any(|support| {
-        let is_state = |k: f64| {
-            let [f, tip, force] = root_function(beam, support, k);
+        places.iter().any(|&s| {
+            let bent = bent(beam, support, s);
             let admitted = match support {
-                None => gap.is_none_or(|o| (o.g1..=o.g2).contains(&tip)),
-                Some([_, g]) => force * (g - 1e-9) > 0.0,
+                None => gap.is_none_or(|o| (o.g1..=o.g2).contains(&bent.u_tip)),
+                Some([_, g]) => -bent.stress * (g - 1e-9) > 0.0,
             };
-            f >= 0.0 && admitted
-        };
-        let points = waves
-            .clone()
-            .flat_map(|wave| (1..40).map(move |i| (wave as f64 - 0.5 + i as f64 / 40.0) * PI));
-        points.into_iter().any(is_state)
+            s - 1.0 - beam.beta - beam.rho * bent.slope_squared >= 0.0 && admitted
+        })
     })
 }
 
 #[test]
 fn a_list_is_complete_where_no_beam_has_another_state() {
-    let hard = |g1, g2| {
-        Some(Obstacles {
-            epsilon: 1e-3,
-            g1,
-            g2,
-        })
-    };
+    let hard = |g1, g2| obstacles(1e-3, g1, g2);
     let narrow = hard(-0.1, 0.1);
     for (beam, gap, expected) in [
         ([-0.999, 1.0, 0.0], None, Completeness::Complete),
@@ -315,14 +274,16 @@ fn a_list_is_complete_where_no_beam_has_another_state() {
         ([-1.4, 3.0, 0.3], hard(-0.2, 0.5), Completeness::Complete),
     ] {
         let [beta, rho, moment] = beam;
-        let found = completeness(&loaded(beta, rho, moment), gap.as_ref());
-        assert_eq!(found, expected, "{beam:?} {gap:?}");
-        // The formula of the textbook agrees, on intervals that are not searched. (Roots without a
-        // load are the N_k.)
+        let beam = loaded(beta, rho, moment);
+        assert_eq!(
+            completeness(&beam, gap.as_ref()),
+            expected,
+            "{beam:?} {gap:?}"
+        );
+        // So it is on intervals that are not searched. (Roots without a load are the N_k.)
         if rho > 0.0 && moment != 0.0 && expected != Completeness::Unknown {
-            let found = has_state_beyond_the_list(beam, gap, 18..24);
             assert_eq!(
-                found,
+                has_state_beyond_the_list(&beam, gap, 18..24),
                 expected == Completeness::Infinite,
                 "{beam:?} {gap:?}"
             );

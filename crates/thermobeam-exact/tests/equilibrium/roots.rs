@@ -1,7 +1,8 @@
-//! Proved states of beams drawn by a seed, against the roots that a scan and bisection find. The
-//! scan shares no code with the solutions or with the proof.
+//! Listed and proved states of beams drawn by a seed, against the roots that a scan and bisection
+//! find. The scan shares no code with the solutions or with the proof.
 
-use super::loaded;
+use super::{loaded, obstacles, states};
+use convergence_judge::judge::random::SplitMix;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_exact::equilibrium::{Phase, ProvedState, prove};
 
@@ -15,47 +16,32 @@ const ROUND_OFF: f64 = 1e-9;
 /// `1 + N` above the last buckling value of the list: k < (17 - 1/2)π.
 const LAST_K: f64 = 16.5 * std::f64::consts::PI;
 
-/// Drawn numbers: a multiplicative generator of Knuth's, its upper bits.
-struct Dice(u64);
-
-impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / 2.0_f64.powi(53))
-    }
-
-    fn power(&mut self, low: f64, high: f64) -> f64 {
-        10.0_f64.powf(self.between(low, high))
-    }
-
-    /// A loaded beam; every third stands free. The last six are pushed below N = -1, and every second
-    /// of the others beyond buckling.
-    fn beam(&mut self, place: usize) -> (Beam, Option<Obstacles>) {
-        let beta = match place {
-            _ if place >= BEAMS - 6 => self.between(-5.0, -1.05),
-            _ if place.is_multiple_of(2) => self.between(-0.99, -0.75),
-            _ => self.between(-0.75, 1.0),
-        };
-        let sign = self.between(-1.0, 1.0).signum();
-        let beam = loaded(beta, self.power(-1.0, 1.3), sign * self.power(-2.0, 0.0));
-        let obstacles = Obstacles {
-            epsilon: self.power(-3.0, 0.5),
-            g1: self.between(-0.5, -0.01),
-            g2: self.between(0.01, 0.5),
-        };
-        (beam, (!place.is_multiple_of(3)).then_some(obstacles))
-    }
+/// A loaded beam; every third stands free. The last six are pushed below N = -1, and every second
+/// of the others beyond buckling.
+fn drawn(random: &mut SplitMix, place: usize) -> (Beam, Option<Obstacles>) {
+    let mut between = |low: f64, high: f64| random.within([low, high]);
+    let beta = match place {
+        _ if place >= BEAMS - 6 => between(-5.0, -1.05),
+        _ if place.is_multiple_of(2) => between(-0.99, -0.75),
+        _ => between(-0.75, 1.0),
+    };
+    let sign = between(-1.0, 1.0).signum();
+    let [rho, moment] = [[-1.0, 1.3], [-2.0, 0.0]].map(|[a, b]| 10.0_f64.powf(between(a, b)));
+    let walls = obstacles(
+        10.0_f64.powf(between(-3.0, 0.5)),
+        between(-0.5, -0.01),
+        between(0.01, 0.5),
+    );
+    let beam = loaded(beta, rho, sign * moment);
+    (beam, walls.filter(|_| !place.is_multiple_of(3)))
 }
 
 /// The beam at `s = 1 + N` with the stress c: `φ = (aθ_A + cq) ψ` and `u' = q (φ + c)`, with
 /// `ψ'' = (1 - q) ψ - 1`, ψ = 0 at the clamped end and ψ' = 0 at the tip.
-struct Bent {
-    slope_squared: f64,
-    u_tip: f64,
-    stress: f64,
+pub(super) struct Bent {
+    pub(super) slope_squared: f64,
+    pub(super) u_tip: f64,
+    pub(super) stress: f64,
 }
 
 /// ∫ψ and ∫ψ², by `ψ = (cos ky/cos k - 1)/k²` with `k² = q - 1`, or `cosh` below.
@@ -75,7 +61,7 @@ fn integrals(s: f64) -> [f64; 2] {
 }
 
 /// * `support`: ε and the position of the obstacle that holds the tip.
-fn bent(beam: &Beam, support: Option<[f64; 2]>, s: f64) -> Bent {
+pub(super) fn bent(beam: &Beam, support: Option<[f64; 2]>, s: f64) -> Bent {
     let ([mean, square], q, moment) = (integrals(s), 1.0 / s, beam.a * beam.theta_a);
     let stress = support.map_or(0.0, |[epsilon, position]| {
         (position - q * moment * mean) / (epsilon + q + q * q * mean)
@@ -200,16 +186,24 @@ fn the_closed_integrals_are_those_of_quadrature() {
 }
 
 #[test]
-fn every_scanned_root_of_drawn_beams_is_proved_and_no_other() {
-    let mut dice = Dice(20);
+fn every_scanned_root_of_drawn_beams_is_listed_and_proved_and_no_other() {
+    let mut random = SplitMix::new(20);
+    let mut beams: Vec<_> = (0..BEAMS).map(|place| drawn(&mut random, place)).collect();
+    beams.extend([
+        (loaded(-0.95, 1.0, 0.05), obstacles(1e-3, -0.6, 0.1)),
+        (loaded(-0.97, 0.5, -0.02), obstacles(0.1, -2.0, 2.0)),
+        (loaded(-1.4, 0.7, 0.4), obstacles(0.05, -0.2, 0.0)),
+        (loaded(-5.0, 1.0, 0.34), obstacles(1e-3, -0.01, 0.1)),
+    ]);
     let (mut total, mut most) = (0, 0);
-    for place in 0..BEAMS {
-        let (beam, obstacles) = dice.beam(place);
+    for (place, (beam, obstacles)) in beams.into_iter().enumerate() {
+        let list = states(&beam, obstacles.as_ref());
         let proof = prove(&beam, obstacles.as_ref()).unwrap();
         let scanned = scanned(&beam, obstacles.as_ref());
         let what = format!("beam {place}: {beam:?} {obstacles:?}\n{scanned:#?}\n{proof:#?}");
         assert!(proof.undecided.is_empty(), "{what}");
         assert_eq!(proof.states.len(), scanned.len(), "{what}");
+        assert_eq!(list.len(), scanned.len(), "{what}\n{list:#?}");
         let mut left: Vec<&ProvedState> = proof.states.iter().collect();
         for (contact, n_value, u_tip) in scanned {
             let is_this = |state: &&ProvedState| {
@@ -221,6 +215,11 @@ fn every_scanned_root_of_drawn_beams_is_proved_and_no_other() {
                     && n_value <= enclosure.hi + gap
             };
             let found = left.iter().position(is_this);
+            let is_listed = list.iter().any(|state| {
+                state.contact == contact
+                    && (state.n_value - n_value).abs() < ROUND_OFF * (1.0 + n_value.abs())
+            });
+            assert!(is_listed, "{contact:?} {n_value}\n{what}\n{list:#?}");
             let state =
                 left.swap_remove(found.unwrap_or_else(|| panic!("{contact:?} {n_value}\n{what}")));
             assert!(

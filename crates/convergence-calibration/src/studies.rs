@@ -8,7 +8,7 @@ mod shares;
 use convergence_study::{
     About, Case, CaseFailure, CodeStudy, Described, Figure, Findings, InCode, Measured, Must, Runs,
     Sheet as Numbers, Tier,
-    internal::chart::{Axis, Chart},
+    chart::{Axis, Chart},
     measured,
 };
 

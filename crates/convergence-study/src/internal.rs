@@ -36,13 +36,6 @@ pub mod input {
         pub use crate::input::advice::{Argument, ArgumentValue, CommandLine, Setting, Surface};
     }
 }
-#[cfg(feature = "tables")]
-pub mod chart {
-    pub use crate::chart::{
-        Axis, Band, Cells, Chart, DOTTED, Dashes, Guide, Mark, Row, SHORT, SOLID, Series, Table,
-        VERDICTS, deviations, look, panels, rates_of, text_width, without_title,
-    };
-}
 #[cfg(feature = "reports")]
 pub mod program {
     pub use crate::program::{MANUFACTURE, PROJECT, ROW, TABLE, TAYLOR, TEMPLATE};

@@ -79,7 +79,7 @@
 )]
 
 #[cfg(feature = "tables")]
-mod chart;
+pub mod chart;
 #[cfg(feature = "command-line")]
 mod cli;
 #[cfg(feature = "tables")]

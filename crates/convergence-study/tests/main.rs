@@ -1,8 +1,6 @@
 //! The tests of the harness, of its program and of the pages that document both, in one program.
 
 mod asserted;
-#[cfg(feature = "reports")]
-mod chart;
 #[cfg(feature = "command-line")]
 mod ci;
 #[cfg(all(feature = "tables", feature = "reports"))]

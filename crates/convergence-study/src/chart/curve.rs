@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::layout::Layout;
 use super::page::{Page, escape_attribute};
-use super::pen::{Look, Point, SOLID, line, look, polygon};
+use super::pen::{Look, Point, line, look, polygon};
 use super::{Chart, Mark, Series};
 
 /// Markers nearer than this hide each other, in px; of the hidden series, they grow.
@@ -32,7 +32,7 @@ impl<'a> Curve<'a> {
         let curve = |(place, series): (usize, &'a Series)| {
             let points = chart.table.pairs(&series.x, &series.y);
             let own = look(series.look.unwrap_or(place));
-            let law = series.law.map(|_| SOLID);
+            let law = series.law.map(|_| Series::SOLID);
             Self {
                 series,
                 intervals: match &series.interval {

@@ -4,14 +4,15 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::curve::Curve;
+use super::glyphs::text_width;
 use super::layout::{EDGE, Layout, NOTE_ROW, WIDTH};
 use super::page::{Page, TITLE_GROUP};
 use super::pen::{
-    Area, GRID, INK, LABEL, MINOR_GRID, MUTED, SHADE, SHORT, TEXT, THIN, TITLE, certain, elide,
-    font, frame, line, tenths, write,
+    Area, GRID, INK, LABEL, MINOR_GRID, MUTED, SHADE, TEXT, THIN, TITLE, certain, elide, font,
+    frame, line, tenths, write,
 };
 use super::triangles::triangles;
-use super::{Chart, Guide, LINE, cells, legend, rows};
+use super::{Chart, Guide, LINE, Series, cells, legend, rows};
 
 /// From the plot down to the labels of the axis, and to its name.
 const LABELS: f64 = 56.0;
@@ -120,7 +121,7 @@ impl Chart {
             vec![(left, y), (right, y)]
         });
         let lines: Vec<_> = lines.filter(|line| line[0].1.is_finite()).collect();
-        page.line(&lines, MUTED, 1.4, SHORT);
+        page.line(&lines, MUTED, 1.4, Series::SHORT);
     }
 
     /// Grid, ticks and labels of the axes.
@@ -183,16 +184,14 @@ impl Chart {
         page.layer(|area| {
             // A name wider than the plot ends at the edge of the page.
             let name = elide(&self.x.label, LABEL, WIDTH - 2.0 * EDGE);
-            let furthest = WIDTH - EDGE - 0.5 * super::text_width(&name, LABEL);
+            let furthest = WIDTH - EDGE - 0.5 * text_width(&name, LABEL);
             let x = (0.5 * (left + right)).min(furthest);
             write(area, &name, (x, bottom + NAME), font(LABEL), HPos::Center);
             self.draw_guides(area, layout);
             for (k, note) in layout.notes.iter().enumerate() {
                 let y = layout.notes_top + NOTE_ROW * (k as f64 + 0.5);
                 // A note wider than what is right of the axis begins at the edge of the page.
-                let left = left
-                    .min(WIDTH - EDGE - super::text_width(note, TEXT))
-                    .max(EDGE);
+                let left = left.min(WIDTH - EDGE - text_width(note, TEXT)).max(EDGE);
                 let note = elide(note, TEXT, WIDTH - left - EDGE);
                 write(area, &note, (left, y), font(TEXT).color(&MUTED), HPos::Left);
             }

@@ -23,7 +23,7 @@
 //! | `data-title` | the title | nothing |
 //!
 //! ```
-//! use convergence_study::internal::chart::{Axis, Chart, Series, Table};
+//! use convergence_study::chart::{Axis, Chart, Series, Table};
 //!
 //! let table = Table::new([("h", vec![0.25, 0.125]), ("L2", vec![4e-2, 1e-2])]);
 //! let series = vec![Series::errors("L2", "h", "L2").claiming(2.0)];
@@ -34,6 +34,7 @@
 mod cells;
 mod curve;
 mod draw;
+mod glyphs;
 mod layout;
 mod legend;
 mod page;
@@ -48,10 +49,11 @@ use std::ops::Range;
 use crate::judge::verdict::PowerLaw;
 #[cfg(feature = "reports")]
 pub(crate) use page::titled_by_verdict;
-pub use page::{panels, without_title};
-pub use pen::{DOTTED, Dashes, SHORT, SOLID, look, text_width};
-
-pub use rows::{Row, VERDICTS, deviations, rates_of};
+#[cfg(feature = "command-line")]
+pub(crate) use page::without_title;
+pub(crate) use rows::rates_of;
+#[cfg(feature = "reports")]
+pub(crate) use rows::{Row, deviations};
 
 /// Columns of numbers by their names: the rows that a report prints, or curves over time.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -108,10 +110,10 @@ pub struct Axis {
     /// More values that the axis must show.
     pub show: Vec<f64>,
     /// The range, if it is not that of the values; those beyond stand on the rim.
-    pub range: Option<[f64; 2]>,
+    pub(crate) range: Option<[f64; 2]>,
     /// What the rows of a vertical axis are, from top to bottom: the first is at -0.5, the next at
     /// -1.5. Without any, the axis has a scale.
-    pub rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
 }
 
 impl Axis {
@@ -166,26 +168,34 @@ pub struct Series {
     /// The column of the vertical axis.
     pub y: String,
     /// Columns with the ends of an interval of x around each point.
-    pub interval: Option<[String; 2]>,
+    pub(crate) interval: Option<[String; 2]>,
     /// Of its points.
     pub mark: Mark,
     /// Of its line in px; 0: none.
     pub width: f64,
-    /// Of its line; `None`: those of its look.
-    pub dashes: Option<Dashes>,
+    /// Of its line: dashes and gaps in turn, in tenths of px, such as [`SOLID`](Self::SOLID);
+    /// `None`: those of its look.
+    pub dashes: Option<&'static str>,
     /// The rows that count, such as the levels that a rate uses: the others have open markers.
     pub used: Option<Range<usize>>,
     /// Drawn over the rows that count, instead of the line through the points.
-    pub law: Option<PowerLaw>,
+    pub(crate) law: Option<PowerLaw>,
     /// The order claimed, which has a slope triangle.
-    pub order: Option<f64>,
+    pub(crate) order: Option<f64>,
     /// Whether it shows errors over steps: no line crosses nearly a decade of steps without points.
-    pub is_over_steps: bool,
-    /// Which [`look`] it has; `None`: that of its place in the chart.
+    pub(crate) is_over_steps: bool,
+    /// Which colour, dashes and marker it has, by number; `None`: those of its place in the chart.
     pub look: Option<usize>,
 }
 
 impl Series {
+    /// Dashes without gaps.
+    pub const SOLID: &'static str = "";
+    /// Short dashes.
+    pub const SHORT: &'static str = "60 40";
+    /// Dots.
+    pub const DOTTED: &'static str = "22 36";
+
     /// A line through the points of two columns.
     pub fn new(label: impl Into<String>, x: impl Into<String>, y: impl Into<String>) -> Self {
         Self {
@@ -215,7 +225,7 @@ impl Series {
         }
     }
 
-    /// The same in the k-th [`look`], whatever its place.
+    /// The same with the k-th colour, dashes and marker, whatever its place: the first 64 differ.
     #[must_use]
     pub fn looking(self, k: usize) -> Self {
         Self {
@@ -251,7 +261,7 @@ pub struct Guide {
 
 /// Shaded intervals of the horizontal axis, such as the phases in which something is switched on.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Band {
+pub struct Shade {
     /// Its name in the legend.
     pub label: String,
     /// `(from, to)`, in any order; what lies beyond the axis is cut off.
@@ -277,14 +287,14 @@ pub struct Chart {
     /// Horizontal lines.
     pub guides: Vec<Guide>,
     /// Below everything else.
-    pub bands: Vec<Band>,
+    pub bands: Vec<Shade>,
     /// Orders with a slope triangle, besides those of the series.
     pub slopes: Vec<f64>,
     /// Lines under the legend, before that on omitted points.
     pub notes: Vec<String>,
     /// Points that the table lacks, which the notes name.
     pub missing: usize,
-    /// Whether it is one of several [`panels`], which are less high.
+    /// Whether it is one of several [panels](Self::panels), which are less high.
     pub is_panel: bool,
     /// Whether its series are named in another panel.
     pub without_legend: bool,

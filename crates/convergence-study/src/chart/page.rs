@@ -116,23 +116,25 @@ fn steady(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }
 
-/// Draws charts one below the other, in one document, their plots beginning at the same place.
-///
-/// * `description`: of the whole, as read out by screen readers.
-pub fn panels(description: &str, charts: &[Chart]) -> String {
-    let lefts = charts.iter().map(|chart| chart.drawn(0.0).1.plot[0]);
-    let left = lefts.fold(0.0, f64::max);
-    let mut body = format!("<title>{}</title>\n", escape(description));
-    let mut top = 0.0;
-    for chart in charts {
-        let (panel, layout) = chart.drawn(left);
-        body += &panel.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1);
-        top += layout.height;
-    }
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{top}\" viewBox=\"0 0 {WIDTH} {top}\" \
+impl Chart {
+    /// Draws charts one below the other, in one document, their plots beginning at the same place.
+    ///
+    /// * `description`: of the whole, as read out by screen readers.
+    pub fn panels(description: &str, charts: &[Self]) -> String {
+        let lefts = charts.iter().map(|chart| chart.drawn(0.0).1.plot[0]);
+        let left = lefts.fold(0.0, f64::max);
+        let mut body = format!("<title>{}</title>\n", escape(description));
+        let mut top = 0.0;
+        for chart in charts {
+            let (panel, layout) = chart.drawn(left);
+            body += &panel.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1);
+            top += layout.height;
+        }
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{top}\" viewBox=\"0 0 {WIDTH} {top}\" \
          role=\"group\">\n{body}</svg>\n"
-    )
+        )
+    }
 }
 
 /// The opening and the end of the group of a title.
@@ -155,7 +157,7 @@ pub(crate) fn titled_by_verdict(svg: &str, verdict: Verdict) -> String {
 
 /// A picture of this room without its titles, for papers, where captions take their place; any
 /// other text as it is.
-pub fn without_title(svg: &str) -> String {
+pub(crate) fn without_title(svg: &str) -> String {
     let opening = format!("<g{TITLE_GROUP}>");
     let mut parts = svg.split(&opening);
     let mut kept = parts.next().unwrap_or_default().to_owned();

@@ -4,8 +4,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::Mark;
+use super::glyphs::{glyph_width, text_width};
 use super::page::printable;
+use super::{Mark, Series};
 
 /// A drawing area in tenths of a pixel.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -32,15 +33,15 @@ pub(super) const SHADE: RGBColor = RGBColor(228, 233, 240);
 pub(super) const THIN: f64 = 1.2;
 
 /// Dashes and gaps in turn, in tenths of px; none: solid.
-pub type Dashes = &'static str;
-/// No gaps.
-pub const SOLID: Dashes = "";
-/// Short dashes.
-pub const SHORT: Dashes = "60 40";
-/// Dots.
-pub const DOTTED: Dashes = "22 36";
+pub(super) type Dashes = &'static str;
 /// Distinct in black and white.
-const DASHES: [Dashes; 5] = [SOLID, "120 50", DOTTED, "110 40 25 40", SHORT];
+const DASHES: [Dashes; 5] = [
+    Series::SOLID,
+    "120 50",
+    Series::DOTTED,
+    "110 40 25 40",
+    Series::SHORT,
+];
 
 /// Okabe and Ito's palette, distinct for all common kinds of colour vision; for its yellow, too
 /// pale on white, Tol's olive.
@@ -90,7 +91,7 @@ const STARS: [Star; 8] = [
 
 /// What distinguishes one series.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
+pub(crate) struct Look {
     pub(super) colour: RGBColor,
     pub(super) dashes: Dashes,
     pub(super) star: Star,
@@ -104,7 +105,7 @@ const MARKERS_ON: usize = 5;
 
 /// The look of the k-th series. The first 64 differ: from the ninth on, colours repeat with other
 /// markers.
-pub fn look(k: usize) -> Look {
+pub(crate) fn look(k: usize) -> Look {
     Look {
         colour: COLOURS[k % COLOURS.len()],
         dashes: DASHES[k % DASHES.len()],
@@ -189,11 +190,6 @@ fn on_page((x, y): Point) -> (i32, i32) {
     (tenths(x), tenths(y))
 }
 
-/// Width of a text in px, estimated generously: exact widths would need font files.
-pub fn text_width(text: &str, size: f64) -> f64 {
-    size * text.chars().map(glyph_width).sum::<f64>()
-}
-
 /// The width in px of the widest text.
 pub(super) fn widest<'t>(texts: impl Iterator<Item = &'t str>) -> f64 {
     texts.map(|text| text_width(text, TEXT)).fold(0.0, f64::max)
@@ -210,21 +206,4 @@ pub(super) fn elide(text: &str, size: f64, width: f64) -> String {
         room >= 0.0
     };
     text.chars().take_while(fits).chain(['…']).collect()
-}
-
-/// Advance of one glyph in em, after DejaVu Sans, rounded up.
-fn glyph_width(c: char) -> f64 {
-    match c {
-        // A combining circumflex stands on the letter before it.
-        '\u{302}' => 0.0,
-        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | 'I' | ' ' => 0.33,
-        '‖' => 0.5,
-        'f' | 't' | 'r' | '(' | ')' | '-' | '/' | '[' | ']' => 0.42,
-        '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '₀'..='₉' | '⁻' | 'ₕ' | 'ₓ' | 'ₜ' | 'ₙ' => {
-            0.43
-        }
-        'm' | 'w' | 'M' | 'W' | '%' => 0.98,
-        'A'..='Z' | '=' | '+' | '−' | '×' | '<' | '>' | '≥' | '≤' => 0.8,
-        _ => 0.64,
-    }
 }

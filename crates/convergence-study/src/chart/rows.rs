@@ -5,7 +5,7 @@ use plotters::style::text_anchor::HPos;
 
 use super::layout::{EDGE, Layout};
 use super::pen::{Area, GRID, INK, MUTED, TEXT, elide, font, line, look, write};
-use super::{Axis, Band, Chart, Series, Table};
+use super::{Axis, Chart, Series, Shade, Table};
 use crate::interval::Interval;
 use crate::judge::verdict::{self, Verdict};
 
@@ -21,25 +21,25 @@ const LOOKS: [(Verdict, usize); 3] = [
     (Verdict::Fail, 1),
 ];
 /// What verdicts are called.
-pub const VERDICTS: [&str; 3] = ["pass", "inconclusive", "fail"];
+pub(crate) const VERDICTS: [&str; 3] = ["pass", "inconclusive", "fail"];
 
 /// A rate.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// Its name, with that of its study.
-    pub name: String,
+    pub(crate) name: String,
     /// Its numbers, below the name.
-    pub numbers: String,
+    pub(crate) numbers: String,
     /// Where it is on the axis; `None` or NaN if there is none.
-    pub value: Option<f64>,
+    pub(crate) value: Option<f64>,
     /// Its interval on the axis.
-    pub interval: Option<Interval>,
+    pub(crate) interval: Option<Interval>,
     /// Its colour.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
 }
 
 /// Rates relative to their claims, in units of their tolerances.
-pub fn deviations(rows: Vec<Row>) -> Chart {
+pub(crate) fn deviations(rows: Vec<Row>) -> Chart {
     let axis = Axis {
         range: Some([-2.0, 2.0]),
         ..Axis::linear("observed rate \u{2212} order claimed, in tolerances")
@@ -51,7 +51,7 @@ pub fn deviations(rows: Vec<Row>) -> Chart {
 ///
 /// * `words`: what the colours of pass, inconclusive and fail mean.
 /// * `rows`: rates more than 3 below the claim, or more than 2 above, are beyond the plot.
-pub fn rates_of(claim: verdict::Band, words: [&str; 3], rows: Vec<Row>) -> Chart {
+pub(crate) fn rates_of(claim: verdict::Band, words: [&str; 3], rows: Vec<Row>) -> Chart {
     let verdict::Band {
         order, tolerance, ..
     } = claim;
@@ -114,7 +114,7 @@ fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Ve
         true => vec!["triangles at the rim: beyond the plot".to_owned()],
         false => vec![],
     };
-    let bands = vec![Band {
+    let bands = vec![Shade {
         label: "tolerance".to_owned(),
         intervals: vec![(tolerance.low, tolerance.high)],
     }];

@@ -4,8 +4,9 @@ use plotters::style::text_anchor::HPos;
 
 use super::Chart;
 use super::curve::Curve;
+use super::glyphs::text_width;
 use super::layout::Layout;
-use super::pen::{Area, INK, Point, Rect, TEXT, font, line, text_width, write};
+use super::pen::{Area, INK, Point, Rect, TEXT, font, line, write};
 
 /// Horizontal leg and tallest vertical leg, as fractions of the plot.
 const LEG: f64 = 0.12;

@@ -1,8 +1,9 @@
 //! From studies to reports: runner, baseline, record, report and its files, with studies of a
-//! prescribed behaviour.
+//! prescribed behaviour. And charts.
 
 mod baseline;
 mod browser;
+mod chart;
 mod claims;
 mod diagnosis;
 mod failures;

@@ -4,7 +4,7 @@ mod pictures;
 mod space_time;
 
 use convergence_judge::text::lists::distinct;
-use convergence_study::internal::chart::{Axis, Band, Chart, Guide, Mark, SHORT, SOLID};
+use convergence_study::chart::{Axis, Chart, Guide, Mark, Series, Shade};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The experiments of the paper, in the order of its Section 5.
@@ -35,7 +35,7 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     ]
 }
 
-/// The [`look`](convergence_study::internal::chart::look) of each scene of a figure: an
+/// The [`look`](convergence_study::chart::Series::look) of each scene of a figure: an
 /// experiment of the paper has its own; any other scene gets, by its place in the figure, one that
 /// no experiment has.
 pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
@@ -50,7 +50,7 @@ pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize>
 /// The values of β in the paper's experiments.
 const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
 
-/// The [`look`](convergence_study::internal::chart::look) of a value of β, the same in all
+/// The [`look`](convergence_study::chart::Series::look) of a value of β, the same in all
 /// figures whose curves are its values; of other values the next one.
 pub(crate) fn look_of_beta(beta: f64) -> usize {
     BETAS
@@ -118,9 +118,9 @@ pub fn bifurcation(figure: &Bifurcation) -> String {
         let family = labels.iter().position(|label| *label == branch.label);
         // The colour shows the contact state, dashes show instability.
         let (dashes, stability) = if branch.stable {
-            (SOLID, "stable")
+            (Series::SOLID, "stable")
         } else {
-            (SHORT, "unstable")
+            (Series::SHORT, "unstable")
         };
         let label = format!("{}, {stability}", branch.label);
         let curve = chart.curve(label, branch.points.iter().copied());
@@ -190,7 +190,7 @@ pub fn contraction(factors: &ContractionFactors) -> String {
     let x = Axis::log(&factors.predicted).showing([1.0]);
     let y = Axis::log("measured factor per iteration").showing([1.0]);
     let mut chart = Chart::empty(x, y).titled(&factors.title);
-    chart.bands.push(Band {
+    chart.bands.push(Shade {
         label: "divergence".to_owned(),
         intervals: vec![(1.0, f64::INFINITY)],
     });

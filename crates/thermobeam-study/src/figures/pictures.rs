@@ -1,6 +1,6 @@
 //! The pictures of one run: its displacement over space and time, and its numbers over time.
 
-use convergence_study::internal::chart::{Axis, Band, Chart, Guide};
+use convergence_study::chart::{Axis, Chart, Guide, Shade};
 
 use super::space_time::SpaceTime;
 use super::{energy_at_rest, obstacle_lines};
@@ -37,7 +37,7 @@ impl Run {
         };
         let chart = Chart {
             guides: obstacle_lines(scene.obstacles),
-            bands: vec![Band {
+            bands: vec![Shade {
                 label: "in contact".into(),
                 intervals: self.contact_phases(),
             }],

@@ -1,6 +1,6 @@
 //! A field over space and time, as coloured cells.
 
-use convergence_study::internal::chart::{Axis, Cells, Chart, Table};
+use convergence_study::chart::{Axis, Cells, Chart, Table};
 
 /// Most cells of the picture along time and along space: even noise, in which no neighbours are
 /// equal, stays below 400 kB.

@@ -1,10 +1,10 @@
 //! Figures of beams: the laws of all figures, and special ones.
 
-#[path = "../../../convergence-study/tests/chart/back.rs"]
+#[path = "../../../convergence-study/src/tests/chart/back.rs"]
 mod back;
 mod committed;
 mod figures;
-#[path = "../../../convergence-study/tests/chart/laws.rs"]
+#[path = "../../../convergence-study/src/tests/chart/laws.rs"]
 mod laws;
 
 use std::path::Path;

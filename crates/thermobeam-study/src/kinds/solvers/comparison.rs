@@ -1,7 +1,7 @@
 //! The difference between the fixed point and Newton's method on a scene, against the fixed point's
 //! tolerance.
 
-use convergence_study::internal::chart::{self, Band, Chart};
+use convergence_study::chart::{self, Chart, Shade};
 
 use super::{SolverResult, SolverTask, numbers, results};
 use crate::kinds::prelude::*;
@@ -183,7 +183,7 @@ fn iterations(agreement: &Agreement) -> Figure {
     // With a shorter axis, ticks would lie between whole numbers.
     let y = chart::Axis::linear("iterations per step").showing([0.0, 5.0]);
     let mut chart = Chart::empty(chart::Axis::linear("time t"), y).titled(title);
-    chart.bands.push(Band {
+    chart.bands.push(Shade {
         label: "in contact".to_owned(),
         intervals: agreement.contact.clone(),
     });

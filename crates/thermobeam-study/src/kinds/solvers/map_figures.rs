@@ -1,6 +1,6 @@
 //! The maps as figures: what each solver does at every point, and the boundaries.
 
-use convergence_study::internal::chart::{self, Cells, Chart, Mark};
+use convergence_study::chart::{self, Cells, Chart, Mark};
 
 use super::{
     map::{MapParameter, MapPoint, NewtonSteps},

@@ -4,7 +4,7 @@
 use convergence_judge::judge::fit::{Level as Point, fit_line};
 
 use super::method::METHODS;
-use convergence_study::internal::chart::{Axis, Chart};
+use convergence_study::chart::{Axis, Chart};
 
 /// A run with its cost: counted work, or seconds.
 #[derive(Debug, Clone, PartialEq)]

@@ -14,7 +14,7 @@ use crate::studies::paper::{ELEMENTS, Experiment, FIRST, OBSTACLES, SECOND, STEP
 use crate::studies::prelude::*;
 use convergence_study::{
     Figure, InputError,
-    internal::chart::{self, Chart, Guide},
+    chart::{self, Chart, Guide},
 };
 
 /// What the study says about itself.
@@ -409,7 +409,7 @@ fn free_end(all: &[OfBeam<'_>], caption: String) -> Figure {
         &figures::obstacle_lines(Some(OBSTACLES)),
         tip,
     );
-    let svg = chart::panels(&caption, &panels);
+    let svg = Chart::panels(&caption, &panels);
     Figure::new("tip", caption, svg)
 }
 
@@ -418,7 +418,7 @@ fn error_over_time(all: &[OfBeam<'_>]) -> Figure {
     let axis = chart::Axis::log("error of u(1, t)");
     let panels = over_time(all, title, axis, &[], |runs| runs.error_over_time());
     let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of the free end.";
-    Figure::new("error", caption, chart::panels(caption, &panels))
+    Figure::new("error", caption, Chart::panels(caption, &panels))
 }
 
 /// A panel for the beams without heating and one for those with, if there are any; a curve for each

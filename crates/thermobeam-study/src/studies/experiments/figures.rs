@@ -6,7 +6,7 @@ use super::{
 };
 use crate::figures;
 use crate::studies::paper::OBSTACLES;
-use convergence_study::internal::chart::{self, Chart, Guide};
+use convergence_study::chart::{self, Chart, Guide};
 
 /// The figures of the paper, and the decay of the energy until each run is steady.
 ///

@@ -1,7 +1,7 @@
 //! The figures as data: curves by the first discretisation, their errors by the second, the paper's
 //! algorithm on top.
 
-use convergence_study::internal::chart::{self, Chart, DOTTED, SOLID};
+use convergence_study::chart::{Chart, Series};
 
 use super::{OfExperiment, Trace, trace::SAME_TIME};
 use crate::studies::paper::{ELEMENTS, Experiment, STEPS, T_END};
@@ -147,7 +147,7 @@ impl Plotted {
         }
         match &panels[..] {
             [only] => only.svg(),
-            all => chart::panels(&self.chart.title, all),
+            all => Chart::panels(&self.chart.title, all),
         }
     }
 
@@ -155,10 +155,10 @@ impl Plotted {
         let mut chart = self.chart.clone();
         for (place, curve) in self.curves.iter().enumerate() {
             if let Some(points) = &curve.paper {
-                chart.series[place].dashes = Some(SOLID);
+                chart.series[place].dashes = Some(Series::SOLID);
                 let dots = chart.curve(by_the_paper(), points.iter().copied());
                 dots.look = Some(INK);
-                dots.dashes = Some(DOTTED);
+                dots.dashes = Some(Series::DOTTED);
                 dots.width = 1.2;
             }
         }

@@ -6,7 +6,7 @@ use crate::figures::{ContractionFactors, NamedPoints, contraction, obstacle_line
 use crate::studies::paper::OBSTACLES;
 use convergence_study::{
     Figure,
-    internal::chart::{self, Band, Chart, Series},
+    chart::{self, Chart, Series, Shade},
 };
 
 pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
@@ -75,7 +75,7 @@ pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
     let resolved = compliances
         .first()
         .map(|compliance| compliance.alpha() * compliance.epsilon);
-    let bands = resolved.map(|epsilon| Band {
+    let bands = resolved.map(|epsilon| Shade {
         label: "impact resolved (α < 1)".to_owned(),
         intervals: vec![(epsilon, f64::INFINITY)],
     });

@@ -1,6 +1,6 @@
 //! Made-up but realistic data, one set per figure.
 
-use convergence_study::internal::chart::Guide;
+use convergence_study::chart::Guide;
 use thermobeam_study::figures::*;
 
 /// Every figure of a beam, drawn.

@@ -4,7 +4,7 @@ use super::{AnyOrder, AnyOrderRun, JudgedErrors, Runs, SourceResult};
 use crate::kinds::prelude::*;
 use convergence_study::{
     Sort,
-    internal::chart::{self, Chart},
+    chart::{self, Chart},
 };
 
 /// Below this error a higher degree gains nothing: round-off of the loads and the initial data.

@@ -10,9 +10,9 @@ use crate::{
     kinds::tables::{Refine, mean_width},
 };
 use convergence_judge::judge::richardson;
-use convergence_study::internal::{
+use convergence_study::{
     chart::{self, Chart},
-    study::over_levels::{ErrorColumn, Levels},
+    internal::study::over_levels::{ErrorColumn, Levels},
 };
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.

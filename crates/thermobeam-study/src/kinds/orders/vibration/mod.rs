@@ -25,8 +25,8 @@ use crate::{
     scene::{Coefficients, file::BeamTable, limits},
 };
 use convergence_study::{
+    chart::{self, Chart},
     file::Finite,
-    internal::chart::{self, Chart},
 };
 use modes::Modes;
 use thermobeam::{one_step::Problem, solve::Level};

@@ -30,7 +30,7 @@ use crate::{
 };
 use convergence_study::{
     Coverage,
-    internal::chart::{self, Cells, Chart},
+    chart::{self, Cells, Chart},
 };
 use thermobeam::{
     kirchhoff::BUCKLING,

@@ -4,7 +4,7 @@ use super::{EnergyAt, EnergyHistory, EnergyRun, EnergyRuns};
 use crate::figures::looks;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::plain_text;
-use convergence_study::internal::chart::{self, Chart, Guide};
+use convergence_study::chart::{self, Chart, Guide};
 
 /// The quantities in which the runs of a study differ.
 fn quantities(run: &EnergyRun) -> String {

@@ -1,8 +1,8 @@
 //! Made-up data that look like the real thing, one set per figure.
 
+use crate::chart::*;
+use crate::{Band as Claimed, Interval, Verdict};
 use convergence_judge::judge::verdict::judge_pairs;
-use convergence_study::internal::chart::*;
-use convergence_study::{Band as Claimed, Interval, Verdict};
 
 /// Every figure, drawn.
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {
@@ -97,7 +97,7 @@ pub(crate) fn long_history(samples: u32) -> Chart {
     let y = Axis::linear("displacement u(t) (dimensionless)");
     let mut chart = Chart {
         guides: vec![guide("g₁ = −0.01", -0.01), guide("g₂ = 0.1", 0.1)],
-        bands: vec![Band {
+        bands: vec![Shade {
             label: "at a stop".into(),
             intervals: touches.map(|t| (t, t + 0.005)).collect(),
         }],
@@ -159,7 +159,7 @@ pub(crate) fn both_panels() -> String {
     };
     let above = panel(Axis::linear("energy E"), false).titled("The energy falls");
     let below = panel(Axis::log("energy E"), false).titled("It falls exponentially");
-    panels("Both scales", &[above, below])
+    Chart::panels("Both scales", &[above, below])
 }
 
 /// Iterations over two parameters, hatched where they diverge, with the limit.

@@ -1,8 +1,13 @@
 //! Laws that every figure obeys, whatever its data: for the generic figures here and for those of
 //! other crates of the workspace.
 
-use convergence_study::internal::chart::text_width;
 use roxmltree::{Document, Node};
+
+use glyphs::text_width;
+
+#[path = "../../chart/glyphs.rs"]
+#[allow(unreachable_pub, reason = "a file of the charts")]
+mod glyphs;
 
 /// Figures by name.
 pub(crate) type Figures = [(&'static str, String)];

@@ -1,7 +1,7 @@
 //! Figures are drawn from the rows that the report lists, and their titles say what the verdicts do.
 
-use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
-use convergence_study::{Axis, Claim, Grid, GridColumn, Outcome, Refinement, SpaceTime, Verdict};
+use crate::study::over_levels::{ErrorColumn, Levels};
+use crate::{Axis, Claim, Grid, GridColumn, Outcome, Refinement, SpaceTime, Verdict};
 
 use super::back::{place, series};
 use super::laws::parse;

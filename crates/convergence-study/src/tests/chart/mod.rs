@@ -6,7 +6,7 @@ mod gallery;
 pub(crate) mod laws;
 mod rows;
 
-use convergence_study::internal::chart::*;
+use crate::chart::*;
 use gallery::{errors_over_h, gallery};
 use laws::{EXTREMES, UNITS, elements, parse};
 
@@ -97,7 +97,7 @@ fn a_missing_cell_is_noted_unless_it_is_hatched() {
 fn charts_of_nothing_and_of_extreme_data_are_documents() {
     parse(&Chart::default().svg());
     parse(&deviations(vec![]).svg());
-    parse(&panels("", &[]));
+    parse(&Chart::panels("", &[]));
     for (x, y) in EXTREMES.into_iter().flat_map(|x| EXTREMES.map(|y| (x, y))) {
         for is_log in [false, true] {
             let axis = Axis {
@@ -109,7 +109,7 @@ fn charts_of_nothing_and_of_extreme_data_are_documents() {
                     label: "g".into(),
                     value: y,
                 }],
-                bands: vec![Band {
+                bands: vec![Shade {
                     label: "b".into(),
                     intervals: vec![(x, y), (y, x)],
                 }],
@@ -160,7 +160,7 @@ fn a_spike_in_a_long_history_is_drawn() {
 fn figures_stay_small() {
     let mut long = gallery::noise(100_000, 8);
     let intervals = (0..50_000).map(|k| (2.0 * f64::from(k), 2.0 * f64::from(k) + 1.0));
-    long.bands = vec![Band {
+    long.bands = vec![Shade {
         label: "at a stop".into(),
         intervals: intervals.collect(),
     }];

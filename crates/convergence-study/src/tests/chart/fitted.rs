@@ -1,8 +1,8 @@
 //! Lines of fitted rates: where they end, their markers, their digits.
 
+use crate::Interval;
+use crate::chart::{Chart, Mark};
 use convergence_judge::judge::verdict::judge_pairs;
-use convergence_study::Interval;
-use convergence_study::internal::chart::{Chart, Mark};
 
 use super::gallery::{errors_over_h, judged, over_h};
 use super::laws::{elements, number, parse};
@@ -107,10 +107,7 @@ fn no_line_crosses_a_gap_of_errors() {
         let series = &mut chart.series[0];
         series.is_over_steps = is_over_steps;
         let steps = [0.1, 0.05, 0.025, 0.001];
-        chart.table = convergence_study::internal::chart::Table::new([
-            ("h", steps.to_vec()),
-            ("L2", steps.to_vec()),
-        ]);
+        chart.table = crate::chart::Table::new([("h", steps.to_vec()), ("L2", steps.to_vec())]);
         first_series(&chart.svg())[1].len()
     };
     assert_eq!([lines(false), lines(true)], [4, 3]);

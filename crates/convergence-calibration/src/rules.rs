@@ -8,7 +8,7 @@ use convergence_judge::{
     },
     text::number::counted,
 };
-use convergence_study::{Verdict, internal::study::until_decided::is_settled};
+use convergence_study::{Budget, Verdict};
 
 use crate::draw::{CalibrationError, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};
@@ -119,7 +119,7 @@ impl<'a> Evidence<'a> {
         let mut added = 0;
         for look in &self.looks[..self.looks.len() - 1] {
             let now = judge.decide(look, order);
-            if is_settled(now, before) {
+            if Budget::is_settled(now, before) {
                 return (now, added);
             }
             before = Some(now);

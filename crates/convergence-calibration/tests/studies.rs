@@ -2,9 +2,7 @@
 
 use convergence_calibration::sheet::Sheet;
 use convergence_calibration::studies::{ExpectedShare, error_bars, quick};
-use convergence_study::{
-    CaseFailure, Kind, Outcome, Verdict, internal::study::kind::run_cases_here,
-};
+use convergence_study::{CaseFailure, Kind, Outcome, Verdict};
 
 /// All checks, with their evidence.
 fn report(outcome: &Outcome) -> String {
@@ -20,7 +18,7 @@ fn report(outcome: &Outcome) -> String {
 fn each_share_can_be_too_large_or_too_small() {
     for (name, study) in [("quick", quick()), ("error bars", error_bars())] {
         let study = study.kind;
-        let sound = run_cases_here(&study);
+        let sound = study.run_here();
         assert_eq!(
             study.judge(&sound).verdict,
             Verdict::Pass,
@@ -76,7 +74,7 @@ fn each_share_can_be_too_large_or_too_small() {
 #[test]
 fn a_sheet_column_or_row_that_is_not_there_fails() {
     let sound = error_bars().kind;
-    let ran = run_cases_here(&sound);
+    let ran = sound.run_here();
     let changes: [fn(&mut ExpectedShare); 3] = [
         |share| share.sheet = "noises",
         |share| share.column = "interval holds",

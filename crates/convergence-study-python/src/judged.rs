@@ -10,9 +10,8 @@ use convergence_judge::{
     text::number::decimals,
 };
 use convergence_study::{
-    Axis, Claim, Floor, Interval, NamedRate, RateVerdict, Reason, Refinement, Verdict,
-    internal::study::over_levels::{ErrorColumn, Levels},
-    observe,
+    Axis, Claim, ErrorColumn, Floor, Interval, Levels, NamedRate, RateVerdict, Reason, Refinement,
+    Verdict, observe,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -3,13 +3,11 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header, NamedNumber, Of,
-    Refinement,
+    Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _, Levels,
+    NamedNumber, Of, Refinement,
     internal::study::{
         STEPS,
         header::is_name,
-        over_levels::Levels,
-        run_cases_here,
         sampled::Sampled,
         until_decided::{self, Looks, Next},
     },
@@ -179,7 +177,7 @@ impl Results {
     fn levels(&self) -> Levels {
         let study = self.study();
         let levels = study
-            .levels(&run_cases_here(&study))
+            .levels(&study.run_here())
             .with_floor(self.options.floor);
         if self.samples.is_empty() {
             return levels;

@@ -69,31 +69,18 @@ pub mod store {
 pub mod study {
     #[cfg(feature = "files")]
     pub use crate::study::StudyFile;
-    pub use crate::study::{Described, STEPS, first_repeated, run_cases_here};
+    pub use crate::study::{Described, STEPS, first_repeated};
     pub mod header {
         pub use crate::study::header::is_name;
     }
-    pub mod kind {
-        pub use crate::study::kind::{judge, run_cases_here};
-    }
-    pub mod outcome {
-        pub use crate::study::outcome::settle;
-    }
     pub mod norms {
         pub use crate::study::norms::{INSIDE, all_norms, largest_inside};
-    }
-    pub mod over_levels {
-        pub use crate::study::over_levels::{ErrorColumn, Levels, rate_table, summary};
     }
     pub mod sampled {
         pub use crate::study::sampled::Sampled;
     }
     pub mod until_decided {
-        #[cfg(feature = "files")]
-        pub use crate::study::until_decided::budget;
-        pub use crate::study::until_decided::{
-            FIRST, Looks, Next, conclude, first_levels, is_settled, next, next_by_time,
-        };
+        pub use crate::study::until_decided::{Looks, Next, conclude, first_levels, next_by_time};
     }
 }
 #[cfg(feature = "reports")]

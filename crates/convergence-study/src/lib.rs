@@ -133,11 +133,11 @@ pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
 pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
-        About, Axis, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorsOverLevels,
-        Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind, LevelErrors,
-        LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity, Ran, Recorded,
-        Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier,
-        Untested, boxed_study,
+        About, Axis, Budget, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorColumn,
+        ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
+        LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity,
+        Ran, Recorded, Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject,
+        Table, Tier, Untested, boxed_study,
         grid::{Grid, GridColumn},
         kind::completion_check,
         levels, levels_of_samples, measured,

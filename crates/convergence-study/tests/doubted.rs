@@ -3,10 +3,7 @@
 
 use convergence_study::{
     Bound, Claim, Kind, Outcome, Reason, Verdict,
-    internal::{
-        rates::{Claimed, Request, Tables, claimed, object, sheet},
-        study::run_cases_here,
-    },
+    internal::rates::{Claimed, Request, Tables, claimed, object, sheet},
     levels,
 };
 use serde_json::Value;
@@ -168,7 +165,7 @@ fn outcome(
     let study = names.iter().fold(study, |study, name| {
         study.claiming(*name, Claim::new(2.0, 0.25))
     });
-    study.judge(&run_cases_here(&study))
+    study.judge(&study.run_here())
 }
 
 #[test]

@@ -3,9 +3,7 @@
 
 use std::path::Path;
 
-use convergence_study::{
-    CaseFailure, FromFile as _, Kind as _, Verdict, internal::study::run_cases_here, run_one,
-};
+use convergence_study::{CaseFailure, FromFile as _, Kind as _, Verdict, run_one};
 use thermobeam_study::exact::norm::{Norm, Norms};
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::{Convergence, Defect, Prepared};
@@ -133,7 +131,7 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
         if study.refine.grid {
             (study.refine.elements, study.refine.steps) = (vec![8, 16, 32], vec![8, 16, 32]);
         }
-        let mut ran = run_cases_here(&study);
+        let mut ran = study.run_here();
         ran[3].found = Err(CaseFailure::new("step 7 went astray"));
         let outcome = study.judge(&ran);
         assert_eq!(outcome.verdict, Verdict::Fail);
@@ -161,7 +159,7 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
 fn an_error_that_is_nan_fails_in_every_norm_even_where_no_order_is_expected() {
     let mut study = convergence("theorem-3.4-time.toml");
     study.expect.truncate(1);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
     for norm in Norm::ALL {
         let mut ran = sound.clone();

@@ -12,7 +12,7 @@ use crate::judge::grid::SpaceTime;
 use crate::judge::verdict::Verdict;
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::kind;
-use crate::study::over_levels::{self, ErrorColumn, Levels};
+use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::study::sampled::Sampled;
 use crate::study::until_decided::{self, Looks, Next};
 use crate::study::{
@@ -20,7 +20,6 @@ use crate::study::{
     Reused, Sort, Subject,
 };
 use crate::text::number::{error_text, plain_text};
-use crate::text::prose::Prose;
 
 pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
     let mut outcome = judge_answers(study, ran);
@@ -169,7 +168,6 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         figures.extend(work_precision(levels, ran));
     }
     let rates = [rates, values.rates].concat();
-    let summary = Prose::from(over_levels::summary(&rates)).then(&values.summary);
     let outcome = Outcome {
         levels: if levels.columns.is_empty() {
             vec![]
@@ -179,7 +177,7 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         tables: values.tables,
         figures: [figures, values.figures].concat(),
         quantities,
-        ..Outcome::new(summary, rates, checks).summed_up_by_rates(values.summary)
+        ..Outcome::new("", rates, checks).summed_up_by_rates(values.summary)
     };
     let is_open = study.most_levels.is_none();
     match next(study, ran).zip(study.refine.budget) {

@@ -7,7 +7,7 @@ use super::launch::CaseParameter;
 use crate::input::{Count, Counts, Positive, Refusal};
 use crate::judge::verdict::FEWEST_NUMBERS;
 use crate::study::sampled::Sampled;
-use crate::study::{Axis, Refinement, until_decided};
+use crate::study::{Axis, Budget, Refinement, until_decided};
 use crate::text::named::NamedNumber;
 
 /// The table `[refine]`: a list in space, or in time, or one of each.
@@ -293,7 +293,7 @@ impl RefineTable {
             .iter()
             .filter_map(|(key, counts)| Some((*key, *counts.as_ref()? == Counts::Auto)));
         let lists: Vec<_> = lists.collect();
-        let budget = until_decided::budget(&lists, self.grid, self.budget, BUDGET)?;
+        let budget = Budget::read(&lists, self.grid, self.budget, BUDGET)?;
         let samples = self.samples.map(Count::get);
         let levels = lengths.into_iter().flatten().max().unwrap_or(1);
         match samples {

@@ -255,14 +255,13 @@ where
 mod tests {
     use super::*;
     use crate::judge::verdict::Reason;
-    use crate::study::run_cases_here;
 
     const COUNTS: [usize; 5] = [4, 8, 16, 32, 64];
 
     fn judged<R: IntoErrors, F: Fn(usize) -> R + Send + Sync>(
         study: &ErrorsOverLevels<F>,
     ) -> Outcome {
-        study.judge(&run_cases_here(study))
+        study.judge(&study.run_here())
     }
 
     /// The outcome for an error of second order, claimed to be of this order, changed by `change`.

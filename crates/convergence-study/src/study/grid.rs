@@ -4,7 +4,7 @@
 #[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, NamedRate, Outcome};
-use super::over_levels::{Claim, summary};
+use super::over_levels::Claim;
 use super::subject::Subject;
 #[cfg(feature = "reports")]
 use crate::chart::{Axis, Chart, Series, Table};
@@ -139,7 +139,7 @@ impl Grid {
             }
             checks.push(self.judge_model(&column.name, misfits));
         }
-        Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
+        Outcome::new("", rates, checks).summed_up_by_rates("")
     }
 
     /// The points without a result.

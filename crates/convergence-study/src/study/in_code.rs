@@ -230,7 +230,6 @@ fn unnoticed_numbers(sound: &Outcome) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::kind::run_cases_here;
     use crate::study::measured::measured;
     use crate::study::must::Must;
 
@@ -284,7 +283,7 @@ mod tests {
         ] {
             let study = ABOUT.study(Series(Some(claim)));
             assert_eq!(unnoticed(&study), Vec::<String>::new(), "{claim}");
-            let sound = run_cases_here(&study.kind);
+            let sound = study.kind.run_here();
             for run in 0..sound.len() {
                 let mut failed = sound.clone();
                 failed[run].found = Err(CaseFailure::new("dropped"));

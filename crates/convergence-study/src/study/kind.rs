@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::coverage::{Coverage, NO_RESULT};
-use super::outcome::{Check, Origin, Outcome};
+use super::outcome::{Check, Origin, Outcome, settle};
 use super::subject::Subject;
 use super::variants::Variants;
 use crate::text::lists::{and_more, grouped};
@@ -190,6 +190,28 @@ pub trait Kind: Send + Sync {
     /// show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
 
+    /// Runs all cases on this thread, one after the other: for tests that change a result.
+    fn run_here(&self) -> Vec<Ran<Self::Data, Self::Found>> {
+        let run = |case: Case<Self::Data>| Ran {
+            found: self.run(&case.data),
+            case,
+        };
+        let mut ran: Vec<_> = self.cases().into_iter().map(run).collect();
+        while let Some(case) = self.more(&ran) {
+            ran.push(run(case));
+        }
+        ran
+    }
+
+    /// What a run with these results finds: as [`Kind::judge`], its cases counted, and no better
+    /// than its parts.
+    fn outcome_of(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome
+    where
+        Self: Sized,
+    {
+        settle("study", judge(self, ran))
+    }
+
     /// Says where answers of expensive cases are kept, if the study keeps any.
     ///
     /// * `may_reuse`: whether they may take the place of runs.
@@ -243,29 +265,10 @@ pub struct Untested {
     pub why: String,
 }
 
-/// Runs all cases on this thread, one after the other.
-pub fn run_cases_here<K: Kind>(kind: &K) -> Vec<Ran<K::Data, K::Found>> {
-    let mut ran = vec![];
-    for case in kind.cases() {
-        ran.push(run_here(kind, case));
-    }
-    while let Some(case) = kind.more(&ran) {
-        ran.push(run_here(kind, case));
-    }
-    ran
-}
-
-fn run_here<K: Kind>(kind: &K, case: Case<K::Data>) -> Ran<K::Data, K::Found> {
-    Ran {
-        found: kind.run(&case.data),
-        case,
-    }
-}
-
 /// Judges the results of a study, and counts its cases in addition to what its kind counts.
 ///
 /// * `ran`: one result for each case, in the order of [`Kind::cases`].
-pub fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
+pub(crate) fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
     let mut outcome = kind.judge(ran);
     let left_out = ran.iter().map(|ran| match ran.ok() {
         // A result counts as a failed case where part of it is missing.

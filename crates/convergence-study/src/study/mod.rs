@@ -39,7 +39,7 @@ pub use file::{FromFile, KindRow, Order, StudyFile, described, read_study};
 pub(crate) use file::{STUDY, study_schema};
 pub use header::{Header, Tier};
 pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
-pub use kind::{Case, CaseFailure, Kind, Ran, Untested, run_cases_here};
+pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
 pub use levels_of_samples::{LevelsOfSamples, levels_of_samples};
 pub use measured::{Measured, Recorded, Sheet, Shown, measured};
 pub use must::Must;
@@ -48,5 +48,6 @@ pub use outcome::{
     Table,
 };
 pub(crate) use over_levels::Claim;
-pub use over_levels::{Axis, Refinement};
+pub use over_levels::{Axis, ErrorColumn, Levels, Refinement};
 pub use subject::{Sort, Subject};
+pub use until_decided::Budget;

@@ -12,6 +12,7 @@ mod table;
 use super::coverage::{self, Coverage};
 use super::measured::Sheet;
 use super::must::Must;
+use super::over_levels::summary;
 use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
 use crate::judge::verdict::{RateVerdict, Verdict};
@@ -19,7 +20,7 @@ use crate::text::{json, named::NamedNumber, prose::Prose};
 
 pub use check::{Check, Origin};
 pub use rate::NamedRate;
-pub use settle::settle;
+pub(crate) use settle::settle;
 pub use table::{Figure, Table};
 
 /// The result of a study, which is also its record.
@@ -259,8 +260,10 @@ impl Outcome {
 
     /// The same, whose summary is that of its rates and these words.
     pub fn summed_up_by_rates(self, more: impl Into<Prose>) -> Self {
+        let more = more.into();
         Self {
-            after_rates: Some(more.into()),
+            summary: Prose::from(summary(&self.rates)).then(&more),
+            after_rates: Some(more),
             ..self
         }
     }

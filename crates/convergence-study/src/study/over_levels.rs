@@ -16,7 +16,7 @@ use crate::judge::verdict::{Floor, RateVerdict, Reason, Samples};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use rates::rate_quantities;
-pub use rates::{rate_table, summary};
+pub(crate) use rates::summary;
 
 /// Relative change of an error that the baseline tolerates: another processor or mathematical
 /// library changes it by at most 1e-8, a change of the computation by more.
@@ -342,7 +342,7 @@ impl Levels {
             levels: self.errors(),
             figures: figure.into_iter().collect(),
             quantities: self.quantities(&rates),
-            ..Outcome::new(summary(&rates), rates, checks).summed_up_by_rates("")
+            ..Outcome::new("", rates, checks).summed_up_by_rates("")
         }
     }
 
@@ -403,6 +403,7 @@ fn number_at(errors: &[Option<f64>], level: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::judge::verdict::Verdict;
+    use crate::study::Table;
 
     #[test]
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {
@@ -458,7 +459,7 @@ mod tests {
     #[test]
     fn a_table_of_rates_has_the_digits_of_the_interval_and_no_rate_where_that_says_nothing() {
         let cells = |factors| {
-            let table = rate_table("", &scattered(factors).judge());
+            let table = Table::of_rates("", &scattered(factors).judge());
             [table.rows[0][3].clone(), table.rows[0][4].clone()]
         };
         assert_eq!(cells([1.0; 5]), ["2.0000", "2.0000 ± 0.00005"]);

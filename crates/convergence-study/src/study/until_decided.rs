@@ -17,7 +17,91 @@ use crate::study::outcome::{NamedRate, Outcome};
 use crate::study::over_levels::Levels;
 
 /// Levels at the first look, each twice as fine as the previous one.
-pub const FIRST: [usize; 4] = [8, 16, 32, 64];
+pub(crate) const FIRST: [usize; 4] = Budget::FIRST_LEVELS;
+
+/// What the levels of a study may cost that adds levels until its rates are decided.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// The cost of the next level.
+    pub next: f64,
+    /// The cost of all levels so far.
+    pub spent: f64,
+    /// The most that all may cost.
+    pub limit: f64,
+    /// The unit of these costs, in words, such as `s`.
+    pub unit: &'static str,
+}
+
+impl Budget {
+    /// The counts with which such a study begins, each level twice as fine as the one before.
+    pub const FIRST_LEVELS: [usize; 4] = [8, 16, 32, 64];
+
+    /// Whether the next level is computed: the rates are not decided, it can help, and it fits.
+    ///
+    /// * `rates`: of the levels so far.
+    pub fn allows(&self, levels: &Levels, rates: &[NamedRate]) -> bool {
+        self.after(levels, rates) == Next::Another
+    }
+
+    /// The outcome of a study that has ended so. It says how the study ended, and guards only the
+    /// first levels, because another machine may afford others.
+    pub fn conclude(&self, outcome: Outcome, levels: &Levels, rates: &[NamedRate]) -> Outcome {
+        let next = self.after(levels, rates);
+        conclude(outcome, next, levels, self.limit, self.unit)
+    }
+
+    fn after(&self, levels: &Levels, rates: &[NamedRate]) -> Next {
+        let looks = Looks::of(levels, rates);
+        let count = levels.refinements.len();
+        next(&looks, count, self.next, self.spent, self.limit)
+    }
+
+    /// Whether a verdict stands without a finer level: a pass does, a failure if the look before has
+    /// failed as well.
+    ///
+    /// * `before`: the verdict with one level fewer; `None` at the first look.
+    pub fn is_settled(now: Verdict, before: Option<Verdict>) -> bool {
+        match now {
+            Verdict::Pass => true,
+            Verdict::Fail => before == Some(Verdict::Fail),
+            Verdict::Inconclusive => false,
+        }
+    }
+
+    /// The budget of a study; `None` if no list is left to the study.
+    ///
+    /// * `lists`: the keys that are refined, each with whether it is `"auto"`: all are, or none.
+    /// * `usual`: the default budget.
+    ///
+    /// # Errors
+    /// Only some lists are `"auto"`, `"auto"` beside `grid = true`, or a budget without it.
+    #[cfg(feature = "files")]
+    pub fn read(
+        lists: &[(&str, bool)],
+        grid: bool,
+        budget: Option<Positive>,
+        usual: f64,
+    ) -> Result<Option<f64>, Refusal> {
+        let Some((auto, _)) = lists.iter().find(|(_, is_auto)| *is_auto) else {
+            return match budget {
+                None => Ok(None),
+                Some(_) => Err(Refusal::new(
+                    "budget",
+                    "a budget beside lists",
+                    "lists alone, or \"auto\" in their place",
+                )),
+            };
+        };
+        if let Some((listed, _)) = lists.iter().find(|(_, is_auto)| !is_auto) {
+            let more = " beside \"auto\"";
+            return Err(Refusal::written_and(*listed, more, "\"auto\" for both"));
+        }
+        if grid {
+            return Err(Refusal::written(*auto, "lists where grid = true"));
+        }
+        Ok(Some(budget.map_or(usual, Positive::get)))
+    }
+}
 
 /// The error at the fourth level, of a solution of size one, below which a study begins with coarser
 /// levels: that of the next one would be near round-off.
@@ -115,22 +199,10 @@ impl<'r> Looks<'r> {
             .iter()
             .filter(|now| {
                 let kind = now.rate.kind;
-                !kind.is_final() && !is_settled(kind.verdict(), earlier(&now.name))
+                !kind.is_final() && !Budget::is_settled(kind.verdict(), earlier(&now.name))
             })
             .map(|now| (now.name.as_str(), now.rate.kind))
             .collect()
-    }
-}
-
-/// Whether a verdict stands without a finer level: a pass does, a failure if the look before has
-/// failed as well.
-///
-/// * `before`: the verdict with one level fewer; `None` at the first look.
-pub fn is_settled(now: Verdict, before: Option<Verdict>) -> bool {
-    match now {
-        Verdict::Pass => true,
-        Verdict::Fail => before == Some(Verdict::Fail),
-        Verdict::Inconclusive => false,
     }
 }
 
@@ -141,7 +213,7 @@ fn can_change(reason: Reason) -> bool {
 
 /// * `levels`: how many there are so far.
 /// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
-pub fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
+pub(crate) fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
     let open = looks.open();
     let Some(&(_, first)) = open.first() else {
         return Next::Decided;
@@ -274,40 +346,6 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
         .collect()
 }
 
-/// The budget of a study; `None` if no list is left to the study.
-///
-/// * `lists`: the keys that are refined, each with whether it is `"auto"`: all are, or none.
-/// * `usual`: the default budget.
-///
-/// # Errors
-/// Only some lists are `"auto"`, `"auto"` beside `grid = true`, or a budget without it.
-#[cfg(feature = "files")]
-pub fn budget(
-    lists: &[(&str, bool)],
-    grid: bool,
-    budget: Option<Positive>,
-    usual: f64,
-) -> Result<Option<f64>, Refusal> {
-    let Some((auto, _)) = lists.iter().find(|(_, is_auto)| *is_auto) else {
-        return match budget {
-            None => Ok(None),
-            Some(_) => Err(Refusal::new(
-                "budget",
-                "a budget beside lists",
-                "lists alone, or \"auto\" in their place",
-            )),
-        };
-    };
-    if let Some((listed, _)) = lists.iter().find(|(_, is_auto)| !is_auto) {
-        let more = " beside \"auto\"";
-        return Err(Refusal::written_and(*listed, more, "\"auto\" for both"));
-    }
-    if grid {
-        return Err(Refusal::written(*auto, "lists where grid = true"));
-    }
-    Ok(Some(budget.map_or(usual, Positive::get)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -414,7 +452,10 @@ mod tests {
     #[test]
     fn the_last_look_decides_where_no_level_can_follow() {
         assert_eq!(after(4, &[first], 9.0), Next::TooDear(9.0));
-        assert!(!is_settled(Verdict::Fail, Some(Verdict::Inconclusive)));
-        assert!(is_settled(Verdict::Fail, Some(Verdict::Fail)));
+        assert!(!Budget::is_settled(
+            Verdict::Fail,
+            Some(Verdict::Inconclusive)
+        ));
+        assert!(Budget::is_settled(Verdict::Fail, Some(Verdict::Fail)));
     }
 }

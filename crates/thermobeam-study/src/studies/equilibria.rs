@@ -13,10 +13,7 @@ use super::steady::{cost_to_rest, name_of, settle};
 use crate::error::reference::Traced;
 use crate::kinds::tables::{Discretisation, level_of_mesh};
 use convergence_judge::judge::richardson;
-use convergence_study::{
-    Axis, Claim, Coverage, Floor, Subject,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::{Axis, Claim, Coverage, ErrorColumn, Floor, Levels, Subject};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::equilibrium::Equilibrium;
 

@@ -9,10 +9,7 @@ use super::prelude::*;
 use crate::kinds::tables::level_of_mesh;
 use crate::run::simulate;
 use crate::scene::Scene;
-use convergence_study::{
-    Axis, Claim, Subject,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::{Axis, Claim, ErrorColumn, Levels, Subject};
 use thermobeam_exact::projection::{Projected, Target};
 
 /// What the studies say about themselves.

@@ -1,9 +1,7 @@
 //! Laws of studies of orders for the scheme of any order: they pass, and planted defects make them
 //! fail.
 
-use convergence_study::{
-    CaseFailure, FromFile, Kind, Verdict, internal::study::run_cases_here, run_one,
-};
+use convergence_study::{CaseFailure, FromFile, Kind, Verdict, run_one};
 use thermobeam_study::kinds::orders::any_order::{self, JudgedErrors};
 use thermobeam_study::kinds::orders::{ErrorSource, Orders};
 
@@ -165,7 +163,7 @@ fn the_control_table_makes_a_study_fail() {
 #[test]
 fn a_failed_run_is_told_with_its_reason_and_an_empty_study_does_not_pass() {
     let study = read("any-order-coefficients.toml");
-    let mut runs: Runs<AnyOrder> = run_cases_here(&study);
+    let mut runs: Runs<AnyOrder> = study.run_here();
     runs[0].found = Err(CaseFailure::new("the iteration diverged"));
     let outcome = study.judge(&runs);
     assert_eq!(outcome.verdict, Verdict::Fail);

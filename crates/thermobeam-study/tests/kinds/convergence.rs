@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use convergence_study::{
-    CaseFailure, Check, FromFile, Kind, Outcome, Reason, Verdict, internal::study::run_cases_here,
-    run_one,
-};
+use convergence_study::{CaseFailure, Check, FromFile, Kind, Outcome, Reason, Verdict, run_one};
 use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
 use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};
@@ -106,7 +103,7 @@ fn no_level_is_added_to_one_that_failed() {
         .expect
         .iter_mut()
         .for_each(|(_, claim)| claim.tolerance = 0.005);
-    let mut runs: Vec<_> = run_cases_here(&study).into_iter().take(4).collect();
+    let mut runs: Vec<_> = study.run_here().into_iter().take(4).collect();
     assert_eq!(study.more(&runs).map(|case| case.data), Some((128, 20)));
     runs[1].found = Err(CaseFailure::new("planted"));
     assert_eq!(study.more(&runs), None);
@@ -125,7 +122,7 @@ fn on_a_grid_the_squares_of_both_errors_must_add() {
         Orders::<Convergence>::read(file().with_file_name("theorem-3.4-grid.toml")).unwrap();
     study.refine.elements = vec![8, 16, 32, 64];
     study.refine.steps = vec![8, 16, 32, 64];
-    let mut runs = run_cases_here(&study);
+    let mut runs = study.run_here();
     let adds = |outcome: Outcome| {
         let of_sum = |check: &&Check| check.subject.quantity == "sum of errors";
         let checks: Vec<_> = outcome.checks.iter().filter(of_sum).cloned().collect();
@@ -208,7 +205,7 @@ fn a_claim_that_is_no_order_is_refused() {
 fn with_viscosity_off_by_the_step(axis: &str) -> Outcome {
     let name = format!("theorem-3.4-{axis}.toml");
     let study = Orders::<Convergence>::read(file().with_file_name(name)).unwrap();
-    let mut runs: Vec<_> = run_cases_here(&study);
+    let mut runs: Vec<_> = study.run_here();
     for run in &mut runs {
         let (elements, steps) = run.case.data;
         let mut solver = study.solver;
@@ -250,7 +247,7 @@ fn a_mistake_in_the_papers_coefficients_fails() {
     for axis in ["space", "time"] {
         let name = format!("theorem-3.4-data-{axis}.toml");
         let study = Orders::<Convergence>::read(file().with_file_name(name)).unwrap();
-        let mut runs: Vec<_> = run_cases_here(&study);
+        let mut runs: Vec<_> = study.run_here();
         assert_eq!(study.judge(&runs).verdict, Verdict::Pass, "{axis}");
         for run in &mut runs {
             let (elements, steps) = run.case.data;

@@ -1,4 +1,4 @@
-use convergence_study::{FromFile, Kind, Outcome, Verdict, internal::study::run_cases_here};
+use convergence_study::{FromFile, Kind, Outcome, Verdict};
 use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::energy::ROW;
@@ -63,7 +63,7 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
 #[test]
 fn the_samples_of_a_run_end_with_its_last_step() {
     // 1000 steps; every third is a sample.
-    for ran in run_cases_here(&runs("energy-decay.toml")) {
+    for ran in runs("energy-decay.toml").run_here() {
         let found = ran.found.expect("a run");
         let last = found.samples.last().expect("samples");
         assert_eq!((last.step, found.steps), (1000, 1000), "{}", ran.case.label);

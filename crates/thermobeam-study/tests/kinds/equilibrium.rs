@@ -1,6 +1,6 @@
 use super::planted::verdict_with;
 use super::typed::{Runs, leaves_one_out, passes_but_not_without_each_case};
-use convergence_study::{InCode, Verdict, internal::study::run_cases_here};
+use convergence_study::{InCode, Kind as _, Verdict};
 use thermobeam_exact::equilibrium::Phase;
 use thermobeam_study::studies::equilibria::{self, AtRest, Nearest, study};
 
@@ -45,7 +45,7 @@ fn the_file_passes_but_not_without_each_case() {
 #[test]
 fn every_claim_about_end_states_can_fail() {
     let study = study().kind;
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     type Defect = fn(&mut AtRest);
     let planted: [(&str, Defect); 8] = [
         ("paper-2-beta-5, n = 160", |end| near(end).errors[0] = 2e-6),
@@ -80,7 +80,7 @@ fn every_claim_about_end_states_can_fail() {
 #[test]
 fn no_number_may_be_nan() {
     let study = study().kind;
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     let numbers: [fn(&mut AtRest) -> &mut f64; 7] = [
         |end| &mut end.t,
         |end| &mut end.tip[0],

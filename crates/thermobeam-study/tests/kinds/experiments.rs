@@ -1,6 +1,6 @@
 //! The paper's experiments: each statement of Section 5 and each of the ten digits can fail.
 
-use convergence_study::{InCode, Kind, Verdict, internal::study::run_cases_here};
+use convergence_study::{InCode, Kind, Verdict};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::studies::experiments::{
     self, AtRest, FixedPoint, Found, Nearest, PaperRun, SectionFive, SteadyRun, Trace,
@@ -153,7 +153,7 @@ time = { dt = 5e-4, t_end = 10.0, tolerance = 1e-10 }";
 #[test]
 fn the_papers_algorithm_is_judged_beside_newtons_method() {
     let study = coarse_full_study(1e-7);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
     let case = place(&sound, "paper-1-beta-0, fixed point and Newton");
     for (number, plant) in [
@@ -186,7 +186,7 @@ fn the_papers_algorithm_is_judged_beside_newtons_method() {
 #[test]
 fn a_loose_tolerance_fails() {
     let study = coarse_full_study(1e-1);
-    let outcome = study.judge(&run_cases_here(&study));
+    let outcome = study.judge(&study.run_here());
     let mut failed = outcome
         .checks
         .iter()

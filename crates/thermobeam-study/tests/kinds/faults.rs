@@ -2,9 +2,7 @@
 
 use std::sync::LazyLock;
 
-use convergence_study::{
-    CaseFailure, InCode, Kind, Outcome, Verdict, internal::study::run_cases_here,
-};
+use convergence_study::{CaseFailure, InCode, Kind, Outcome, Verdict};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::orders::{any_order::AnyOrder, manufactured::Convergence};
 use thermobeam_study::studies::faults::{self, Fault, Faults, Plantable};
@@ -14,7 +12,7 @@ use super::typed::{Runs, changed, passes_but_not_without_each_case};
 type Controls = InCode<Faults<Convergence>>;
 type OfAnyOrder = InCode<Faults<AnyOrder>>;
 
-static CONTROLS: LazyLock<Runs<Controls>> = LazyLock::new(|| run_cases_here(&faults::study().kind));
+static CONTROLS: LazyLock<Runs<Controls>> = LazyLock::new(|| faults::study().kind.run_here());
 
 /// The results under one fault in these cases, replaced by those under another.
 fn replaced<S: Plantable>(

@@ -1,6 +1,6 @@
 use super::typed::{changed, passes_but_not_without_each_case};
 use super::{file, text};
-use convergence_study::{FromFile, Kind, Verdict, internal::study::kind::run_cases_here, run_one};
+use convergence_study::{FromFile, Kind, Verdict, run_one};
 use thermobeam_study::kinds::orders::{Orders, frequencies};
 
 type Frequencies = Orders<frequencies::Frequencies>;
@@ -46,7 +46,7 @@ fn elements_of_higher_degree_have_twice_their_degree_as_order_and_no_other() {
 fn a_frequency_below_the_first_that_is_judged_can_fail() {
     let study =
         Frequencies::read(file("frequencies-4.toml")).unwrap_or_else(|error| panic!("{error}"));
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     for by in [1e-6, -1e-6, f64::NAN] {
         let planted = changed::<Frequencies>(&sound, |_, found| found[0] *= 1.0 + by);
         assert_eq!(study.judge(&planted).verdict, Verdict::Fail, "{by}");
@@ -56,7 +56,7 @@ fn a_frequency_below_the_first_that_is_judged_can_fail() {
 #[test]
 fn each_frequency_can_fail() {
     let study = study();
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     for mode in 0..8 {
         let verdict = |change: &dyn Fn(usize, f64) -> f64| {
             let planted = changed::<Frequencies>(&sound, |case, found| {

@@ -1,5 +1,4 @@
 use super::typed::{changed, passes_but_not_without_each_case};
-use convergence_study::internal::study::kind::run_cases_here;
 use convergence_study::{InCode, Kind, Outcome, Verdict};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::projection::{Projected, Target};
@@ -27,7 +26,7 @@ fn values_that_are_no_projections_fail_at_the_same_orders() {
     let study = study().kind;
     let u = |x: f64| [0.01 * x * (x - 2.0), 0.02 * (x - 1.0), 0.02];
     for share in [0.0, 1e-2] {
-        let planted = changed::<Projection>(&run_cases_here(&study), |case, found| {
+        let planted = changed::<Projection>(&study.run_here(), |case, found| {
             let mesh = Mesh::uniform(16 << case).expect("a mesh");
             let h = mesh.nodes()[1];
             let nodal: Vec<f64> = (mesh.nodes().iter())
@@ -50,7 +49,7 @@ fn values_that_are_no_projections_fail_at_the_same_orders() {
 #[test]
 fn each_number_can_fail() {
     let study = study().kind;
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     let claims = |change: &dyn Fn(&mut Projected)| {
         let planted = changed::<Projection>(&sound, |_, found| change(&mut found[4]));
         let outcome = study.judge(&planted);

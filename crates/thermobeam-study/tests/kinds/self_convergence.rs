@@ -1,10 +1,6 @@
 use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, text};
-use convergence_study::{
-    FromFile, Kind, NamedRate, Verdict,
-    internal::study::{Described, run_cases_here},
-    run_one,
-};
+use convergence_study::{FromFile, Kind, NamedRate, Verdict, internal::study::Described, run_one};
 use thermobeam::motion::TipRange;
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;
@@ -58,7 +54,7 @@ fn quick_files_pass_but_not_without_each_case() {
 #[test]
 fn an_error_at_one_step_between_samples_is_no_pass() {
     let study = parse("every-step.toml", |text| text);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     for step in [1, 3, 19] {
         let planted = changed::<SelfConvergence>(&sound, |index, found| {
             if index == 5 {
@@ -96,7 +92,7 @@ type Number = fn(&mut Traced) -> &mut f64;
 #[test]
 fn each_quantity_can_fail() {
     let study = parse("reference-space.toml", |text| text);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     let h = |case: usize| {
         if case >= 5 {
             0.0
@@ -141,7 +137,7 @@ fn each_quantity_can_fail() {
 #[test]
 fn the_functions_themselves_can_fail() {
     let study = parse("reference-space.toml", |text| text);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     let fields: [FieldAt; 5] = [
         ("u", 1, |level| &mut level.u),
         ("v", 4, |level| &mut level.v),
@@ -166,7 +162,7 @@ fn the_functions_themselves_can_fail() {
 #[test]
 fn a_tip_that_stays_free_is_no_study_of_contact() {
     let study = parse("reference-time.toml", |text| text);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     for [low, high] in [[-0.009, 0.09], [f64::NAN; 2]] {
         let range = TipRange { low, high };
         let free = changed::<SelfConvergence>(&sound, |_, found| found.tip_range = range);
@@ -185,7 +181,7 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
     for name in FILES {
         let study = parse(name, |text| text);
         let off = SelfConvergence::parse(&text(name), &folder.path().join(name)).expect("a study");
-        let mut planted = run_cases_here(&study);
+        let mut planted = study.run_here();
         for ran in planted.iter_mut().rev().skip(2) {
             ran.found = off.run(&ran.case.data);
         }
@@ -249,7 +245,7 @@ fn an_order_that_the_scheme_has_not_fails() {
 #[test]
 fn what_is_shown_but_not_claimed_decides_nothing() {
     let study = parse("reference-space.toml", |text| text);
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     let planted = changed::<SelfConvergence>(&sound, |case, found| {
         found.tip_range.high += 0.1 * case as f64;
     });

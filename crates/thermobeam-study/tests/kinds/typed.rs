@@ -1,12 +1,6 @@
 //! Requirements on every typed kind of study, and defects planted in its results.
 
-use convergence_study::{
-    CaseFailure, Coverage, Kind, NamedRate, Outcome, Ran, Verdict,
-    internal::study::{
-        kind::{judge, run_cases_here},
-        outcome::settle,
-    },
-};
+use convergence_study::{CaseFailure, Coverage, Kind, NamedRate, Outcome, Ran, Verdict};
 
 /// The results of a study: every case, run on this thread.
 pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
@@ -38,7 +32,7 @@ where
     K::Data: Clone,
     K::Found: Clone,
 {
-    let sound = run_cases_here(study);
+    let sound = study.run_here();
     let outcome = study.judge(&sound);
     assert_eq!(
         outcome.verdict,
@@ -68,11 +62,11 @@ where
     K::Found: Clone,
 {
     let all = sound.len();
-    assert!(!judge(study, sound).coverage.is_empty());
+    assert!(!study.outcome_of(sound).coverage.is_empty());
     for index in 0..all {
         let mut failed = sound.clone();
         failed[index].found = Err(CaseFailure::new("planted"));
-        let outcome = settle("id", judge(study, &failed));
+        let outcome = study.outcome_of(&failed);
         let words = format!("{} of {all} cases judged; 1 not: without a result", all - 1);
         assert!(
             outcome.summary.to_string().contains(&words),
@@ -100,7 +94,7 @@ pub(crate) fn leaves_one_out<K: Kind>(
 {
     let mut planted = sound.clone();
     change(planted[index].found.as_mut().expect("a result"));
-    let (before, after) = (study.judge(sound), settle("id", study.judge(&planted)));
+    let (before, after) = (study.judge(sound), study.outcome_of(&planted));
     let [before, less] = [&before, &after].map(|outcome| counted(outcome, items));
     assert_eq!(
         (less.asked, less.judged + 1),

@@ -1,6 +1,6 @@
 use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, text};
-use convergence_study::{FromFile, Kind, Verdict, internal::study::run_cases_here, run_one};
+use convergence_study::{FromFile, Kind, Verdict, run_one};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::orders::{Orders, vibration};
 
@@ -78,7 +78,7 @@ fn every_coefficient_that_must_be_zero_is_seen() {
 #[test]
 fn each_norm_can_fail() {
     let study = study("vibration-space.toml");
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     for norm in Norm::ALL {
         let verdict = |change: &dyn Fn(usize, f64) -> f64| {
             let planted = changed::<Vibration>(&sound, |case, found| {
@@ -119,7 +119,7 @@ fn each_norm_can_fail() {
 #[test]
 fn the_closed_form_can_fail() {
     let study = study("vibration-midpoint.toml");
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     for deviation in [1e-10, f64::NAN] {
         let planted = changed::<Vibration>(&sound, |case, found| {
             if case == 1 {

@@ -3,11 +3,7 @@
 
 use super::file;
 use super::typed::passes_but_not_without_each_case;
-use convergence_study::{
-    CaseFailure, FromFile, Kind, Outcome, Ran, Verdict,
-    internal::study::{kind::judge, outcome::settle, run_cases_here},
-    run_one,
-};
+use convergence_study::{CaseFailure, FromFile, Kind, Outcome, Ran, Verdict, run_one};
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::compared::{Costed, cheapest, front};
 use thermobeam_study::kinds::work_precision::method::{METHODS, Measurement, Trial};
@@ -50,20 +46,20 @@ fn planted(
 #[test]
 fn the_study_passes_and_repeats_and_no_case_may_be_missing() {
     let study = quick();
-    let outcome = judge(&study, &passes_but_not_without_each_case(&study));
+    let outcome = study.outcome_of(&passes_but_not_without_each_case(&study));
     let target = "theorem-3.4 1e-2: midpoint costs at least 4.7 times as much as dg";
     let check = outcome
         .checks
         .iter()
         .find(|check| check.claim == target.into());
     assert!(check.is_some_and(|check| check.evidence.to_string().contains("(98 x 32) against")));
-    assert_eq!(settle("study", outcome), run_one(&quick()));
+    assert_eq!(outcome, run_one(&quick()));
 }
 
 #[test]
 fn planted_defects_fail() {
     let study = quick();
-    let honest = run_cases_here(&study);
+    let honest = study.run_here();
     let plant = |only: &str, defect: &dyn Fn(&mut Measurement)| {
         planted(&study, &honest, only, |run| defect(run))
     };
@@ -203,7 +199,7 @@ fn short() -> String {
 #[test]
 fn references_that_do_not_agree_fail() {
     let reasons = |text: &str| -> Vec<String> {
-        let ran = run_cases_here(&read(text).unwrap());
+        let ran = read(text).unwrap().run_here();
         let reason = |failure: CaseFailure| failure.reason;
         ran.into_iter()
             .filter_map(|ran| ran.found.err().map(reason))
@@ -231,7 +227,7 @@ fn seconds_are_those_of_the_clock_that_is_given() {
         READINGS.fetch_add(1, Ordering::Relaxed) as f64
     }
     let study = quick();
-    for ran in run_cases_here(&study) {
+    for ran in study.run_here() {
         let run = ran.found.unwrap();
         assert_eq!(run.seconds, 0.0, "a study has no clock");
         if ran.case.label.starts_with("midpoint, 10 x 16") {

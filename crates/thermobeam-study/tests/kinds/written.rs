@@ -1,4 +1,4 @@
-use convergence_study::{Verdict, internal::study::run_cases_here};
+use convergence_study::{Kind as _, Verdict};
 use thermobeam_study::studies::written::{Pair, study};
 
 use super::planted::verdict_with;
@@ -7,7 +7,7 @@ use super::planted::verdict_with;
 #[test]
 fn each_mistake_in_what_is_written_fails() {
     let study = study().kind;
-    let sound = run_cases_here(&study);
+    let sound = study.run_here();
     type Mistake = fn(&mut Pair);
     let planted: [(&str, usize, Mistake); 7] = [
         (

@@ -13,7 +13,7 @@ use crate::study::subject::Subject;
 /// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
 /// failing check if it does not meet the requirements. Its summary says how many items were not
 /// judged, if any; the titles of its figures say the verdict unless it is a pass.
-pub fn settle(id: &str, mut outcome: Outcome) -> Outcome {
+pub(crate) fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     for figure in &mut outcome.figures {
         figure.file = format!("{id}-{}", figure.file);
     }

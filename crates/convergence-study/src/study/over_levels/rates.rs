@@ -34,19 +34,20 @@ pub(crate) fn rate_quantities(rates: &[NamedRate], columns: &[ErrorColumn]) -> V
     quantities
 }
 
-/// Order, rate, interval and verdict of each error, in a separate table: for rates that decide
-/// nothing.
-pub fn rate_table(title: &str, rates: &[NamedRate]) -> Table {
-    let head = [
-        "error of",
-        "order",
-        "pairwise rates",
-        "rate",
-        "rate interval",
-        "verdict",
-        "because",
-    ];
-    Table::new(title, head, rates.iter().map(row))
+impl Table {
+    /// Order, rate, interval and verdict of each error: for rates that decide nothing.
+    pub fn of_rates(title: &str, rates: &[NamedRate]) -> Self {
+        let head = [
+            "error of",
+            "order",
+            "pairwise rates",
+            "rate",
+            "rate interval",
+            "verdict",
+            "because",
+        ];
+        Self::new(title, head, rates.iter().map(row))
+    }
 }
 
 /// The row of a rate.
@@ -83,7 +84,7 @@ fn rate_cell(rate: &RateVerdict) -> String {
 
 /// Rates and orders in a sentence: of all errors if all pass, otherwise of the others, each with
 /// its reason.
-pub fn summary(rates: &[NamedRate]) -> String {
+pub(crate) fn summary(rates: &[NamedRate]) -> String {
     let passes = rates.iter().all(|rate| rate.rate.verdict.is_pass());
     let mut parts = vec![];
     for NamedRate { name, rate, .. } in rates {

@@ -14,10 +14,7 @@
 //! tolerance = 0.1
 //! ```
 
-use convergence_study::{
-    Interval,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::{ErrorColumn, Interval, Levels};
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{ErrorSource, Orders, Runs, Series, SourceResult};

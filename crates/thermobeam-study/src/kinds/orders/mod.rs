@@ -15,14 +15,7 @@ pub mod vibration;
 
 use std::ops::{Deref, DerefMut};
 
-use convergence_study::{
-    Grid, LevelErrors, Prose, Untested,
-    internal::study::{
-        over_levels::{Levels, rate_table, summary},
-        until_decided::{self, Looks, Next},
-    },
-    variants::Variants,
-};
+use convergence_study::{Budget, Grid, LevelErrors, Levels, Prose, Untested, variants::Variants};
 
 use serde::de::DeserializeOwned;
 
@@ -129,14 +122,8 @@ enum Picture {
 pub struct Finer<D> {
     /// The run.
     pub case: Case<D>,
-    /// Its cost, in the unit of the budget.
-    pub cost: f64,
-    /// The cost of all levels so far.
-    pub spent: f64,
-    /// The budget of the study.
-    pub budget: f64,
-    /// The unit of costs and budget, in words.
-    pub unit: &'static str,
+    /// What it costs, and what the study may cost.
+    pub budget: Budget,
 }
 
 /// A study of orders: its source, judged.
@@ -182,8 +169,9 @@ impl<S: ErrorSource> Kind for Orders<S> {
     fn more(&self, runs: &Runs<S>) -> Option<Case<S::Data>> {
         let finer = self.finer_of_complete(runs)?;
         let measured = self.0.measured(runs);
-        let next = finer.next(measured.series.first()?);
-        (next == Next::Another).then_some(finer.case)
+        let first = measured.series.first()?;
+        let Finer { case, budget } = finer;
+        budget.allows(&first.levels, first.rates()).then_some(case)
     }
 
     fn run(&self, data: &S::Data) -> Result<S::Found, CaseFailure> {
@@ -209,7 +197,7 @@ impl<S: ErrorSource> Kind for Orders<S> {
         }
         if !not_claimed.is_empty() {
             let title = "Rates shown, not claimed: not needed for a pass";
-            outcome.tables.push(rate_table(title, &not_claimed));
+            outcome.tables.push(Table::of_rates(title, &not_claimed));
         }
         let mut checks = vec![completion_check(runs, |found| self.0.not_finite(found))];
         checks.extend(measured.checks);
@@ -225,13 +213,9 @@ impl<S: ErrorSource> Kind for Orders<S> {
             outcome.summary = summary;
             return outcome;
         };
-        outcome.summary = summary(&outcome.rates).into();
         let outcome = outcome.summed_up_by_rates("");
         match self.finer_of_complete(runs) {
-            Some(finer) => {
-                let next = finer.next(first);
-                until_decided::conclude(outcome, next, &first.levels, finer.budget, finer.unit)
-            }
+            Some(Finer { budget, .. }) => budget.conclude(outcome, &first.levels, first.rates()),
             None => outcome,
         }
     }
@@ -254,14 +238,6 @@ impl<S: ErrorSource> Orders<S> {
     fn finer_of_complete(&self, runs: &Runs<S>) -> Option<Finer<S::Data>> {
         let is_complete = runs.iter().all(|run| run.found.is_ok());
         self.0.finer(runs).filter(|_| is_complete)
-    }
-}
-
-impl<D> Finer<D> {
-    fn next(&self, series: &Series) -> Next {
-        let levels = series.levels.refinements.len();
-        let looks = Looks::of(&series.levels, series.rates());
-        until_decided::next(&looks, levels, self.cost, self.spent, self.budget)
     }
 }
 

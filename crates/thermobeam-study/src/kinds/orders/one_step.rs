@@ -9,7 +9,7 @@ use crate::{
     kinds::tables::Refine,
     run::{RunError, driver::Driver, run_to},
 };
-use convergence_study::internal::study::over_levels::{ErrorColumn, Levels};
+use convergence_study::{ErrorColumn, Levels};
 use thermobeam::scheme::Scheme;
 
 /// Errors in each norm over the levels of a refinement: a column for each norm, with the expected

@@ -1,9 +1,8 @@
 //! The table `[refine]`: the meshes and time steps of a study.
 
 use convergence_study::{
-    Refinement,
+    Budget, Refinement,
     file::{Choices, Counts, Number, Range},
-    internal::study::until_decided,
 };
 
 use crate::kinds::prelude::*;
@@ -309,7 +308,7 @@ impl RefineTable {
         };
         let refine = Refine {
             axis,
-            budget: until_decided::budget(refined, self.grid, self.budget, BUDGET)?,
+            budget: Budget::read(refined, self.grid, self.budget, BUDGET)?,
             isolate: self.isolate,
             grid: self.grid,
             t_end: self.t_end.get(),
@@ -348,7 +347,7 @@ fn levels<T: Copy + Into<usize>>(
     is_refined: bool,
 ) -> Result<Vec<usize>, Refusal> {
     match counts {
-        Counts::Auto if is_refined => Ok(until_decided::FIRST.into()),
+        Counts::Auto if is_refined => Ok(Budget::FIRST_LEVELS.into()),
         Counts::List(list) if is_refined => Ok(list.iter().map(|&level| level.into()).collect()),
         &Counts::One(level) if !is_refined => Ok(vec![level.into()]),
         _ => {

@@ -11,10 +11,7 @@ use crate::figures;
 use crate::kinds::tables::level_of_mesh;
 use crate::studies::paper::{Experiment, OBSTACLES};
 use crate::studies::prelude::*;
-use convergence_study::{
-    Axis, Claim, Figure,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::{Axis, Claim, ErrorColumn, Figure, Levels};
 use thermobeam::kirchhoff::BUCKLING;
 
 /// A beam with a tip closer to zero than this is straight.

@@ -4,10 +4,7 @@ use super::{EPSILONS, LIMIT, RunOf, ShownImpact, figures, impact_time, peak_pene
 use crate::kinds::runs::checks::largest_difference;
 use crate::studies::prelude::*;
 use convergence_judge::text::number::{min_or_nan, rate_text};
-use convergence_study::{
-    Axis, Claim, Coverage, NamedRate, Refinement,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::{Axis, Claim, Coverage, ErrorColumn, Levels, NamedRate, Refinement};
 
 /// Contraction above which a time step averages over the whole impact, so that the penetration is
 /// of order 1.

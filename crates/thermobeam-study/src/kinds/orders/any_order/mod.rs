@@ -44,10 +44,7 @@ use crate::{
         limits,
     },
 };
-use convergence_study::{
-    Floor, Refinement,
-    internal::study::over_levels::{ErrorColumn, Levels},
-};
+use convergence_study::{ErrorColumn, Floor, Levels, Refinement};
 pub use runs::AnyOrderRun;
 use runs::{Over, RunTable, RunsOfDegree, SeriesTable};
 

@@ -37,7 +37,7 @@ mod constant;
 pub(in crate::kinds) mod design;
 mod variants;
 
-use convergence_study::{Grid, GridColumn, SpaceTime, Untested, variants::Variants};
+use convergence_study::{Budget, Grid, GridColumn, SpaceTime, Untested, variants::Variants};
 
 use super::{
     ErrorSource, Finer, Orders, Runs, Series, SourceResult,
@@ -204,14 +204,16 @@ impl ErrorSource for Convergence {
     }
 
     fn finer(&self, runs: &Runs<Self>) -> Option<Finer<(usize, usize)>> {
-        let budget = self.refine.budget?;
+        let limit = self.refine.budget?;
         let data = self.refine.finer(runs.last()?.case.data);
         Some(Finer {
             case: case(data),
-            cost: node_steps(data),
-            spent: runs.iter().map(|run| node_steps(run.case.data)).sum(),
-            budget,
-            unit: "node-steps",
+            budget: Budget {
+                next: node_steps(data),
+                spent: runs.iter().map(|run| node_steps(run.case.data)).sum(),
+                limit,
+                unit: "node-steps",
+            },
         })
     }
 

@@ -11,8 +11,8 @@ use crate::{
 };
 use convergence_judge::judge::richardson;
 use convergence_study::{
+    ErrorColumn, Levels,
     chart::{self, Chart},
-    internal::study::over_levels::{ErrorColumn, Levels},
 };
 
 /// Half-width of the band about the order for quantities that are shown but not claimed.

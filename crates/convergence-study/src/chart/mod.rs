@@ -34,7 +34,7 @@
 mod cells;
 mod curve;
 mod draw;
-mod glyphs;
+pub(crate) mod glyphs;
 mod layout;
 mod legend;
 mod page;

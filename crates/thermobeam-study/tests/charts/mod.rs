@@ -4,11 +4,14 @@
 mod back;
 mod committed;
 mod figures;
+#[path = "../../../convergence-study/src/chart/glyphs.rs"]
+mod glyphs;
 #[path = "../../../convergence-study/src/tests/chart/laws.rs"]
 mod laws;
 
 use std::path::Path;
 
+use glyphs::text_width;
 use laws::{EXTREMES, elements, parse};
 use thermobeam_study::figures::*;
 

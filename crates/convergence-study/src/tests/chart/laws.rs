@@ -3,11 +3,7 @@
 
 use roxmltree::{Document, Node};
 
-use glyphs::text_width;
-
-#[path = "../../chart/glyphs.rs"]
-#[allow(unreachable_pub, reason = "a file of the charts")]
-mod glyphs;
+use super::text_width;
 
 /// Figures by name.
 pub(crate) type Figures = [(&'static str, String)];

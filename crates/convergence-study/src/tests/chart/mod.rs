@@ -6,7 +6,7 @@ mod gallery;
 pub(crate) mod laws;
 mod rows;
 
-use crate::chart::*;
+use crate::chart::{glyphs::text_width, *};
 use gallery::{errors_over_h, gallery};
 use laws::{EXTREMES, UNITS, elements, parse};
 

@@ -33,7 +33,7 @@ pub(super) fn judge(study: &Program, ran: &[CaseRun], refinements: &[Refinement]
             column.errors[level].unwrap_or(f64::NAN),
             ERROR_TOLERANCE,
         )
-        .about(Subject::of(value).at(label))
+        .about(Subject::of(value).in_case(label))
     };
     let guarded = (0..refinements.len())
         .flat_map(|level| columns.iter().map(move |column| value(column, level)));

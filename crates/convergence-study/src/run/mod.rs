@@ -165,7 +165,7 @@ pub(crate) fn listed(study: &(dyn Study + '_)) -> Header {
 
 fn with_cases(header: &Header, cases: &[Case<()>]) -> Header {
     Header {
-        cases: cases.iter().map(|case| case.label.clone()).collect(),
+        cases: cases.to_vec(),
         ..header.clone()
     }
 }

@@ -1,16 +1,25 @@
-//! What the failing cases of a run have in common. A setting is named only where two studies agree
-//! on it and no passing case has it: what a single study shows is said by its own checks.
+//! What the failing cases of a run have in common, by agreement and difference: a setting is named
+//! if the failing cases of two studies or more have it, all of them, and cases that have all else
+//! that they share, but not it, pass. What a single study shows is said by its own checks.
+//!
+//! A case that has what the failing ones share and passes is counted against: it may be blind to
+//! the mistake, or something else is to blame.
+
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::GuardedChange;
-use crate::study::header::{self, SettingWords};
-use crate::study::{NamedRate, Origin, Outcome, Subject};
+use crate::study::settings::Setting;
+use crate::study::{Header, NamedRate, Origin, Outcome, Subject};
 use crate::text::lists::{and_more, distinct};
 
 /// Most studies, changed claims and settings that are named.
 const NAMED: usize = 3;
+
+/// How likely chance alone may be to put the failing studies among those with a setting.
+const CHANCE: f64 = 0.05;
 
 /// The known facts about the cause of a failure, as data; [`Diagnosis::lines`] puts them in words.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -25,41 +34,44 @@ pub struct Diagnosis {
     pub clearest: Vec<String>,
 }
 
-/// Settings that the same failing cases have, of two studies or more, and that no passing case
-/// has.
+/// Settings that all failing cases have, of two studies or more, and without which cases pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Shared {
     /// The settings.
-    pub settings: Vec<SettingWords>,
-    /// How many failing cases have them.
+    pub settings: Vec<Setting>,
+    /// How many failing cases have them, those with equal settings of a study counted once.
     pub cases: usize,
-    /// How many cases fail.
-    pub failing: usize,
-    /// The number of studies of the cases that have them.
+    /// The number of studies of these cases.
     pub studies: usize,
 }
 
-/// The items of one study with the same settings.
-struct Case {
+/// Cases of a study with the same settings, or what several cases share that fail together.
+struct Unit {
     /// The place of the study.
     study: usize,
-    settings: Vec<SettingWords>,
-    fails: bool,
+    settings: BTreeSet<Setting>,
+}
+
+/// The cases of a run, for and against.
+#[derive(Default)]
+struct Evidence {
+    failing: Vec<Unit>,
+    /// What cases share of which a check or a number is about several, and fails.
+    failing_together: Vec<Unit>,
+    passing: Vec<Unit>,
+    /// The studies and quantities of the items that fail.
+    quantities: BTreeSet<(usize, String)>,
+    /// Studies in which other quantities do not fail.
+    other_quantities: BTreeSet<(usize, String)>,
 }
 
 /// Diagnoses a run that does not pass; `None` for one in which no study fails and no number moved.
 ///
 /// * `changes`: differences from the baseline.
 pub(crate) fn diagnose(finished: &[Finished], changes: &[GuardedChange]) -> Option<Diagnosis> {
-    let any_fails = finished
-        .iter()
-        .any(|study| !study.outcome.verdict.is_pass());
-    // Numbers of studies that fail move for the same cause.
-    let moved: Vec<&GuardedChange> = changes
-        .iter()
-        .filter(|change| !any_fails && is_number(change))
-        .collect();
-    if !any_fails && moved.is_empty() {
+    let all_pass = finished.iter().all(|study| study.outcome.verdict.is_pass());
+    let moved: Vec<&GuardedChange> = changes.iter().filter(|change| is_number(change)).collect();
+    if all_pass && moved.is_empty() {
         return None;
     }
     let claims: Vec<String> = changes
@@ -69,7 +81,7 @@ pub(crate) fn diagnose(finished: &[Finished], changes: &[GuardedChange]) -> Opti
         .collect();
     Some(Diagnosis {
         claims,
-        shared: shared(&cases(finished, &moved)),
+        shared: Evidence::of(finished, &moved).shared(),
         clearest: clearest(finished),
     })
 }
@@ -79,106 +91,199 @@ fn is_number(change: &GuardedChange) -> bool {
     !change.movement.is_of_claims() && change.movement.weight() > 0.0
 }
 
-/// The cases of all studies.
-///
-/// * `moved`: numbers that moved, if no study fails.
-fn cases(finished: &[Finished], moved: &[&GuardedChange]) -> Vec<Case> {
-    let mut cases = vec![];
-    for (
-        place,
-        Finished {
-            header, outcome, ..
-        },
-    ) in finished.iter().enumerate()
-    {
-        let mut own: Vec<Case> = vec![];
-        for (subject, fails) in items(&header.id, outcome, moved) {
-            // A ratio of two methods is about both.
-            for side in subject.sides() {
-                let settings = header::settings(header, &side);
-                match own.iter_mut().find(|case| case.settings == settings) {
-                    Some(case) => case.fails |= fails,
-                    None => own.push(Case {
-                        study: place,
-                        settings,
-                        fails,
-                    }),
-                }
-            }
-        }
-        cases.append(&mut own);
-    }
-    cases
-}
-
-/// What the items of a study are about, and whether each fails.
+/// What a rate, a check or a guarded number is about, and whether it fails: a number that moved
+/// does.
 fn items(id: &str, outcome: &Outcome, moved: &[&GuardedChange]) -> Vec<(Subject, bool)> {
     let mut items = vec![];
     for NamedRate { subject, rate, .. } in &outcome.rates {
         items.push((subject.clone(), !rate.verdict.is_pass()));
     }
-    for check in &outcome.checks {
-        // That a case has ended says nothing of its numbers.
-        if check.origin != Origin::Completion || !check.verdict.is_pass() {
-            // A run that failed is of no field.
-            let quantity = match check.origin {
-                Origin::Completion => String::new(),
-                _ => check.quantity(),
-            };
-            let subject = Subject {
-                quantity,
-                ..check.subject.clone()
-            };
-            items.push((subject, !check.verdict.is_pass()));
-        }
+    // The cases that did not complete are listed by themselves.
+    let checks = outcome.checks.iter();
+    for check in checks.filter(|check| check.origin != Origin::Completion) {
+        let subject = Subject {
+            quantity: check.quantity(),
+            ..check.subject.clone()
+        };
+        items.push((subject, !check.verdict.is_pass()));
     }
-    if !moved.is_empty() {
-        for quantity in &outcome.quantities {
-            let own = |change: &&&GuardedChange| change.study == id && change.name == quantity.name;
-            let subject = Subject {
-                quantity: quantity.subject.quantity_or(&quantity.name).to_owned(),
-                ..quantity.subject.clone()
-            };
-            items.push((subject, moved.iter().any(|change| own(&change))));
-        }
+    for quantity in &outcome.quantities {
+        let is_own = |change: &&GuardedChange| change.study == id && change.name == quantity.name;
+        items.push((quantity.subject.clone(), moved.iter().any(is_own)));
     }
     items
 }
 
-/// The settings that most failing cases share, by the rule.
-fn shared(cases: &[Case]) -> Option<Shared> {
-    let failing: Vec<&Case> = cases.iter().filter(|case| case.fails).collect();
-    let settings = distinct(failing.iter().flat_map(|case| &case.settings));
-    let mut best: Option<Shared> = None;
-    for setting in settings {
-        let has = |case: &&&Case| case.settings.contains(setting);
-        let with: Vec<&&Case> = failing.iter().filter(has).collect();
-        let studies = distinct(with.iter().map(|case| case.study)).len();
-        let passes_too = cases
-            .iter()
-            .any(|case| !case.fails && case.settings.contains(setting));
-        if studies < 2 || passes_too {
-            continue;
+/// The cases of a study by their labels, with their settings: what they say of themselves, or the
+/// values of the study's file.
+fn cases(header: &Header) -> Vec<(&str, BTreeSet<Setting>)> {
+    let of_file: BTreeSet<Setting> = header.settings_of_file().into_iter().collect();
+    let mut cases = vec![];
+    for case in &header.cases {
+        let own: BTreeSet<Setting> = case.settings.iter().cloned().collect();
+        let settings = if own.is_empty() { &of_file } else { &own };
+        cases.push((case.label.as_str(), settings.clone()));
+    }
+    if cases.is_empty() {
+        cases.push(("", of_file));
+    }
+    cases
+}
+
+/// Whether a label has all the parts of another: `n = 4` and `p = 3, n = 4`.
+fn has_parts(label: &str, parts: &str) -> bool {
+    let mut parts = parts.split(", ");
+    parts.all(|part| label.split(", ").any(|own| own == part))
+}
+
+impl Evidence {
+    fn of(finished: &[Finished], moved: &[&GuardedChange]) -> Self {
+        let mut all = Self::default();
+        for (study, finished) in finished.iter().enumerate() {
+            all.add(study, finished, moved);
         }
-        match &mut best {
-            Some(best) if best.cases > with.len() => {}
-            Some(best) if best.cases == with.len() => {
-                // A method without a choice has the same name under several keys.
-                if best.settings.iter().all(|(_, value)| *value != setting.1) {
-                    best.settings.push(setting.clone());
-                }
+        all
+    }
+
+    /// Adds the cases of a study.
+    fn add(&mut self, study: usize, finished: &Finished, moved: &[&GuardedChange]) {
+        let cases = cases(&finished.header);
+        let about = |subject: &Subject| -> Vec<usize> {
+            let is = |place: usize, parts: &Option<String>| {
+                let parts = parts.as_deref();
+                parts.is_some_and(|parts| has_parts(cases[place].0, parts))
+            };
+            let is_named = |place: &usize| {
+                is(*place, &subject.case) || subject.case.is_some() && is(*place, &subject.against)
+            };
+            let own: Vec<usize> = (0..cases.len()).filter(is_named).collect();
+            if own.is_empty() {
+                (0..cases.len()).collect()
+            } else {
+                own
             }
-            _ => {
-                best = Some(Shared {
-                    settings: vec![setting.clone()],
-                    cases: with.len(),
-                    failing: failing.len(),
-                    studies,
-                });
+        };
+        let mut fail = BTreeSet::new();
+        let mut together = vec![];
+        let failed = finished.failed_cases.iter();
+        let failed = failed.map(|failed| (Subject::default().in_case(&failed.label), true));
+        let items = items(&finished.header.id, &finished.outcome, moved);
+        for (subject, fails) in items.into_iter().chain(failed) {
+            let about = about(&subject);
+            let quantity = (study, subject.quantity);
+            if !fails {
+                self.other_quantities.insert(quantity);
+                continue;
+            }
+            self.quantities.insert(quantity);
+            let settings = distinct(about.iter().map(|place| &cases[*place].1));
+            match settings[..] {
+                [settings] => drop(fail.insert(settings)),
+                _ => together.push(about),
+            }
+        }
+        let mut doubtful: BTreeSet<&BTreeSet<Setting>> = BTreeSet::new();
+        for about in together {
+            let settings: Vec<_> = about.iter().map(|place| &cases[*place].1).collect();
+            let settings = || settings.iter().copied();
+            if !settings().any(|settings| fail.contains(settings)) {
+                let settings = shared(settings());
+                self.failing_together.push(Unit { study, settings });
+            }
+            doubtful.extend(settings());
+        }
+        for settings in distinct(cases.iter().map(|(_, settings)| settings)) {
+            let unit = Unit {
+                study,
+                settings: settings.clone(),
+            };
+            if fail.contains(settings) {
+                self.failing.push(unit);
+            } else if !doubtful.contains(settings) {
+                self.passing.push(unit);
             }
         }
     }
-    best
+
+    /// What is named, by the rule.
+    fn shared(mut self) -> Option<Shared> {
+        // Where cases of two studies fail by themselves, those that fail together say no more.
+        if studies(self.failing.iter()) < 2 {
+            self.failing.append(&mut self.failing_together);
+        }
+        let failing_studies = studies(self.failing.iter());
+        if failing_studies < 2 {
+            return None;
+        }
+        let common = shared(self.failing.iter().map(|unit| &unit.settings));
+        let passing_with = |settings: &[&Setting]| -> Vec<&Unit> {
+            let has_all = |unit: &&Unit| settings.iter().all(|one| unit.settings.contains(*one));
+            self.passing.iter().filter(has_all).collect()
+        };
+        let alike = passing_with(&common.iter().collect::<Vec<_>>()).into_iter();
+        let alike = studies(alike);
+        let is_to_blame = |setting: &&Setting| {
+            let is_else = |other: &&Setting| other != setting && !is_below(other, setting);
+            let rest: Vec<&Setting> = common.iter().filter(is_else).collect();
+            let without = passing_with(&rest).into_iter();
+            let without = studies(without.filter(|unit| !unit.settings.contains(*setting)));
+            chance(failing_studies, alike, without) <= CHANCE
+        };
+        let named: Vec<&Setting> = common.iter().filter(is_to_blame).collect();
+        let is_last = |one: &&&Setting| !named.iter().any(|other| is_below(other, one));
+        let settings = named.iter().filter(is_last);
+        let mut settings: Vec<Setting> = settings.map(|one| (*one).clone()).collect();
+        settings.extend(self.quantity());
+        (!settings.is_empty()).then_some(Shared {
+            settings,
+            cases: self.failing.len(),
+            studies: failing_studies,
+        })
+    }
+
+    /// The quantity of which all failing items of two studies are, while others of these studies
+    /// do not fail.
+    fn quantity(&self) -> Option<Setting> {
+        let names = distinct(self.quantities.iter().map(|(_, name)| name));
+        let [name] = names[..] else { return None };
+        let mut studies = self.quantities.iter().map(|(study, _)| study);
+        let has_another = |study: &usize| {
+            let mut others = self.other_quantities.iter();
+            others.any(|(other, quantity)| other == study && quantity != name)
+        };
+        let is_told_apart = studies.all(has_another) && !name.is_empty();
+        let words = format!("quantity {name}");
+        (is_told_apart && self.quantities.len() > 1).then(|| ("quantity".to_owned(), words))
+    }
+}
+
+/// How many studies the cases are of.
+fn studies<'u>(units: impl Iterator<Item = &'u Unit>) -> usize {
+    units.map(|unit| unit.study).collect::<BTreeSet<_>>().len()
+}
+
+/// What all of them have.
+fn shared<'s>(mut all: impl Iterator<Item = &'s BTreeSet<Setting>>) -> BTreeSet<Setting> {
+    let first = all.next().cloned().unwrap_or_default();
+    all.fold(first, |shared, next| &shared & next)
+}
+
+/// Whether a setting is a part of what another is about: `heat.rate` of `heat`.
+fn is_below((path, _): &Setting, (above, _): &Setting) -> bool {
+    path.strip_prefix(above.as_str())
+        .is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// The probability that all studies that fail are among those with a setting by chance alone, by
+/// Fisher's exact test.
+///
+/// * `alike`, `without`: studies with passing cases that have the setting, and that have not.
+fn chance(failing: usize, alike: usize, without: usize) -> f64 {
+    let share = |failed: usize| {
+        let with = (failing + alike - failed) as f64;
+        with / (with + without as f64)
+    };
+    (0..failing).map(share).product()
 }
 
 /// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then
@@ -222,14 +327,13 @@ impl Diagnosis {
         if let Some(Shared {
             settings,
             cases,
-            failing,
             studies,
         }) = &self.shared
         {
             let values = settings.iter().map(|(_, value)| value.as_str());
             let values: Vec<&str> = values.take(NAMED).collect();
             let values = values.join(", ");
-            lines.push(("shared", format!("{values}: {cases} of {failing} failing cases, of {studies} studies, and no passing case of any study")));
+            lines.push(("shared", format!("{values}: all {cases} failing cases, of {studies} studies; cases without it pass")));
         }
         lines
     }

@@ -154,11 +154,7 @@ fn never_run() -> CaseFailure {
 
 impl<K: Kind> Plan for Typed<'_, K> {
     fn cases(&self) -> Vec<Case<()>> {
-        let mut cases = vec![];
-        for Ran { case, .. } in self.ran().iter() {
-            cases.push(Case::new(case.label.clone(), case.cost, ()));
-        }
-        cases
+        self.ran().iter().map(|ran| ran.case.listed()).collect()
     }
 
     fn more(&self) -> Option<usize> {

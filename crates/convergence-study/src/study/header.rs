@@ -1,7 +1,7 @@
-//! The table `[study]`, which every kind of study file has; and the settings that a judged item
-//! exercises, pairs of text by which a diagnosis separates failing from passing items.
+//! The table `[study]`, which every kind of study file has.
 
-use super::subject::Subject;
+use super::kind::Case;
+use super::settings::Setting;
 
 /// The kind of a study without a file: orders over levels that the caller computes.
 const ORDERS: &str = "orders";
@@ -70,10 +70,10 @@ pub struct Header {
     /// unnoticed. Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
-    /// The labels of its cases as it lists them before any has run, part of the same hash; filled
-    /// in by the runner.
+    /// Its cases as it lists them before any has run, whose labels are part of the same hash;
+    /// filled in by the runner.
     #[serde(skip)]
-    pub cases: Vec<String>,
+    pub cases: Vec<Case<()>>,
 }
 
 impl Header {
@@ -93,6 +93,27 @@ impl Header {
             settings: Vec::new(),
             cases: Vec::new(),
         }
+    }
+
+    /// The values of its file, but for those of lists, as settings of every case: a number is zero
+    /// or not, and each plain value of a list, such as a word of a command, is one.
+    #[cfg(feature = "reports")]
+    pub(crate) fn settings_of_file(&self) -> Vec<Setting> {
+        let mut settings = vec![];
+        for (path, value) in &self.settings {
+            if path.starts_with("study.") || path.contains('[') {
+                continue;
+            }
+            for value in value.trim_matches(['[', ']']).split(", ") {
+                let words = match value.parse::<f64>() {
+                    Ok(0.0) => format!("{path} = 0"),
+                    Ok(_) => format!("{path} ≠ 0"),
+                    Err(_) => format!("{path} {}", value.trim_matches('"')),
+                };
+                settings.push((path.clone(), words));
+            }
+        }
+        settings
     }
 }
 
@@ -116,45 +137,4 @@ pub fn is_name(text: &str) -> bool {
     text.len() <= LONGEST_NAME
         && text.starts_with(plain)
         && text.chars().all(|c| plain(c) || c == '.' || c == '-')
-}
-
-/// A setting: its key, and its value in words that can stand alone, such as `heat.rate` and
-/// `heat.rate 0.5`.
-pub(crate) type SettingWords = (String, String);
-
-/// The settings of an item: kind, field, method, every value of the study's file, and of the entry
-/// of a list that has the name of its case.
-///
-/// * `subject`: what the item is about; without a quantity it is of no field.
-pub(crate) fn settings(header: &Header, subject: &Subject) -> Vec<SettingWords> {
-    let pair = |key: &str, value: &str| (key.to_owned(), format!("{key} {value}"));
-    let mut settings = vec![pair("kind", &header.kind)];
-    let field = Some(&subject.quantity).filter(|field| !field.is_empty());
-    settings.extend(field.map(|field| pair("field", field)));
-    settings.extend(subject.method.as_deref().map(|name| pair("method", name)));
-    let entry = subject.case.as_deref();
-    let entry = entry.and_then(|case| entry_of(header, case));
-    for (path, value) in &header.settings {
-        let is_own = !path.starts_with("study.") && !path.contains('[');
-        let of_entry = entry.and_then(|entry| path.strip_prefix(entry));
-        // Each value of a list, such as a word of a command, is a separate setting.
-        let values = || value.trim_matches(['[', ']']).split(", ");
-        let path = match of_entry {
-            Some(path) => path.trim_start_matches('.'),
-            None if is_own => path,
-            None => continue,
-        };
-        settings.extend(values().map(|value| pair(path, value.trim_matches('"'))));
-    }
-    settings
-}
-
-/// The entry of a list that has the name of a case, such as `case[3]`.
-fn entry_of<'h>(header: &'h Header, case: &str) -> Option<&'h str> {
-    let quoted = format!("{case:?}");
-    let mut named = header.settings.iter();
-    named.find_map(|(path, value)| {
-        let entry = path.strip_suffix("].name")?;
-        (*value == quoted).then(|| &path[..=entry.len()])
-    })
 }

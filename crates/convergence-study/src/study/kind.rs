@@ -5,6 +5,9 @@ use std::path::Path;
 
 use super::coverage::{Coverage, NO_RESULT};
 use super::outcome::{Check, Origin, Outcome, settle};
+#[cfg(feature = "files")]
+use super::settings;
+use super::settings::Setting;
 use super::subject::Subject;
 use super::variants::Variants;
 use crate::text::lists::{and_more, grouped};
@@ -19,6 +22,8 @@ pub struct Case<D> {
     pub cost: f64,
     /// The input of the computation.
     pub data: D,
+    /// What it says of itself: the leaves of a value.
+    pub settings: Vec<Setting>,
 }
 
 impl<D> Case<D> {
@@ -28,6 +33,23 @@ impl<D> Case<D> {
             label: label.into(),
             cost,
             data,
+            settings: vec![],
+        }
+    }
+
+    /// The same, described by a value: a diagnosis names the leaves that failing cases share.
+    #[cfg(feature = "files")]
+    #[must_use]
+    pub fn described(self, value: &impl serde::Serialize) -> Self {
+        let settings = settings::leaves(value);
+        Self { settings, ..self }
+    }
+
+    /// The same without its input.
+    pub(super) fn listed(&self) -> Case<()> {
+        Case {
+            settings: self.settings.clone(),
+            ..Case::new(&self.label, self.cost, ())
         }
     }
 }

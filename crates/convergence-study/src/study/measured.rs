@@ -44,6 +44,8 @@ pub struct Recorded {
 pub struct Measured {
     /// The run, time or level, which is a row of its table; empty for the study as a whole.
     pub case: String,
+    /// The other run of a ratio or a difference: either may be the cause of a failure.
+    pub against: Option<String>,
     /// What it is: a column of its table.
     pub name: String,
     /// The number; `None` if there is none, which is a dash and meets no claim.
@@ -64,6 +66,7 @@ pub fn measured(
 ) -> Measured {
     Measured {
         case: case.into(),
+        against: None,
         name: name.into(),
         value: value.into(),
         shown: Shown::Scientific(2),
@@ -95,6 +98,12 @@ impl Measured {
     pub fn hidden(self) -> Self {
         let shown = Shown::Hidden;
         Self { shown, ..self }
+    }
+
+    /// Compared with another run.
+    pub fn against(self, case: impl Into<String>) -> Self {
+        let against = Some(case.into());
+        Self { against, ..self }
     }
 
     /// It must be this.

@@ -21,6 +21,7 @@ pub(crate) mod norms;
 pub(crate) mod outcome;
 pub(crate) mod over_levels;
 pub(crate) mod sampled;
+pub(crate) mod settings;
 pub(crate) mod subject;
 pub(crate) mod until_decided;
 pub(crate) mod variants;

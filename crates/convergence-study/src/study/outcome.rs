@@ -151,8 +151,8 @@ impl LevelErrors {
 pub struct Quantity {
     /// Name, unique within the study.
     pub name: String,
-    /// What it is about; unknown in older records.
-    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    /// What it is about.
+    #[serde(default)]
     pub subject: Subject,
     /// Whether it is an error, a rate or another number.
     #[serde(default)]

@@ -380,7 +380,7 @@ impl Levels {
                 let name = format!("error {}, {label}", column.name);
                 quantities.push(
                     Quantity::new(name, error, ERROR_TOLERANCE)
-                        .about(column.subject.clone().at(label))
+                        .about(column.subject.clone().in_case(label))
                         .of_sort(Sort::Error),
                 );
             }

@@ -1,26 +1,21 @@
-//! What a judged item or a guarded number is about, as data.
+//! What a judged item or a guarded number is about: which case, and which quantity of it.
 //!
-//! A diagnosis groups and separates items by their subjects. It never reads a claim, evidence or
-//! another sentence, so that their wording can be improved without changing what is concluded.
+//! What the case is, its method and its terms, the case says itself. So a diagnosis never reads a
+//! claim, evidence or another sentence.
 
 /// What a check, a rate or a guarded number is about.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Subject {
-    /// The case: an entry of the study's file, or a named run; `None` for the study as a whole.
+    /// The label of the case, or what the labels of several begin with; `None` for the study as a
+    /// whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub case: Option<String>,
+    /// The other case of a ratio or a difference, likewise: either may be the cause.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub against: Option<String>,
     /// The quantity, field or norm; empty if it is not known.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub quantity: String,
-    /// The method that computed it, in a word of the project; `None` if it is that of the study.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub method: Option<String>,
-    /// The other method of a ratio or a difference: either may be the cause.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub against: Option<String>,
-    /// The level of refinement, or another parameter that distinguishes numbers of one quantity.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub level: Option<String>,
 }
 
 impl Subject {
@@ -32,51 +27,27 @@ impl Subject {
         }
     }
 
-    /// The same of a case.
+    /// The same of a case; below a case, of a part of it: `p = 3, n = 16`.
     #[must_use]
     pub fn in_case(self, case: impl Into<String>) -> Self {
+        let case = case.into();
+        let case = match self.case {
+            Some(above) if !case.starts_with(&above) => format!("{above}, {case}"),
+            _ => case,
+        };
         Self {
-            case: Some(case.into()),
+            case: Some(case),
             ..self
         }
     }
 
-    /// The same by a method.
+    /// The same, compared with another case.
     #[must_use]
-    pub fn by(self, method: impl Into<String>) -> Self {
+    pub fn against(self, case: impl Into<String>) -> Self {
         Self {
-            method: Some(method.into()),
+            against: Some(case.into()),
             ..self
         }
-    }
-
-    /// The same compared with another method.
-    #[must_use]
-    pub fn against(self, method: impl Into<String>) -> Self {
-        Self {
-            against: Some(method.into()),
-            ..self
-        }
-    }
-
-    /// The same by each of its methods.
-    pub(crate) fn sides(&self) -> impl Iterator<Item = Self> {
-        let other = self.against.clone().map(|method| self.clone().by(method));
-        [self.clone()].into_iter().chain(other)
-    }
-
-    /// The same at a level.
-    #[must_use]
-    pub fn at(self, level: impl Into<String>) -> Self {
-        Self {
-            level: Some(level.into()),
-            ..self
-        }
-    }
-
-    /// Whether nothing is known, as in records of earlier versions.
-    pub fn is_unknown(&self) -> bool {
-        *self == Self::default()
     }
 
     /// The quantity; `name` stands in for one that is not known.

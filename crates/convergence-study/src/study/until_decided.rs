@@ -281,8 +281,8 @@ pub fn conclude(
         .map(|level| &level.label)
         .collect();
     outcome.quantities.retain(|quantity| {
-        let level = quantity.subject.level.as_ref();
-        level.is_some_and(|level| first.contains(&level))
+        let case = quantity.subject.case.as_ref();
+        case.is_some_and(|case| first.contains(&case))
     });
     outcome
 }

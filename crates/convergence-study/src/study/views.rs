@@ -11,6 +11,7 @@ impl Measured {
         let case = (!self.case.is_empty()).then(|| self.case.clone());
         Subject {
             case,
+            against: self.against.clone(),
             ..Subject::of(&self.name)
         }
     }

@@ -1,123 +1,165 @@
 //! Which settings a diagnosis names, and its words.
 
-use crate::{
-    Check, Finished, Header, Outcome, Subject,
-    report::text_of_diagnosis,
-    store::{GuardedChange, Movement, diagnosis::diagnose},
-};
+use serde_json::{Value, json};
 
 use super::fake::{Does, fake, finished};
+use crate::report::text_of_diagnosis;
+use crate::store::diagnosis::diagnose;
+use crate::store::{GuardedChange, Movement};
+use crate::{Case, Check, Finished, Header, Outcome, Subject};
 
-fn method(name: &str) -> (String, String) {
-    ("method".to_owned(), format!("method {name}"))
+/// A study that has run, with these cases and these checks.
+fn study(id: &str, cases: &[(&str, Value)], checks: Vec<Check>) -> Finished {
+    let mut study = finished(vec![fake("", Does::Converge).erased()]).remove(0);
+    let case = |(label, value): &(&str, Value)| Case::new(*label, 1.0, ()).described(value);
+    study.header = Header::new(id, "c");
+    study.header.cases = cases.iter().map(case).collect();
+    study.outcome = Outcome::new("", vec![], checks);
+    study
 }
 
-/// A study whose checks are about these methods; those of `failing` fail.
-fn of_methods(id: &str, failing: &[Subject], passing: &[&str]) -> Finished {
-    let mut checks = vec![];
-    for subject in failing {
-        checks.push(Check::that(false, "c", "").about(subject.clone()));
-    }
-    for method in passing {
-        checks.push(Check::that(true, "c", "").about(Subject::of("error").by(*method)));
-    }
-    with(Header::new(id, "c"), checks)
+/// A check of a quantity of a case.
+fn check(case: &str, quantity: &str, holds: bool) -> Check {
+    Check::that(holds, "c", "").about(Subject::of(quantity).in_case(case))
 }
 
-/// A study that has run.
-fn with(header: Header, checks: Vec<Check>) -> Finished {
-    let mut finished = finished(vec![fake("", Does::Converge).erased()]).remove(0);
-    finished.header = header;
-    finished.outcome = Outcome::new("", vec![], checks);
-    finished
+/// A study of one case.
+fn alone(id: &str, value: Value, holds: bool) -> Finished {
+    study(id, &[("run", value)], vec![check("run", "u", holds)])
 }
 
-fn by(method: &str) -> Subject {
-    Subject::of("error").by(method)
+/// As many studies as it takes to see that cases pass without a setting.
+fn passing(value: &Value) -> Vec<Finished> {
+    let ids = ["p1", "p2", "p3", "p4", "p5"];
+    ids.map(|id| alone(id, value.clone(), true)).into()
 }
 
 /// What is named of studies with these outcomes.
-fn named(studies: Vec<Finished>) -> Vec<(String, String)> {
+fn named(studies: Vec<Finished>) -> Vec<String> {
     let found = diagnose(&studies, &[]).expect("a check fails");
     assert_eq!(text_of_diagnosis(&found).is_empty(), found.shared.is_none());
-    found.shared.map_or(vec![], |shared| shared.settings)
+    let settings = found.shared.map_or(vec![], |shared| shared.settings);
+    settings.into_iter().map(|(_, words)| words).collect()
 }
 
-/// Values of the file, and of the entry with the name of the case; not those of other entries.
+fn by(method: &str) -> Value {
+    json!({ "method": method, "heat": { "rate": 2.0 } })
+}
+
 #[test]
-fn the_settings_of_a_case_are_the_values_of_its_file_and_of_its_entry() {
-    let study = |id: &str, coupling: &str| {
-        let mut header = Header::new(id, "c");
-        for (path, value) in [
-            ("heat.rate", coupling),
-            ("case[0].name", "\"bounces\""),
-            ("case[0].heat.size", "2"),
-            ("case[1].name", "\"rests\""),
-            ("case[1].heat.size", "1"),
-        ] {
-            header.settings.push((path.to_owned(), value.to_owned()));
-        }
-        let about = |case: &str| Subject::of("u").in_case(case);
-        let fails = Check::that(false, "c", "").about(about("bounces"));
-        let passes = Check::that(true, "c", "").about(about("rests"));
-        with(header, vec![fails, passes])
+fn what_all_failing_cases_have_is_named_if_cases_without_it_pass() {
+    let fail = |one: &str, two: &str| {
+        let [a, b] = [("a", one), ("b", two)].map(|(id, method)| alone(id, by(method), false));
+        [vec![a, b], passing(&by("dg"))].concat()
     };
-    let pair = |path: &str, value: &str| (path.to_owned(), format!("{path} {value}"));
-    assert_eq!(
-        named(vec![study("a", "0.5"), study("b", "0")]),
-        [pair("name", "bounces"), pair("heat.size", "2")]
-    );
-}
-
-#[test]
-fn what_two_studies_share_where_they_fail_is_named() {
-    let one = || of_methods("a", &[by("midpoint")], &["dg"]);
-    let two = || of_methods("b", &[by("midpoint")], &["one-step"]);
-    assert_eq!(named(vec![one(), two()]), [method("midpoint")]);
-    // A case that passes is evidence against it, whatever its study says.
-    let passes = of_methods("c", &[], &["midpoint"]);
-    assert_eq!(named(vec![one(), two(), passes]), []);
+    assert_eq!(named(fail("midpoint", "midpoint")), ["method midpoint"]);
+    // Not all have the method; and the heat, which all have, passing ones have too.
+    assert_eq!(named(fail("midpoint", "dg")), [""; 0]);
+    let [a, b] = ["a", "b"].map(|id| alone(id, by("midpoint"), false));
+    assert_eq!(named(vec![a, b]), [""; 0], "nothing passes without it");
 }
 
 #[test]
 fn what_a_single_study_shows_is_not_named() {
-    let one = || of_methods("a", &[by("midpoint")], &["dg"]);
-    assert_eq!(named(vec![one()]), []);
-    let other = of_methods("b", &[by("dg")], &["one-step"]);
-    assert_eq!(named(vec![one(), other]), []);
+    let cases = [("1", by("midpoint")), ("2", by("midpoint"))];
+    let checks = ["1", "2"].map(|case| check(case, "u", false)).into();
+    let one = vec![study("a", &cases, checks)];
+    assert_eq!(named([one, passing(&by("dg"))].concat()), [""; 0]);
+}
+
+/// A case may be blind to a mistake: that it passes with the setting counts, and decides nothing.
+#[test]
+fn cases_that_pass_with_a_setting_count_against_it() {
+    let with = |failing: usize, blind: usize| {
+        let studies = |name: &str, count: usize, holds| -> Vec<Finished> {
+            let ids = (0..count).map(|k| format!("{name}{k}"));
+            ids.map(|id| alone(&id, by("midpoint"), holds)).collect()
+        };
+        let midpoint = [studies("f", failing, false), studies("b", blind, true)];
+        named([midpoint.concat(), passing(&by("dg"))].concat())
+    };
+    assert_eq!(with(4, 1), ["method midpoint"]);
+    assert_eq!(with(4, 9), [""; 0]);
 }
 
 #[test]
-fn what_passes_in_one_of_the_studies_is_not_named() {
-    let one = of_methods("a", &[by("midpoint")], &["dg"]);
-    let two = of_methods("b", &[by("midpoint"), by("dg")], &["one-step"]);
-    // The check of the error passes by the midpoint rule, too, but that of the work fails: its case
-    // does.
-    let three = of_methods("c", &[by("midpoint")], &["midpoint"]);
-    assert_eq!(named(vec![one, two, three]), [method("midpoint")]);
-    let both = |id| of_methods(id, &[by("dg")], &["midpoint"]);
-    let passing = of_methods("c", &[by("midpoint")], &["dg"]);
-    assert_eq!(named(vec![both("a"), both("b"), passing]), []);
+fn cases_must_be_alike_but_for_the_setting() {
+    let value = |method: &str, rate: f64| json!({ "method": method, "heat": { "rate": rate } });
+    let failing = || ["a", "b"].map(|id| alone(id, value("midpoint", 1.0), false));
+    let others = |value: &Value| [failing().to_vec(), passing(value)].concat();
+    assert_eq!(named(others(&value("midpoint", 0.0))), ["heat.rate ≠ 0"]);
+    // Either may be the reason why these pass.
+    assert_eq!(named(others(&value("dg", 0.0))), [""; 0]);
+    // A part that is missing lacks what is below it, too.
+    let without = json!({ "method": "midpoint", "heat": null });
+    assert_eq!(named(others(&without)), ["heat"]);
+}
+
+/// `n = 4` is each case with that part of its label; the runs of a ratio fail together.
+#[test]
+fn an_item_of_several_cases_blames_what_they_share() {
+    let cases = [
+        ("one, n = 4", by("midpoint")),
+        ("two, n = 4", by("dg")),
+        ("two, n = 8", by("dg")),
+    ];
+    let failing = |id: &str, checks: Vec<Check>| study(id, &cases, checks);
+    let all = |checks: fn() -> Vec<Check>| {
+        let failing = ["a", "b"].map(|id| failing(id, checks()));
+        [
+            failing.to_vec(),
+            passing(&json!({ "method": "midpoint", "heat": null })),
+        ]
+        .concat()
+    };
+    assert_eq!(named(all(|| vec![check("n = 8", "u", false)])), [""; 0]);
+    assert_eq!(named(all(|| vec![check("n = 4", "u", false)])), ["heat"]);
+    let ratio = || {
+        let subject = Subject::of("work").in_case("one").against("two");
+        vec![Check::that(false, "c", "").about(subject)]
+    };
+    assert_eq!(named(all(ratio)), ["heat"]);
 }
 
 #[test]
-fn a_ratio_blames_both_its_parts() {
-    let ratio = || by("midpoint").against("dg");
-    let studies = ["a", "b"].map(|id| of_methods(id, &[ratio()], &["one-step"]));
-    assert_eq!(
-        named(studies.into()),
-        [method("midpoint"), method("dg")],
-        "either may be wrong"
-    );
+fn a_quantity_is_named_where_it_alone_fails() {
+    let value = by("midpoint");
+    let cases = [("run", value.clone())];
+    let failing = |others: bool| {
+        let checks = || vec![check("run", "u", false), check("run", "v", others)];
+        ["a", "b"].map(|id| study(id, &cases, checks())).to_vec()
+    };
+    assert_eq!(named(failing(true)), ["quantity u"]);
+    assert_eq!(named(failing(false)), [""; 0]);
+    assert_eq!(named(failing(true)[..1].to_vec()), [""; 0]);
+}
+
+/// Cases that say nothing of themselves have the values of their file.
+#[test]
+fn the_values_of_a_file_are_settings_of_its_cases() {
+    let study = |id: &str, rate: &str, holds: bool| {
+        let mut study = study(id, &[], vec![check("run", "u", holds)]);
+        for (path, value) in [
+            ("heat.rate", rate),
+            ("command", "[\"./solve\", \"--implicit\"]"),
+        ] {
+            let setting = (path.to_owned(), value.to_owned());
+            study.header.settings.push(setting);
+        }
+        study
+    };
+    let fail = ["a", "b"].map(|id| study(id, "0.5", false));
+    let pass = ["c", "d", "e", "f", "g"].map(|id| study(id, "0", true));
+    assert_eq!(named([&fail[..], &pass[..]].concat()), ["heat.rate ≠ 0"]);
 }
 
 #[test]
-fn numbers_that_moved_are_failing_cases_where_all_studies_pass() {
+fn numbers_that_moved_are_failing_cases() {
     let studies = ["a", "b"].map(|id| fake(id, Does::Converge).erased());
     let ran = finished(studies.into());
     let changes = ["a", "b"].map(|id| moved(id, "finest error", 2.0, 3.0));
     let found = diagnose(&ran, &changes).expect("numbers moved");
-    let shared = found.shared.expect("both are of one field");
+    let shared = found.shared.expect("both are of one quantity");
     assert_eq!((shared.cases, shared.studies), (2, 2));
     assert_eq!(diagnose(&ran, &[]), None);
     let one = diagnose(&ran, &changes[..1]).expect("a number moved");

@@ -82,11 +82,7 @@ impl Kind for Fake {
     fn cases(&self) -> Vec<Case<usize>> {
         let levels = if self.does == Does::TooShort { 2 } else { 5 };
         (0..levels)
-            .map(|i| Case {
-                label: format!("n = {}", 8 << i),
-                cost: f64::from(8 << i),
-                data: i,
-            })
+            .map(|i| Case::new(format!("n = {}", 8 << i), f64::from(8 << i), i))
             .collect()
     }
 

@@ -11,9 +11,11 @@ pub(crate) use convergence_study::{
     measured, read_study,
 };
 
+pub(crate) use crate::scene::parts::{Known, Parts};
 pub(crate) use schemars::JsonSchema;
 pub(crate) use serde::Deserialize;
 use thermobeam::solve::Level;
+pub(crate) use thermobeam::solve::Solver;
 
 /// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect
 /// result.

@@ -14,7 +14,11 @@ use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
 use crate::run::{MotionProgress, ObservableMotion};
-use crate::scene::{Coefficients, Scene, resampled};
+use crate::scene::{
+    Coefficients, Scene,
+    parts::{Known, Parts},
+    resampled,
+};
 use convergence_study::CaseFailure;
 use thermobeam::dg::DgStepping;
 use thermobeam::error::SetupError;
@@ -77,13 +81,22 @@ pub struct Family {
 }
 
 /// Whether all elements are equally long, but for rounding.
-pub(crate) fn is_uniform(mesh: &Mesh) -> bool {
-    let n = mesh.elements() as f64;
-    let mut nodes = mesh.nodes().iter().enumerate();
+pub(crate) fn is_uniform(nodes: &[f64]) -> bool {
+    let n = (nodes.len() - 1) as f64;
+    let mut nodes = nodes.iter().enumerate();
     nodes.all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON)
 }
 
 impl Family {
+    /// What a run is made of, but for mesh and method.
+    pub(crate) fn parts(&self) -> Parts {
+        let parts = Parts::new(&self.beam, self.obstacles.as_ref());
+        match &self.start {
+            Start::Scene(_) => parts,
+            Start::Exact(_) => parts.against(Known::with_loads(self.loaded)),
+        }
+    }
+
     /// The problem of a scene; its dt and number of elements have no influence, the grading of its
     /// mesh is kept.
     pub fn of_scene(scene: &Scene) -> Self {
@@ -93,7 +106,7 @@ impl Family {
             t_end: scene.t_end,
             start: Start::Scene(Box::new(scene.clone())),
             loaded: false,
-            grading: (!is_uniform(&scene.mesh)).then(|| scene.mesh.clone()),
+            grading: (!is_uniform(scene.mesh.nodes())).then(|| scene.mesh.clone()),
         }
     }
 

@@ -71,9 +71,12 @@ impl Runs for Dependence {
 
     fn runs(&self) -> Vec<Case<f64>> {
         // A run of the scene to t = 1 takes about as long as 1e6 steps of an element.
+        let parts = Scene::parse(SCENE, file!()).ok();
+        let parts = parts.map(|scene| Parts::of(&scene));
         let case = |delta| Case::new(format!("δ = {delta:e}"), 1e6 * T_END, delta);
         let base = Case::new("δ = 0", 1e6 * T_END, 0.0);
-        [base].into_iter().chain(DELTAS.map(case)).collect()
+        let cases = [base].into_iter().chain(DELTAS.map(case));
+        cases.map(|case| case.described(&parts)).collect()
     }
 
     fn run(&self, delta: &f64) -> Result<Traced, CaseFailure> {

@@ -73,16 +73,19 @@ impl Runs for EndStates {
     type Shown = AtRest;
 
     fn runs(&self) -> Vec<Case<Self::Run>> {
+        let parts = |scene: Experiment| scene.parts().on(true).against(Known::SteadyStates);
         let mut runs = vec![];
         for scene in experiments() {
             for n in MESHES {
                 let label = format!("{}, n = {n}", scene.name);
-                runs.push(Case::new(label, cost_to_rest(n, DT), (scene, Some(n))));
+                let case = Case::new(label, cost_to_rest(n, DT), (scene, Some(n)));
+                runs.push(case.described(&parts(scene).by_the_paper(Solver::Newton)));
             }
         }
         for scene in experiments() {
             let label = format!("{}, {}", scene.name, any_order().label());
-            runs.push(Case::new(label, any_order().cost(T_END), (scene, None)));
+            let case = Case::new(label, any_order().cost(T_END), (scene, None));
+            runs.push(case.described(&parts(scene).by_dg()));
         }
         runs
     }

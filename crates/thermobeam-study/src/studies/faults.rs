@@ -145,8 +145,12 @@ impl<S: Plantable> Runs for Faults<S> {
             for case in described.kind.cases() {
                 let label = format!("{}, {}", described.header.id, case.label);
                 let cost = case.cost * faults;
+                let settings = case.settings.clone();
                 let data = Some(case);
-                runs.push(Case::new(label, cost, RunOf { study, data }));
+                runs.push(Case {
+                    settings,
+                    ..Case::new(label, cost, RunOf { study, data })
+                });
             }
         }
         runs

@@ -2,9 +2,9 @@
 //! (5.2).
 
 use convergence_study::InputError;
-use thermobeam::parameters::Obstacles;
+use thermobeam::parameters::{Beam, Obstacles};
 
-use crate::scene::Scene;
+use crate::scene::{Scene, parts::Parts};
 
 /// The obstacles of (5.1).
 pub(crate) const OBSTACLES: Obstacles = Obstacles {
@@ -65,6 +65,17 @@ impl Experiment {
     /// The energy of the straight beam at rest, β²/(4ρ).
     pub(crate) fn straight_energy(self) -> f64 {
         self.beta * self.beta / 4.0
+    }
+
+    /// What its runs are made of, but for mesh and method.
+    pub(crate) fn parts(self) -> Parts {
+        let Self { theta_a, beta, .. } = self;
+        let beam = Beam {
+            theta_a,
+            beta,
+            ..Beam::default()
+        };
+        Parts::new(&beam, Some(&OBSTACLES))
     }
 
     /// Its scene, at the paper's resolution.

@@ -1,6 +1,6 @@
 //! Common imports and helpers of the studies in code.
 
-pub(super) use crate::kinds::prelude::largest_of;
+pub(super) use crate::kinds::prelude::{Known, Parts, Solver, largest_of};
 pub(super) use convergence_judge::text::number::max_or_nan;
 pub(super) use convergence_study::{
     About, Case, CaseFailure, Described, Findings, InCode, Measured, Must, Runs, Sheet, Tier,

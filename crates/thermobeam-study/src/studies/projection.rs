@@ -105,8 +105,10 @@ impl Runs for Projection {
     fn runs(&self) -> Vec<Case<usize>> {
         // Quadrature takes some 20 evaluations of a function on an element.
         let cost = |n: usize| (20 * n * DATA.len()) as f64;
+        let is_uniform = self.map == "s";
+        let parts = Parts::new(&thermobeam::parameters::Beam::default(), None).on(is_uniform);
         MESHES
-            .map(|n| Case::new(format!("n = {n}"), cost(n), n))
+            .map(|n| Case::new(format!("n = {n}"), cost(n), n).described(&parts))
             .to_vec()
     }
 

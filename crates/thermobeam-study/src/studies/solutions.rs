@@ -100,8 +100,10 @@ impl Runs for Solutions {
 
     fn runs(&self) -> Vec<Case<Self::Run>> {
         let cost = 100.0 * (self.elements as f64).powi(3);
+        let parts = Parts::new(&self.beam, Some(&self.obstacles));
+        let parts = parts.by_the_paper(Solver::Newton);
         STEPS
-            .map(|step| Case::new(case(step.0), cost, step))
+            .map(|step| Case::new(case(step.0), cost, step).described(&parts))
             .to_vec()
     }
 

@@ -19,6 +19,7 @@ use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::scene::Scene;
 use crate::sweep::{self, CaseLine, Sweep};
+use convergence_study::InputError;
 use serde_json::Value;
 use std::sync::Mutex;
 use stepped::stepped;
@@ -152,9 +153,14 @@ impl Runs for Written {
     type Shown = Vec<Pair>;
 
     fn runs(&self) -> Vec<Case<usize>> {
-        let runs = METHODS.iter().map(|(name, ..)| *name).chain(["a sweep"]);
-        runs.enumerate()
-            .map(|(place, name)| Case::new(name, 1e6, place))
+        let scenes = METHODS.iter().map(|(name, obstacles, method)| {
+            let scene = scene(name, obstacles, method).ok();
+            (*name, scene.map(|scene| Parts::of(&scene)))
+        });
+        let swept = Scene::parse(SWEPT_SCENE, file!()).ok();
+        let swept = swept.map(|scene| Parts::of(&scene));
+        let runs = scenes.chain([("a sweep", swept)]).enumerate();
+        runs.map(|(place, (name, parts))| Case::new(name, 1e6, place).described(&parts))
             .collect()
     }
 
@@ -326,9 +332,13 @@ fn lost(rows: &[Row]) -> Option<f64> {
 }
 
 /// A run by its files, and stepped here.
-fn of_run(name: &str, obstacles: &str, method: &str) -> Result<Pair, CaseFailure> {
+fn scene(name: &str, obstacles: &str, method: &str) -> Result<Scene, InputError> {
     let beam = if obstacles.is_empty() { ACROSS } else { BEAM };
-    let scene = Scene::parse(&format!("{beam}{obstacles}{method}\n"), name)?;
+    Scene::parse(&format!("{beam}{obstacles}{method}\n"), name)
+}
+
+fn of_run(name: &str, obstacles: &str, method: &str) -> Result<Pair, CaseFailure> {
+    let scene = scene(name, obstacles, method)?;
     let run = Simulator::new(&scene)?.run(Recording::History, &mut |_, _| ());
     Ok(Pair {
         name: name.to_owned(),

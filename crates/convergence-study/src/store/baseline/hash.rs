@@ -52,7 +52,7 @@ pub(super) fn hash(
         .map(|(path, value)| format!("{path} = {value}\n"))
         .collect();
     lines.sort_unstable();
-    lines.extend(cases.iter().map(|label| format!("case {label}\n")));
+    lines.extend(cases.iter().map(|case| format!("case {}\n", case.label)));
     let names = names.iter();
     lines.extend(names.map(|(name, claimed)| format!("number {name}, claimed: {claimed}\n")));
     format!("{:016x}", content_hash(lines.concat().as_bytes()))

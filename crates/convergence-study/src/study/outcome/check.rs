@@ -35,8 +35,8 @@ pub enum Origin {
 pub struct Check {
     /// The claim, without its case.
     pub claim: Prose,
-    /// What it is about; unknown in older records, whose claims begin with the case.
-    #[serde(default, skip_serializing_if = "Subject::is_unknown")]
+    /// What it is about.
+    #[serde(default)]
     pub subject: Subject,
     /// The outcome.
     pub verdict: Verdict,

@@ -6,8 +6,9 @@ use crate::{
         formulas::SchemeFormulas,
         norm::{Norm, Norms},
     },
-    kinds::tables::Refine,
+    kinds::tables::{Layout, Refine},
     run::{RunError, driver::Driver, run_to},
+    scene::Coefficients,
 };
 use convergence_study::{ErrorColumn, Levels};
 use thermobeam::scheme::Scheme;
@@ -48,6 +49,15 @@ pub(super) fn levels<'r>(
 /// Names of the norms whose errors are NaN or infinite.
 pub(super) fn not_finite_norms(errors: &Norms) -> Vec<String> {
     not_finite(errors.iter().map(|(norm, error)| (norm.name(), error)))
+}
+
+/// What the runs of a refinement are made of.
+pub(super) fn parts(solver: &Coefficients, refine: &Refine, against: Known) -> Parts {
+    let is_uniform = refine.layout == Layout::default();
+    Parts::new(&solver.beam, solver.obstacles.as_ref())
+        .on(is_uniform)
+        .by(refine.scheme, refine.settings.solver)
+        .against(against)
 }
 
 /// Steps to `until` and returns the largest error in each norm over the steps; NaN stays.

@@ -177,15 +177,15 @@ impl<R: Runs> RunStudy<R> {
     /// The numbers of each run of the study in place of its result, or why there is none.
     fn numbers(&self, ran: &[Ran<R::Run, R::Shown>]) -> Vec<Ran<(), Vec<Measured>>> {
         let mut numbers = vec![];
-        for Case { label, cost, data } in self.0.runs() {
-            let found = match ran.iter().find(|ran| ran.case.data == data) {
+        for case in self.0.runs() {
+            let data = &case.data;
+            let found = match ran.iter().find(|ran| ran.case.data == *data) {
                 Some(ran) => ran.found.as_ref().map_err(CaseFailure::clone),
                 None => Err(CaseFailure::new("it was not run")),
             };
-            numbers.push(Ran {
-                case: Case::new(label, cost, ()),
-                found: found.map(|shown| self.0.numbers(&data, shown)),
-            });
+            let found = found.map(|shown| self.0.numbers(data, shown));
+            let case = Case::new(case.label, case.cost, ());
+            numbers.push(Ran { case, found });
         }
         numbers
     }

@@ -73,14 +73,20 @@ pub struct Agreement {
     pub contact: Vec<(f64, f64)>,
 }
 
+fn label(tolerance: f64) -> String {
+    format!("tolerance {tolerance:e}")
+}
+
 impl Comparison {
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         // Some four iterations of 60 ns per step and element; the unit of the runner is 25 ns.
         let cost = (self.elements * self.steps) as f64 * 10.0;
+        let parts = Parts::of(&self.scene);
+        let parts = parts.by_the_paper(Solver::FixedPoint);
         let mut cases = vec![];
         for &eta in &self.tolerances {
-            let label = format!("tolerance {eta:e}");
-            cases.push(Case::new(label, cost, SolverTask::Comparison(eta)));
+            let case = Case::new(label(eta), cost, SolverTask::Comparison(eta));
+            cases.push(case.described(&parts));
         }
         cases
     }
@@ -159,9 +165,7 @@ impl Agreement {
     /// A step leaves at most α/(1 - α) η* unsolved; here α is far below 1/2, and the beam damps the
     /// rest.
     fn check(&self) -> Check {
-        let subject = Subject::of("distance to Newton's method")
-            .in_case(format!("eta* = {:e}", self.tolerance))
-            .by("fixed-point");
+        let subject = Subject::of("distance to Newton's method").in_case(label(self.tolerance));
         agree(
             "both solvers",
             subject,

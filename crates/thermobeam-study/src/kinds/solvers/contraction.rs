@@ -91,7 +91,10 @@ impl ContractionGrid {
                 for &dt in &self.dt {
                     let place = MeasuredPoint { dt, epsilon, zeta };
                     let task = SolverTask::Contraction(place);
-                    cases.push(Case::new(place.to_string(), cost, task));
+                    let parts = Parts::new(&place.beam(), Some(&place.obstacles()))
+                        .on(true)
+                        .by_the_paper(Solver::FixedPoint);
+                    cases.push(Case::new(place.to_string(), cost, task).described(&parts));
                 }
             }
         }
@@ -377,9 +380,7 @@ impl Contraction {
     }
 
     fn subject(&self, quantity: &str) -> Subject {
-        Subject::of(quantity)
-            .in_case(self.place.to_string())
-            .by("fixed-point")
+        Subject::of(quantity).in_case(self.place.to_string())
     }
 }
 

@@ -217,6 +217,12 @@ impl Map {
         })
     }
 
+    fn parts(&self, value: f64) -> Parts {
+        Parts::new(&self.beam(value), Some(&Obstacles::default()))
+            .on(true)
+            .by_the_paper(Solver::FixedPoint)
+    }
+
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
         let name = self.over.name();
         let row = (self.points * (ITERATIONS + 4 * self.steps)) as f64;
@@ -225,12 +231,14 @@ impl Map {
         for value in self.range.values(self.points) {
             let label = format!("{name} = {value:.3e}");
             let cost = row * self.elements(value);
-            cases.push(Case::new(label, cost, SolverTask::Row(value)));
+            let case = Case::new(label, cost, SolverTask::Row(value));
+            cases.push(case.described(&self.parts(value)));
         }
         for &value in &self.lines {
             let label = format!("boundary at {name} = {}", plain_text(value));
             let cost = boundary * self.elements(value);
-            cases.push(Case::new(label, cost, SolverTask::Boundary(value)));
+            let case = Case::new(label, cost, SolverTask::Boundary(value));
+            cases.push(case.described(&self.parts(value)));
         }
         cases
     }

@@ -78,7 +78,7 @@ impl MapResults<'_> {
         let mut quantities = lines.quantities();
         // A point next to the boundary may fall on either side.
         let name = "points with a fixed point";
-        let subject = Subject::of(name).by("fixed-point");
+        let subject = Subject::of(name);
         quantities.push(Quantity::new(name, converged as f64, 1e-2).about(subject));
         Outcome {
             headline: format!("{boundary}, {residual}").into(),
@@ -169,7 +169,7 @@ impl MapResults<'_> {
                 "{fast} points with small factors, {beyond} with a large alpha, {wrong} of them against the prediction"
             ),
         )
-        .about(Subject::of("convergence of the fixed point").by("fixed-point"))
+        .about(Subject::of("convergence of the fixed point"))
     }
 
     /// Newton's method must converge wherever its operator is known to be definite.
@@ -307,6 +307,6 @@ impl Boundary {
         };
         let case = format!("{} = {}", self.over.name(), plain_text(self.value));
         let subject = Subject::of("boundary").in_case(case);
-        check.about(subject.by("fixed-point"))
+        check.about(subject)
     }
 }

@@ -83,16 +83,19 @@ impl Ratio<'_> {
             self.dear.words(),
             self.cheap.words()
         );
-        Check::that(ratio >= self.times && ratio.is_finite(), claim, evidence).about(self.subject())
+        let holds = ratio >= self.times && ratio.is_finite();
+        Check::that(holds, claim, evidence).about(Subject::of(self.quantity()))
+    }
+
+    fn quantity(&self) -> String {
+        format!("work, {}", self.target.measure.name())
     }
 
     /// The work of the dearer method against that of the other, at the error of the target.
     fn subject(&self) -> Subject {
-        let Target { measure, error, .. } = self.target;
-        Subject::of(format!("work, {}", measure.name()))
-            .by(self.dear.name)
+        Subject::of(self.quantity())
+            .in_case(self.dear.name)
             .against(self.cheap.name)
-            .at(format!("{error:e}"))
     }
 }
 
@@ -208,8 +211,7 @@ fn all_compared(study: &WorkPrecision, target: &Target, ran: &[Ran<Trial, Measur
         format!("left out: {}", left_out.join(", "))
     };
     let subject = Subject::of(format!("methods, {}", target.measure.name()));
-    Check::that(left_out.is_empty() && compared > 1, claim, evidence)
-        .about(subject.at(format!("{:e}", target.error)))
+    Check::that(left_out.is_empty() && compared > 1, claim, evidence).about(subject)
 }
 
 /// No neighbour of a listed run may reach the target for less than the cheapest that is listed.
@@ -246,8 +248,7 @@ fn none_is_cheaper(
         cheaper.join("; ")
     };
     let subject = Subject::of(format!("cheapest runs, {}", target.measure.name()));
-    Check::that(cheaper.is_empty() && finished > 0, claim, evidence)
-        .about(subject.at(format!("{:e}", target.error)))
+    Check::that(cheaper.is_empty() && finished > 0, claim, evidence).about(subject)
 }
 
 /// The dearest method over the cheapest.
@@ -359,7 +360,7 @@ fn guarded(
             let name = format!("smallest error, {}, {}", measure.name(), method.name);
             let subject = Subject::of(format!("smallest error, {}", measure.name()));
             quantities.push(
-                Quantity::new(name, smallest, ERROR_TOLERANCE).about(subject.by(method.name)),
+                Quantity::new(name, smallest, ERROR_TOLERANCE).about(subject.in_case(method.name)),
             );
         }
     }

@@ -19,7 +19,7 @@ use crate::{
     error::{AnyOrderEvaluator, Errors, Evaluator, polynomials::Polynomials, reference::combine},
     run::{
         ObservableMotion,
-        family::{Family, OnMesh, Spent},
+        family::{Family, OnMesh, Spent, is_uniform},
         run_to,
         snapshot::equidistant_time,
     },
@@ -129,6 +129,16 @@ pub enum Resolution {
         /// Degrees and steps.
         degrees: Degrees,
     },
+}
+
+impl Resolution {
+    /// Whether all elements are equally long.
+    pub(super) fn is_uniform(&self) -> bool {
+        match self {
+            Self::OneStep(grid) => grid.grading == 1.0,
+            Self::Dg { nodes, .. } => is_uniform(nodes),
+        }
+    }
 }
 
 /// Linear elements and equal steps.

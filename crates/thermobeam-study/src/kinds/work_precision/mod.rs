@@ -246,7 +246,12 @@ impl Kind for WorkPrecision {
             }
             let label = format!("{}, {}", trial.method.name, trial.resolution);
             let cost = trial.cost(self.family.t_end);
-            cases.push(Case::new(label, cost, trial));
+            let parts = self.family.parts().on(trial.resolution.is_uniform());
+            let parts = match trial.method.one_step {
+                Some(by) => parts.by(by.scheme, by.solver),
+                None => parts.by_dg(),
+            };
+            cases.push(Case::new(label, cost, trial).described(&parts));
         }
         cases
     }

@@ -123,7 +123,9 @@ impl Runs for Bifurcation {
         let mut runs = vec![];
         for (k, scene) in SCENES.iter().enumerate() {
             let label = format!("branches, θ_A = {}", scene.theta_a);
-            runs.push(Case::new(label, cost, DiagramTask::Diagram(k)));
+            let parts = scene.parts().against(Known::SteadyStates);
+            let case = Case::new(label, cost, DiagramTask::Diagram(k));
+            runs.push(case.described(&parts));
         }
         for n in MESHES {
             let label = format!("buckling force, n = {n}");
@@ -133,7 +135,13 @@ impl Runs for Bifurcation {
             for (place, beta) in RESTS.iter().enumerate() {
                 let label = format!("to rest, θ_A = {}, β = {beta}", scene.theta_a);
                 let task = DiagramTask::Rest(k, place);
-                runs.push(Case::new(label, TO_REST.cost(), task));
+                let scene = Experiment {
+                    beta: *beta,
+                    ..*scene
+                };
+                let parts = scene.parts().on(true).against(Known::SteadyStates);
+                let parts = parts.by_the_paper(Solver::Newton);
+                runs.push(Case::new(label, TO_REST.cost(), task).described(&parts));
             }
         }
         runs

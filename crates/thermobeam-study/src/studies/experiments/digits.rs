@@ -186,7 +186,9 @@ impl Runs for TenDigits {
                 Some(how) => (how.label(), how.cost(self.times[1])),
                 None => ("its own scheme".to_owned(), beam.cost()),
             };
-            Case::new(format!("{}, {how}", beam.name()), cost, (beam, by))
+            let parts = beam.scene().ok().map(|scene| Parts::of(&scene));
+            let parts = parts.map(|own| by.map_or(own.clone(), |_| own.by_dg()));
+            Case::new(format!("{}, {how}", beam.name()), cost, (beam, by)).described(&parts)
         };
         let beams = self.beams.iter();
         beams

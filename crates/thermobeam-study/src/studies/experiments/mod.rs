@@ -217,12 +217,16 @@ impl Runs for SectionFive {
             let cost = 4.0 * (STEPS * ELEMENTS) as f64;
             runs.extend(experiments().map(|one| {
                 let label = format!("{}, fixed point and Newton", one.name);
-                Case::new(label, cost, Task::FixedPoint(one))
+                let parts = one.parts().on(true);
+                let parts = parts.by_the_paper(Solver::FixedPoint);
+                Case::new(label, cost, Task::FixedPoint(one)).described(&parts)
             }));
         }
         runs.extend(BETAS.map(|beta| {
             let label = format!("to rest, beta = {beta}");
-            Case::new(label, self.to_rest().cost(), Task::Rest(beta))
+            let scene = Experiment { beta, ..THIRD };
+            let parts = scene.parts().on(true).by_dg().against(Known::SteadyStates);
+            Case::new(label, self.to_rest().cost(), Task::Rest(beta)).described(&parts)
         }));
         runs
     }
@@ -270,7 +274,12 @@ impl SectionFive {
             _ => format!("{}, {}", experiment.name, how.label()),
         };
         let task = Task::AnyOrder(experiment, discretisation);
-        Case::new(label, how.cost(STEADY), task)
+        let parts = experiment
+            .parts()
+            .on(true)
+            .by_dg()
+            .against(Known::SteadyStates);
+        Case::new(label, how.cost(STEADY), task).described(&parts)
     }
 
     /// Runs a scene until its energy is steady.

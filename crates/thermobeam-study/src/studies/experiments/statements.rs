@@ -241,20 +241,23 @@ fn touches_both(first: &[OfExperiment<'_>]) -> Sheet {
 
 /// A ratio of numbers of two experiments that must exceed 1.
 fn over(
-    runs: &OfExperiment<'_>,
+    [runs, other]: [&OfExperiment<'_>; 2],
     name: String,
-    number: Option<f64>,
-    other: Option<f64>,
+    numbers: [Option<f64>; 2],
 ) -> Measured {
-    let ratio = number.zip(other).map(|(number, other)| number / other);
-    runs.one(&name, ratio).fixed(4).must_be(Must::Above(1.0))
+    let ratio = numbers[0].zip(numbers[1]);
+    let ratio = ratio.map(|(number, other)| number / other);
+    runs.one(&name, ratio)
+        .against(other.experiment.name)
+        .fixed(4)
+        .must_be(Must::Above(1.0))
 }
 
 fn frequency_grows(first: &[OfExperiment<'_>]) -> Sheet {
     let numbers = first.windows(2).map(|pair| {
         let [less, more] = [0, 1].map(|k| pair[k].trace().frequency);
         let name = "frequency of u(1) over that of the β before".to_owned();
-        over(&pair[1], name, more, less)
+        over([&pair[1], &pair[0]], name, [more, less])
     });
     let words = "The frequency of oscillation grows with β: in the order of β, not of |β|";
     sentence(words, numbers)
@@ -268,7 +271,7 @@ fn amplitude_is_largest(first: &[OfExperiment<'_>]) -> Sheet {
     let beta = least.experiment.beta;
     let numbers = others.iter().map(|other| {
         let name = format!("range of φ(1) for β = {beta} over its own");
-        over(other, name, range(least), range(other))
+        over([other, least], name, [range(least), range(other)])
     });
     let words = format!("The oscillations of φ(1) are largest for β = {beta}");
     sentence(words, numbers)

@@ -215,7 +215,13 @@ impl RunOf {
             RunOf::Rest => ("at rest", cost_to_rest(RESTING.elements, RESTING.dt)),
             RunOf::Impact => ("impact", (3 * STEPS * IMPACT_ELEMENTS) as f64),
         };
-        Case::new(format!("{name}, ε = {epsilon:.1e}"), cost, (epsilon, self))
+        let scene = self.scene().ok();
+        let parts = scene.map(|scene| match self {
+            RunOf::FixedPoint => Parts::of(&scene).by_the_paper(Solver::FixedPoint),
+            _ => Parts::of(&scene),
+        });
+        let label = format!("{name}, ε = {epsilon:.1e}");
+        Case::new(label, cost, (epsilon, self)).described(&parts)
     }
 }
 

@@ -29,7 +29,7 @@ impl AnyOrder {
                 if !(error <= ROUND_OFF) {
                     quantities.push(
                         Quantity::new(format!("error fields, p = {p}"), error, 1e-4)
-                            .about(Subject::of("fields").at(format!("p = {p}")))
+                            .about(Subject::of("fields").in_case(format!("p = {p}")))
                             .of_sort(Sort::Error),
                     );
                 }

@@ -199,6 +199,11 @@ impl ErrorSource for AnyOrder {
     }
 
     fn cases(&self) -> Vec<Case<AnyOrderRun>> {
+        let solver = &self.solver;
+        let parts = Parts::new(&solver.beam, solver.obstacles.as_ref())
+            .on(self.layout == Layout::default())
+            .by_dg()
+            .against(Known::with_loads(self.loaded));
         let mut cases = vec![];
         for &resolution in self.series.iter().flat_map(|series| &series.runs) {
             let AnyOrderRun {
@@ -213,7 +218,7 @@ impl ErrorSource for AnyOrder {
                 Over::Degree => format!("p = {degree}"),
             };
             let cost = (elements * degree * (time_degree + 1) * (steps + 10)) as f64 * 10.0;
-            cases.push(Case::new(label, cost, resolution));
+            cases.push(Case::new(label, cost, resolution).described(&parts));
         }
         cases
     }

@@ -83,7 +83,7 @@ impl Convergence {
             "the error in the norm of (3.14) is {name} {step}, {name} known before the run, within {within:e}"
         );
         let evidence = format!("{name} = {predicted:.6}, measured {measured:.6}, ratio {ratio:.6}");
-        let subject = Subject::of(Norm::Theorem34.name()).by("one-step");
+        let subject = Subject::of(Norm::Theorem34.name());
         Some(Check::that((ratio - 1.0).abs() <= within, claim, evidence).about(subject))
     }
 }

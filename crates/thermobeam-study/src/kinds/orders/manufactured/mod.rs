@@ -41,7 +41,7 @@ use convergence_study::{Budget, Grid, GridColumn, SpaceTime, Untested, variants:
 
 use super::{
     ErrorSource, Finer, Orders, Runs, Series, SourceResult,
-    one_step::{levels, not_finite_norms},
+    one_step::{self, levels, not_finite_norms},
 };
 pub use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
@@ -166,7 +166,9 @@ impl ErrorSource for Convergence {
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
-        self.refine.cases().into_iter().map(case).collect()
+        let parts = one_step::parts(&self.solver, &self.refine, Known::Solution);
+        let cases = self.refine.cases().into_iter();
+        cases.map(|data| case(data).described(&parts)).collect()
     }
 
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {

@@ -80,7 +80,12 @@ impl SelfConvergence {
             let mut norms = Norm::ALL.iter();
             let norm = norms.position(|norm| norm.name() == observable.name);
             let name = format!("{}, {}", observable.name, reading.name());
+            let subject = Subject::of(&name);
             columns.push(ErrorColumn {
+                subject: match reading {
+                    ComparisonWith::Successive => subject,
+                    ComparisonWith::Reference => subject.against("reference"),
+                },
                 symbol: Some(observable.symbol.to_owned()),
                 look: norm.unwrap_or(Norm::ALL.len() + place),
                 ..ErrorColumn::new(name, claim.unwrap_or(smooth), errors)
@@ -246,9 +251,15 @@ impl SelfConvergence {
                 traced.map_or(f64::NAN, |traced| traced.tip_range.high),
             ),
         ];
+        let label = self
+            .levels
+            .last()
+            .map_or(String::new(), |&(elements, steps)| {
+                Refine::label(elements, steps)
+            });
         let guarded = values.map(|(name, value)| {
             Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE)
-                .about(Subject::of(name).at("finest level"))
+                .about(Subject::of(name).in_case(&label))
         });
         guarded.into()
     }

@@ -265,17 +265,16 @@ impl ErrorSource for SelfConvergence {
     }
 
     fn cases(&self) -> Vec<Case<usize>> {
+        let parts = Parts::of(&self.scene);
         let mut cases = vec![];
         for (run, &(n, steps)) in self.levels.iter().enumerate() {
-            cases.push(Case::new(
-                Refine::label(n, steps),
-                n as f64 * steps as f64,
-                run,
-            ));
+            let case = Case::new(Refine::label(n, steps), n as f64 * steps as f64, run);
+            cases.push(case.described(&parts));
         }
         for reference in &self.references {
             let label = format!("reference, {}", reference.label());
-            cases.push(Case::new(label, reference.cost(self.t_end), cases.len()));
+            let case = Case::new(label, reference.cost(self.t_end), cases.len());
+            cases.push(case.described(&parts.clone().by_dg()));
         }
         cases
     }

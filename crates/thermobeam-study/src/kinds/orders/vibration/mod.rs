@@ -8,7 +8,7 @@ mod modes;
 
 use super::{
     ErrorSource, Orders, Runs, Series, SourceResult,
-    one_step::{formulas_of, largest_errors, levels, not_finite_norms},
+    one_step::{self, formulas_of, largest_errors, levels, not_finite_norms},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -140,11 +140,12 @@ impl ErrorSource for Vibration {
     }
 
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
+        let parts = one_step::parts(&self.solver, &self.refine, Known::Vibration);
         let mut cases = vec![];
         for (elements, steps) in self.refine.cases() {
             let cost = elements as f64 * steps as f64;
             let label = Refine::label(elements, steps);
-            cases.push(Case::new(label, cost, (elements, steps)));
+            cases.push(Case::new(label, cost, (elements, steps)).described(&parts));
         }
         cases
     }

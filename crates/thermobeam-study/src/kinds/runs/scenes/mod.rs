@@ -141,14 +141,15 @@ impl Runs for Scenes {
 
     fn runs(&self) -> Vec<Case<usize>> {
         let mut runs = vec![];
-        for (place, Whole { case, .. }) in self.scenes.iter().enumerate() {
+        for (place, whole) in self.scenes.iter().enumerate() {
+            let Whole { case, .. } = whole;
             // Each step is observed, which costs three times its solution.
             let observed = match case.scene.method {
                 Method::OneStep(_) => 4.0,
                 Method::Dg(_) => 1.0,
             };
             let cost = observed * cost_of_run(&case.scene);
-            runs.push(Case::new(case.name.clone(), cost, place));
+            runs.push(Case::new(case.name.clone(), cost, place).described(&whole.parts()));
         }
         runs
     }
@@ -364,6 +365,15 @@ impl Whole {
         )
     }
 
+    fn parts(&self) -> Parts {
+        let parts = Parts::of(&self.case.scene);
+        if self.answer.has(STEADY) {
+            parts.against(Known::SteadyStates)
+        } else {
+            parts
+        }
+    }
+
     /// The run for an accuracy and steady states, where the answer has them.
     fn others(&self) -> Result<Vec<NamedNumber>, CaseFailure> {
         let scene = &self.case.scene;
@@ -424,7 +434,7 @@ fn contacts_counted(shown: &[(&Whole, &Shown)]) -> Check {
     );
     all(
         "a step of a one-step scheme counts as one in contact where the free end has passed an obstacle",
-        Subject::of("contact").by("one-step"),
+        Subject::of("contact"),
         [Condition::that(wrong.is_empty(), evidence)],
     )
 }

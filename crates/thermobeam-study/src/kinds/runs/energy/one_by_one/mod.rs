@@ -37,6 +37,7 @@ use super::EnergyFile;
 use recorder::Recorder;
 
 use crate::kinds::prelude::*;
+use crate::run::family::is_uniform;
 use crate::{
     kinds::runs::{
         Findings, Results, Runs,
@@ -160,7 +161,11 @@ impl Runs for EnergyRuns {
             // Observing a step costs three times its solution, and a step some 100 ns in addition
             // to its elements.
             let cost = run.steps as f64 * (4.0 * run.problem.mesh.elements() as f64 + 4.0);
-            runs.push(Case::new(run.name.clone(), cost, place));
+            let (problem, by) = (&run.problem, &run.stepping);
+            let parts = Parts::new(&problem.beam, problem.obstacles.as_ref())
+                .on(is_uniform(problem.mesh.nodes()))
+                .by(by.scheme, by.settings.solver);
+            runs.push(Case::new(run.name.clone(), cost, place).described(&parts));
         }
         runs
     }
@@ -300,9 +305,7 @@ impl EnergyRun {
             }
             None => Condition::or(!self.is_bounded, "the losses are not known"),
         };
-        let subject = Subject::of("energy and balance")
-            .in_case(&self.name)
-            .by(self.stepping.scheme.name);
+        let subject = Subject::of("energy and balance").in_case(&self.name);
         if self.end == End::Unbalanced {
             let open = found.worst.open;
             let open = Condition::that(open > 1.0, of_allowed(open));

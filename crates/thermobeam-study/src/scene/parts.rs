@@ -1,0 +1,131 @@
+//! What a run is made of, as its case says it: a diagnosis names what failing cases share.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use thermobeam::{
+    parameters::{Beam, Obstacles},
+    scheme::{EULER_CRANK_NICOLSON, Scheme},
+    solve::Solver,
+};
+
+use super::{Method, Scene, tables::Coefficients};
+use crate::run::family::is_uniform;
+
+/// Terms of the equations, mesh, method, and what the motion is held against.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Parts {
+    beam: BTreeMap<&'static str, f64>,
+    obstacles: Option<BTreeMap<&'static str, f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    method: Option<MethodParts>,
+    /// What the motion is held against, if that is one of these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    against: Option<Known>,
+}
+
+/// How the beam is stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum MethodParts {
+    OneStep {
+        scheme: &'static str,
+        solver: &'static str,
+    },
+    Dg {},
+}
+
+/// What is known exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub(crate) enum Known {
+    /// A solution with its loads.
+    #[serde(rename = "exact solution")]
+    Solution,
+    /// A vibration without loads.
+    #[serde(rename = "free vibration")]
+    Vibration,
+    /// States at rest.
+    #[serde(rename = "steady states")]
+    SteadyStates,
+}
+
+impl Known {
+    /// An exact solution with or without loads.
+    pub(crate) fn with_loads(loaded: bool) -> Self {
+        if loaded {
+            Self::Solution
+        } else {
+            Self::Vibration
+        }
+    }
+}
+
+impl Parts {
+    /// Of a beam, which nothing steps.
+    pub(crate) fn new(beam: &Beam, obstacles: Option<&Obstacles>) -> Self {
+        let mut all = Coefficients {
+            beam: *beam,
+            obstacles: obstacles.copied(),
+        };
+        let mut of = |names: &[&'static str]| -> BTreeMap<&'static str, f64> {
+            let value = |name: &&'static str| Some((*name, *all.get_mut(name)?));
+            names.iter().filter_map(value).collect()
+        };
+        Self {
+            beam: of(&Coefficients::OF_BEAM),
+            obstacles: obstacles.map(|_| of(&Coefficients::OF_OBSTACLES)),
+            mesh: None,
+            method: None,
+            against: None,
+        }
+    }
+
+    /// Of the run of a scene.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let mesh = match scene.listed.len() {
+            0 if is_uniform(scene.mesh.nodes()) => "uniform",
+            0 => "mapped",
+            _ => "listed",
+        };
+        let parts = Self {
+            mesh: Some(mesh),
+            ..Self::new(&scene.beam, scene.obstacles.as_ref())
+        };
+        match scene.method {
+            Method::OneStep(stepping) => parts.by(stepping.scheme, stepping.settings.solver),
+            Method::Dg(_) => parts.by_dg(),
+        }
+    }
+
+    /// The same on such a mesh.
+    pub(crate) fn on(self, is_uniform: bool) -> Self {
+        let mesh = Some(if is_uniform { "uniform" } else { "mapped" });
+        Self { mesh, ..self }
+    }
+
+    /// The same by a one-step scheme.
+    pub(crate) fn by(self, scheme: Scheme, solver: Solver) -> Self {
+        let (scheme, solver) = (scheme.name, solver.name());
+        let method = Some(MethodParts::OneStep { scheme, solver });
+        Self { method, ..self }
+    }
+
+    /// The same by the paper's scheme.
+    pub(crate) fn by_the_paper(self, solver: Solver) -> Self {
+        self.by(EULER_CRANK_NICOLSON, solver)
+    }
+
+    /// The same by dG.
+    pub(crate) fn by_dg(self) -> Self {
+        let method = Some(MethodParts::Dg {});
+        Self { method, ..self }
+    }
+
+    /// The same, held against what is known.
+    pub(crate) fn against(self, known: Known) -> Self {
+        let against = Some(known);
+        Self { against, ..self }
+    }
+}

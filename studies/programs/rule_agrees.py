@@ -15,7 +15,7 @@ COLUMNS = 20
 def errors(p, h):
     """Pollution of either sign, scatter, wrong orders, and lower orders or limits that just begin to show."""
     order, a, r = p + random.choice([0, 0, 0.5, -0.5]), random.gauss(0, 0.5), random.uniform(0.3, 3)
-    scatter, hidden = random.choice([0, 0, 0, 1e-3, 0.03, 0.3]), 0.3 * random.random() ** 3 * random.choice([0, 1, 1])
+    scatter, hidden = random.choice([0, 0, 1e-3, 0.02, 0.05, 0.1, 0.3]), 0.3 * random.random() ** 3 * random.choice([0, 1, 1])
     lower = order - random.choice([0.5, 1, order])
     main = [step**order * (1 + a * step**r) * math.exp(scatter * random.gauss(0, 1)) for step in h]
     share = hidden * main[-1] / h[-1] ** lower
@@ -33,7 +33,7 @@ verdicts, differ = [], 0
 for _ in range(1000 // COLUMNS):
     T, F, p = random.choice([0.05, 0.1, 0.25, 0.4]), random.choice([0, 0, 1e-4]), random.choice([1, 1.5, 2, 3])
     h, ratio = [1.0], random.choice([2, 2, 2, 1.5, 4, 1.05, None])
-    for _ in range(random.randint(2, 8)):
+    for _ in range(random.randint(2, 11)):
         h.append(h[-1] / (ratio or random.uniform(1.1, 3)))
     table = {f"e{k}": errors(p, h) for k in range(COLUMNS)}
     with tempfile.NamedTemporaryFile("w") as file:

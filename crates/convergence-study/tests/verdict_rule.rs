@@ -76,16 +76,14 @@ fn a_term_that_is_a_tenth_of_the_finest_error_does_not_pass_on_eight_levels() {
 
 #[test]
 fn scattered_rates_about_the_order_pass() {
-    let outcome = judge(&with_rates(&[0.880, 0.852, 1.034, 0.975, 0.995]), 1.0, 0.1);
-    assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:?}");
-    assert_ne!(
-        judge(&with_rates(&[0.880, 0.852, 1.034, 0.975, 0.995]), 1.2, 0.1).verdict,
-        Verdict::Pass
-    );
-    assert_ne!(
-        judge(&with_rates(&[0.880, 0.852, 1.034, 0.975, 0.995]), 0.8, 0.1).verdict,
-        Verdict::Pass
-    );
+    let levels = with_rates(&[0.880, 0.852, 1.034, 0.975, 0.995]);
+    let verdict = |order, tolerance| judge(&levels, order, tolerance).verdict;
+    assert_eq!(verdict(1.0, 0.25), Verdict::Pass);
+    for order in [0.7, 1.3] {
+        assert_ne!(verdict(order, 0.25), Verdict::Pass, "{order}");
+    }
+    // The coarsest rates leave the order open by more than a tenth.
+    assert_eq!(verdict(1.0, 0.1), Verdict::Inconclusive);
 }
 
 #[test]
@@ -336,7 +334,8 @@ mod laws {
         }
 
         /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order
-        /// or wrong limit.
+        /// or wrong limit. Only where six levels or more scatter about one power, a departure of
+        /// fewer ones is chance.
         #[test]
         fn a_coarser_level_never_turns_a_departure_into_a_pass(
             scattered in prop::collection::vec(1.8..2.2_f64, 3..8),
@@ -345,10 +344,11 @@ mod laws {
         ) {
             let law = |h: f64| h * h * (1.0 + pollution * h.powf(power)) + wrong * 2.0_f64.powf(7.0 * (hidden - 2.0)) * h.powf(hidden);
             let smooth: Vec<Level> = (0..8).map(|k| 0.5_f64.powi(k)).map(|step| Level { step, error: law(step).abs() }).collect();
-            for levels in [with_rates(&scattered), smooth] {
+            for (levels, scatter) in [(with_rates(&scattered), true), (smooth, false)] {
                 for first in 1..levels.len() - 3 {
                     let (fine, all) = (judge(&levels[first..], 2.0, tolerance), judge(&levels, 2.0, tolerance));
-                    if fine.kind == Reason::Departs {
+                    let is_chance = scatter && all.used.len() > 5;
+                    if fine.kind == Reason::Departs && !is_chance {
                         prop_assert_ne!(all.verdict, Verdict::Pass, "{:?} {:?}", fine, all);
                     }
                 }

@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::fit::Level;
+use super::fit::{Level, MOST_USED};
 use super::verdict::{
     Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reason, against_claim, judge_band,
     judged_in_words,
@@ -283,7 +283,8 @@ pub fn any_above(rate: RateVerdict) -> RateVerdict {
 /// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest,
 /// halving the remaining distance at each refinement by ρ, so that `log C` changes by
 /// `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower
-/// pollution and for scatter.
+/// pollution and for scatter. Where more than five levels are used, they scatter: e and q are those
+/// of their line.
 pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<Interval> {
     let order = rate.order()?;
     let interval = rate.interval?;
@@ -291,8 +292,13 @@ pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<Interval> {
         return None;
     };
     let ratio = (before.step / finest.step).ln();
-    let last = (before.error / finest.error).ln() / ratio;
-    let middle = finest.error.ln() - order * finest.step.ln() + (order - last) * ratio;
+    let scatters = rate.used.len() > MOST_USED;
+    let law = rate.power_law().filter(|_| scatters);
+    let pair = (before.error / finest.error).ln() / ratio;
+    let [error, last] = law.map_or([finest.error, pair], |law| {
+        [law.error_at(finest.step), law.rate]
+    });
+    let middle = error.ln() - order * finest.step.ln() + (order - last) * ratio;
     let half = DOUBT_OF_A_CONSTANT * 0.5 * interval.width() * ratio;
     Some(Interval::around(middle, half).map(f64::exp))
 }

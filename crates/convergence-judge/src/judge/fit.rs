@@ -32,6 +32,7 @@ pub use interval::{
     CLEARLY_BETTER, FACTOR, FACTOR_OF_THREE, POLLUTION_EXPONENTS, RateInterval, SLOWEST_POLLUTION,
     rate_interval,
 };
+pub(crate) use interval::{RegressionLine, RegressionLines};
 pub(crate) use range::COMPARISON;
 pub use range::{FLOOR_MARGIN, MOST_USED, SPREAD, asymptotic_range};
 

@@ -8,6 +8,7 @@ pub use crate::judge::fit::Level;
 
 mod cause;
 mod floor;
+mod lower_order;
 mod outcome;
 mod reading;
 mod reason;

@@ -45,6 +45,9 @@ pub struct RateInterval {
     /// How far log e of the finest level may lie from its line: Student's quantile
     /// times the standard deviation of the residuals.
     pub scatter: f64,
+    /// log e of the finest level less that of the curve of the constant; 0 where the curve passes
+    /// through it.
+    pub residual: f64,
 }
 
 impl RateInterval {
@@ -55,6 +58,7 @@ impl RateInterval {
             pollution: None,
             interval,
             scatter: 0.0,
+            residual: 0.0,
         }
     }
 }
@@ -65,67 +69,97 @@ impl RateInterval {
 /// * Returns `None` with fewer than 3 levels, when a logarithm is not finite, or when steps do not
 ///   differ.
 pub fn rate_interval(levels: &[Level]) -> Option<RateInterval> {
-    let Logarithms { x, y } = Logarithms::of_quotients(levels)?;
+    let lines = RegressionLines::of(levels)?;
+    let Logarithms { x, y } = &lines.logarithms;
     let m = x.len();
-    if m < 3 || x[m - 2] == x[m - 1] {
-        return None;
-    }
-    let round_off = ROUND_OFF * y.iter().fold(1.0_f64, |scale, y| scale.max(y.abs()));
     let finest_ratio = x[m - 2] - x[m - 1];
     let finest_rate = (y[m - 2] - y[m - 1]) / finest_ratio;
-    let [log_h, log_e] = [&x, &y].map(|values| centred(values));
-    let mut line = RegressionLine::fit(&log_h, &log_e, round_off, None);
-    let half = if m == 3 {
+    if m == 3 {
         // Pollution h^r makes the two rates p + c h^r at the middles of their pairs, in log h.
         let apart = (0.5 * SLOWEST_POLLUTION * (x[0] - x[2])).exp_m1();
-        let change = (finest_rate - (y[0] - y[1]) / (x[0] - x[1])).abs() + round_off / finest_ratio;
-        line.rate = finest_rate;
-        FACTOR_OF_THREE * change / apart
-    } else {
-        let polluted_lines = POLLUTION_EXPONENTS.map(|r| {
-            let powers: Vec<f64> = x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect();
-            let column = centred(&powers);
-            RegressionLine::fit(
-                &project_out(&column, &log_h),
-                &project_out(&column, &log_e),
-                round_off,
-                Some(r),
-            )
-        });
-        line = line.or_clearly_better(&polluted_lines);
-        let deviation_of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
-        let correction = ((line.rate - finest_rate).abs() - deviation_of_pair).max(0.0);
-        let half =
-            FACTOR * (student_t(line.dof) * (line.variance / line.square).sqrt() + correction);
-        half.max(line.farthest_rate(&polluted_lines))
-    };
-    let RegressionLine {
-        rate,
-        pollution,
-        dof,
-        variance,
-        ..
-    } = line;
-    let is_regular = rate.is_finite() && half.is_finite();
-    let scatter = student_t(dof) * variance.sqrt();
-    is_regular.then_some(RateInterval {
-        rate,
-        pollution,
-        interval: Interval::around(rate, half),
-        scatter,
-    })
+        let before = (y[0] - y[1]) / (x[0] - x[1]);
+        let change = (finest_rate - before).abs() + lines.round_off / finest_ratio;
+        let line = RegressionLine {
+            rate: finest_rate,
+            ..lines.straight
+        };
+        return line.with_half_width(FACTOR_OF_THREE * change / apart);
+    }
+    let polluted = lines.polluted();
+    let line = lines.straight.or_clearly_better(&polluted);
+    let deviation_of_pair = (2.0 * line.variance).sqrt() / finest_ratio;
+    let correction = ((line.rate - finest_rate).abs() - deviation_of_pair).max(0.0);
+    let half = FACTOR * (line.half_width() + correction);
+    line.with_half_width(half.max(line.farthest_rate(&polluted)))
+}
+
+/// The models of the logarithms of three levels or more.
+pub(crate) struct RegressionLines {
+    logarithms: Logarithms,
+    /// Without their means.
+    centred: [Vec<f64>; 2],
+    round_off: f64,
+    /// The line without another column.
+    pub(crate) straight: RegressionLine,
+}
+
+impl RegressionLines {
+    pub(crate) fn of(levels: &[Level]) -> Option<Self> {
+        let logarithms = Logarithms::of_quotients(levels)?;
+        let Logarithms { x, y } = &logarithms;
+        let m = x.len();
+        if m < 3 || x[m - 2] == x[m - 1] {
+            return None;
+        }
+        let round_off = ROUND_OFF * y.iter().fold(1.0_f64, |scale, y| scale.max(y.abs()));
+        let centred = [x, y].map(|values| centred(values));
+        let [log_h, log_e] = &centred;
+        let straight = RegressionLine::fit(log_h, log_e, round_off, None);
+        Some(Self {
+            logarithms,
+            centred,
+            round_off,
+            straight,
+        })
+    }
+
+    /// log e of the finest level less that of the straight line.
+    pub(crate) fn residual_of_finest(&self) -> f64 {
+        let [log_h, log_e] = &self.centred;
+        let finest = log_h.len() - 1;
+        log_e[finest] - self.straight.rate * log_h[finest]
+    }
+
+    /// The lines with a column h^r of pollution.
+    pub(crate) fn polluted(&self) -> [RegressionLine; 5] {
+        POLLUTION_EXPONENTS.map(|r| self.with_power(r))
+    }
+
+    /// The line with a column h^r.
+    pub(crate) fn with_power(&self, r: f64) -> RegressionLine {
+        let x = &self.logarithms.x;
+        let powers: Vec<f64> = x.iter().map(|x_k| (r * (x_k - x[0])).exp()).collect();
+        let column = centred(&powers);
+        let [log_h, log_e] = &self.centred;
+        RegressionLine::fit(
+            &project_out(&column, log_h),
+            &project_out(&column, log_e),
+            self.round_off,
+            Some(r),
+        )
+    }
 }
 
 /// One model of the logarithms: `y = a + q x`, or `y = a + q x + c (h / h_1)^r`.
 #[derive(Clone, Copy)]
-struct RegressionLine {
+pub(crate) struct RegressionLine {
     pollution: Option<f64>,
     /// q.
-    rate: f64,
+    pub(crate) rate: f64,
     /// Number of levels without that of parameters.
     dof: usize,
     /// Sum of squared residuals over `dof`, and the round-off.
-    variance: f64,
+    pub(crate) variance: f64,
     /// Square of what is left of x without the other columns: the variance of q is
     /// `variance / square`.
     square: f64,
@@ -174,8 +208,25 @@ impl RegressionLine {
             .fold(0.0, f64::max)
     }
 
+    /// Half the width of Student's interval of the rate.
+    pub(crate) fn half_width(&self) -> f64 {
+        student_t(self.dof) * (self.variance / self.square).sqrt()
+    }
+
+    /// Its rate with an interval; `None` if one of them is not finite.
+    pub(crate) fn with_half_width(&self, half: f64) -> Option<RateInterval> {
+        let is_regular = self.rate.is_finite() && half.is_finite();
+        is_regular.then(|| RateInterval {
+            rate: self.rate,
+            pollution: self.pollution,
+            interval: Interval::around(self.rate, half),
+            scatter: student_t(self.dof) * self.variance.sqrt(),
+            residual: 0.0,
+        })
+    }
+
     /// Of the residuals.
-    fn sum_of_squares(&self) -> f64 {
+    pub(crate) fn sum_of_squares(&self) -> f64 {
         self.variance * self.dof as f64
     }
 }

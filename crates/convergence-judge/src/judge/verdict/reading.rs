@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use super::cause::Cause;
 use super::reason::{REPEATED, Reason};
+use super::scatter::Scattered;
 use super::tendency::Tendency;
 use super::trend::Rates;
 use super::words::{Aside, SetAside};
-use super::{FEWEST_LEVELS, Floor, repeats, scatter};
+use super::{FEWEST_LEVELS, Floor, lower_order, repeats};
 use crate::interval::Interval;
 use crate::judge::fit::{
     Level, MOST_USED, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates,
@@ -54,6 +55,8 @@ pub struct Reading<'a> {
     digits: &'a [usize],
     /// Whether the numbers are the errors of levels, each from a run of its own.
     are_errors: bool,
+    /// Whether the levels used scatter about one power.
+    is_scattered: bool,
 }
 
 impl<'a> Reading<'a> {
@@ -64,18 +67,24 @@ impl<'a> Reading<'a> {
             None => asymptotic_range(sequence, floor.value()),
         };
         let end = range.end;
+        let rates = Rates::of(&sequence[..end]);
+        let scattered = Scattered::of(&sequence[..end], &rates);
+        let range = scattered.map_or(range, |scattered| end - scattered.count..end);
         let start = if range.len() < FEWEST_LEVELS {
             end.saturating_sub(FEWEST_LEVELS)
         } else {
             range.start
         };
-        let fit = rate_interval(&sequence[start..end]);
+        let fit = match scattered {
+            Some(scattered) => Some(scattered.rate),
+            None => rate_interval(&sequence[start..end]),
+        };
         let used = if fit.is_some() { start..end } else { 0..0 };
         Self {
             sequence,
             levels: sequence.len(),
             pairwise: pairwise_rates(sequence),
-            rates: Rates::of(&sequence[..end]),
+            rates,
             range,
             used,
             fit,
@@ -83,6 +92,7 @@ impl<'a> Reading<'a> {
             floor,
             digits: &[],
             are_errors: true,
+            is_scattered: scattered.is_some(),
         }
     }
 
@@ -151,14 +161,15 @@ impl<'a> Reading<'a> {
     }
 
     /// The constant C of error = C step^rate for the fitted rate, through the finest level that the
-    /// fit uses.
+    /// fit uses; of levels that scatter, that of their line.
     ///
     /// The rate is that at h → 0, to which the finest level is the closest; the curve of a constant
-    /// fitted to all levels would miss them all.
+    /// fitted to all levels that do not scatter would miss them all.
     pub(super) fn constant(&self) -> Option<f64> {
         let finest = self.sequence[self.used.clone()].last()?;
         // In logarithms: a power of a small step may underflow.
-        let constant = (finest.error.ln() - self.fit?.rate * finest.step.ln()).exp();
+        let fit = self.fit?;
+        let constant = (finest.error.ln() - fit.residual - fit.rate * finest.step.ln()).exp();
         Some(constant).filter(|constant| constant.is_finite())
     }
 
@@ -265,10 +276,10 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Steps 6 and 7: the trend of the rates, and the interval against the band.
+    /// Steps 7 to 9: the trend of the rates, and the interval against the band.
     fn compare(&self, interval: Interval, order: f64, tolerance: f64) -> Reason {
         let rates = &self.rates;
-        if rates.departs(tolerance) && !rates.approaches(order, tolerance) {
+        if !self.is_scattered && rates.departs(tolerance) && !rates.approaches(order, tolerance) {
             return Reason::Departs;
         }
         let grows = rates.values().last().is_none_or(|finest| *finest <= 0.0);
@@ -279,10 +290,19 @@ impl<'a> Reading<'a> {
             // could agree.
             _ if grows => Reason::IntervalTooWide,
             Reason::Agrees if rates.emerges(order, tolerance) => Reason::NotAsymptotic,
-            Reason::Agrees if scatter::hides(self.above_floor(), order, tolerance) => {
+            Reason::Agrees if self.hides_a_lower_order(order, tolerance) => {
                 Reason::LowerOrderLikely
             }
             reason => reason,
+        }
+    }
+
+    fn hides_a_lower_order(&self, order: f64, tolerance: f64) -> bool {
+        if self.is_scattered {
+            let used = &self.sequence[self.used.clone()];
+            lower_order::hides_behind_scatter(used, order, tolerance)
+        } else {
+            lower_order::hides(self.above_floor(), order, tolerance)
         }
     }
 

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use super::reading::compare;
-use super::scatter::{BELOW, LEAST_CHANGE};
+use super::lower_order::{BELOW, LEAST_CHANGE};
 use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
 use crate::interval::Interval;
 use crate::judge::claims::Claim;

@@ -1,155 +1,153 @@
-//! A lower order behind scatter: errors that pass by their interval, but that a term of lower order
-//! explains far better than the order claimed does.
+//! Errors that scatter about one power of the step: each level tells as much as any other, and all
+//! of them count.
+//!
+//! [The rule](crate::judge::verdict), step 6, states what is computed here, and what each constant
+//! buys.
 
-use super::cause::line;
-use crate::judge::fit::{Level, POLLUTION_EXPONENTS, log_quotient};
+use super::trend::Rates;
+use crate::judge::fit::{FACTOR, Level, RateInterval, RegressionLine, RegressionLines};
 
-/// Most of the finest levels that are looked at.
-const MOST: usize = 8;
-/// Fewest: three levels leave one degree of freedom, with which chance explains anything.
-const FEWEST: usize = 4;
-/// Exponents by which a lower order lies below the one claimed, beside that order itself, which
-/// leaves a constant.
-pub(super) const BELOW: [f64; 2] = [0.5, 1.0];
-/// A lower order must leave less than this share of what the claimed order leaves.
-const SHARE: f64 = 0.2;
-/// A term of lower order counts if it changes the finest rate by more than this share of the
-/// tolerance.
-pub(super) const LEAST_CHANGE: f64 = 1.0 / 60.0;
-/// Squares of residuals below this are round-off of logarithms.
-const ROUND_OFF: f64 = 1e-24;
+/// Fewest levels of which scatter is told from a trend.
+const FEWEST: usize = 6;
+/// Least share of the pairs of consecutive changes of the rate that have opposite signs. Of
+/// independent numbers most have; of pollution, plateaus and lower orders none.
+const TURNS: f64 = 0.4;
+/// Largest standard deviation of log e about the line.
+const LARGEST: f64 = 0.125;
+/// Largest quotient of the sums of squares that lines through either half of the levels leave:
+/// scatter of one size leaves as much to both.
+const HALVES: f64 = 30.0;
+/// A power h^r that lowers the sum of squares by more than this many times what it leaves for each
+/// degree of freedom, five standard errors, is no chance.
+const BEND: f64 = 25.0;
 
-/// Whether a term of lower order explains the errors, with the order claimed, at least five times
-/// as well as any pollution of it.
-///
-/// With p the order claimed, `y - p x = log(e / h^p)` is fitted by a constant a, by a + b h^r with
-/// the exponents r of pollution, and by a + b h^-d, d = 1/2, 1 and p, with b > 0. The sum of
-/// squares of the constant is scaled by its degrees of freedom. Scatter of one size leaves as much
-/// to all of them; a lower order leaves less to the last kind.
-///
-/// A coarser level never removes the reason: the finest four, five, ... levels are looked at one
-/// after another.
-///
-/// The term b h^-d changes the finest rate by b d, h being 1 there.
-///
-/// * `levels`: above the floor, coarsest first.
-pub(super) fn hides(levels: &[Level], order: f64, tolerance: f64) -> bool {
-    let most = levels.len().min(MOST);
-    let least = LEAST_CHANGE * tolerance;
-    (FEWEST..=most).any(|count| hides_among(&levels[levels.len() - count..], order, least))
+/// Levels that scatter about a power, and their rate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scattered {
+    /// The number of finest levels.
+    pub count: usize,
+    /// Of the straight line through all of them.
+    pub rate: RateInterval,
 }
 
-/// * `least`: the change of the finest rate below which a term of lower order counts for nothing.
-fn hides_among(levels: &[Level], order: f64, least: f64) -> bool {
-    let finest = levels[levels.len() - 1];
-    // In units of the finest level, so that no power overflows.
-    let x: Vec<f64> = levels
-        .iter()
-        .map(|level| log_quotient(level.step, finest.step))
-        .collect();
-    let heights: Vec<f64> = levels
-        .iter()
-        .zip(&x)
-        .map(|(level, x)| log_quotient(level.error, finest.error) - order * x)
-        .collect();
-    let count = levels.len() as f64;
-    let constant = squares(&heights, |_| mean(&heights)) * (count - 2.0) / (count - 1.0);
-    let polluted = POLLUTION_EXPONENTS
-        .iter()
-        .map(|r| fitted(&x, &heights, *r).squares);
-    let other = polluted.fold(constant, f64::min);
-    let lower = BELOW
-        .iter()
-        .chain(std::iter::once(&order))
-        .map(|d| (d, fitted(&x, &heights, -d)))
-        .filter(|(d, fit)| *d * fit.slope > least)
-        .map(|(_, fit)| fit)
-        .map(|fit| fit.squares)
-        .fold(f64::INFINITY, f64::min);
-    lower + ROUND_OFF * count < SHARE * other
-}
-
-/// A line over a power of the step.
-struct Fit {
-    slope: f64,
-    squares: f64,
-}
-
-/// The heights by least squares as a + b h^r.
-fn fitted(x: &[f64], heights: &[f64], r: f64) -> Fit {
-    let powers: Vec<f64> = x.iter().map(|x| (r * x).exp()).collect();
-    let [constant, slope] = line(&powers, heights);
-    Fit {
-        slope,
-        squares: squares(heights, |k| constant + slope * powers[k]),
+impl Scattered {
+    /// The most finest levels that scatter about one power.
+    ///
+    /// * `levels`: above the floor, coarsest first.
+    /// * `rates`: between them.
+    pub(super) fn of(levels: &[Level], rates: &Rates) -> Option<Self> {
+        let counts = (FEWEST..=levels.len()).rev();
+        let mut turning = counts.filter(|&count| {
+            let pairs = (count - 3) as f64;
+            rates.turns_of_finest(count) as f64 >= TURNS * pairs
+        });
+        turning.find_map(|count| {
+            let rate = rate_of(&levels[levels.len() - count..])?;
+            Some(Self { count, rate })
+        })
     }
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+/// The rate of a straight line; `None` if the levels do more than scatter about it.
+///
+/// The half-width of its interval reaches to the rate of every line with a power h^r: pollution that
+/// scatter hides moves the rate by no more.
+fn rate_of(levels: &[Level]) -> Option<RateInterval> {
+    let lines = RegressionLines::of(levels)?;
+    let straight = lines.straight;
+    let polluted = lines.polluted();
+    let bends = |line: &RegressionLine| {
+        straight.sum_of_squares() - line.sum_of_squares() > BEND * line.variance
+    };
+    let is_scattered = straight.variance.sqrt() <= LARGEST
+        && is_of_one_size(levels)?
+        && !polluted.iter().any(bends);
+    let half = polluted
+        .iter()
+        .map(|line| (line.rate - straight.rate).abs())
+        .fold(FACTOR * straight.half_width(), f64::max);
+    let rate = straight.with_half_width(half).filter(|_| is_scattered)?;
+    Some(RateInterval {
+        residual: lines.residual_of_finest(),
+        ..rate
+    })
 }
 
-/// Sum of squares of what a model leaves.
-fn squares(heights: &[f64], model: impl Fn(usize) -> f64) -> f64 {
-    let residuals = heights.iter().enumerate();
-    residuals.map(|(k, y)| (y - model(k)).powi(2)).sum()
+/// Whether the coarser and the finer half of the levels scatter alike.
+fn is_of_one_size(levels: &[Level]) -> Option<bool> {
+    let (coarse, fine) = levels.split_at(levels.len() / 2);
+    let coarse = RegressionLines::of(coarse)?.straight.sum_of_squares();
+    let fine = RegressionLines::of(fine)?.straight.sum_of_squares();
+    Some(coarse.max(fine) <= HALVES * coarse.min(fine))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::verdict::{Judge, Reason};
 
-    fn levels(errors: impl Fn(f64, usize) -> f64, count: usize) -> Vec<Level> {
+    /// Scatter without a trend, of standard deviation 1.
+    const SCATTER: [f64; 8] = [1.2, -0.8, 0.5, -1.1, 0.9, -0.4, 1.0, -1.2];
+
+    fn levels(count: usize, error: impl Fn(f64, f64) -> f64) -> Vec<Level> {
         let level = |k: usize| {
             let step = 0.5_f64.powi(k as i32);
             Level {
                 step,
-                error: errors(step, k),
+                error: error(step, SCATTER[k]),
             }
         };
         (0..count).map(level).collect()
     }
 
-    /// Scatter of about 1 %, without a trend.
-    const SCATTER: [f64; 8] = [0.012, -0.008, 0.005, -0.011, 0.009, -0.004, 0.01, -0.012];
-
-    fn scattered(h: f64, k: usize, share: f64) -> f64 {
-        let finest = 0.5_f64.powi(7);
-        h * h * (1.0 + share * finest / h) * SCATTER[k].exp()
+    fn count_of(levels: &[Level]) -> Option<usize> {
+        Scattered::of(levels, &Rates::of(levels)).map(|scattered| scattered.count)
     }
 
+    /// The numbers of another program.
     #[test]
-    fn a_lower_order_is_found_behind_scatter_and_scatter_alone_is_not() {
-        assert!(hides(&levels(|h, k| scattered(h, k, 0.11), 8), 2.0, 0.25));
-        assert!(!hides(&levels(|h, k| scattered(h, k, 0.0), 8), 2.0, 0.25));
-        assert!(
-            hides(&levels(|h, _| h * h + 1e-6, 8), 2.0, 0.25),
-            "a plateau"
-        );
-    }
-
-    #[test]
-    fn pollution_and_plain_powers_hide_nothing() {
-        for r in [0.5, 1.0, 1.5, 4.0] {
-            for a in [-0.5, 0.3, 3.0] {
-                let polluted = levels(|h, _| h * h * (1.0 + a * h.powf(r)), 8);
-                assert!(!hides(&polluted, 2.0, 0.25), "{a} {r}");
-            }
+    fn the_interval_is_that_of_all_levels_that_scatter() {
+        let errors = [
+            1.02, 0.26, 0.0635, 0.0146, 0.004_09, 0.000_999, 0.000_238, 6.28e-5,
+        ];
+        let levels: Vec<Level> = (0..)
+            .zip(errors)
+            .map(|(k, error)| Level {
+                step: 0.5_f64.powi(k),
+                error,
+            })
+            .collect();
+        let judged = Judge::default().judge(&levels, 2.0);
+        let interval = judged.interval.expect("a rate");
+        assert_eq!(judged.kind, Reason::Agrees);
+        assert_eq!(judged.used, 0..8);
+        assert!((interval.low - 1.976_514_73).abs() < 1e-7, "{interval:?}");
+        assert!((interval.high - 2.027_889_25).abs() < 1e-7, "{interval:?}");
+        for wrong in [1.5, 2.5] {
+            assert!(!Judge::default().judge(&levels, wrong).verdict.is_pass());
         }
-        assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0, 0.25));
-        assert!(!hides(&levels(|h, _| h, 3), 2.0, 0.25), "three levels");
-        // A plateau that changes the finest rate by 0.001.
-        let hardly = levels(|h, _| h * h + 3e-8, 8);
-        assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.02));
     }
 
     #[test]
-    fn a_coarser_level_never_removes_the_reason() {
-        let hidden = levels(|h, k| scattered(h, k, 0.11), 8);
-        for from in 0..8 {
-            let coarser_too = (0..from).any(|other| hides(&hidden[other..], 2.0, 0.25));
-            assert!(from == 0 || coarser_too || !hides(&hidden[from..], 2.0, 0.25));
-        }
-        assert!((1..5).any(|from| hides(&hidden[from..], 2.0, 0.25)));
+    fn levels_that_do_more_than_scatter_are_told() {
+        let scatter = |size: f64| levels(8, |h, s| h * h * (size * s).exp());
+        assert_eq!(count_of(&scatter(0.05)), Some(8));
+        assert_eq!(count_of(&scatter(0.05)[3..]), None, "five levels");
+        assert_eq!(count_of(&scatter(0.2)), None, "large scatter");
+        let trend = levels(8, |h, _| h * h * (1.0 + 0.3 * h));
+        assert_eq!(count_of(&trend), None, "no turn");
+        let bend = levels(8, |h, s| h * h * (1.0 + 0.5 * h) * (0.01 * s).exp());
+        assert_eq!(count_of(&bend), Some(6), "the coarse levels bend");
+        let bend = levels(8, |h, s| h * h * (1.0 + 3.0 * h) * (0.001 * s).exp());
+        assert_eq!(count_of(&bend), None, "a bend far above the scatter");
+        let grows = levels(8, |h, s| h * h * (0.002 / h * s).exp());
+        assert_eq!(count_of(&grows), None, "scatter of two sizes");
+    }
+
+    #[test]
+    fn a_coarse_level_that_is_no_power_is_left_out() {
+        let mut wrong = levels(8, |h, s| h * h * (0.02 * s).exp());
+        wrong[0].error *= 2.0;
+        assert_eq!(count_of(&wrong), Some(7));
     }
 }

@@ -115,6 +115,15 @@ impl Rates {
         scatter
     }
 
+    /// How many pairs of consecutive changes of the rates of the finest levels, this many, have
+    /// opposite signs.
+    pub(super) fn turns_of_finest(&self, levels: usize) -> usize {
+        let changes = self.changes();
+        let finest = &changes[changes.len().saturating_sub(levels - 2)..];
+        let turns = finest.windows(2).filter(|pair| pair[0] * pair[1] < 0.0);
+        turns.count()
+    }
+
     /// Whether the rates fell on each of the last two refinements, are still falling, and ended more
     /// than half an order below the claim, by more than scatter explains.
     ///

@@ -1,0 +1,205 @@
+//! A lower order behind scatter: errors that pass by their interval, but that a term of lower order
+//! explains far better than the order claimed does.
+
+use super::cause::line;
+use crate::judge::fit::{Level, POLLUTION_EXPONENTS, log_quotient};
+
+/// Most of the finest levels that are looked at.
+const MOST: usize = 8;
+/// Fewest: three levels leave one degree of freedom, with which chance explains anything.
+const FEWEST: usize = 4;
+/// Exponents by which a lower order lies below the one claimed, beside that order itself, which
+/// leaves a constant.
+pub(super) const BELOW: [f64; 2] = [0.5, 1.0];
+/// A lower order must leave less than this share of what the claimed order leaves.
+const SHARE: f64 = 0.2;
+/// A term of lower order counts if it changes the finest rate by more than this share of the
+/// tolerance.
+pub(super) const LEAST_CHANGE: f64 = 1.0 / 60.0;
+/// Standard errors above which a term of lower order shows in levels that scatter.
+const SHOWN: f64 = 2.5;
+/// Squares of residuals below this are round-off of logarithms.
+const ROUND_OFF: f64 = 1e-24;
+
+/// Whether a term of lower order explains the errors, with the order claimed, at least five times
+/// as well as any pollution of it.
+///
+/// With p the order claimed, `y - p x = log(e / h^p)` is fitted by a constant a, by a + b h^r with
+/// the exponents r of pollution, and by a + b h^-d, d = 1/2, 1 and p, with b > 0. The sum of
+/// squares of the constant is scaled by its degrees of freedom. Scatter of one size leaves as much
+/// to all of them; a lower order leaves less to the last kind.
+///
+/// A coarser level never removes the reason: the finest four, five, ... levels are looked at one
+/// after another.
+///
+/// The term b h^-d changes the finest rate by b d, h being 1 there.
+///
+/// * `levels`: above the floor, coarsest first.
+pub(super) fn hides(levels: &[Level], order: f64, tolerance: f64) -> bool {
+    hides_from(FEWEST, levels, order, tolerance)
+}
+
+/// The same of levels that scatter about the order: there, a term that is [`SHOWN`] standard errors
+/// is enough.
+///
+/// * `levels`: those that scatter, coarsest first.
+pub(super) fn hides_behind_scatter(levels: &[Level], order: f64, tolerance: f64) -> bool {
+    let heights = Heights::of(levels, order);
+    let shows = |lower: Term| lower.slope > SHOWN * lower.standard_error;
+    hides_from(FEWEST + 1, levels, order, tolerance)
+        || heights.lower_orders(order, tolerance).any(shows)
+}
+
+/// * `fewest`: levels that are looked at.
+fn hides_from(fewest: usize, levels: &[Level], order: f64, tolerance: f64) -> bool {
+    let most = levels.len().min(MOST);
+    (fewest..=most).any(|count| {
+        let heights = Heights::of(&levels[levels.len() - count..], order);
+        let other = heights.of_others();
+        let lower = heights
+            .lower_orders(order, tolerance)
+            .map(|term| term.squares);
+        lower.fold(f64::INFINITY, f64::min) + ROUND_OFF * (count as f64) < SHARE * other
+    })
+}
+
+/// log(e / h^p) of levels, in units of the finest one, so that no power overflows.
+struct Heights {
+    /// log h.
+    x: Vec<f64>,
+    heights: Vec<f64>,
+}
+
+impl Heights {
+    fn of(levels: &[Level], order: f64) -> Self {
+        let finest = levels[levels.len() - 1];
+        let step = |level: &Level| log_quotient(level.step, finest.step);
+        let error = |level: &Level| log_quotient(level.error, finest.error);
+        Self {
+            x: levels.iter().map(step).collect(),
+            heights: levels
+                .iter()
+                .map(|level| error(level) - order * step(level))
+                .collect(),
+        }
+    }
+
+    /// The least that the order claimed leaves: by a constant, scaled by its degrees of freedom, or by
+    /// pollution.
+    fn of_others(&self) -> f64 {
+        let count = self.heights.len() as f64;
+        let constant = squares(&self.heights, |_| mean(&self.heights));
+        let polluted = POLLUTION_EXPONENTS.map(|r| self.fitted(r).squares);
+        let constant = constant * (count - 2.0) / (count - 1.0);
+        polluted.into_iter().fold(constant, f64::min)
+    }
+
+    /// The terms of lower order that change the finest rate by enough.
+    fn lower_orders(&self, order: f64, tolerance: f64) -> impl Iterator<Item = Term> {
+        let least = LEAST_CHANGE * tolerance;
+        let exponents = [BELOW[0], BELOW[1], order];
+        let terms = exponents.into_iter().map(|d| (d, self.fitted(-d)));
+        terms.filter_map(move |(d, term)| (d * term.slope > least).then_some(term))
+    }
+
+    /// By least squares as a + b h^r.
+    fn fitted(&self, r: f64) -> Term {
+        let powers: Vec<f64> = self.x.iter().map(|x| (r * x).exp()).collect();
+        let [constant, slope] = line(&powers, &self.heights);
+        let squares_left = squares(&self.heights, |k| constant + slope * powers[k]);
+        let variance = squares_left / (powers.len() as f64 - 2.0);
+        Term {
+            slope,
+            standard_error: (variance / squares(&powers, |_| mean(&powers))).sqrt(),
+            squares: squares_left,
+        }
+    }
+}
+
+/// A term b h^r beside a constant.
+struct Term {
+    /// b.
+    slope: f64,
+    /// Of b.
+    standard_error: f64,
+    /// What both leave.
+    squares: f64,
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Sum of squares of what a model leaves.
+fn squares(heights: &[f64], model: impl Fn(usize) -> f64) -> f64 {
+    let residuals = heights.iter().enumerate();
+    residuals.map(|(k, y)| (y - model(k)).powi(2)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn levels(errors: impl Fn(f64, usize) -> f64, count: usize) -> Vec<Level> {
+        let level = |k: usize| {
+            let step = 0.5_f64.powi(k as i32);
+            Level {
+                step,
+                error: errors(step, k),
+            }
+        };
+        (0..count).map(level).collect()
+    }
+
+    /// Scatter of about 1 %, without a trend.
+    const SCATTER: [f64; 8] = [0.012, -0.008, 0.005, -0.011, 0.009, -0.004, 0.01, -0.012];
+
+    fn scattered(h: f64, k: usize, share: f64) -> f64 {
+        let finest = 0.5_f64.powi(7);
+        h * h * (1.0 + share * finest / h) * SCATTER[k].exp()
+    }
+
+    #[test]
+    fn a_lower_order_is_found_behind_scatter_and_scatter_alone_is_not() {
+        assert!(hides(&levels(|h, k| scattered(h, k, 0.11), 8), 2.0, 0.25));
+        assert!(!hides(&levels(|h, k| scattered(h, k, 0.0), 8), 2.0, 0.25));
+        assert!(
+            hides(&levels(|h, _| h * h + 1e-6, 8), 2.0, 0.25),
+            "a plateau"
+        );
+    }
+
+    #[test]
+    fn pollution_and_plain_powers_hide_nothing() {
+        for r in [0.5, 1.0, 1.5, 4.0] {
+            for a in [-0.5, 0.3, 3.0] {
+                let polluted = levels(|h, _| h * h * (1.0 + a * h.powf(r)), 8);
+                assert!(!hides(&polluted, 2.0, 0.25), "{a} {r}");
+            }
+        }
+        assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0, 0.25));
+        assert!(!hides(&levels(|h, _| h, 3), 2.0, 0.25), "three levels");
+        // A plateau that changes the finest rate by 0.001.
+        let hardly = levels(|h, _| h * h + 3e-8, 8);
+        assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.02));
+    }
+
+    #[test]
+    fn a_term_of_lower_order_shows_above_its_standard_errors() {
+        let noisy = |share: f64| levels(|h, k| scattered(h, k, share), 8);
+        for (share, expected) in [(0.0, false), (0.02, false), (0.05, true), (0.11, true)] {
+            let found = hides_behind_scatter(&noisy(share), 2.0, 0.25);
+            assert_eq!(found, expected, "{share}");
+        }
+    }
+
+    #[test]
+    fn a_coarser_level_never_removes_the_reason() {
+        let hidden = levels(|h, k| scattered(h, k, 0.11), 8);
+        for from in 0..8 {
+            let coarser_too = (0..from).any(|other| hides(&hidden[other..], 2.0, 0.25));
+            assert!(from == 0 || coarser_too || !hides(&hidden[from..], 2.0, 0.25));
+        }
+        assert!((1..5).any(|from| hides(&hidden[from..], 2.0, 0.25)));
+    }
+}

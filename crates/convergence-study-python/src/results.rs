@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use convergence_study::{
     Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _, Levels,
-    NamedNumber, Of, Refinement,
+    NamedNumber, Of,
     internal::study::{
         STEPS,
         header::is_name,
-        sampled::Sampled,
+        sampled::{Sampled, SampledLevel},
         until_decided::{self, Looks, Next},
     },
     levels,
@@ -176,21 +176,19 @@ impl Results {
 
     fn levels(&self) -> Levels {
         let study = self.study();
-        let levels = study
-            .levels(&study.run_here())
-            .with_floor(self.options.floor);
+        let ran = study.run_here();
+        let levels = study.levels(&ran).with_floor(self.options.floor);
         if self.samples.is_empty() {
             return levels;
         }
-        // Coarse to fine, as levels are.
-        let place = |level: &Refinement| {
-            let count = level.parameters.first().map_or(f64::NAN, |own| own.value);
-            let mut counts = self.counts.iter();
-            counts.position(|own| *own as f64 == count)
-        };
-        let places: Vec<usize> = levels.refinements.iter().filter_map(place).collect();
-        let samples = places.iter().map(|level| named(&self.samples[*level]));
-        Sampled(samples.collect()).judging(levels, &|name| self.options.of(name))
+        let sampled = ran
+            .iter()
+            .zip(&self.samples)
+            .map(|(ran, samples)| SampledLevel {
+                label: ran.case.label.clone(),
+                samples: named(samples),
+            });
+        Sampled(sampled.collect()).judging(levels, &|name| self.options.of(name))
     }
 
     /// Whether levels are added, and why not.
@@ -238,17 +236,13 @@ impl Options {
 
     /// The errors of a level by its samples, which have the same step.
     pub(crate) fn made_of(&self, samples: &[NamedErrors]) -> PyResult<NamedErrors> {
-        for step in STEPS {
-            let of = |errors: &NamedErrors| {
-                let found = errors.iter().find(|(name, _)| name == step);
-                found.map(|(_, step)| step.to_bits())
-            };
-            if samples.windows(2).any(|pair| of(&pair[0]) != of(&pair[1])) {
-                let message = "solve: expected one step for all samples of a level, found others";
-                return Err(refuse(format!("{message} in \"{step}\"")));
-            }
-        }
-        let made = Sampled(vec![named(samples)]).errors(&|name| self.of(name));
+        let level = SampledLevel {
+            label: String::new(),
+            samples: named(samples),
+        };
+        let made = Sampled(vec![level]).errors(&|name| self.of(name));
+        let made: Result<Vec<_>, _> = made.into_iter().collect();
+        let made = made.map_err(|failure| refuse(format!("solve: {}", failure.reason)))?;
         let made = made.into_iter().flatten();
         Ok(made.map(|error| (error.name, error.value)).collect())
     }

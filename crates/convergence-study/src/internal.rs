@@ -77,7 +77,7 @@ pub mod study {
         pub use crate::study::norms::{INSIDE, all_norms, largest_inside};
     }
     pub mod sampled {
-        pub use crate::study::sampled::Sampled;
+        pub use crate::study::sampled::{Sampled, SampledLevel};
     }
     pub mod until_decided {
         pub use crate::study::until_decided::{Looks, Next, conclude, first_levels, next_by_time};

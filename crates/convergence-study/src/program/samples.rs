@@ -3,7 +3,7 @@
 use super::answer::Answer;
 use super::{CaseRun, Program};
 use crate::judge::verdict::Of;
-use crate::study::sampled::Sampled;
+use crate::study::sampled::{Sampled, SampledLevel};
 use crate::study::{Case, CaseFailure, Ran};
 use crate::text::number::counted;
 
@@ -13,18 +13,30 @@ use crate::text::number::counted;
 /// * `count`: how many samples a level has, which follow each other.
 pub(super) fn levels(study: &Program, ran: &[CaseRun], count: usize) -> (Vec<CaseRun>, Sampled) {
     let answers: Vec<Result<Vec<&Answer>, CaseFailure>> = ran.chunks(count).map(whole).collect();
-    let errors = answers.iter().filter_map(|level| level.as_ref().ok());
-    let errors = errors.map(|level| level.iter().map(|one| one.errors.clone()).collect());
-    let sampled = Sampled(errors.collect());
-    let mut made = sampled.errors(&|name| study.of(name)).into_iter();
-    let resolutions = study.refine.resolutions().into_iter();
-    let levels = resolutions.zip(answers).map(|(data, answers)| Ran {
-        found: answers.map(|answers| Answer {
-            errors: made.next().unwrap_or_default(),
-            ..of_all(&answers)
-        }),
-        case: Case::new(data.label.clone(), data.cost(), data),
+    let resolutions = study.refine.resolutions();
+    let whole = resolutions.iter().zip(&answers);
+    let sampled = whole.filter_map(|(data, answers)| {
+        let samples = answers.as_ref().ok()?.iter();
+        Some(SampledLevel {
+            label: data.label.clone(),
+            samples: samples.map(|one| one.errors.clone()).collect(),
+        })
     });
+    let sampled = Sampled(sampled.collect());
+    let mut made = sampled.errors(&|name| study.of(name)).into_iter();
+    let levels = resolutions
+        .into_iter()
+        .zip(answers)
+        .map(|(data, answers)| Ran {
+            found: answers.and_then(|answers| {
+                let errors = made.next().unwrap_or_else(|| Ok(vec![]))?;
+                Ok(Answer {
+                    errors,
+                    ..of_all(&answers)
+                })
+            }),
+            case: Case::new(data.label.clone(), data.cost(), data),
+        });
     (levels.collect(), sampled)
 }
 

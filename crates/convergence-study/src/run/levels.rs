@@ -77,7 +77,7 @@ where
 {
     /// Runs all samples, on all threads of the machine, and judges the levels.
     pub fn run(&self) -> Finished {
-        run_kind(&self.header, self)
+        run_kind(&self.levels.header, self)
     }
 
     /// Runs and judges it, for a test.

@@ -75,9 +75,9 @@ pub struct ErrorsOverLevels<F> {
     pub(crate) header: Header,
     axis: Axis,
     counted: String,
-    counts: Vec<usize>,
-    claims: Vec<(String, Claim)>,
-    solve: F,
+    pub(super) counts: Vec<usize>,
+    pub(super) claims: Vec<(String, Claim)>,
+    pub(super) solve: F,
 }
 
 /// A study of the errors that a function computes on each level of refinement.
@@ -102,19 +102,21 @@ where
     R: IntoErrors,
     F: Fn(usize) -> R + Send + Sync,
 {
-    let header = Header::new("levels", "the errors fall with the orders claimed");
-    let counts = counts.into_iter().collect();
-    ErrorsOverLevels {
-        header,
-        axis: Axis::Space,
-        counted: "n".to_owned(),
-        counts,
-        claims: vec![],
-        solve,
-    }
+    ErrorsOverLevels::of(counts, solve)
 }
 
 impl<F> ErrorsOverLevels<F> {
+    pub(super) fn of(counts: impl IntoIterator<Item = usize>, solve: F) -> Self {
+        Self {
+            header: Header::new("levels", "the errors fall with the orders claimed"),
+            axis: Axis::Space,
+            counted: "n".to_owned(),
+            counts: counts.into_iter().collect(),
+            claims: vec![],
+            solve,
+        }
+    }
+
     /// The same study under a name, with a claim in words.
     pub fn described(self, header: Header) -> Self {
         Self { header, ..self }
@@ -142,7 +144,8 @@ impl<F> ErrorsOverLevels<F> {
         self
     }
 
-    fn label(&self, count: usize) -> String {
+    /// What a level is called.
+    pub(super) fn label(&self, count: usize) -> String {
         format!("{} = {count}", self.counted)
     }
 
@@ -175,9 +178,44 @@ impl<F> ErrorsOverLevels<F> {
         )
         .of_answers()
     }
+
+    /// The outcome of levels, and whether all cases and claims are whole.
+    pub(super) fn outcome_of<D>(
+        &self,
+        levels: &Levels,
+        ran: &[Ran<D, Vec<NamedNumber>>],
+    ) -> Outcome {
+        let names: Vec<&str> = levels
+            .columns
+            .iter()
+            .filter(|column| column.has_some_result())
+            .map(|column| column.name.as_str())
+            .collect();
+        let completion = completion_check(ran, |errors| {
+            let names = names
+                .iter()
+                .filter(|name| !error_of(errors, name).is_finite());
+            names.map(|name| format!("the error `{name}`")).collect()
+        });
+        let mut checks = vec![completion];
+        if self.claims.is_empty() {
+            let claim = "an order is claimed".to_owned();
+            let evidence = "no order of any error is claimed".to_owned();
+            checks.push(Check {
+                verdict: Verdict::Inconclusive,
+                ..Check::that(false, claim, evidence).about(Subject::of("claims"))
+            });
+        }
+        if let Some(name) = first_repeated(self.claims.iter().map(|(name, _)| name.as_str())) {
+            let claim = "each error is claimed once".to_owned();
+            let evidence = format!("`{name}` is claimed twice: only one of the claims is judged");
+            checks.push(Check::that(false, claim, evidence).about(Subject::of("claims")));
+        }
+        levels.outcome("errors", None, "Errors over levels of refinement.", checks)
+    }
 }
 
-fn is_step(name: &str) -> bool {
+pub(super) fn is_step(name: &str) -> bool {
     STEPS.contains(&name)
 }
 
@@ -220,34 +258,7 @@ where
     }
 
     fn judge(&self, ran: &[Ran<usize, Vec<NamedNumber>>]) -> Outcome {
-        let levels = self.levels(ran);
-        let names: Vec<&str> = levels
-            .columns
-            .iter()
-            .filter(|column| column.has_some_result())
-            .map(|column| column.name.as_str())
-            .collect();
-        let completion = completion_check(ran, |errors| {
-            let names = names
-                .iter()
-                .filter(|name| !error_of(errors, name).is_finite());
-            names.map(|name| format!("the error `{name}`")).collect()
-        });
-        let mut checks = vec![completion];
-        if self.claims.is_empty() {
-            let claim = "an order is claimed".to_owned();
-            let evidence = "no order of any error is claimed".to_owned();
-            checks.push(Check {
-                verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, evidence).about(Subject::of("claims"))
-            });
-        }
-        if let Some(name) = first_repeated(self.claims.iter().map(|(name, _)| name.as_str())) {
-            let claim = "each error is claimed once".to_owned();
-            let evidence = format!("`{name}` is claimed twice: only one of the claims is judged");
-            checks.push(Check::that(false, claim, evidence).about(Subject::of("claims")));
-        }
-        levels.outcome("errors", None, "Errors over levels of refinement.", checks)
+        self.outcome_of(&self.levels(ran), ran)
     }
 }
 

@@ -1,14 +1,13 @@
 //! A ready-made kind of study: levels that are made of samples, which a function computes by a seed.
 
-use super::errors_over_levels::{IntoErrors, STEPS};
+use super::errors_over_levels::{ErrorsOverLevels, IntoErrors};
 use super::header::Header;
-use super::kind::{Case, CaseFailure, Kind, Ran, completion_check};
+use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
-use super::over_levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
-use super::sampled::Sampled;
-use super::subject::Subject;
+use super::over_levels::{Axis, Claim};
+use super::sampled::{Sampled, SampledLevel};
 use crate::judge::claims::Bound;
-use crate::judge::verdict::{Of, Verdict};
+use crate::judge::verdict::{FEWEST_NUMBERS, Of};
 use crate::text::named::NamedNumber;
 
 /// A study of levels of which each is made of samples, by the same seeds on all levels; made by
@@ -16,18 +15,18 @@ use crate::text::named::NamedNumber;
 #[derive(Debug, Clone)]
 #[must_use = "levels are computed and judged by `run` or `assert_passes`"]
 pub struct LevelsOfSamples<F> {
-    pub(crate) header: Header,
-    counts: Vec<usize>,
+    pub(crate) levels: ErrorsOverLevels<F>,
     samples: usize,
-    claims: Vec<(String, Claim, Of)>,
-    solve: F,
+    /// How samples make the errors that are claimed.
+    of: Vec<(String, Of)>,
 }
 
 /// A study of errors that scatter, as those of Monte Carlo: each level is made of samples, and its
 /// rate is judged by how they scatter.
 ///
 /// * `counts`: as of [`levels`](crate::levels()); `samples`: how many a level has, at least 10.
-/// * `solve`: the errors at a count by a seed, which is 1, 2, 3, ..., the same on all levels.
+/// * `solve`: the errors at a count by a seed, which is 1, 2, 3, ..., the same on all levels. All
+///   samples of a level have one step.
 ///
 /// The page "My errors scatter" of the book has an example.
 pub fn levels_of_samples<R, F>(
@@ -39,21 +38,28 @@ where
     R: IntoErrors,
     F: Fn(usize, usize) -> R + Send + Sync,
 {
-    let mut counts: Vec<usize> = counts.into_iter().collect();
-    counts.sort_unstable();
     LevelsOfSamples {
-        header: Header::new("levels", "the errors fall with the orders claimed"),
-        counts,
+        levels: ErrorsOverLevels::of(counts, solve),
         samples,
-        claims: vec![],
-        solve,
+        of: vec![],
     }
 }
 
 impl<F> LevelsOfSamples<F> {
     /// The same study under a name, with a claim in words.
     pub fn described(self, header: Header) -> Self {
-        Self { header, ..self }
+        Self {
+            levels: self.levels.described(header),
+            ..self
+        }
+    }
+
+    /// As [`ErrorsOverLevels::counting`].
+    pub fn counting(self, counted: impl Into<String>, axis: Axis) -> Self {
+        Self {
+            levels: self.levels.counting(counted, axis),
+            ..self
+        }
     }
 
     /// The same study with a claim: the error of this name, made of its samples in this way, falls
@@ -64,54 +70,17 @@ impl<F> LevelsOfSamples<F> {
 
     /// The same with any claim.
     pub fn claiming(mut self, error: impl Into<String>, claim: Claim, of: Of) -> Self {
-        self.claims.push((error.into(), claim, of));
+        let error = error.into();
+        self.of.push((error.clone(), of));
+        self.levels = self.levels.claiming(error, claim);
         self
     }
 
     fn of(&self, name: &str) -> Option<Of> {
-        let mut claims = self.claims.iter();
-        claims.find(|claim| claim.0 == name).map(|claim| claim.2)
-    }
-
-    /// The levels that have all samples, with these.
-    fn levels(&self, ran: &[Ran<(usize, usize), Vec<NamedNumber>>]) -> Levels {
-        let whole = |level: &[Ran<(usize, usize), Vec<NamedNumber>>]| {
-            let samples = level.iter().map(|ran| ran.ok().cloned());
-            samples.collect::<Option<Vec<_>>>()
-        };
-        let found: Vec<_> = ran.chunks(self.samples).map(whole).collect();
-        let sampled = Sampled(found.iter().flatten().cloned().collect());
-        let of = |name: &str| self.of(name);
-        let mut made = sampled.errors(&of).into_iter();
-        let errors = found
-            .iter()
-            .map(|level| level.as_ref().and_then(|_| made.next()));
-        let errors: Vec<Option<Vec<NamedNumber>>> = errors.collect();
-        let refinements = self.counts.iter().zip(&errors).map(|(count, errors)| {
-            let own = errors
-                .iter()
-                .flatten()
-                .find(|one| STEPS.contains(&&*one.name));
-            let step = own.map_or(1.0 / *count as f64, |step| step.value);
-            Refinement::new(format!("n = {count}"), &[("n", *count)], step)
-        });
-        let without_step = |errors: &Option<Vec<NamedNumber>>| {
-            let errors = errors.iter().flatten().cloned();
-            let errors = errors.filter(|one| !STEPS.contains(&&*one.name));
-            errors.collect::<Vec<_>>()
-        };
-        let kept: Vec<Vec<NamedNumber>> = errors.iter().map(without_step).collect();
-        let kept = errors.iter().zip(&kept);
-        let kept: Vec<_> = kept
-            .map(|(level, kept)| level.as_ref().map(|_| &kept[..]))
-            .collect();
-        let claims: Vec<(&String, Claim)> = self
-            .claims
-            .iter()
-            .map(|(name, claim, _)| (name, *claim))
-            .collect();
-        let levels = Levels::new(Axis::Space, refinements, ErrorColumn::of(&claims, &kept));
-        sampled.judging(levels.of_answers(), &of)
+        let mut claimed = self.of.iter();
+        claimed
+            .find(|claimed| claimed.0 == name)
+            .map(|claimed| claimed.1)
     }
 }
 
@@ -127,38 +96,56 @@ where
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
         let seeds = |&count: &usize| {
             let case = move |seed| {
-                Case::new(
-                    format!("n = {count}, seed = {seed}"),
-                    count as f64,
-                    (count, seed),
-                )
+                let label = format!("{}, seed = {seed}", self.levels.label(count));
+                Case::new(label, count as f64, (count, seed))
             };
             Sampled::seeds(self.samples).map(case)
         };
-        self.counts.iter().flat_map(seeds).collect()
+        self.levels.counts.iter().flat_map(seeds).collect()
     }
 
     fn run(&self, (count, seed): &(usize, usize)) -> Result<Vec<NamedNumber>, CaseFailure> {
-        (self.solve)(*count, *seed).into_errors()
+        (self.levels.solve)(*count, *seed).into_errors()
     }
 
     fn judge(&self, ran: &[Ran<(usize, usize), Vec<NamedNumber>>]) -> Outcome {
-        let mut checks = vec![completion_check(ran, |_| vec![])];
-        if self.samples < crate::judge::verdict::FEWEST_NUMBERS {
+        if self.samples < FEWEST_NUMBERS {
             let claim = "a level has at least ten samples";
             let check = Check::that(false, claim, format!("{} samples", self.samples));
             return Outcome::new("too few samples", vec![], vec![check]);
         }
-        if self.claims.is_empty() {
-            let evidence = "no order of any error is claimed";
-            checks.push(Check {
-                verdict: Verdict::Inconclusive,
-                ..Check::that(false, "an order is claimed", evidence).about(Subject::of("claims"))
+        let of = |name: &str| self.of(name);
+        let mut sampled = Sampled(vec![]);
+        let counts = self.levels.counts.iter();
+        let mut levels: Vec<Ran<usize, Vec<NamedNumber>>> = vec![];
+        for (&count, ran) in counts.zip(ran.chunks(self.samples)) {
+            let label = self.levels.label(count);
+            let samples = ran.iter().map(|ran| ran.found.clone()).collect();
+            levels.push(Ran {
+                case: Case::new(label.clone(), count as f64, count),
+                found: match samples {
+                    Ok(samples) => {
+                        sampled.0.push(SampledLevel { label, samples });
+                        Ok(vec![])
+                    }
+                    Err(failure) => Err(failure),
+                },
             });
         }
-        let levels = self.levels(ran);
-        let caption = "Errors over levels of refinement.";
-        let mut outcome = levels.outcome("errors", None, caption, checks);
+        let whole = levels.iter_mut().filter(|level| level.found.is_ok());
+        let mut mixed = vec![];
+        for (level, made) in whole.zip(sampled.errors(&of)) {
+            if let Err(failure) = &made {
+                let evidence = format!("{}: {}", level.case.label, failure.reason);
+                mixed.push(Check::that(false, "a level has one step", evidence));
+            }
+            level.found = made;
+        }
+        let judged = sampled.judging(self.levels.levels(&levels), &of);
+        let mut outcome = self.levels.outcome_of(&judged, ran);
+        if !mixed.is_empty() {
+            outcome.extend(Outcome::new("", vec![], mixed));
+        }
         outcome.add_to_summary(&Sampled::words(self.samples));
         outcome
     }
@@ -168,6 +155,7 @@ where
 mod tests {
     use super::*;
     use crate::judge::random::SplitMix;
+    use crate::judge::verdict::Verdict;
 
     /// A strong error of order one half, and a signed weak one of order one.
     fn errors(n: usize, seed: usize) -> [(&'static str, f64); 2] {
@@ -218,6 +206,47 @@ mod tests {
         );
         let nothing = levels_of_samples(COUNTS, 20, errors).run().outcome;
         assert_eq!(nothing.verdict, Verdict::Inconclusive);
+    }
+
+    /// All levels report their step or none does, and all samples of one level report the same.
+    #[test]
+    fn levels_whose_samples_do_not_agree_on_their_steps_do_not_pass() {
+        let with_steps = |step: fn(usize, usize) -> Option<f64>| {
+            let solve = move |n: usize, seed: usize| {
+                let [(name, error), _] = errors(n, seed);
+                let step = step(n, seed).map(|step| ("h", step));
+                step.into_iter().chain([(name, error)]).collect::<Vec<_>>()
+            };
+            let study = levels_of_samples(COUNTS, 40, solve);
+            study.claim("strong", 0.5, Of::Mean).run().outcome
+        };
+        let right = with_steps(|n, _| Some(2.0 / n as f64));
+        assert!(right.verdict.is_pass(), "{}", right.summary);
+        assert_eq!(right.levels[0].step, Some(0.5));
+        let mixed = with_steps(|n, seed| {
+            Some(if (n, seed) == (8, 3) {
+                0.3
+            } else {
+                1.0 / n as f64
+            })
+        });
+        assert_eq!(mixed.verdict, Verdict::Fail);
+        let evidence: Vec<String> = mixed
+            .checks
+            .iter()
+            .map(|check| check.evidence.to_string())
+            .collect();
+        assert!(
+            evidence
+                .iter()
+                .any(|one| one.contains("n = 8: expected one step")),
+            "{evidence:?}"
+        );
+        let some = with_steps(|n, _| (n != 8).then_some(1.0 / n as f64));
+        assert!(!some.verdict.is_pass(), "{}", some.summary);
+        // 1/n as the order of levels would be wrong.
+        let reversed = with_steps(|n, _| Some(n as f64 / 64.0));
+        assert_eq!(reversed.verdict, Verdict::Fail, "{}", reversed.summary);
     }
 
     #[test]

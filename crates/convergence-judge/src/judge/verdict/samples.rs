@@ -4,8 +4,8 @@
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use super::reading::compare;
 use super::lower_order::{BELOW, LEAST_CHANGE};
+use super::reading::compare;
 use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
 use crate::interval::Interval;
 use crate::judge::claims::Claim;
@@ -47,6 +47,11 @@ impl Of {
             Self::RootMeanSquare => "rms",
             Self::Weak => "weak",
         }
+    }
+
+    /// The error that these numbers make.
+    pub fn error(self, numbers: &[f64]) -> f64 {
+        Moments::of(numbers, self).error
     }
 }
 
@@ -94,11 +99,6 @@ struct WeightedLine {
 }
 
 impl Samples {
-    /// The error of each level.
-    pub fn errors(&self) -> Vec<f64> {
-        self.known(None).iter().map(|known| known.error).collect()
-    }
-
     /// The errors of all levels, and how well they are known.
     ///
     /// * `without`: the number to leave out at each level.

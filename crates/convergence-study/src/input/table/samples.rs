@@ -122,6 +122,10 @@ fn with_errors(column: Cells) -> Cells {
     let Some(samples) = &column.samples else {
         return column;
     };
-    let cells = samples.errors().into_iter().map(Cell::exact).collect();
+    let errors = samples
+        .numbers
+        .iter()
+        .map(|numbers| samples.of.error(numbers));
+    let cells = errors.map(Cell::exact).collect();
     Cells { cells, ..column }
 }

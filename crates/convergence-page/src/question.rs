@@ -88,10 +88,12 @@ impl Question {
             ..Request::default()
         };
         // A floor of zero is one, too.
-        let floor = self.floor.and(request.choice.samples).map(|_| "floor");
-        match request.ignored_beside_samples().or(floor) {
-            Some(option) => Err(Refused::because(&format!(
-                "expected --samples without --{option}; found both"
+        let floor = self.floor.and(request.choice.samples);
+        let floor = floor.map(|_| ["samples", "floor"]);
+        let order = (request.by_factor && !self.order.is_empty()).then_some(["factor", "order"]);
+        match request.ignored().or(floor).or(order) {
+            Some([kept, ignored]) => Err(Refused::because(&format!(
+                "expected --{kept} without --{ignored}; found both"
             ))),
             None => Ok(request),
         }

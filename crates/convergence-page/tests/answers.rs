@@ -133,6 +133,17 @@ fn a_factor_round_off_and_samples_are_asked_for_as_on_the_command_line() {
         let expected = format!("expected --samples without {option}; found both");
         assert_eq!(refused, expected.as_str());
     }
+    for (key, value) in [
+        ("order", json!(["2"])),
+        ("dim", json!(2.0)),
+        ("ratio", json!(2.0)),
+    ] {
+        let mut question = json!({"text": falling, "factor": ["4"]});
+        question[key] = value;
+        let refused = &answer(judge, &question)["refused"]["message"];
+        let expected = format!("expected --factor without --{key}; found both");
+        assert_eq!(refused, expected.as_str());
+    }
     let wrong = json!({"text": text, "samples": "median"});
     let message = &answer(judge, &wrong)["refused"]["message"];
     assert_eq!(message, "--of: expected mean, rms or weak");

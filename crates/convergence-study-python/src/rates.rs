@@ -51,10 +51,8 @@ pub(crate) fn rates(
         choice: chosen.choice()?,
         ..Request::default()
     };
-    if let Some(name) = request.ignored_beside_samples() {
-        let found = format!(
-            "{name}: expected none beside samples, whose scatter says how well a level is known"
-        );
+    if let Some([kept, ignored]) = request.ignored() {
+        let found = format!("{ignored}: expected none beside {kept}, which leaves it no meaning");
         return Err(refuse(found));
     }
     let (tables, first) = if is_text {

@@ -204,7 +204,7 @@ def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False, 
     if samples is not None and (isinstance(samples, bool) or not hasattr(samples, "__index__") or samples < FEWEST_SAMPLES):
         raise ValueError(f"samples: expected a whole number >= {FEWEST_SAMPLES}, found {samples!r}")
     if samples is not None and number("floor", floor) > 0:
-        raise ValueError("floor: expected none beside samples, whose scatter says how well a level is known")
+        raise ValueError("floor: expected none beside samples, which leaves it no meaning")
     makers = dict(of) if isinstance(of, Mapping) else {"": of}
     for error, maker in makers.items():
         if maker not in MAKERS:

@@ -192,18 +192,31 @@ impl Request {
         }
     }
 
-    /// What is asked for beside samples, and would be ignored: their scatter says how well a level is
-    /// known. The command line refuses the same options.
-    pub fn ignored_beside_samples(&self) -> Option<&'static str> {
-        self.choice.samples?;
-        let others = [
-            ("factor", self.by_factor),
-            ("floor", self.floor > 0.0),
-            ("values", !self.choice.values.is_empty()),
-            ("ratio", self.choice.ratio.is_some()),
+    /// An option that another one would make the reader of tables ignore, with that other one. The
+    /// command line refuses the same options.
+    ///
+    /// The scatter of samples says how well a level is known; a factor is one for each unit of a
+    /// count, whatever steps are made of counts.
+    pub fn ignored(&self) -> Option<[&'static str; 2]> {
+        let by_samples = self.choice.samples.is_some();
+        let has_ratio = self.choice.ratio.is_some();
+        let options = [
+            (by_samples, "samples", self.by_factor, "factor"),
+            (by_samples, "samples", self.floor > 0.0, "floor"),
+            (
+                by_samples,
+                "samples",
+                !self.choice.values.is_empty(),
+                "values",
+            ),
+            (by_samples, "samples", has_ratio, "ratio"),
+            (self.by_factor, "factor", self.choice.dim.is_some(), "dim"),
+            (self.by_factor, "factor", has_ratio, "ratio"),
         ];
-        let ignored = others.into_iter().find(|(_, is_there)| *is_there);
-        ignored.map(|(name, _)| name)
+        let both = options
+            .into_iter()
+            .find(|(one, _, other, _)| *one && *other);
+        both.map(|(_, kept, _, ignored)| [kept, ignored])
     }
 
     /// What is known of round-off.

@@ -62,6 +62,12 @@ pub fn signal(id: u32, name: &str) {
     );
 }
 
+/// Whether a text has these pieces in this order; ` … ` separates them.
+pub fn says<'a>(text: &'a str, pieces: &str) -> bool {
+    let after = |rest: &'a str, piece| rest.split_once(piece).map(|(_, rest)| rest);
+    pieces.split(" … ").try_fold(text, after).is_some()
+}
+
 /// The status and the output of a process that has ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ended {
@@ -89,6 +95,29 @@ impl From<Output> for Ended {
             stdout: text(stdout),
             stderr: text(stderr),
         }
+    }
+}
+
+impl Ended {
+    /// What a program printed that ended well, and did not complain.
+    #[track_caller]
+    pub fn well(&self) -> &str {
+        assert!(self.status == Some(0) && self.stderr.is_empty(), "{self:?}");
+        &self.stdout
+    }
+
+    /// A program that ended with this status, and said these words on standard error.
+    #[track_caller]
+    pub fn complains(&self, status: i32, words: &str) {
+        assert_eq!(self.status, Some(status), "{self:?}");
+        assert!(says(&self.stderr, words), "{words}: {self:?}");
+    }
+
+    /// What cannot be used: status 2, these words on standard error, nothing on standard output.
+    #[track_caller]
+    pub fn refuses(&self, words: &str) {
+        self.complains(2, words);
+        assert_eq!(self.stdout, "", "{words}");
     }
 }
 

@@ -2,4 +2,3 @@
 
 mod command;
 mod command_line;
-mod commands;

@@ -1,90 +1,62 @@
 //! `run SCENE --target-error E`.
 
-use super::{Folder, ended, thermobeam};
+use serde_json::Value;
+
+use super::{Folder, number, read};
 
 const SWING: &str = "[beam]\na = 0\n[initial]\nu_t = \"0.1*x\"\n[time]\nt_end = 1\ndt = 0.1";
 
+fn swing() -> Folder {
+    let folder = Folder::new();
+    folder.file("swing.toml", SWING);
+    folder
+}
+
 #[test]
 fn a_target_error_is_met_and_reported_with_its_runs() {
-    let folder = Folder::new();
-    let scene = folder.file("swing.toml", SWING);
-    let with = |arguments: &[&str]| ended(thermobeam().arg("run").arg(&scene).args(arguments));
-    let json = with(&["--target-error", "1e-5", "--format", "json"]);
-    assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
-    let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
-    let accuracy = &value["accuracy"];
-    let number = |key: &str| accuracy[key].as_f64().unwrap_or_else(|| panic!("no {key}"));
+    let folder = swing();
+    let (json, value) = folder.json("run swing.toml --target-error 1e-5");
+    json.well();
+    let number = |key: &str| number(&value, &format!("/accuracy/{key}"));
     assert_eq!(value["scheme"], "dg");
     assert!(number("target_error") == 1e-5 && number("believed_error") <= 1e-5);
     assert!(number("search_runs") >= 3.0 && number("search_work") > 0.0);
     assert_eq!(
-        accuracy["nodes"].as_array().map(Vec::len),
+        value["accuracy"]["nodes"].as_array().map(Vec::len),
         value["elements"].as_u64().map(|n| n as usize + 1)
     );
-    let text = with(&["--target-error", "1e-2"]);
-    assert_eq!(text.status, Some(0));
+    let text = folder.ended("run swing.toml --target-error 1e-2");
     for piece in ["target", "estimated", "the difference to a coarser run"] {
-        assert!(text.stdout.contains(piece), "{piece}: {}", text.stdout);
+        assert!(text.well().contains(piece), "{piece}: {text:?}");
     }
-    assert!(!text.stdout.contains("--target-error"), "{}", text.stdout);
+    assert!(!text.stdout.contains("--target-error"), "{text:?}");
 }
 
 #[test]
 fn the_files_of_a_target_error_are_those_of_its_run() {
-    let folder = Folder::new();
-    let scene = folder.file("swing.toml", SWING);
-    let out = folder.path("out");
-    let ended = ended(
-        thermobeam()
-            .arg("run")
-            .arg(&scene)
-            .args(["--target-error", "1e-5", "--out"])
-            .arg(&out),
-    );
-    assert_eq!(ended.status, Some(0), "{}", ended.stderr);
-    let history = std::fs::read_to_string(out.join("history.csv")).expect("a history");
-    let last: f64 = history
+    let folder = swing();
+    let ended = folder.ended("run swing.toml --target-error 1e-5 --out out");
+    assert_eq!(ended.status, Some(0), "{ended:?}");
+    let history = read(&folder.path("out/history.csv"));
+    let last = history
         .lines()
         .last()
-        .and_then(|line| line.split(',').nth(1)?.parse().ok())
-        .expect("u(1)");
-    let text = std::fs::read_to_string(out.join("run.json")).expect("JSON");
-    let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    assert_eq!(value["final"]["u_tip"].as_f64(), Some(last));
+        .and_then(|line| line.split(',').nth(1));
+    let last: f64 = last.expect("u(1)").parse().expect("a number");
+    let value: Value = serde_json::from_str(&read(&folder.path("out/run.json"))).expect("JSON");
+    assert_eq!(number(&value, "/final/u_tip"), last);
 }
 
 #[test]
 fn an_accuracy_out_of_reach_fails_and_says_what_is_reachable() {
-    let folder = Folder::new();
-    let scene = folder.file("swing.toml", SWING);
-    let out = folder.path("out");
-    let far = ended(
-        thermobeam()
-            .arg("run")
-            .arg(&scene)
-            .args(["--target-error", "1e-17", "--out"])
-            .arg(&out),
-    );
-    assert_eq!((far.status, far.stdout.as_str()), (Some(1), ""));
-    assert!(
-        far.stderr.contains("rounding errors") && far.stderr.contains("can be reached"),
-        "{}",
-        far.stderr
-    );
-    assert!(!out.exists());
+    let folder = swing();
+    let far = folder.ended("run swing.toml --target-error 1e-17 --out out");
+    far.complains(1, "rounding errors");
+    far.complains(1, "can be reached");
+    assert!(far.stdout.is_empty() && !folder.path("out").exists());
     for target in ["0", "-1", "nan"] {
-        let ended = ended(
-            thermobeam()
-                .arg("run")
-                .arg(&scene)
-                .args(["--target-error", target]),
-        );
-        assert_eq!((ended.status, ended.stdout.as_str()), (Some(2), ""));
-        assert!(
-            ended.stderr.contains("expected a finite number > 0"),
-            "{}",
-            ended.stderr
-        );
+        let ended = folder.ended(&format!("run swing.toml --target-error {target}"));
+        ended.refuses("expected a finite number > 0");
     }
 }
 
@@ -107,12 +79,7 @@ pub(super) const UNSOLVED: [(&str, &str); 2] = [
 fn a_run_whose_energy_rose_or_is_not_balanced_ends_with_status_1() {
     let folder = Folder::new();
     for (scene, message) in UNSOLVED {
-        let ended = ended(
-            thermobeam()
-                .arg("run")
-                .arg(folder.file("loose.toml", scene)),
-        );
-        assert_eq!(ended.status, Some(1), "{}", ended.stdout);
-        assert!(ended.stderr.contains(message), "{}", ended.stderr);
+        folder.file("loose.toml", scene);
+        folder.ended("run loose.toml").complains(1, message);
     }
 }

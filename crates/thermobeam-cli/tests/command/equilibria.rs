@@ -1,6 +1,6 @@
-use std::path::Path;
+use serde_json::Value;
 
-use super::{Folder, ended, keys, thermobeam};
+use super::{Folder, keys, number};
 
 /// The paper's beam between its obstacles at β, with the `[time]` table that a scene must have.
 fn scene(beta: f64) -> String {
@@ -8,38 +8,21 @@ fn scene(beta: f64) -> String {
 }
 
 /// What the command answers about a scene: the text, and the object of JSON.
-fn answers(path: &Path) -> (String, serde_json::Value) {
-    let answer = |arguments: &[&str]| {
-        let mut command = thermobeam();
-        ended(command.arg("equilibria").arg(path).args(arguments)).stdout
-    };
-    let json = answer(&["--format", "json"]);
-    (answer(&[]), serde_json::from_str(&json).expect("JSON"))
+fn answers(folder: &Folder, name: &str, scene: &str) -> (String, Value) {
+    folder.file(&format!("{name}.toml"), scene);
+    let line = format!("equilibria {name}.toml");
+    (folder.ended(&line).stdout, folder.json(&line).1)
 }
 
 #[test]
 fn the_states_below_the_buckling_force_are_listed() {
     let folder = Folder::new();
-    let path = folder.file("buckled.toml", &scene(-0.8));
-    let json = ended(
-        thermobeam()
-            .arg("equilibria")
-            .arg(&path)
-            .args(["--format", "json"]),
-    );
-    assert_eq!((json.status, json.stderr.as_str()), (Some(0), ""));
-    let state = ["contact", "n_value", "u_tip", "phi_tip", "stable"];
-    let found = keys(&json.stdout);
-    assert_eq!(found[..3], ["schema", "verdict", "equilibria"]);
-    assert_eq!(
-        found[3..8]
-            .iter()
-            .map(|key| key.trim_start())
-            .collect::<Vec<_>>(),
-        state
-    );
-
-    let value: serde_json::Value = serde_json::from_str(&json.stdout).expect("JSON");
+    let (text, value) = answers(&folder, "buckled", &scene(-0.8));
+    let json = folder.ended("equilibria buckled.toml --format json");
+    let found = keys(json.well());
+    let found: Vec<&str> = found.iter().map(|key| key.trim_start()).collect();
+    let contract = "schema verdict equilibria contact n_value u_tip phi_tip stable";
+    assert_eq!(found[..8].join(" "), contract);
     assert_eq!(value["complete"], true);
     let states = value["equilibria"].as_array().expect("a list");
     let expected = [
@@ -49,19 +32,10 @@ fn the_states_below_the_buckling_force_are_listed() {
     ];
     assert_eq!(states.len(), expected.len());
     for (state, (contact, u_tip, stable)) in states.iter().zip(expected) {
-        assert_eq!(
-            [&state["contact"], &state["stable"]],
-            [&contact.into(), &serde_json::Value::from(stable)]
-        );
-        assert!(
-            state["u_tip"]
-                .as_f64()
-                .is_some_and(|found| (found - u_tip).abs() < 1e-10),
-            "{state}"
-        );
+        assert_eq!(state["contact"], contact);
+        assert_eq!(state["stable"], stable);
+        assert!((number(state, "/u_tip") - u_tip).abs() < 1e-10, "{state}");
     }
-
-    let text = ended(thermobeam().arg("equilibria").arg(&path)).stdout;
     assert!(
         text.contains("3 steady states") && text.contains("unstable in 1 direction"),
         "{text}"
@@ -76,6 +50,7 @@ fn a_list_is_called_complete_where_it_is() {
         format!("[beam]\nbeta = {beta:?}\na = 0.5\ntheta_a = 2.0\n{obstacles}{time}")
     };
     let cold = |beta: f64| format!("[beam]\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
+    let infinite = "Not all: infinitely many";
     for (name, scene, states, complete, said) in [
         // One state although beta = -1: no beam with a heated end has a slope so small.
         ("one", hot(-1.0, ""), Some(1), true, ""),
@@ -83,23 +58,11 @@ fn a_list_is_called_complete_where_it_is() {
         ("held", hot(-4.0, "[obstacles]\n"), None, true, ""),
         // Of 37 states 33 are listed.
         ("few", cold(-0.9997), Some(33), false, "Perhaps not all"),
-        (
-            "many",
-            hot(-4.0, ""),
-            None,
-            false,
-            "Not all: infinitely many",
-        ),
-        (
-            "straight",
-            cold(-1.0),
-            Some(33),
-            false,
-            "Not all: infinitely many",
-        ),
+        ("many", hot(-4.0, ""), None, false, infinite),
+        ("straight", cold(-1.0), Some(33), false, infinite),
+        ("crushed", scene(-1.5), None, false, "Not all"),
     ] {
-        let path = folder.file(&format!("{name}.toml"), &scene);
-        let (text, value) = answers(&path);
+        let (text, value) = answers(&folder, name, &scene);
         assert_eq!(text.contains("ot all"), !complete, "{name}: {text}");
         assert!(text.contains(said), "{name}: {text}");
         assert_eq!(value["complete"], complete, "{name}");
@@ -109,66 +72,47 @@ fn a_list_is_called_complete_where_it_is() {
 }
 
 #[test]
-fn a_list_that_is_not_complete_says_so() {
-    let folder = Folder::new();
-    let path = folder.file("crushed.toml", &scene(-1.5));
-    let (text, value) = answers(&path);
-    assert!(text.contains("Not all"), "{text}");
-    assert_eq!(value["complete"], false);
-}
-
-#[test]
 fn a_question_without_an_answer_fails() {
     let folder = Folder::new();
     // The linear beam without contact at its second buckling force: a continuum of states.
     let beta = -(1.5 * std::f64::consts::PI).powi(2) / (1.0 + (1.5 * std::f64::consts::PI).powi(2));
     let text = format!("[beam]\nrho = 0\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
-    let ended = ended(
-        thermobeam()
-            .arg("equilibria")
-            .arg(folder.file("linear.toml", &text)),
-    );
-    assert_eq!((ended.status, ended.stdout.as_str()), (Some(1), ""));
-    assert!(
-        ended.stderr.contains("linear.toml") && ended.stderr.contains("buckling value"),
-        "{}",
-        ended.stderr
-    );
+    folder.file("linear.toml", &text);
+    let ended = folder.ended("equilibria linear.toml");
+    ended.complains(1, "linear.toml");
+    ended.complains(1, "buckling value");
+    assert_eq!(ended.stdout, "");
 }
+
+/// At the lift-off of the heated beam no enclosure tells contact from none.
+const LIFT_OFF: &str = "[beam]\nbeta = 0.08325920350093916\ntheta_a = 20.0\n[obstacles]\n\
+    [initial]\ntheta = \"20*(1-x)\"\n[time]\ndt = 0.1\nt_end = 1\n";
 
 #[test]
 fn each_state_is_proved_with_an_enclosure_or_undecided_with_a_reason() {
     let folder = Folder::new();
-    // At the lift-off of the heated beam no enclosure tells contact from none.
-    let lift_off = "[beam]\nbeta = 0.08325920350093916\ntheta_a = 20.0\n[obstacles]\n\
-                    [initial]\ntheta = \"20*(1-x)\"\n[time]\ndt = 0.1\nt_end = 1\n";
+    let all = "Proved: 3 steady states, and no other.";
     for (name, text, is_proved, words) in [
-        (
-            "buckled",
-            scene(-0.8),
-            true,
-            "Proved: 3 steady states, and no other.",
-        ),
+        ("buckled", scene(-0.8), true, all),
         (
             "lift-off",
-            lift_off.to_owned(),
+            LIFT_OFF.to_owned(),
             false,
             "u(1) cannot be told from",
         ),
     ] {
-        let path = folder.file(&format!("{name}.toml"), &text);
-        let (text, value) = answers(&path);
+        let (text, value) = answers(&folder, name, &text);
         assert!(text.contains(words), "{text}");
         assert_eq!(value["proved"], is_proved, "{value}");
         let undecided = value["undecided"].as_array().expect("a list");
         assert_eq!(undecided.is_empty(), is_proved, "{value}");
         for state in value["equilibria"].as_array().expect("a list") {
-            let n = state["n_value"].as_f64().expect("a number");
-            let Some(bounds) = state["n_enclosure"].as_array() else {
+            if state["n_enclosure"].is_null() {
                 assert_eq!((is_proved, &state["proved"]), (false, &false.into()));
                 continue;
-            };
-            let [lo, hi] = [0, 1].map(|k| bounds[k].as_f64().expect("a number"));
+            }
+            let [lo, n, hi] =
+                ["/n_enclosure/0", "/n_value", "/n_enclosure/1"].map(|path| number(state, path));
             assert!(
                 lo - 1e-12 <= n && n <= hi + 1e-12 && hi - lo < 1e-12,
                 "{state}"
@@ -187,8 +131,7 @@ fn what_the_proof_does_not_decide_is_inconclusive() {
          [initial]\ntheta = \"0.25*(1-x)\"\n{time}"
     );
     let beam = "[beam]\nbeta = 0.5\ntheta_a = 20.0\n[initial]\ntheta = \"20*(1-x)\"\n";
-    let free = folder.file("free.toml", &format!("{beam}{time}"));
-    let (text, value) = answers(&free);
+    let (text, value) = answers(&folder, "free", &format!("{beam}{time}"));
     assert_eq!(
         (&value["verdict"], &value["complete"]),
         (&"pass".into(), &true.into())
@@ -198,16 +141,15 @@ fn what_the_proof_does_not_decide_is_inconclusive() {
         "{text}"
     );
     // An obstacle exactly at the tip.
-    let tip = value["equilibria"][0]["u_tip"].as_f64().expect("a number");
+    let tip = number(&value, "/equilibria/0/u_tip");
     let touching = format!("{beam}[obstacles]\ng2 = {tip:?}\n{time}");
-    let lift_off = beam.replace("0.5", "0.08325920350093916") + "[obstacles]\n" + time;
+    let reason = "u(1) cannot be told from";
     for (name, scene, reason) in [
-        ("fold", fold, "two states cannot be told from one or none"),
-        ("touching", touching, "u(1) cannot be told from"),
-        ("lift-off", lift_off, "u(1) cannot be told from"),
+        ("fold", &*fold, "two states cannot be told from one or none"),
+        ("touching", &touching, reason),
+        ("lift-off", LIFT_OFF, reason),
     ] {
-        let path = folder.file(&format!("{name}.toml"), &scene);
-        let (text, value) = answers(&path);
+        let (text, value) = answers(&folder, name, scene);
         assert_eq!(value["verdict"], "inconclusive", "{name}: {value}");
         for key in ["complete", "proved"] {
             assert_eq!(value[key], false, "{name}: {value}");
@@ -217,9 +159,8 @@ fn what_the_proof_does_not_decide_is_inconclusive() {
             text.starts_with(&headline) && text.contains(reason),
             "{text}"
         );
-        for arguments in [&[][..], &["-q"], &["--format", "json"]] {
-            let mut command = thermobeam();
-            let ended = ended(command.arg("equilibria").arg(&path).args(arguments));
+        for flags in ["", "-q", "--format json"] {
+            let ended = folder.ended(&format!("equilibria {name}.toml {flags}"));
             assert_eq!(ended.status, Some(1), "{name}: {}", ended.stdout);
             let has_count = ended.stdout.contains("steady states,")
                 && !ended.stdout.contains("steady states is undecided,")

@@ -1,42 +1,24 @@
 use convergence_study::internal::cli::schema::{of_studies, other_files, text};
-use convergence_study_tests::output;
+use convergence_study_tests::ended;
 use thermobeam_cli::project;
 
-use super::{Folder, ended, thermobeam};
+use super::{Folder, read, thermobeam};
 
 #[test]
 fn a_new_study_passes_as_it_is() {
     let folder = Folder::new();
-    let ended = ended(
-        thermobeam()
-            .args(["new", "study", "my-own.1", "--out"])
-            .arg(folder.path("")),
-    );
-    assert_eq!(ended.status, Some(0), "{}", ended.stderr);
+    let new = folder.ended("new study my-own.1 --out .");
+    assert!(new.well().contains("thermobeam study"), "{new:?}");
+    let study = folder.ended("study my-own.1.toml");
+    assert!(study.well().starts_with("my-own.1: pass"), "{study:?}");
+    let untested = study.stdout.split_once("\nno test of");
     assert!(
-        ended.stdout.contains("thermobeam study"),
-        "{}",
-        ended.stdout
-    );
-    let study = super::ended(thermobeam().arg("study").arg(folder.path("my-own.1.toml")));
-    assert_eq!((study.status, study.stderr.as_str()), (Some(0), ""));
-    assert!(
-        study.stdout.starts_with("my-own.1: pass"),
-        "{}",
-        study.stdout
-    );
-    let untested = study
-        .stdout
-        .split_once("\nno test of")
-        .map(|(_, untested)| untested);
-    assert!(
-        untested.is_some_and(|untested| untested.contains("theta_a  ")),
-        "{}",
-        study.stdout
+        untested.is_some_and(|(_, untested)| untested.contains("theta_a  ")),
+        "{study:?}"
     );
     // Each table once.
     for title in ["\nRates\n", "\nErrors\n"] {
-        assert_eq!(study.stdout.matches(title).count(), 1, "{}", study.stdout);
+        assert_eq!(study.stdout.matches(title).count(), 1, "{study:?}");
     }
 }
 
@@ -47,22 +29,10 @@ fn a_new_scene_of_either_sort_runs_as_it_is() {
         ("any-order-scene", "mine: 1 element"),
     ] {
         let folder = Folder::new();
-        let new = output(
-            thermobeam()
-                .args(["new", what, "mine", "--quiet"])
-                .current_dir(folder.path("")),
-        );
-        assert!(
-            new.status.success() && new.stdout == b"pass: wrote mine.toml\n",
-            "{what}"
-        );
-        let ended = ended(thermobeam().arg("run").arg(folder.path("mine.toml")));
-        assert_eq!(
-            (ended.status, ended.stderr.as_str()),
-            (Some(0), ""),
-            "{what}"
-        );
-        assert!(ended.stdout.starts_with(elements), "{}", ended.stdout);
+        let new = folder.ended(&format!("new {what} mine --quiet"));
+        assert_eq!(new.well(), "pass: wrote mine.toml\n", "{what}");
+        let ran = folder.ended("run mine.toml");
+        assert!(ran.well().starts_with(elements), "{ran:?}");
     }
 }
 
@@ -70,57 +40,38 @@ fn a_new_scene_of_either_sort_runs_as_it_is() {
 fn a_file_that_is_there_is_not_written_over_and_a_bad_name_is_refused() {
     let folder = Folder::new();
     let path = folder.file("taken.toml", "mine");
-    let again = ended(
-        thermobeam()
-            .args(["new", "scene", "taken", "--out"])
-            .arg(folder.path("")),
-    );
-    assert!(
-        again.status == Some(2)
-            && again
-                .stderr
-                .contains("taken.toml: expected a new file, found one of that name"),
-        "{}",
-        again.stderr
-    );
-    assert_eq!(std::fs::read_to_string(path).expect("the file"), "mine");
+    folder
+        .ended("new scene taken")
+        .complains(2, "taken.toml: expected a new file, found one of that name");
+    assert_eq!(read(&path), "mine");
     for name in ["", "../x", "A", "a b", ".hidden", "-x"] {
+        let mut new = thermobeam();
+        new.args(["new", "study", "--", name]);
         assert_eq!(
-            ended(
-                thermobeam()
-                    .args(["new", "study", "--", name])
-                    .current_dir(folder.path(""))
-            )
-            .status,
+            ended(new.current_dir(folder.path(""))).status,
             Some(2),
             "{name}"
         );
     }
-    let in_a_file = ended(
-        thermobeam()
-            .args(["new", "study", "x", "--out"])
-            .arg(folder.path("taken.toml")),
-    );
-    assert_eq!(in_a_file.status, Some(2), "{}", in_a_file.stderr);
+    folder
+        .ended("new study x --out taken.toml")
+        .complains(2, "");
 }
 
 #[test]
 fn every_shell_gets_completions_that_know_the_commands() {
+    let folder = Folder::new();
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let ended = ended(thermobeam().args(["completions", shell]));
-        assert_eq!(ended.status, Some(0));
-        assert!(
-            ["sweep", "report", "rates"]
-                .iter()
-                .all(|name| ended.stdout.contains(name)),
-            "{shell}"
-        );
+        let script = folder.ended(&format!("completions {shell}"));
+        for name in ["sweep", "report", "rates"] {
+            assert!(script.well().contains(name), "{shell}");
+        }
     }
 }
 
 #[test]
 fn the_schemas_are_printed() {
-    let project = project("thermobeam");
+    let (folder, project) = (Folder::new(), project("thermobeam"));
     let others = other_files(&project);
     let made = |files: &str| match others.iter().find(|(name, _)| *name == files) {
         Some((_, schema)) => text(schema),
@@ -131,17 +82,11 @@ fn the_schemas_are_printed() {
         ("scene", "scene files"),
         ("manufacture", "manufacture files"),
     ] {
-        let ended = ended(thermobeam().args(["schema", files]));
-        let schema: serde_json::Value = serde_json::from_str(&ended.stdout).expect("JSON");
+        let printed = folder.ended(&format!("schema {files}"));
+        let schema: serde_json::Value = serde_json::from_str(printed.well()).expect("JSON");
         assert_eq!(schema["title"], title);
-        assert_eq!((ended.status, ended.stdout), (Some(0), made(files)));
+        assert_eq!(printed.stdout, made(files));
     }
-    let other = ended(thermobeam().args(["schema", "mesh"]));
-    assert_eq!(other.status, Some(2));
-    assert_eq!(
-        other.stderr,
-        "error: schema: found `mesh`; expected one of study, scene, manufacture\n"
-    );
 }
 
 #[test]
@@ -151,9 +96,9 @@ fn nothing_is_coloured_where_nobody_looks() {
         thermobeam().env("NO_COLOR", "1"),
         thermobeam().env("TERM", "dumb"),
     ] {
-        let ended = ended(program.args(["schema", "magic"]));
-        let help = super::ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
-        for text in [ended.stdout, ended.stderr, help.stdout] {
+        let refused = ended(program.args(["schema", "magic"]));
+        let help = ended(thermobeam().env("NO_COLOR", "1").arg("--help"));
+        for text in [refused.stdout, refused.stderr, help.stdout] {
             assert!(!text.contains('\u{1b}'), "{text}");
         }
     }

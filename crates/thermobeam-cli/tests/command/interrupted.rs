@@ -4,10 +4,10 @@ use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
-use convergence_study_tests::{PATIENCE, finished, interruptible, signal, started};
+use convergence_study_tests::{Ended, PATIENCE, finished, interruptible, signal, started};
 
-use super::workspace::{all, endless, quick, verify, workspace};
-use super::{Ended, Folder, thermobeam, thrown};
+use super::workspace::{all, endless, quick, set, verify, workspace};
+use super::{Folder, command, read, thrown};
 
 /// Starts a program, interrupts it like Ctrl-C while it is at work, and waits for its end.
 ///
@@ -34,20 +34,17 @@ fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
         return;
     }
     let folder = Folder::new();
-    let root = workspace(
-        &folder,
-        "w",
-        &[("short", quick("short")), ("long", endless("long"))],
-    );
-    let before = all(&root);
+    let studies = [("short", quick("short")), ("long", endless("long"))];
+    let root = workspace(&folder, "w", &studies);
+    let before = set(&root);
     let message = "interrupted: 1 of 2 studies had run: short";
     let ended = interrupted(
-        || verify(&root, &["--jobs", "2", "--yes"]),
+        || verify(&root, "--jobs 2 --yes"),
         |ended| ended.stderr.contains(message),
     );
-    assert_eq!((ended.status, ended.stdout.as_str()), (Some(130), ""));
-    assert!(ended.stderr.contains(message), "{}", ended.stderr);
-    assert_eq!(all(&root), before);
+    ended.complains(130, message);
+    assert_eq!(ended.stdout, "");
+    assert_eq!(set(&root), before);
 }
 
 #[test]
@@ -56,48 +53,29 @@ fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_w
         return;
     }
     let folder = Folder::new();
-    let scene = folder.file("long.toml", &thrown("dt = 1e-9"));
-    let out = folder.path("out");
-    let command = || {
-        let mut command = thermobeam();
-        command
-            .args(["run", "--yes"])
-            .arg(&scene)
-            .arg("--out")
-            .arg(&out);
-        command
-    };
+    let here = folder.path("");
+    folder.file("long.toml", &thrown("dt = 1e-9"));
     let message = " steps were done, 0";
-    let run = interrupted(command, |ended| ended.stderr.contains(message));
-    assert_eq!(run.status, Some(130));
-    assert!(run.stderr.contains(message), "{}", run.stderr);
-    assert!(all(&out).is_empty());
+    let run = interrupted(
+        || command(&here, "run --yes long.toml --out out"),
+        |ended| ended.stderr.contains(message),
+    );
+    run.complains(130, message);
+    assert!(all(&folder.path("out")).is_empty());
 
     folder.file("base.toml", &thrown("dt = 1e-4"));
     let text = "[sweep]\nscene = \"base.toml\"\n[grid]\nbeam.beta = { from = 0.0, to = 4.0, count = 4000 }\n";
-    let file = folder.file("sweep.toml", text);
-    let kept = folder.path("kept");
-    let command = || {
+    folder.file("sweep.toml", text);
+    let again = || {
         // Of an attempt that was interrupted before the program was at work.
-        let _ = std::fs::remove_dir_all(&kept);
-        let mut command = thermobeam();
-        command.arg("sweep").arg(&file).arg("--out").arg(&kept);
-        command
+        let _ = std::fs::remove_dir_all(folder.path("kept"));
+        command(&here, "sweep sweep.toml --out kept")
     };
-    let sweep = interrupted(command, |ended| ended.status.is_some());
-    assert_eq!(sweep.status, Some(130));
-    assert!(
-        sweep.stderr.contains(" of 4000 cases are saved in "),
-        "{}",
-        sweep.stderr
-    );
-    let results = std::fs::read_to_string(kept.join("results.jsonl")).expect("a file");
+    let sweep = interrupted(again, |ended| ended.status.is_some());
+    sweep.complains(130, "interrupted: … of 4000 cases are saved in ");
+    let results = read(&folder.path("kept/results.jsonl"));
     assert!(results.ends_with('\n'), "a torn line");
-    let said = sweep
-        .stderr
-        .trim()
-        .strip_prefix("interrupted: ")
-        .and_then(|rest| rest.split(' ').next());
+    let said = sweep.stderr.split(' ').nth(1);
     let said: usize = said.and_then(|count| count.parse().ok()).expect("a count");
     // Lines that were written together, of a batch, may not be counted yet.
     let cases = results.lines().count() - 1;

@@ -16,31 +16,28 @@ mod places;
 mod refusals;
 #[cfg(unix)]
 mod run;
+mod studies;
 mod sweep;
 mod time_limit;
 mod workspace;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use convergence_study_tests::{Ended, ended};
+use serde_json::Value;
+use tempfile::TempDir;
 
 /// A folder for one test, removed at its end.
-struct Folder(PathBuf);
+struct Folder(TempDir);
 
 impl Folder {
     fn new() -> Self {
-        static COUNT: AtomicUsize = AtomicUsize::new(0);
-        let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path =
-            std::env::temp_dir().join(format!("thermobeam-command-{}-{count}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("a folder");
-        Self(path)
+        Self(tempfile::tempdir().expect("a folder"))
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.0.join(name)
+        self.0.path().join(name)
     }
 
     /// Writes a file and returns its path.
@@ -49,11 +46,18 @@ impl Folder {
         std::fs::write(&path, text).expect("a file");
         path
     }
-}
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
+    /// How a command line ends in this folder; none of its words has a blank.
+    fn ended(&self, line: &str) -> Ended {
+        ended(&mut command(self.0.path(), line))
+    }
+
+    /// The same with `--format json`: how it ends, and the object that it prints.
+    fn json(&self, line: &str) -> (Ended, Value) {
+        let ended = self.ended(&format!("{line} --format json"));
+        let value = serde_json::from_str(&ended.stdout);
+        let value = value.unwrap_or_else(|error| panic!("{error}: {ended:?}"));
+        (ended, value)
     }
 }
 
@@ -62,17 +66,22 @@ fn thermobeam() -> Command {
     Command::new(env!("CARGO_BIN_EXE_thermobeam"))
 }
 
-/// `run SCENE --format json`, parsed.
-fn run_json(scene: &Path) -> (Ended, serde_json::Value) {
-    let ended = ended(
-        thermobeam()
-            .arg("run")
-            .arg(scene)
-            .args(["--format", "json"]),
-    );
-    let value = serde_json::from_str(&ended.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}{}", ended.stdout, ended.stderr));
-    (ended, value)
+/// A command line in a folder.
+fn command(folder: &Path, line: &str) -> Command {
+    let mut command = thermobeam();
+    command.args(line.split_whitespace()).current_dir(folder);
+    command
+}
+
+/// The number at a path of keys.
+#[track_caller]
+fn number(value: &Value, path: &str) -> f64 {
+    let found = value.pointer(path).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number {path} in {value}"))
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// The paper's first experiment at β = 0 with 20 elements, and the given lines in `[time]`.

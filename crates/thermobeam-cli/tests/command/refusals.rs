@@ -1,12 +1,12 @@
 //! Wrong command lines of all commands: exit status 2, what was found and what is allowed, and
 //! nothing is written.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use super::flags::place;
-use super::{Folder, ended, thermobeam};
+use super::workspace::all;
+use super::{Folder, command};
+use convergence_study_tests::{ended, says};
 
 const NO_FILE: &str = "missing: cannot be read: ";
 const FOLDER: &str = "studies: cannot be read: ";
@@ -16,7 +16,7 @@ const POSITIVE: &str = "expected a number > 0";
 const WITHOUT: &str = "required arguments were not provided";
 
 /// Command lines, and words of the message.
-const REFUSED: [(&str, &str); 85] = [
+const REFUSED: [(&str, &str); 89] = [
     (
         "rnu scene.toml",
         "the commands are completions, equilibria, ",
@@ -117,6 +117,10 @@ const REFUSED: [(&str, &str); 85] = [
     ("verify --tier slow", "possible values: quick, full"),
     ("verify --case-limit 3", "'--time-limit'"),
     ("verify --time-limit soon", POSITIVE),
+    ("verify --time-limit 0", POSITIVE),
+    ("verify --time-limit -1", POSITIVE),
+    ("verify --time-limit inf", POSITIVE),
+    ("verify --time-limit 1e300", "--time-limit"),
     (
         "verify --bless --dry-run",
         "cannot be used with '--dry-run'",
@@ -204,26 +208,10 @@ const REFUSED: [(&str, &str); 85] = [
     ),
     (
         "schema mesh",
-        "schema: found `mesh`; expected one of study, scene, manufacture",
+        "error: schema: found `mesh`; expected one of study, scene, manufacture\n",
     ),
     ("completions tcsh", "possible values: bash, "),
 ];
-
-/// All files below a folder, with their bytes, and all folders.
-fn contents(folder: &Path) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            found.extend(contents(&path));
-            found.insert(path, None);
-        } else {
-            let bytes = fs::read(&path).expect("a file");
-            found.insert(path, Some(bytes));
-        }
-    }
-    found
-}
 
 #[test]
 fn a_wrong_command_line_is_refused_in_words_and_nothing_is_written() {
@@ -231,16 +219,11 @@ fn a_wrong_command_line_is_refused_in_words_and_nothing_is_written() {
     let root = place(&folder);
     fs::write(root.join("empty"), "").expect("a file");
     fs::write(root.join("bytes"), [0xff, 0x00, 0x80]).expect("a file");
-    let before = contents(&root);
+    let before = all(&root);
     for (line, words) in REFUSED {
-        let refused = ended(thermobeam().args(line.split(' ')).current_dir(&root));
-        assert_eq!(refused.status, Some(2), "{line}: {}", refused.stderr);
-        assert_eq!(refused.stdout, "", "{line}");
-        assert!(refused.stderr.contains(words), "{line}: {}", refused.stderr);
-        let change = contents(&root)
-            .into_iter()
-            .find(|entry| before.get(&entry.0) != Some(&entry.1));
-        assert_eq!(change, None, "{line}");
+        let refused = ended(&mut command(&root, line));
+        assert!(says(&refused.stderr, words), "{line}: {refused:?}");
+        refused.refuses("");
+        assert!(all(&root) == before, "{line} wrote");
     }
-    assert_eq!(contents(&root).len(), before.len());
 }

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Folder, ended, thermobeam};
+use super::Folder;
+use convergence_study_tests::ended;
 
 /// A study of a few milliseconds that passes.
 pub(crate) fn quick(id: &str) -> String {
@@ -43,10 +44,9 @@ pub(crate) fn workspace(folder: &Folder, name: &str, studies: &[(&str, String)])
     root
 }
 
-/// `verify` in a workspace.
-pub(crate) fn verify(root: &Path, arguments: &[&str]) -> Command {
-    let mut command = thermobeam();
-    command.arg("verify").args(arguments).current_dir(root);
+/// `verify` with these arguments in a workspace.
+pub(crate) fn verify(root: &Path, arguments: &str) -> Command {
+    let mut command = super::command(root, &format!("verify {arguments}"));
     command
         .env_remove("GITHUB_ACTIONS")
         .env_remove("GITHUB_STEP_SUMMARY");
@@ -58,7 +58,9 @@ pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = all(reports);
     // A run killed while testing the folder leaves an empty file outside the set, which the next
     // run removes.
-    files.retain(|name, _| !name.starts_with("local/") && !name.starts_with(".probe."));
+    files.retain(|name, _| {
+        !name.starts_with("local/") && !name.starts_with(".probe.") && !name.ends_with('/')
+    });
     for (_, page) in files
         .iter_mut()
         .filter(|(name, _)| name.ends_with("index.html"))
@@ -72,22 +74,19 @@ pub(crate) fn set(reports: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// All files below a folder.
+/// All files below a folder with their bytes, and all folders, whose names end in `/`.
 pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(next) = folders.pop() {
         for entry in fs::read_dir(&next).into_iter().flatten() {
             let path = entry.expect("an entry").path();
+            let name = path.strip_prefix(folder).expect("below").display();
             if path.is_dir() {
+                files.insert(format!("{name}/"), vec![]);
                 folders.push(path);
             } else {
-                let name = path
-                    .strip_prefix(folder)
-                    .expect("below")
-                    .display()
-                    .to_string();
-                files.insert(name, fs::read(&path).expect("a file"));
+                files.insert(name.to_string(), fs::read(&path).expect("a file"));
             }
         }
     }
@@ -99,10 +98,8 @@ fn verify_runs_a_file_as_study_does() {
     let folder = Folder::new();
     let root = super::flags::place(&folder);
     let printed = |command: &str, format: &str| {
-        let arguments = [command, "studies/short.toml", "--format", format];
-        let ended = ended(thermobeam().args(arguments).current_dir(&root));
-        assert_eq!(ended.status, Some(0), "{}", ended.stderr);
-        ended.stdout
+        let line = format!("{command} studies/short.toml --format {format}");
+        ended(&mut super::command(&root, &line)).well().to_owned()
     };
     // The first line has the seconds.
     let [verified, studied] = ["verify", "study"].map(|command| {

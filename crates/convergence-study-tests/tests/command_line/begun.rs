@@ -5,7 +5,7 @@ use std::fs;
 use foreign_tools::Tool;
 use tempfile::TempDir;
 
-use super::{command, run, texts, workspace};
+use super::{command, run, run_words, texts, workspace};
 
 fn read(root: &TempDir, name: &str) -> String {
     fs::read_to_string(root.path().join(name)).unwrap()
@@ -17,38 +17,33 @@ fn a_study_goes_into_the_studies_of_the_project() {
         return;
     }
     let root = workspace(false);
-    let (status, out, err) = run(&root, &["new", "program", "mine", "--language", "shell"]);
+    let (status, out, err) = run(&root, "new program mine --language shell").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert_eq!(
         out,
         "wrote studies/mine.toml, studies/mine.sh\nrun: powers study studies/mine.toml\n"
     );
-    assert_eq!(run(&root, &["study", "studies/mine.toml"]).0, Some(0));
+    run(&root, "study studies/mine.toml").says(0, "");
     // From a folder below it, too: the study runs in the same place.
     fs::create_dir_all(root.path().join("src/deep")).unwrap();
     let arguments = ["new", "program", "other", "--language", "shell"];
-    let (status, out, _) = texts(&mut command(&root.path().join("src/deep"), &arguments));
+    let (status, out, _) = texts(&mut command(&root.path().join("src/deep"), &arguments)).parts();
     assert!(
         status == Some(0) && out.ends_with("run: powers study ../../studies/other.toml\n"),
         "{out}"
     );
     let study = ["study", "../../studies/other.toml"];
-    let (status, out, err) = texts(&mut command(&root.path().join("src/deep"), &study));
-    assert_eq!(status, Some(0), "{out}{err}");
+    texts(&mut command(&root.path().join("src/deep"), &study)).says(0, "");
     assert_eq!(
         read(&root, "studies/mine.toml").replace("mine", "other"),
         read(&root, "studies/other.toml")
     );
     assert!(read(&root, ".gitignore").contains("/reports/local/"));
     // What is no study does not go there, where `verify` would read it.
-    assert_eq!(run(&root, &["new", "manufacture", "heat"]).0, Some(0));
+    run(&root, "new manufacture heat").says(0, "");
     assert!(root.path().join("heat.toml").exists());
     // Nothing is overwritten.
-    let (status, _, err) = run(&root, &["new", "program", "mine"]);
-    assert!(
-        status == Some(2) && err.contains("studies/mine.toml: expected a new file"),
-        "{err}"
-    );
+    run(&root, "new program mine").complains(2, "studies/mine.toml: expected a new file");
     assert!(!root.path().join("studies/mine.py").exists());
 }
 
@@ -68,8 +63,7 @@ const LANGUAGES: [(&str, &[Tool]); 8] = [
 fn a_program_in_each_language_passes_where_it_can_run() {
     for (language, tools) in LANGUAGES {
         let root = tempfile::tempdir().unwrap();
-        let (status, out, err) = run(&root, &["new", "program", "mine", "--language", language]);
-        assert_eq!(status, Some(0), "{out}{err}");
+        run_words(&root, &["new", "program", "mine", "--language", language]).says(0, "");
         for entry in fs::read_dir(root.path()).unwrap() {
             let text = fs::read_to_string(entry.unwrap().path()).unwrap();
             let has_word = ["NAME", "PROGRAM", "BELOW", "DIRECTORY"]
@@ -78,9 +72,7 @@ fn a_program_in_each_language_passes_where_it_can_run() {
             assert!(!has_word, "{language}: {text}");
         }
         if !tools.is_empty() && foreign_tools::are_here(tools) {
-            let (status, out, err) = run(&root, &["study", "mine.toml", "-j", "2"]);
-            assert_eq!(status, Some(0), "{language}: {out}{err}");
-            assert!(out.contains("(order 2); value middle "), "{out}");
+            run(&root, "study mine.toml -j 2").says(0, "(order 2); value middle ");
         }
     }
 }
@@ -92,14 +84,11 @@ fn a_study_of_a_command_needs_no_program_file() {
     }
     let root = tempfile::tempdir().unwrap();
     let program = "awk 'BEGIN { printf \"L2 = %e\\n\", 3 / ({n} * {n}) }'";
-    let (status, out, err) = run(&root, &["new", "program", "mine", "--command", program]);
+    let (status, out, err) =
+        run_words(&root, &["new", "program", "mine", "--command", program]).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(out.starts_with("wrote mine.toml\n"), "{out}");
-    let (status, out, err) = run(&root, &["study", "mine.toml"]);
-    assert!(
-        status == Some(0) && out.contains("L2 2.0000 (order 2)"),
-        "{out}{err}"
-    );
+    run(&root, "study mine.toml").says(0, "L2 2.0000 (order 2)");
     for (command, words) in [
         (
             "solver {N}",
@@ -108,36 +97,23 @@ fn a_study_of_a_command_needs_no_program_file() {
         ("solver 'mesh {n}", "--command: found ' without its end"),
         ("  ", "--command: found no word; expected a program"),
     ] {
-        let (status, out, err) = run(&root, &["new", "program", "bad", "--command", command]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(words),
-            "{err}"
-        );
+        run_words(&root, &["new", "program", "bad", "--command", command]).refuses(words);
     }
-    for (arguments, words) in [
+    for (line, words) in [
         (
-            &["new", "manufacture", "bad", "--command", "x"][..],
+            "new manufacture bad --command x",
             "--language, --command: found `new manufacture`; expected `new program`",
         ),
         (
-            &["new", "program", "bad", "--language", "cobol"],
+            "new program bad --language cobol",
             "[possible values: python, octave, fortran, c++, freefem, openfoam, julia, shell]",
         ),
         (
-            &[
-                "new",
-                "program",
-                "bad",
-                "--language",
-                "shell",
-                "--command",
-                "x",
-            ],
+            "new program bad --language shell --command x",
             "cannot be used with",
         ),
     ] {
-        let (status, _, err) = run(&root, arguments);
-        assert!(status == Some(2) && err.contains(words), "{err}");
+        run(&root, line).complains(2, words);
     }
     assert_eq!(
         fs::read_dir(root.path()).unwrap().count(),

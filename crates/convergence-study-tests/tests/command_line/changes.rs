@@ -30,7 +30,7 @@ fn a_report_is_made_anew_from_its_record() {
         let read = |name: &&str| fs::read_to_string(root.path().join(folder).join(name)).unwrap();
         names.iter().chain(&figures).map(read).collect::<Vec<_>>()
     };
-    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    run(&root, "verify").says(1, "");
     let written = files("reports/local/quick");
     let remove = |path: &str| fs::remove_file(root.path().join(path)).unwrap();
     [
@@ -41,7 +41,7 @@ fn a_report_is_made_anew_from_its_record() {
     ]
     .iter()
     .for_each(|path| remove(path));
-    let (status, out, err) = run(&root, &["report", "reports/results.json"]);
+    let (status, out, err) = run(&root, "report reports/results.json").parts();
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
     assert!(
         out.starts_with("fail: 1 of 2 fail (two)")
@@ -56,29 +56,19 @@ fn a_report_is_made_anew_from_its_record() {
         root.path().join("r.json"),
     )
     .unwrap();
-    let (status, _, err) = run(&root, &["report", "r.json"]);
-    assert!(
-        status == Some(2)
-            && err.contains("r.json: found outside of a report's folder; expected --out DIR"),
-        "{err}"
+    run(&root, "report r.json").complains(
+        2,
+        "r.json: found outside of a report's folder; expected --out DIR",
     );
-    let (status, _, err) = run(&root, &["report", "r.json", "--out", "new"]);
-    assert_eq!(status, Some(1));
-    assert!(
-        err.contains("note: no picture figures/one-errors.svg"),
-        "{err}"
-    );
-    let (status, _, err) = run(&root, &["report", "studies/baseline.json", "--out", "new"]);
-    assert!(
-        status == Some(2) && err.contains(&format!("studies/baseline.json: {NO_FILE}")),
-        "{err}"
-    );
+    run(&root, "report r.json --out new").complains(1, "note: no picture figures/one-errors.svg");
+    run(&root, "report studies/baseline.json --out new")
+        .complains(2, &format!("studies/baseline.json: {NO_FILE}"));
 }
 
 #[test]
 fn a_blessing_takes_what_moved_and_no_number_of_a_failing_study() {
     let root = workspace(false);
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    run(&root, "verify --bless").says(0, "");
     let exponent = |exponent: f64| {
         let file = root.path().join("studies/one.toml");
         fs::write(file, study("one", "c", exponent)).unwrap();
@@ -91,36 +81,25 @@ fn a_blessing_takes_what_moved_and_no_number_of_a_failing_study() {
     let error = ["studies", "one", "numbers", "error error, n = 8"];
     assert_eq!(baseline(&error)[0], 0.125);
     exponent(1.01);
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(
-        status == Some(1) && out.contains("  one: settings have changed: hash "),
-        "{out}"
-    );
-    assert_eq!(run(&root, &["verify", "--loosened"]).0, Some(2));
-    let (status, out, _) = run(&root, &["verify", "--bless", "--loosened"]);
-    assert!(
-        status == Some(0)
-            && out.contains("loosened: one: settings have changed: hash ")
-            && out.contains("baseline: blessed"),
-        "{out}"
-    );
+    run(&root, "verify").says(1, "  one: settings have changed: hash ");
+    run(&root, "verify --loosened").says(2, "");
+    let ran = run(&root, "verify --bless --loosened");
+    ran.says(0, "loosened: one: settings have changed: hash ");
+    ran.says(0, "baseline: blessed");
     let moved = baseline(&error);
     assert_eq!(moved[0], 8f64.powf(-1.01));
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    run(&root, "verify").says(0, "");
     exponent(0.5);
-    let (status, out, _) = run(&root, &["verify", "--bless"]);
-    assert!(
-        status == Some(1) && out.contains("not blessed: the verdict on `one` is fail"),
-        "{out}"
-    );
+    run(&root, "verify --bless").says(1, "not blessed: the verdict on `one` is fail");
     assert_eq!(baseline(&error), moved);
 }
 
 #[test]
 fn a_run_fails_where_a_study_does_and_nothing_differs() {
     let root = workspace(false);
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    let (status, out, _) = texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2"));
+    run(&root, "verify --bless").says(0, "");
+    let (status, out, _) =
+        texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2")).parts();
     assert_eq!(status, Some(1), "{out}");
     let failed = "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\ntoo-low: The whole interval";
     assert!(out.contains(failed) && !out.contains("baseline: "), "{out}");
@@ -164,10 +143,7 @@ fn blessings_at_once_are_all_kept() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("reports", root.path().join("link")).unwrap();
-        assert_eq!(
-            run(&root, &["verify", "--bless", "--out", "link"]).0,
-            Some(0)
-        );
+        run(&root, "verify --bless --out link").says(0, "");
     }
 }
 
@@ -182,20 +158,16 @@ fn a_study_with_a_near_extension_is_named() {
     write("three.txt", &study("three", "c", 0.5));
     let message =
         "warning: studies/two.tml: a study that is not run; expected a name that ends in .toml\n";
-    for (arguments, status) in [
-        (&["verify", "--bless"][..], 0),
-        (&["verify", "--quiet"], 0),
-        (&["list"], 0),
-    ] {
-        let (ended, _, err) = run(&root, arguments);
+    for line in ["verify --bless", "verify --quiet", "list"] {
+        let ran = run(&root, line);
         assert_eq!(
-            (ended, err.as_str()),
-            (Some(status), message),
-            "{arguments:?}"
+            (ran.status, ran.stderr.as_str()),
+            (Some(0), message),
+            "{line}"
         );
     }
     // Some systems write names in capitals: the study is read.
-    let (_, listed, _) = run(&root, &["list"]);
+    let listed = run(&root, "list").stdout;
     assert!(
         listed.lines().any(|line| line.starts_with("up ")),
         "{listed}"

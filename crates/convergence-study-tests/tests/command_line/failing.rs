@@ -9,36 +9,21 @@ use super::{command, run, study, texts, workspace};
 fn a_changed_setting_fails_until_it_is_blessed_on_demand() {
     let root = workspace(false);
     let file = root.path().join("studies/one.toml");
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    run(&root, "verify --bless").says(0, "");
     // The same number written differently is the same claim.
     fs::write(&file, study("one", "c", 1.0).replace("1.0", "10e-1")).unwrap();
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    run(&root, "verify").says(0, "");
     fs::write(&file, study("one", "another claim", 1.0)).unwrap();
     let change = "one: settings have changed: hash ";
-    let (status, out, _) = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true"));
-    assert_eq!(status, Some(1));
-    assert!(
-        out.contains(&format!("claims changed\n  {change}"))
-            && out.contains("\nif that is meant: powers verify --bless --loosened\n"),
-        "{out}"
-    );
-    assert!(
-        out.contains(&format!("::error title=baseline::{change}")),
-        "{out}"
-    );
+    let ran = texts(command(root.path(), &["verify"]).env("GITHUB_ACTIONS", "true"));
+    ran.says(1, &format!("claims changed\n  {change}"));
+    ran.says(1, "\nif that is meant: powers verify --bless --loosened\n");
+    ran.says(1, &format!("::error title=baseline::{change}"));
     let baseline = || fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
     let before = baseline();
-    let (status, out, _) = run(&root, &["verify", "--bless"]);
-    assert!(
-        status == Some(1) && out.contains(&format!("--bless --loosened\n  {change}")),
-        "{out}"
-    );
+    run(&root, "verify --bless").says(1, &format!("--bless --loosened\n  {change}"));
     assert_eq!(baseline(), before);
-    let (status, out, _) = run(&root, &["verify", "--bless", "--loosened"]);
-    assert!(
-        status == Some(0) && out.contains(&format!("loosened: {change}")),
-        "{out}"
-    );
+    run(&root, "verify --bless --loosened").says(0, &format!("loosened: {change}"));
     // The hash alone is new: the numbers and their claims are the same.
     let after = baseline();
     let changed = before
@@ -46,7 +31,7 @@ fn a_changed_setting_fails_until_it_is_blessed_on_demand() {
         .zip(after.lines())
         .filter(|(old, new)| old != new);
     assert_eq!(changed.count(), 1, "{after}");
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    run(&root, "verify").says(0, "");
 }
 
 #[test]
@@ -55,23 +40,17 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     let file = root.path().join("studies/two.toml");
     let full = |exponent| study("two", "c", exponent).replace("\"quick\"", "\"full\"");
     fs::write(&file, full(1.0)).unwrap();
-    assert_eq!(
-        run(&root, &["verify", "--tier", "full", "--bless"]).0,
-        Some(0)
-    );
-    assert_eq!(run(&root, &["verify"]).0, Some(0));
+    run(&root, "verify --tier full --bless").says(0, "");
+    run(&root, "verify").says(0, "");
     fs::write(&file, full(1.001)).unwrap();
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(
-        status == Some(1) && out.contains("claims changed\n  two: settings have changed: hash "),
-        "{out}"
-    );
-    assert!(
-        out.contains("if that is meant: powers verify --tier full --bless --loosened\n"),
-        "{out}"
+    let ran = run(&root, "verify");
+    ran.says(1, "claims changed\n  two: settings have changed: hash ");
+    ran.says(
+        1,
+        "if that is meant: powers verify --tier full --bless --loosened\n",
     );
     // Blessing the quick tier does not change the claim of a study that was not run.
-    assert_eq!(run(&root, &["verify", "--bless", "--loosened"]).0, Some(1));
+    run(&root, "verify --bless --loosened").says(1, "");
     // Moved to another tier.
     fs::write(
         root.path().join("studies/one.toml"),
@@ -79,11 +58,7 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     )
     .unwrap();
     fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(
-        status == Some(1) && out.contains("  one: settings have changed: hash "),
-        "{out}"
-    );
+    run(&root, "verify").says(1, "  one: settings have changed: hash ");
 }
 
 /// All of it fits on a screen.
@@ -95,11 +70,8 @@ fn the_failure_of_a_single_study_is_said_by_its_own_checks() {
         study("three", "c", 1.0),
     )
     .unwrap();
-    assert_eq!(
-        run(&root, &["verify", "one", "three", "--bless"]).0,
-        Some(0)
-    );
-    let (status, out, _) = run(&root, &["verify"]);
+    run(&root, "verify one three --bless").says(0, "");
+    let (status, out, _) = run(&root, "verify").parts();
     let lines: Vec<&str> = out.lines().collect();
     assert_eq!(status, Some(1), "{out}");
     assert!(
@@ -128,7 +100,7 @@ fn the_failure_of_a_single_study_is_said_by_its_own_checks() {
             "a run that does not pass leaves the committed report as it is"
         ]
     );
-    let (_, out, _) = run(&root, &["verify", "--verbose"]);
+    let (_, out, _) = run(&root, "verify --verbose").parts();
     assert!(
         out.contains("\none    pass")
             && out.contains("\nthree  pass")
@@ -140,13 +112,9 @@ fn the_failure_of_a_single_study_is_said_by_its_own_checks() {
 #[test]
 fn a_run_that_stops_at_a_failure_is_that_of_a_selection_and_the_slowest_are_listed() {
     let root = workspace(true);
-    let (status, out, _) = run(&root, &["verify", "--fail-fast", "--durations"]);
-    assert!(
-        status == Some(1)
-            && out.contains("seconds  slowest studies\n")
-            && out.contains("partial/index"),
-        "{out}"
-    );
+    let ran = run(&root, "verify --fail-fast --durations");
+    ran.says(1, "seconds  slowest studies\n");
+    ran.says(1, "partial/index");
 }
 
 #[test]
@@ -157,9 +125,9 @@ fn a_deleted_study_is_one_change_and_is_named() {
         study("three", "c", 1.0),
     )
     .unwrap();
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    run(&root, "verify --bless").says(0, "");
     fs::remove_file(root.path().join("studies/three.toml")).unwrap();
-    let (status, out, _) = run(&root, &["verify", "--quiet"]);
+    let (status, out, _) = run(&root, "verify --quiet").parts();
     let said = "fail: the study passes; 1 study deleted\n\n\
                 claims changed\n  three: study was deleted: it had 6 guarded numbers\n\
                 if that is meant: powers verify --bless --loosened\n";
@@ -180,14 +148,13 @@ fn a_deleted_study_is_one_change_and_is_named() {
         page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: study was deleted: it had 6 guarded numbers</li>\n</ul>"),
         "{page}"
     );
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(1));
-    let (status, out, _) = run(&root, &["verify", "--bless", "--loosened"]);
-    assert!(
-        status == Some(0)
-            && out.contains("loosened: three: study was deleted: it had 6 guarded numbers\n")
-            && out.contains("baseline: blessed"),
-        "{out}"
+    run(&root, "verify --bless").says(1, "");
+    let ran = run(&root, "verify --bless --loosened");
+    ran.says(
+        0,
+        "loosened: three: study was deleted: it had 6 guarded numbers\n",
     );
+    ran.says(0, "baseline: blessed");
     let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
     let baseline: serde_json::Value = serde_json::from_str(&baseline).unwrap();
     assert!(
@@ -200,12 +167,12 @@ fn a_deleted_study_is_one_change_and_is_named() {
 fn the_page_links_to_what_is_there_of_the_full_tier() {
     let root = workspace(false);
     let page = || {
-        run(&root, &["verify", "--bless"]);
+        run(&root, "verify --bless");
         let read = |name: &str| fs::read_to_string(root.path().join("reports").join(name)).unwrap();
         (read("index.html"), read("README.md"))
     };
     assert!(!page().0.contains("full/"));
-    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
+    run(&root, "verify --tier full").says(0, "");
     let (with, committed) = page();
     assert!(
         with.contains("href=\"full/index.html\"") && committed.contains("](full/README.md)"),
@@ -223,8 +190,8 @@ fn the_page_links_to_what_is_there_of_the_full_tier() {
 #[test]
 fn the_full_report_is_made_anew_and_its_page_has_the_quick_studies() {
     let root = workspace(false);
-    run(&root, &["verify", "--bless"]);
-    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
+    run(&root, "verify --bless");
+    run(&root, "verify --tier full").says(0, "");
     let full = root.path().join("reports/full");
     let read =
         || ["README.md", "index.html"].map(|name| fs::read_to_string(full.join(name)).unwrap());
@@ -236,7 +203,7 @@ fn the_full_report_is_made_anew_and_its_page_has_the_quick_studies() {
     );
     assert!(before[1].contains("<details class=\"study\" id=\"one\""));
     fs::remove_file(full.join("index.html")).unwrap();
-    let (status, out, err) = run(&root, &["report", "reports/full/results.json"]);
+    let (status, out, err) = run(&root, "report reports/full/results.json").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert_eq!(read(), before);
 }

@@ -8,7 +8,7 @@ use super::{command, run, texts, workspace};
 #[test]
 fn a_first_run_counts_the_numbers_to_accept_and_lists_none() {
     let root = workspace(false);
-    let (status, out, _) = run(&root, &["verify"]);
+    let (status, out, _) = run(&root, "verify").parts();
     assert_eq!(status, Some(1), "{out}");
     let last = "no baseline yet: 6 numbers to accept; `powers verify --bless` accepts them\n";
     assert!(out.ends_with(last) && out.contains("one    pass"), "{out}");
@@ -23,36 +23,28 @@ fn a_first_run_counts_the_numbers_to_accept_and_lists_none() {
     let junit = fs::read_to_string(root.path().join("reports/junit.xml")).unwrap();
     assert_eq!(junit.matches("<failure").count(), 1, "{junit}");
     assert!(junit.contains("no baseline yet: 6 numbers"), "{junit}");
-    let (_, out, _) = run(&root, &["verify", "--quiet"]);
+    let (_, out, _) = run(&root, "verify --quiet").parts();
     assert!(out.ends_with(last), "{out}");
     let mut on_github = command(root.path(), &["verify"]);
-    let (_, out, _) = texts(on_github.env("GITHUB_ACTIONS", "true"));
+    let (_, out, _) = texts(on_github.env("GITHUB_ACTIONS", "true")).parts();
     assert_eq!(out.matches("::error").count(), 1, "{out}");
     // As many numbers are accepted as were counted.
-    let (status, out, _) = run(&root, &["verify", "--bless"]);
-    assert!(
-        status == Some(0) && out.contains("blessed") && !out.contains("unchanged"),
-        "{out}"
-    );
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(
-        status == Some(0) && out.contains("all 6 baseline values unchanged"),
-        "{out}"
-    );
+    let ran = run(&root, "verify --bless");
+    ran.says(0, "blessed");
+    ran.says_not(0, "unchanged");
+    run(&root, "verify").says(0, "all 6 baseline values unchanged");
 }
 
 #[test]
 fn a_new_study_beside_accepted_ones_and_one_that_fails_are_no_first_run() {
     let root = workspace(true);
-    let (status, out, _) = run(&root, &["verify"]);
-    assert_eq!(status, Some(1));
-    assert!(
-        out.starts_with("fail in ") && out.contains("1 of 2 fail (two); no baseline yet\n"),
-        "{out}"
-    );
-    assert!(!out.contains("accept") && !out.contains("is new"), "{out}");
+    let ran = run(&root, "verify");
+    ran.begins(1, "fail in ");
+    ran.says(1, "1 of 2 fail (two); no baseline yet\n");
+    ran.says_not(1, "accept");
+    ran.says_not(1, "is new");
     let root = workspace(false);
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    run(&root, "verify --bless").says(0, "");
     fs::copy(
         root.path().join("studies/one.toml"),
         root.path().join("studies/two.toml"),
@@ -64,15 +56,9 @@ fn a_new_study_beside_accepted_ones_and_one_that_fails_are_no_first_run() {
         two.replace("\"one\"", "\"two\""),
     )
     .unwrap();
-    let (status, out, _) = run(&root, &["verify"]);
-    assert!(
-        status == Some(1) && out.contains("; 6 numbers not yet in the baseline\n"),
-        "{out}"
-    );
-    assert!(
-        out.contains("if that is meant: powers verify --bless"),
-        "{out}"
-    );
+    let ran = run(&root, "verify");
+    ran.says(1, "; 6 numbers not yet in the baseline\n");
+    ran.says(1, "if that is meant: powers verify --bless");
 }
 
 /// What a new project commits after its first blessing.
@@ -82,11 +68,11 @@ fn git_keeps_of_a_first_blessing_what_is_worth_reviewing() {
         return;
     }
     let root = workspace(false);
-    run(&root, &["verify", "--bless"]);
-    assert_eq!(run(&root, &["verify", "--tier", "full"]).0, Some(0));
+    run(&root, "verify --bless");
+    run(&root, "verify --tier full").says(0, "");
     let git = |arguments: &[&str]| {
         let mut git = Command::new("git");
-        texts(git.args(arguments).current_dir(root.path())).1
+        texts(git.args(arguments).current_dir(root.path())).stdout
     };
     git(&["init", "--quiet"]);
     git(&["add", "--all"]);

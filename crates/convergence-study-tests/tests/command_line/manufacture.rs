@@ -11,8 +11,8 @@ use std::{
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::run;
 use super::where_lost::ROD;
+use super::{run, run_words};
 
 const PAGE: &str = include_str!("../../../manufacture/TEN-MINUTES.md");
 
@@ -29,7 +29,7 @@ fn blocks(language: &str) -> Vec<&'static str> {
 fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     let root = TempDir::new().unwrap();
     let write = |name: &str, text: &str| fs::write(root.path().join(name), text).unwrap();
-    let (status, _, err) = run(&root, &["new", "manufacture", "heat"]);
+    let (status, _, err) = run(&root, "new manufacture heat").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""));
     let file = fs::read_to_string(root.path().join("heat.toml")).unwrap();
     // The page is about the program `convergence-study`.
@@ -37,37 +37,34 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
         file.replace("powers", "convergence-study"),
         blocks("toml")[0]
     );
-    let (status, out, err) = run(&root, &["manufacture", "heat.toml"]);
+    let (status, out, err) = run(&root, "manufacture heat.toml").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""));
     assert_eq!(out, blocks("text")[1]);
     if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
         return;
     }
-    let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--language", "python"]);
+    let (status, out, err) = run(&root, "manufacture heat.toml --language python").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     let [solver, foreign] = blocks("python")[..] else {
         panic!("two programs on the page")
     };
     write("solver.py", solver);
-    let (status, out, err) = run(&root, &["study", "heat.study.toml"]);
-    assert_eq!(status, Some(0), "{out}{err}");
+    run(&root, "study heat.study.toml").says(0, "");
     // Moved to the other studies, it names the folder of its program.
     let study = fs::read_to_string(root.path().join("heat.study.toml")).unwrap();
     assert!(study.contains("directory = \".\"\n"), "{study}");
     let moved = study.replace("directory = \".\"", "directory = \"..\"");
     fs::create_dir_all(root.path().join("studies")).unwrap();
     write("studies/heat.toml", &moved);
-    let (status, out, err) = run(&root, &["study", "studies/heat.toml"]);
-    assert_eq!(status, Some(0), "{out}{err}");
+    run(&root, "study studies/heat.toml").says(0, "");
     fs::remove_file(root.path().join("studies/heat.toml")).unwrap();
     write(
         "solver.py",
         &solver.replace("+ 2.5 + step / 2", "- 2.5 + step / 2"),
     );
-    let (status, out, _) = run(&root, &["study", "heat.study.toml"]);
-    assert_eq!(status, Some(1), "{out}");
+    run(&root, "study heat.study.toml").says(1, "");
     write("foreign.py", foreign);
-    let (status, out, _) = run(
+    let (status, out, _) = run_words(
         &root,
         &[
             "manufacture",
@@ -75,14 +72,15 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
             "--against",
             "python3 foreign.py",
         ],
-    );
+    )
+    .parts();
     assert_eq!((status, out.as_str()), (Some(1), blocks("text")[2]));
 }
 
 #[test]
 fn exit_status_and_output_are_those_of_every_command() {
     let root = TempDir::new().unwrap();
-    run(&root, &["new", "manufacture", "heat"]);
+    run(&root, "new manufacture heat");
     let path = root.path().join("heat.toml");
     let sound = fs::read_to_string(&path).unwrap();
     fs::write(root.path().join("points.csv"), "x,face\n0.5,\n1,x_max\n").unwrap();
@@ -94,7 +92,7 @@ fn exit_status_and_output_are_those_of_every_command() {
         "--format",
         "json",
     ];
-    let (status, out, _) = run(&root, &at);
+    let (status, out, _) = run_words(&root, &at).parts();
     let values: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (status, &values["schema"], &values["name"]),
@@ -120,7 +118,7 @@ fn exit_status_and_output_are_those_of_every_command() {
         "--format",
         "json",
     ];
-    let (status, out, _) = run(&root, &wrong);
+    let (status, out, _) = run_words(&root, &wrong).parts();
     let check: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (status, &check["check"]["verdict"]),
@@ -132,7 +130,7 @@ fn exit_status_and_output_are_those_of_every_command() {
 
     // A file that cannot be used: nothing is written.
     fs::write(&path, sound.replace("loss = \"T\"", "loss = \"TT\"")).unwrap();
-    let (status, out, err) = run(&root, &["manufacture", "heat.toml", "--out", "unusable"]);
+    let (status, out, err) = run(&root, "manufacture heat.toml --out unusable").parts();
     assert_eq!((status, out.as_str()), (Some(2), ""));
     assert!(
         err.starts_with(
@@ -152,7 +150,7 @@ fn exit_status_and_output_are_those_of_every_command() {
         "--out",
         "unusable",
     ];
-    let (status, out, err) = run(&root, &arguments);
+    let (status, out, err) = run_words(&root, &arguments).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""));
     assert!(
         err.starts_with(
@@ -161,11 +159,8 @@ fn exit_status_and_output_are_those_of_every_command() {
         "{err}"
     );
     assert!(!root.path().join("unusable").exists());
-    let (status, _, err) = run(&root, &["manufacture", "heat.toml", "--language", "cobol"]);
-    assert!(
-        status == Some(2) && err.contains("expected one of c, fortran, python, ufl, octave, rust"),
-        "{err}"
-    );
+    run(&root, "manufacture heat.toml --language cobol")
+        .complains(2, "expected one of c, fortran, python, ufl, octave, rust");
 }
 
 /// Nothing that a program has started outlives it, and one that does not read its points, which
@@ -178,12 +173,12 @@ fn a_program_that_hangs_ends_with_all_that_it_has_started() {
         return;
     }
     let root = TempDir::new().unwrap();
-    run(&root, &["new", "manufacture", "heat"]);
+    run(&root, "new manufacture heat");
     let program = "sh -c '(sleep 3; touch not-stopped) & sleep 30'";
     let against = ["manufacture", "heat.toml", "--against", program];
     let more = ["--time-limit", "0.5", "--points", "20000"];
     let started = Instant::now();
-    let (status, out, err) = run(&root, &[&against[..], &more].concat());
+    let (status, out, err) = run_words(&root, &[&against[..], &more].concat()).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""));
     assert!(
         err.contains("sh was stopped at its time limit of 0.5 s"),
@@ -208,7 +203,7 @@ fn with_a_fixed_value() -> String {
 fn the_variants_are_listed_with_what_each_switches_off() {
     let root = TempDir::new().unwrap();
     fs::write(root.path().join("rod.toml"), with_a_fixed_value()).unwrap();
-    let (status, out, err) = run(&root, &["manufacture", "rod.toml", "--variants"]);
+    let (status, out, err) = run(&root, "manufacture rod.toml --variants").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     for line in [
         "flat_x_min       the data at x_min",
@@ -217,7 +212,7 @@ fn the_variants_are_listed_with_what_each_switches_off() {
         assert!(out.contains(line), "{line}: {out}");
     }
     let words = ["manufacture", "rod.toml", "--variants", "--format", "json"];
-    let object: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let object: Value = serde_json::from_str(&run_words(&root, &words).stdout).unwrap();
     let name = &object["variants"][0]["name"];
     assert_eq!(
         (name, &object["variants"][0]["switches_off"]["part"]),
@@ -248,7 +243,7 @@ fn a_module_without_any_variant_is_refused_and_nothing_is_written() {
     let root = TempDir::new().unwrap();
     fs::write(root.path().join("held.toml"), HELD).unwrap();
     let words = ["manufacture", "held.toml", "--variants", "--language", "c"];
-    let (status, out, err) = run(&root, &words);
+    let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""));
     for part in [
         "held.toml: --variants: no variant can be used",

@@ -48,45 +48,36 @@ fn command(root: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-fn run(root: &TempDir, arguments: &[&str]) -> (Option<i32>, String, String) {
+/// A command line of words without blanks.
+fn run(root: &TempDir, line: &str) -> Ended {
+    run_words(root, &line.split_whitespace().collect::<Vec<_>>())
+}
+
+fn run_words(root: &TempDir, arguments: &[&str]) -> Ended {
     texts(&mut command(root.path(), arguments))
 }
 
 /// Exit status, standard output and standard error.
-fn texts(command: &mut Command) -> (Option<i32>, String, String) {
-    let Ended {
-        status,
-        stdout,
-        stderr,
-    } = output(command).into();
-    (status, stdout, stderr)
+fn texts(command: &mut Command) -> Ended {
+    output(command).into()
 }
 
 #[test]
 fn verify_ends_with_0_1_or_2() {
     let root = workspace(false);
-    assert_eq!(run(&root, &["verify"]).0, Some(1), "every number is new");
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
-    let (status, out, _) = run(&root, &["verify"]);
-    assert_eq!(status, Some(0));
-    assert!(
-        out.contains("pass: all 1 studies pass") || out.contains("pass: the study passes"),
-        "{out}"
-    );
+    run(&root, "verify").says(1, "");
+    run(&root, "verify --bless").says(0, "");
+    run(&root, "verify").says(0, "pass: the study passes");
     fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
-    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    run(&root, "verify").says(1, "");
     fs::write(
         root.path().join("studies/two.toml"),
         study("two", "c", 1.0).replace("kind = \"power\"", ""),
     )
     .unwrap();
-    let (status, _, err) = run(&root, &["verify"]);
-    assert!(
-        status == Some(2) && err.contains("two.toml:2:1: study.kind: missing; expected \"power\""),
-        "{err}"
-    );
+    run(&root, "verify").complains(2, "two.toml:2:1: study.kind: missing; expected \"power\"");
     fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
-    let (status, _, err) = run(&root, &["verify"]);
+    let (status, _, err) = run(&root, "verify").parts();
     assert!(
         status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"),
         "{err}"
@@ -97,17 +88,13 @@ fn verify_ends_with_0_1_or_2() {
 fn an_unwritable_job_summary_keeps_the_exit_status() {
     for (with_a_failure, status) in [(false, 0), (true, 1)] {
         let root = workspace(with_a_failure);
-        run(&root, &["verify", "one", "--bless"]);
+        run(&root, "verify one --bless");
         let scope = if with_a_failure { "two" } else { "one" };
         for page in ["/nowhere/page", "."] {
             let mut command = command(root.path(), &["verify", scope]);
-            let (found, out, err) = texts(command.env("GITHUB_STEP_SUMMARY", page));
-            assert_eq!(found, Some(status), "{out}{err}");
-            assert!(
-                err.contains(&format!(
-                    "GITHUB_STEP_SUMMARY={page}: cannot write the job summary"
-                )),
-                "{err}"
+            texts(command.env("GITHUB_STEP_SUMMARY", page)).complains(
+                status,
+                &format!("GITHUB_STEP_SUMMARY={page}: cannot write the job summary"),
             );
         }
         let page = root.path().join("page.md");
@@ -132,17 +119,15 @@ fn pipes_in_place_of_records_do_not_hang() {
     if !foreign_tools::are_here(&[foreign_tools::MKFIFO]) {
         return;
     }
-    for (file, arguments) in [
-        ("studies/baseline.json", &["verify"][..]),
-        ("reports/results.json", &["list"]),
-        ("reports/local/provenance.json", &["list"]),
-        ("reports/local/lock", &["verify"]),
+    for (file, line) in [
+        ("studies/baseline.json", "verify"),
+        ("reports/results.json", "list"),
+        ("reports/local/provenance.json", "list"),
+        ("reports/local/lock", "verify"),
     ] {
         let root = workspace(false);
         pipe(&root.path().join(file));
-        let (status, _, err) = run(&root, arguments);
-        assert_eq!(status, Some(2), "{file}: {err}");
-        assert!(err.contains("expected a regular file"), "{file}: {err}");
+        run(&root, line).complains(2, "expected a regular file");
     }
 }
 
@@ -176,7 +161,7 @@ fn tables_and_studies_come_from_a_file_that_is_standard_input() {
 #[test]
 fn study_writes_a_report_that_says_how_to_repeat_it() {
     let root = workspace(true);
-    let (status, out, err) = run(
+    let (status, out, err) = run_words(
         &root,
         &[
             "study",
@@ -186,7 +171,8 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
             "out/a b",
             "--quiet",
         ],
-    );
+    )
+    .parts();
     assert_eq!((status, err.as_str()), (Some(1), ""));
     assert!(
         out.starts_with("two: fail") && out.ends_with("fail: 1 of 2 fail (two)\n"),
@@ -207,13 +193,13 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     ] {
         assert!(read(name).contains(piece), "{name}");
     }
-    let (_, out, _) = run(&root, &["study", "studies/one.toml", "--out", "out"]);
+    let (_, out, _) = run(&root, "study studies/one.toml --out out").parts();
     assert!(
         out.ends_with("\nreport: out/index.html, out/README.md\n"),
         "{out}"
     );
     // A report of `verify` goes where `--out` says, and each of its studies can be run by its id.
-    assert_eq!(run(&root, &["verify", "--out", "elsewhere"]).0, Some(1));
+    run(&root, "verify --out elsewhere").says(1, "");
     let page = fs::read_to_string(root.path().join("elsewhere/local/quick/index.html")).unwrap();
     assert!(
         page.contains("Again: <code>powers verify two</code> (tier quick")
@@ -228,16 +214,16 @@ fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() 
         return;
     }
     let root = workspace(false);
-    let study = |out: &str| run(&root, &["study", "studies/one.toml", "--out", out]);
+    let study = |out: &str| run_words(&root, &["study", "studies/one.toml", "--out", out]);
     fs::write(root.path().join("file"), "").unwrap();
-    let (status, out, err) = study("file");
+    let (status, out, err) = study("file").parts();
     assert!(
         status == Some(2) && out.is_empty() && err.starts_with("error: file: "),
         "{err}"
     );
     fs::create_dir(root.path().join("out")).unwrap();
     fs::write(root.path().join("out/local"), "").unwrap();
-    let (status, out, err) = study("out");
+    let (status, out, err) = study("out").parts();
     assert!(
         status == Some(2) && err.contains("out: the reports cannot be written"),
         "{err}"
@@ -251,14 +237,10 @@ fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() 
                           command = [\"touch\", \"ran-{n}\"]\n[refine]\nn = [4, 8, 16]\n\
                           [[expect]]\nerror = \"L2\"\norder = 2.0\ntolerance = 0.1\n";
     fs::write(root.path().join("studies/two.toml"), leaves_a_trace).unwrap();
-    let (status, out, err) = run(&root, &["verify", "--out", "file"]);
-    assert!(
-        status == Some(2) && out.is_empty() && err.contains("file: the reports cannot be written"),
-        "{err}"
-    );
+    run(&root, "verify --out file").refuses("file: the reports cannot be written");
     let trace = root.path().join("studies/ran-4");
     assert!(!trace.exists(), "the study was run");
-    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    run(&root, "verify").says(1, "");
     assert!(trace.exists());
 }
 
@@ -272,7 +254,7 @@ fn json_is_alone_on_standard_output() {
             .args(["--format", "json"])
             .env("GITHUB_ACTIONS", "true")
             .env("GITHUB_STEP_SUMMARY", &summary);
-        let (status, out, err) = texts(&mut command);
+        let (status, out, err) = texts(&mut command).parts();
         let object: serde_json::Value = serde_json::from_str(&out).unwrap();
         assert_eq!(
             (status, &object["verdict"], &object["schema"]),
@@ -293,7 +275,7 @@ fn json_is_alone_on_standard_output() {
 #[test]
 fn a_new_study_of_a_program_passes_as_it_is() {
     let root = tempfile::tempdir().unwrap();
-    let (status, out, err) = run(&root, &["new", "program", "mine"]);
+    let (status, out, err) = run(&root, "new program mine").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""));
     assert_eq!(
         out,
@@ -306,7 +288,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
             && !text.contains("PROGRAM"),
         "{text}"
     );
-    let (status, out, err) = run(&root, &["study", "mine.toml"]);
+    let (status, out, err) = run(&root, "study mine.toml").parts();
     if foreign_tools::is_here(foreign_tools::PYTHON) {
         assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     } else {
@@ -316,7 +298,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
         );
     }
     // In a folder of a repository the program runs from the folder of the command: from its root.
-    let (status, out, err) = run(&root, &["new", "program", "other", "--out", "studies"]);
+    let (status, out, err) = run(&root, "new program other --out studies").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     let text = fs::read_to_string(root.path().join("studies/other.toml")).unwrap();
     assert!(
@@ -350,13 +332,13 @@ fn a_new_study_of_a_program_passes_as_it_is() {
         }
     }
     if foreign_tools::is_here(foreign_tools::PYTHON) {
-        assert_eq!(run(&root, &["study", "studies/other.toml"]).0, Some(0));
+        run(&root, "study studies/other.toml").says(0, "");
         fs::write(
             root.path().join("studies/other.py"),
             "print('max error: 1e-3')\n",
         )
         .unwrap();
-        let (_, out, _) = run(&root, &["study", "studies/other.toml"]);
+        let (_, out, _) = run(&root, "study studies/other.toml").parts();
         assert!(
             out.contains("expected a last line such as {\"errors\": {\"max\": 0.001}}"),
             "{out}"
@@ -365,7 +347,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
         let program =
             "import sys\nprint('level', sys.argv[1], 'max', 1 / int(sys.argv[1]), 'in 3')\n";
         fs::write(root.path().join("studies/other.py"), program).unwrap();
-        let (_, out, _) = run(&root, &["study", "studies/other.toml"]);
+        let (_, out, _) = run(&root, "study studies/other.toml").parts();
         assert_eq!(
             out.matches("expected a last line such as {\"errors\": {\"max\": 0.125}}")
                 .count(),
@@ -380,19 +362,14 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     }
     // The second file exists: the first is not written either.
     fs::remove_file(root.path().join("mine.toml")).unwrap();
-    let (status, _, err) = run(&root, &["new", "program", "mine", "--out", "."]);
-    assert!(
-        status == Some(2) && err.contains("mine.py: expected a new file"),
-        "{err}"
-    );
+    run(&root, "new program mine --out .").complains(2, "mine.py: expected a new file");
     assert!(!root.path().join("mine.toml").exists());
-    let (status, _, err) = run(&root, &["new", "novel", "mine"]);
-    assert!(status == Some(2) && err.contains("program"), "{err}");
+    run(&root, "new novel mine").complains(2, "program");
 }
 
 #[test]
 fn every_command_is_in_the_help() {
-    let (status, out, _) = run(&workspace(false), &["--help"]);
+    let (status, out, _) = run(&workspace(false), "--help").parts();
     assert_eq!(status, Some(0));
     assert!(
         cli::COMMANDS
@@ -402,7 +379,7 @@ fn every_command_is_in_the_help() {
     );
     assert!(out.contains("Exit status: 0 "), "{out}");
     for name in cli::COMMANDS {
-        let (status, out, _) = run(&workspace(false), &[name, "--help"]);
+        let (status, out, _) = run(&workspace(false), &format!("{name} --help")).parts();
         let widest = out.lines().map(|line| line.chars().count()).max();
         assert!(status == Some(0) && widest <= Some(100), "{out}");
     }

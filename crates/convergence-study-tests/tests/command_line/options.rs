@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{command, run, study, texts, workspace};
+use super::{command, run, run_words, study, texts, workspace};
 
 const TABLE: &str = "h e\n0.4 1.600e-1\n0.2 4.000e-2\n0.1 1.000e-2\n0.05 2.500e-3\n";
 
@@ -20,12 +20,12 @@ fn colours_follow_the_option_then_the_environment() {
         texts(command.args(option).envs(variables.iter().copied()))
     };
     let is_coloured = |option: &[&str], variables: &[(&str, &str)]| {
-        let (status, out, err) = ended(&["rates", "t", "--order", "2"], option, variables);
+        let (status, out, err) = ended(&["rates", "t", "--order", "2"], option, variables).parts();
         assert_eq!(status, Some(0), "{err}");
         let is_coloured = out.contains("\u{1b}[32mpass\u{1b}[0m");
         // Helps, and errors of the command line, follow the same rule.
-        let (_, help, _) = ended(&["rates", "--help"], option, variables);
-        let (status, _, err) = ended(&["rates", "--odrer", "2"], option, variables);
+        let help = ended(&["rates", "--help"], option, variables).stdout;
+        let (status, _, err) = ended(&["rates", "--odrer", "2"], option, variables).parts();
         assert_eq!(status, Some(2), "{err}");
         assert_eq!(help.contains(ESCAPE), is_coloured, "{help}");
         assert_eq!(err.contains(ESCAPE), is_coloured, "{err}");
@@ -41,11 +41,9 @@ fn colours_follow_the_option_then_the_environment() {
         assert!(!is_coloured(&[], &[(forced, "0")]));
         assert!(!is_coloured(&["--color", "never"], &[(forced, "1")]));
     }
-    let (status, _, err) = run(&root, &["rates", "t", "--color", "blue"]);
-    assert!(
-        status == Some(2) && err.contains("'blue'") && err.contains("never"),
-        "{err}"
-    );
+    let ran = run(&root, "rates t --color blue");
+    ran.complains(2, "'blue'");
+    ran.complains(2, "never");
 }
 
 #[test]
@@ -55,7 +53,7 @@ fn files_have_no_colours() {
     let arguments = [
         "rates", "t", "--order", "2", "-o", "out", "--color", "always",
     ];
-    assert_eq!(run(&root, &arguments).0, Some(0));
+    run_words(&root, &arguments).says(0, "");
     let page = fs::read_to_string(root.path().join("out/rates.md")).unwrap();
     assert!(
         page.contains("    e: pass: 2.000") && !page.contains([ESCAPE, '\u{fffd}']),
@@ -66,28 +64,24 @@ fn files_have_no_colours() {
 #[test]
 fn short_forms_are_those_of_the_long_ones() {
     let root = workspace(false);
-    let long = run(&root, &["verify", "--jobs", "1", "--verbose", "--out", "a"]);
-    let short = run(&root, &["verify", "-j", "1", "-v", "-o", "b"]);
-    assert_eq!(long.0, short.0);
+    let long = run(&root, "verify --jobs 1 --verbose --out a");
+    let short = run(&root, "verify -j 1 -v -o b");
+    assert_eq!(long.status, short.status);
     let page = |name: &str| {
         let folder = root.path().join(name).join("local/quick");
         fs::read_to_string(folder.join("README.md")).unwrap()
     };
     assert_eq!(page("a"), page("b"));
     for arguments in [["rates", "--version"], ["verify", "-V"]] {
-        let (status, out, _) = run(&root, &arguments);
-        assert!(
-            status == Some(0) && out.contains(env!("CARGO_PKG_VERSION")),
-            "{out}"
-        );
+        run_words(&root, &arguments).says(0, env!("CARGO_PKG_VERSION"));
     }
-    assert_eq!(run(&root, &["verify", "-j", "0"]).0, Some(2));
+    run(&root, "verify -j 0").says(2, "");
 }
 
 #[test]
 fn a_dry_run_lists_and_writes_nothing() {
     let root = workspace(true);
-    let (status, out, _) = run(&root, &["verify", "-n"]);
+    let (status, out, _) = run(&root, "verify -n").parts();
     assert_eq!(status, Some(0), "{out}");
     assert!(
         out.contains("one        5        -\n")
@@ -95,9 +89,9 @@ fn a_dry_run_lists_and_writes_nothing() {
         "{out}"
     );
     assert!(!root.path().join("reports").exists());
-    assert_eq!(run(&root, &["verify"]).0, Some(1));
+    run(&root, "verify").says(1, "");
     let before = fs::read(root.path().join("reports/local/provenance.json")).unwrap();
-    let (_, out, _) = run(&root, &["verify", "--dry-run", "one", "--format", "json"]);
+    let (_, out, _) = run(&root, "verify --dry-run one --format json").parts();
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(object["studies"][0]["id"], "one");
     assert_eq!(object["studies"][0]["cases"], 5);
@@ -105,12 +99,8 @@ fn a_dry_run_lists_and_writes_nothing() {
     assert_eq!(object["studies"].as_array().unwrap().len(), 1);
     let after = fs::read(root.path().join("reports/local/provenance.json")).unwrap();
     assert_eq!(before, after);
-    let (status, _, err) = run(&root, &["verify", "-n", "--bless"]);
-    assert!(
-        status == Some(2) && err.contains("cannot be used with"),
-        "{err}"
-    );
-    assert_eq!(run(&root, &["verify", "-n", "three"]).0, Some(2));
+    run(&root, "verify -n --bless").complains(2, "cannot be used with");
+    run(&root, "verify -n three").says(2, "");
 }
 
 #[test]
@@ -123,14 +113,13 @@ fn helps_leave_out_what_means_nothing() {
         ("verify", "--jobs", &["csv"]),
         ("report", "--out", &["--jobs"]),
     ] {
-        let (_, out, _) = run(&root, &[name, "--help"]);
+        let (_, out, _) = run_words(&root, &[name, "--help"]).parts();
         assert!(out.contains(with) && out.contains("Examples:"), "{out}");
         for option in without {
             assert!(!out.contains(option), "{option}: {out}");
         }
     }
-    let (status, _, err) = run(&root, &["verify", "--format", "csv"]);
-    assert!(status == Some(2) && err.contains("text, json"), "{err}");
+    run(&root, "verify --format csv").complains(2, "text, json");
 }
 
 #[test]
@@ -144,12 +133,10 @@ fn a_misspelt_id_among_many_has_its_nearest() {
         let path = root.path().join(format!("studies/{id}.toml"));
         fs::write(path, study(&id, "c", 1.0)).unwrap();
     }
-    let (status, _, err) = run(&root, &["verify", "haet-space"]);
-    assert_eq!(status, Some(2));
-    assert!(
-        err.contains(
-            "`haet-space` matches no study; expected what `powers list` shows, of which heat-space, "
-        ) && err.contains(" are nearest, or a pattern such as '*-space'"),
-        "{err}"
+    let ran = run(&root, "verify haet-space");
+    ran.complains(
+        2,
+        "`haet-space` matches no study; expected what `powers list` shows, of which heat-space, ",
     );
+    ran.complains(2, " are nearest, or a pattern such as '*-space'");
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use super::{run, workspace};
+use super::{run, run_words, workspace};
 
 /// Errors of second and of first order, and a column without a claim that would fail.
 const RATES: &str = "h L2 H1 max\n0.4 1.6000000e-1 4.0000000e-1 3\n0.2 4.0000000e-2 2.0000000e-1 3\n\
@@ -15,8 +15,8 @@ fn rates_come_in_words_and_as_an_object() {
     let root = workspace(false);
     fs::write(root.path().join("t"), RATES).unwrap();
     let claims = ["rates", "t", "--order", "L2=2", "--order", "H1=1"];
-    let with = |more: &[&str]| run(&root, &[&claims, more].concat());
-    let (status, out, err) = with(&[]);
+    let with = |more: &[&str]| run_words(&root, &[&claims, more].concat());
+    let (status, out, err) = with(&[]).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(
         out.contains("L2: pass: 2.000000 ± 0.0000005, claimed 2 ± 0.25: 2, not 1.5 or 2.5\n"),
@@ -34,19 +34,17 @@ fn rates_come_in_words_and_as_an_object() {
         out.ends_with("pass: 2 of 2 columns agree with their orders\n"),
         "{out}"
     );
-    assert_eq!(with(&["--all"]).0, Some(1));
+    with(&["--all"]).says(1, "");
     assert_eq!(
-        with(&["--quiet"]).1,
+        with(&["--quiet"]).stdout,
         "pass: 2 of 2 columns agree with their orders\n"
     );
     // A rate that disagrees is still shown.
-    let (status, out, _) = run(&root, &["rates", "t", "--order", "H1=2", "--quiet"]);
-    assert_eq!(status, Some(1));
-    assert!(
-        out.starts_with("H1: fail: 1.000000 ± 0.0000005, claimed 2 ± 0.25: too low\n"),
-        "{out}"
+    run(&root, "rates t --order H1=2 --quiet").begins(
+        1,
+        "H1: fail: 1.000000 ± 0.0000005, claimed 2 ± 0.25: too low\n",
     );
-    let (_, out, _) = with(&["--format", "json"]);
+    let (_, out, _) = with(&["--format", "json"]).parts();
     let object: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (&object["schema"], &object["verdict"]),
@@ -59,16 +57,11 @@ fn rates_come_in_words_and_as_an_object() {
         ),
         (&false.into(), &0.05.into())
     );
-    let (status, _, err) = run(&root, &["rates", "t", "--order", "L9=2"]);
-    assert!(
-        status == Some(2) && err.contains("expected a column of errors: L2, H1, max; found `L9`"),
-        "{err}"
-    );
-    let (status, _, err) = run(&root, &["rates", "t", "--columns", "L2,L3"]);
-    assert!(
-        status == Some(2)
-            && err.contains("t:1:1: expected --columns L3, the name or number of a column"),
-        "{err}"
+    run(&root, "rates t --order L9=2")
+        .complains(2, "expected a column of errors: L2, H1, max; found `L9`");
+    run(&root, "rates t --columns L2,L3").complains(
+        2,
+        "t:1:1: expected --columns L3, the name or number of a column",
     );
 }
 
@@ -84,7 +77,8 @@ fn levels_set_aside_are_marked() {
     )
     .unwrap();
     let marks = |floor: &str| {
-        let (_, out, _) = run(&root, &["rates", "t", "--order", "2", "--floor", floor]);
+        let (_, out, _) =
+            run_words(&root, &["rates", "t", "--order", "2", "--floor", floor]).parts();
         let rows: Vec<&str> = out.lines().skip(2).take(errors.len()).collect();
         let marked = |mark: char| {
             rows.iter()
@@ -112,17 +106,9 @@ fn rates_write_figure_markdown_and_junit() {
     fs::write(root.path().join("a&b|c"), RATES).unwrap();
     let (status, _, err) = run(
         &root,
-        &[
-            "rates",
-            "a&b|c",
-            "--order",
-            "L2=2",
-            "--order",
-            "H1=2",
-            "--out",
-            "out/rates",
-        ],
-    );
+        "rates a&b|c --order L2=2 --order H1=2 --out out/rates",
+    )
+    .parts();
     assert_eq!((status, err.as_str()), (Some(1), ""));
     let read = |name: &str| fs::read_to_string(root.path().join("out/rates").join(name)).unwrap();
     let (svg, junit, page) = (read("rates.svg"), read("junit.xml"), read("rates.md"));
@@ -163,22 +149,15 @@ fn rates_write_figure_markdown_and_junit() {
         "{page}"
     );
     fs::write(root.path().join("file"), "").unwrap();
-    assert_eq!(
-        run(
-            &root,
-            &["rates", "a&b|c", "--order", "L2=2", "--out", "file"]
-        )
-        .0,
-        Some(2)
-    );
+    run(&root, "rates a&b|c --order L2=2 --out file").says(2, "");
 }
 
 #[test]
 fn a_refusal_is_an_object_for_programs() {
     let root = workspace(false);
     fs::write(root.path().join("t"), "n L2\n10 0.16\n20 0.04\n40 0.01\n").unwrap();
-    let (_, silent, words) = run(&root, &["rates", "t", "--order", "2"]);
-    let (status, out, err) = run(&root, &["rates", "t", "--order", "2", "--format", "json"]);
+    let (_, silent, words) = run(&root, "rates t --order 2").parts();
+    let (status, out, err) = run(&root, "rates t --order 2 --format json").parts();
     assert_eq!((status, silent.as_str()), (Some(2), ""));
     assert_eq!(err, words);
     let object: Value = serde_json::from_str(&out).unwrap();
@@ -211,12 +190,7 @@ fn a_refusal_is_an_object_for_programs() {
         );
     }
     // A claim has no table and no offer.
-    let (status, out, err) = run(
-        &root,
-        &[
-            "rates", "t", "--dim", "1", "--order", "L3=2", "--format", "json",
-        ],
-    );
+    let (status, out, err) = run(&root, "rates t --dim 1 --order L3=2 --format json").parts();
     let object: Value = serde_json::from_str(&out).unwrap();
     let words = "--order L3=2: expected a column of errors: L2; found `L3`, did you mean `L2`?";
     assert_eq!(

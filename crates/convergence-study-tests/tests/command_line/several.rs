@@ -7,7 +7,7 @@ use std::process::Stdio;
 use convergence_study_tests::{Ended, finished};
 use tempfile::TempDir;
 
-use super::{command, run};
+use super::{command, run, run_words};
 
 /// Tables of second and of first order, and a file with both.
 fn place() -> TempDir {
@@ -26,8 +26,9 @@ fn place() -> TempDir {
 fn each_table_is_judged_under_its_name() {
     let root = place();
     let claims = ["--order", "L2=2", "--order", "H1=1"];
-    let with = |files: &[&str], claims: &[&str]| run(&root, &[&["rates"], files, claims].concat());
-    let (status, out, err) = with(&["a.csv", "b.csv"], &claims);
+    let with =
+        |files: &[&str], claims: &[&str]| run_words(&root, &[&["rates"], files, claims].concat());
+    let (status, out, err) = with(&["a.csv", "b.csv"], &claims).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(
         out.starts_with("a.csv\nstep: `h`") && out.contains("\n\nb.csv\nstep: `h`"),
@@ -35,20 +36,20 @@ fn each_table_is_judged_under_its_name() {
     );
     assert!(out.ends_with("\n\npass: 2 of 2 tables agree\n"), "{out}");
     // One that fails decides.
-    let (status, out, _) = with(&["a.csv", "b.csv"], &["--order", "2"]);
+    let (status, out, _) = with(&["a.csv", "b.csv"], &["--order", "2"]).parts();
     assert_eq!(status, Some(1));
     assert!(
         out.contains("H1: fail: 1.000") && out.ends_with("fail: 1 of 2 tables agree\n"),
         "{out}"
     );
-    let (_, out, _) = with(&["a.csv", "b.csv"], &["--order", "2", "--quiet"]);
+    let (_, out, _) = with(&["a.csv", "b.csv"], &["--order", "2", "--quiet"]).parts();
     assert!(
         out.starts_with("b.csv\nH1: fail") && !out.contains("a.csv"),
         "{out}"
     );
     // So does one without a claim.
-    assert_eq!(with(&["a.csv", "b.csv"], &claims[..2]).0, Some(1));
-    let (_, out, _) = with(&["a.csv", "b.csv"], &["--order", "2", "--format", "json"]);
+    with(&["a.csv", "b.csv"], &claims[..2]).says(1, "");
+    let (_, out, _) = with(&["a.csv", "b.csv"], &["--order", "2", "--format", "json"]).parts();
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     let tables = object["tables"].as_array().unwrap();
     assert_eq!(object["verdict"], "fail");
@@ -69,11 +70,7 @@ fn each_table_is_judged_under_its_name() {
             "missing.csv: ",
         ),
     ] {
-        let (status, out, err) = with(files, claims);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(words),
-            "{err}"
-        );
+        with(files, claims).refuses(words);
     }
 }
 
@@ -81,10 +78,11 @@ fn each_table_is_judged_under_its_name() {
 fn tables_of_one_file_are_judged_under_their_headings() {
     let root = place();
     let claims = ["--order", "L2=2", "--order", "H1=1"];
-    let (status, out, err) = run(
+    let (status, out, err) = run_words(
         &root,
         &[&["rates", "both.txt", "-o", "out"], &claims[..]].concat(),
-    );
+    )
+    .parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(
         out.starts_with("both.txt: Degree 1\n") && out.contains("\nboth.txt: Degree 2\n"),
@@ -110,7 +108,7 @@ fn rows_come_as_csv_and_as_markdown() {
     let root = place();
     let with = |format: &str, files: &[&str]| {
         let claims = ["--order", "2", "--format", format];
-        run(&root, &[&["rates"], files, &claims[..]].concat()).1
+        run_words(&root, &[&["rates"], files, &claims[..]].concat()).stdout
     };
     assert_eq!(
         with("csv", &["a.csv"]),
@@ -143,7 +141,7 @@ fn rows_come_as_csv_and_as_markdown() {
     );
     // The exit status is that of the verdict.
     let arguments = ["rates", "b.csv", "--order", "2", "--format", "csv"];
-    assert_eq!(run(&root, &arguments).0, Some(1));
+    run_words(&root, &arguments).says(1, "");
 }
 
 #[test]
@@ -163,25 +161,17 @@ fn a_table_that_is_piped_needs_no_name() {
         "{stdout}"
     );
     // Without input there is no table.
-    let (status, _, err) = run(&root, &["rates", "--order", "2"]);
-    assert!(
-        status == Some(2) && err.contains("standard input") && err.contains("an empty table"),
-        "{err}"
-    );
+    let ran = run(&root, "rates --order 2");
+    ran.complains(2, "standard input");
+    ran.complains(2, "an empty table");
 }
 
 #[test]
 fn an_order_that_is_none_is_refused_with_all_forms() {
     let root = place();
     for order in ["two", "L2=two", ">=", "-1"] {
-        let (status, out, err) = run(&root, &["rates", "a.csv", "--order", order]);
-        assert!(
-            status == Some(2)
-                && out.is_empty()
-                && err.contains(
-                    "expected a number > 0, '>=P' with such a number P, or NAME= before one of them"
-                ),
-            "{err}"
+        run_words(&root, &["rates", "a.csv", "--order", order]).refuses(
+            "expected a number > 0, '>=P' with such a number P, or NAME= before one of them",
         );
     }
 }
@@ -193,7 +183,7 @@ fn rows_come_as_latex_with_rates_between_them() {
     fs::write(root.path().join("t.csv"), table).unwrap();
     let with = |more: &[&str]| {
         let arguments = ["rates", "t.csv", "--order", "L2_u=2", "--format", "latex"];
-        run(&root, &[&arguments, more].concat()).1
+        run_words(&root, &[&arguments, more].concat()).stdout
     };
     let half = r"\\[-0.5\normalbaselineskip]";
     let expected = format!(

@@ -5,7 +5,9 @@ use std::fs;
 use serde_json::json;
 use tempfile::TempDir;
 
-use super::{run, workspace};
+use convergence_study_tests::Ended;
+
+use super::{run, run_words, workspace};
 
 /// A table of one column of errors with seven digits, over halved steps.
 fn table(name: &str, first: f64, errors: &[f64]) -> String {
@@ -17,17 +19,13 @@ fn table(name: &str, first: f64, errors: &[f64]) -> String {
     )
 }
 
-/// The exit status, and everything printed, with single blanks.
-fn told(root: &TempDir, table: &str, options: &[&str]) -> (Option<i32>, String) {
+/// What `rates` says of a table, all of it with single blanks.
+fn told(root: &TempDir, table: &str, options: &str) -> Ended {
     fs::write(root.path().join("TABLE"), table).unwrap();
-    let (status, out, err) = run(root, &[&["rates", "TABLE"], options].concat());
-    (
-        status,
-        (out + &err)
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" "),
-    )
+    let mut ended = run(root, &format!("rates TABLE {options}"));
+    let all = ended.stdout + &ended.stderr;
+    ended.stdout = all.split_whitespace().collect::<Vec<_>>().join(" ");
+    ended
 }
 
 #[test]
@@ -35,10 +33,10 @@ fn rates_says_how_it_read_a_table() {
     let root = workspace(false);
     let text = "h,L2,dofs\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
     fs::write(root.path().join("t"), text).unwrap();
-    let rates = |more: &[&str]| run(&root, &[&["rates", "t"], more].concat());
+    let rates = |more: &[&str]| run_words(&root, &[&["rates", "t"], more].concat());
     let because = "a count that grows as the step falls";
     let reading = format!("step: `h`; errors: `L2`; left out: `dofs` ({because})");
-    let (status, out, _) = rates(&["--order", "2", "--quiet"]);
+    let (status, out, _) = rates(&["--order", "2", "--quiet"]).parts();
     assert_eq!(
         (status, out.as_str()),
         (
@@ -46,7 +44,7 @@ fn rates_says_how_it_read_a_table() {
             &*format!("{reading}\npass: 1 of 1 column agrees with its order\n")
         )
     );
-    let (_, out, _) = rates(&["--order", "2", "--format", "json"]);
+    let (_, out, _) = rates(&["--order", "2", "--format", "json"]).parts();
     let object: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (&object["notes"][0], &object["left_out"]),
@@ -55,7 +53,7 @@ fn rates_says_how_it_read_a_table() {
             &json!([{"column": "dofs", "because": because}])
         )
     );
-    let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]);
+    let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]).parts();
     let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
     assert!(page.contains(&reading), "{err}{page}");
     let junit = fs::read_to_string(root.path().join("out/notes/junit.xml")).unwrap();
@@ -65,26 +63,17 @@ fn rates_says_how_it_read_a_table() {
         "{junit}"
     );
     // No claimed name is taken for the step.
-    let (status, _, err) = rates(&["--order", "h=2"]);
-    assert!(
-        status == Some(2) && err.contains("expected --dim D for h = dofs^(-1/D)"),
-        "{err}"
-    );
+    rates(&["--order", "h=2"]).complains(2, "expected --dim D for h = dofs^(-1/D)");
     // A column left out is judged if its name is claimed or chosen.
     for more in [&["--order", "dofs=2"][..], &["--columns", "L2,dofs"]] {
-        let (status, out, _) = rates(&[&["--order", "2"], more].concat());
-        assert_eq!(status, Some(1), "{more:?}: {out}");
+        rates(&[&["--order", "2"], more].concat()).says(1, "");
     }
     // Lines outside are a doubt, with the command that says where the table is.
     fs::write(root.path().join("t"), format!("{text}\n0.05\n")).unwrap();
-    let (status, out, _) = rates(&["--order", "2"]);
-    assert!(
-        status == Some(1)
-            && out.contains("doubt: outside the tables: line 6, `0.05`\n")
-            && out.contains(" rates t --order 2 --lines 1-4\n"),
-        "{out}"
-    );
-    assert_eq!(rates(&["--order", "2", "--lines", "1-4"]).0, Some(0));
+    let ran = rates(&["--order", "2"]);
+    ran.says(1, "doubt: outside the tables: line 6, `0.05`\n");
+    ran.says(1, " rates t --order 2 --lines 1-4\n");
+    rates(&["--order", "2", "--lines", "1-4"]).says(0, "");
     let utf_16: Vec<u8> = "\u{feff}h,L2\n"
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
@@ -92,7 +81,7 @@ fn rates_says_how_it_read_a_table() {
     fs::write(root.path().join("t"), utf_16).unwrap();
     assert!(
         rates(&[])
-            .2
+            .stderr
             .contains("found UTF-16; expected UTF-8 text: save the file as UTF-8")
     );
 }
@@ -137,17 +126,9 @@ fn claims_that_contradict_each_other_are_refused() {
             "each column of --columns and --values once, found `L2 [Pa]` twice",
         ),
     ] {
-        let (status, out, err) = run(&root, &[&["rates", "t"], options].concat());
-        assert_eq!((status, out.as_str()), (Some(2), ""), "{options:?}");
-        assert!(err.contains(says), "{options:?}: {err}");
+        run_words(&root, &[&["rates", "t"], options].concat()).refuses(says);
     }
-    let (status, out, err) = run(
-        &root,
-        &[
-            "rates", "t", "--order", "2", "--order", "H1=1", "--step", "1",
-        ],
-    );
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    run(&root, "rates t --order 2 --order H1=1 --step 1").well();
 }
 
 #[test]
@@ -155,186 +136,122 @@ fn wrong_claims_are_answered_with_what_to_do() {
     let root = workspace(false);
     let first = [0.0412, 0.0203, 0.010075, 0.0050188, 0.0025047];
     let second = [0.00412, 0.001015, 0.00025188, 6.2734e-05, 1.5654e-05];
-    let halved = |levels: i32, error: &dyn Fn(f64) -> f64| {
-        (0..levels)
-            .map(|k| error(0.1 / f64::powi(2.0, k)))
-            .collect::<Vec<_>>()
-    };
-    let says = |name: &str, errors: &[f64], order: &str, words: &[&str]| {
-        let (status, told) = told(
-            &root,
-            &table(name, 0.1, errors),
-            &["--order", order, "--tolerance", "0.05"],
-        );
-        assert_eq!(status, Some(1), "{told}");
-        words
-            .iter()
-            .for_each(|words| assert!(told.contains(words), "{words}\n{told}"));
-    };
-    says(
-        "L2",
-        &first,
-        "2",
-        &["L2: fail: 1.0001", "too low", "an order is lost"],
-    );
-    says("L2", &second, "1", &["L2: fail: 2.0001", "too high"]);
-    says(
-        "L2",
-        &[0.010824, 0.01079, 0.010749, 0.010725, 0.010712],
-        "2",
-        &[
-            "fail",
-            "The errors tend to about 0.0106",
-            "the scheme solves another problem",
-            "--values 'L2'",
-        ],
-    );
-    says(
-        "L2",
-        &[4e-3, 1e-3, 2.5e-4, f64::NAN, 1.5625e-5],
-        "2",
-        &["fail", "NaN or infinite"],
-    );
-    let tiny = table(
-        "L2",
-        0.1,
-        &[4.03e-12, 1.0366e-12, 2.8991e-13, 1.0087e-13, 4.8334e-14],
-    );
-    let (status, text) = told(&root, &tiny, &["--order", "2", "--floor", "1e-10"]);
-    assert!(
-        status == Some(1) && text.contains("round-off floor") && text.contains("_ set aside"),
-        "{text}"
-    );
-    // Without a floor no error is too small.
-    says(
-        "L2",
-        &halved(5, &|h| 1e-30 * h * h),
-        "1",
-        &["L2: fail: 2.0000", "too high"],
-    );
-    says(
-        "L2",
-        &[4e-3, 1e-3],
-        "2",
-        &["inconclusive", "too few levels"],
-    );
-    says(
-        "L2",
-        &[1.5625e-5, 6.25e-5, 2.5e-4, 1e-3, 4e-3],
-        "2",
-        &["fail", "The errors grow at every refinement"],
-    );
     let noise = [
         0.0056829, 0.0006216, 0.00033212, 4.5499e-05, 1.8908e-05, 3.3439e-06,
     ];
-    says("L2", &noise, "2", &["inconclusive"]);
-    says(
-        "L2",
-        &halved(6, &|h| 0.4 * h * h + 2e-4),
-        "2",
-        &["fail", "L2: fail"],
-    );
-    says(
-        "L2",
-        &halved(6, &|h| 0.5 * h * h + 0.01 * h),
-        "2",
-        &["L2: fail"],
-    );
-    says(
-        "L2",
-        &[0.01, 0.0025, 0.000625, 0.00015625, 3.9e-5, 4.3e-5],
-        "2",
-        &["fall with rate 2.00 down to 3.900e-5, then stop"],
-    );
-    says(
-        "L2",
-        &[0.01, 0.0025, 0.000625, 0.0],
-        "2",
-        &["zero on the finest level only. Is that level its own reference?"],
-    );
-    says(
-        "L2",
-        &[0.01, 0.0025, 6.25e-7, 1.5625e-7],
-        "2",
-        &["inconclusive", "a rate does not belong to its neighbours"],
-    );
+    let halved = |levels: i32, error: fn(f64) -> f64| -> Vec<f64> {
+        let steps = (0..levels).map(|k| 0.1 / f64::powi(2.0, k));
+        steps.map(error).collect()
+    };
+    for (errors, order, words) in [
+        (
+            &first[..],
+            "2",
+            "L2: fail: 1.0001 … too low … an order is lost",
+        ),
+        (&second, "1", "L2: fail: 2.0001 … too high"),
+        (
+            &[0.010824, 0.01079, 0.010749, 0.010725, 0.010712],
+            "2",
+            "fail … The errors tend to about 0.0106 … the scheme solves another problem … --values 'L2'",
+        ),
+        (
+            &[4e-3, 1e-3, 2.5e-4, f64::NAN, 1.5625e-5],
+            "2",
+            "fail … NaN or infinite",
+        ),
+        // Without a floor no error is too small.
+        (
+            &halved(5, |h| 1e-30 * h * h),
+            "1",
+            "L2: fail: 2.0000 … too high",
+        ),
+        (&[4e-3, 1e-3], "2", "inconclusive … too few levels"),
+        (
+            &[1.5625e-5, 6.25e-5, 2.5e-4, 1e-3, 4e-3],
+            "2",
+            "fail … The errors grow at every refinement",
+        ),
+        (&noise, "2", "inconclusive"),
+        (&halved(6, |h| 0.4 * h * h + 2e-4), "2", "L2: fail"),
+        (&halved(6, |h| 0.5 * h * h + 0.01 * h), "2", "L2: fail"),
+        (
+            &[0.01, 0.0025, 0.000625, 0.00015625, 3.9e-5, 4.3e-5],
+            "2",
+            "fall with rate 2.00 down to 3.900e-5, then stop",
+        ),
+        (
+            &[0.01, 0.0025, 0.000625, 0.0],
+            "2",
+            "zero on the finest level only. Is that level its own reference?",
+        ),
+        (
+            &[0.01, 0.0025, 6.25e-7, 1.5625e-7],
+            "2",
+            "inconclusive … a rate does not belong to its neighbours",
+        ),
+        // Rates that approach the order slowly.
+        (
+            &halved(4, |h| h * h * (1.0 + 2.0 * h)),
+            "2",
+            "inconclusive … they scatter, or approach it slowly",
+        ),
+        // A least order.
+        (&second, ">=3", "claimed at least 3 ± 0.05: too low"),
+    ] {
+        let table = table("L2", 0.1, errors);
+        told(&root, &table, &format!("--order {order} --tolerance 0.05")).says(1, words);
+    }
+    let tiny = [4.03e-12, 1.0366e-12, 2.8991e-13, 1.0087e-13, 4.8334e-14];
+    told(&root, &table("L2", 0.1, &tiny), "--order 2 --floor 1e-10")
+        .says(1, "_ set aside … round-off floor");
     // A least order, for all columns and for one; other notations are refused.
     for (order, status, words) in [
-        (">=1", Some(0), "claimed at least 1 ± 0.05: at least 0.95"),
-        ("L2=>=1.5", Some(0), "L2: pass"),
-        (">=3", Some(1), "claimed at least 3 ± 0.05: too low"),
+        (">=1", 0, "claimed at least 1 ± 0.05: at least 0.95"),
+        ("L2=>=1.5", 0, "L2: pass"),
         (
             "L2=>1",
-            Some(2),
+            2,
             "expected a number > 0, '>=P' with such a number P, or NAME= before one of them",
         ),
     ] {
-        let (found, told) = told(
-            &root,
-            &table("L2", 0.1, &second),
-            &["--order", order, "--tolerance", "0.05"],
-        );
-        assert!(found == status && told.contains(words), "{order}: {told}");
+        let table = table("L2", 0.1, &second);
+        told(&root, &table, &format!("--order {order} --tolerance 0.05")).says(status, words);
     }
-    // Rates that approach the order slowly.
-    let slow = halved(4, &|h| h * h * (1.0 + 2.0 * h));
-    says(
-        "L2",
-        &slow,
-        "2",
-        &["inconclusive", "they scatter, or approach it slowly"],
-    );
     // An error that grows next to one that falls, or in the only column.
-    let (status, told) = told(
-        &root,
-        "h,L2_u,p\n0.4,1.60e-1,1.00e-1\n0.2,4.00e-2,2.00e-1\n0.1,1.00e-2,4.00e-1\n",
-        &["--order", "2"],
-    );
-    assert!(
-        status == Some(1) && told.contains("p: fail: -1.0") && told.contains("L2_u: pass"),
-        "{told}"
-    );
+    let both = "h,L2_u,p\n0.4,1.60e-1,1.00e-1\n0.2,4.00e-2,2.00e-1\n0.1,1.00e-2,4.00e-1\n";
+    let ran = told(&root, both, "--order 2");
+    ran.says(1, "p: fail: -1.0");
+    ran.says(1, "L2_u: pass");
 }
 
 #[test]
 fn values_and_rounded_numbers_are_told_from_errors() {
     let root = workspace(false);
     let drag = "h, drag\n0.1, 5.577\n0.05, 5.5718\n0.025, 5.5704\n";
-    let (status, text) = told(&root, drag, &["--order", "2"]);
-    assert!(
-        status == Some(1) && text.contains("If `drag` is a value and no error: --values 'drag'."),
-        "{text}"
+    told(&root, drag, "--order 2").says(1, "If `drag` is a value and no error: --values 'drag'.");
+    let rows = |first: f64, row: fn(f64) -> String| -> String {
+        let steps = (0..6).map(|k| first / f64::powi(2.0, k));
+        steps.map(|h| format!("{h} {}\n", row(h))).collect()
+    };
+    let values = rows(0.1, |h| {
+        format!("{:.9}", 5.5699 + 0.45 * h * h + 0.1 * h.powi(3))
+    });
+    let ran = told(
+        &root,
+        &format!("h drag\n{values}"),
+        "--order 2 --values drag",
     );
-    let value = |h: f64| 5.5699 + 0.45 * h * h + 0.1 * h.powi(3);
-    let rows: String = [0.1, 0.05, 0.025, 0.0125]
-        .map(|h| format!("{h},{:.9}\n", value(h)))
-        .concat();
-    let options = ["--order", "2", "--values", "drag"];
-    let (status, text) = told(&root, &format!("h,drag\n{rows}"), &options);
-    assert!(
-        status == Some(0) && text.contains("limit 5.569") && text.contains("GCI ± "),
-        "{text}"
-    );
+    ran.says(0, "limit 5.569");
+    ran.says(0, "GCI ± ");
     // Six decimals of errors of second order.
-    let rows: String = (0..6)
-        .map(|k| 0.25 / f64::powi(2.0, k))
-        .map(|h| format!("{h} {:.6}\n", 0.11 * h * h))
-        .collect();
-    let (status, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
-    assert!(
-        status == Some(1) && text.contains("inconclusive") && text.contains("1 digit: print more"),
-        "{text}"
-    );
+    let decimals = rows(0.25, |h| format!("{:.6}", 0.11 * h * h));
+    let ran = told(&root, &format!("h L2\n{decimals}"), "--order 2");
+    ran.says(1, "inconclusive");
+    ran.says(1, "1 digit: print more");
     // The same rounded to three digits passes, with a wider interval.
-    let rows: String = (0..6)
-        .map(|k| 0.25 / f64::powi(2.0, k))
-        .map(|h| format!("{h} {:.2e}\n", 0.11 * h * h))
-        .collect();
-    let (status, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
-    assert!(
-        status == Some(0) && !text.contains("±  0.0000005"),
-        "{text}"
-    );
+    let digits = rows(0.25, |h| format!("{:.2e}", 0.11 * h * h));
+    told(&root, &format!("h L2\n{digits}"), "--order 2").says_not(0, "± 0.0000005");
     // Digits that decide, and digits that do not.
     for (rows, status, words) in [
         ("0.4 0.16\n0.2 0.04\n0.1 0.01\n", 1, "1 digit: print more"),
@@ -360,8 +277,7 @@ fn values_and_rounded_numbers_are_told_from_errors() {
             "inconclusive",
         ),
     ] {
-        let (found, text) = told(&root, &format!("h L2\n{rows}"), &["--order", "2"]);
-        assert!(found == Some(status) && text.contains(words), "{text}");
+        told(&root, &format!("h L2\n{rows}"), "--order 2").says(status, words);
     }
 }
 
@@ -370,19 +286,19 @@ fn a_column_has_one_interval_whatever_is_claimed() {
     let root = workspace(false);
     let rounded = "h e\n0.1 0.0102\n0.05 0.00508\n0.025 0.00253\n0.0125 0.00126\n";
     for order in [
-        &["--order", "1"][..],
-        &["--order", "0.5"],
-        &["--order", "1.3"],
-        &["--order", ">=0.8"],
-        &[],
+        "--order 1",
+        "--order 0.5",
+        "--order 1.3",
+        "--order >=0.8",
+        "",
     ] {
-        let (_, text) = told(&root, rounded, order);
+        let text = told(&root, rounded, order).stdout;
         assert!(text.contains("1.006 (0.997 to 1.015)"), "{order:?}: {text}");
     }
     // The digits of the steps count with the finest rate: 0.1, 0.033, 0.011 are no regular ratios.
     let steps = "h e\n0.1 1.0000e-1\n0.033 1.0890e-2\n0.011 1.2100e-3\n0.0037 1.3690e-4\n";
     let interval = |order: &str| {
-        let (_, text) = told(&root, steps, &["--order", order]);
+        let text = told(&root, steps, &format!("--order {order}")).stdout;
         text.split_once("e: ")
             .and_then(|(_, rest)| rest.split_once(", claimed"))
             .map(|(rate, _)| rate.split_once(": ").expect("a verdict").1.to_owned())
@@ -399,14 +315,10 @@ fn a_column_has_one_interval_whatever_is_claimed() {
 fn words_name_what_is_there() {
     let root = workspace(false);
     let slow = "h,e\n0.2,0.800000\n0.1,0.459479\n0.05,0.263902\n0.025,0.151572\n";
-    let (status, text) = told(&root, slow, &["--order", ">=1"]);
-    assert!(
-        status == Some(0) && text.contains("claimed at least 1 ± 0.25: at least 0.75"),
-        "{text}"
-    );
+    told(&root, slow, "--order >=1").says(0, "claimed at least 1 ± 0.25: at least 0.75");
     // Errors that are halved have the rate 1 and the factor 2.
     let order = "h,err,order\n0.1,0.1,\n0.05,0.05,2.00\n0.025,0.025,2.00\n0.0125,0.0125,2.00\n";
-    let (_, text) = told(&root, order, &["--order", "1"]);
+    let text = told(&root, order, "--order 1").stdout;
     assert!(
         text.contains("left out: `order` (the factors of `err`)"),
         "{text}"
@@ -415,14 +327,14 @@ fn words_name_what_is_there() {
     let odd_even: Vec<f64> = (0..6)
         .map(|k| 0.01 / f64::powi(4.0, k) * if k % 2 == 0 { 0.7 } else { 1.3 })
         .collect();
-    let (_, text) = told(&root, &table("e", 0.1, &odd_even), &["--order", "2"]);
+    let text = told(&root, &table("e", 0.1, &odd_even), "--order 2").stdout;
     assert!(
         text.contains("inconclusive") && !text.contains("to zero"),
         "{text}"
     );
     // Causes with names.
     let turns = "h,e\n0.1,0.0142\n0.05,5.25e-4\n0.025,2.4688e-4\n0.0125,1.0898e-4\n";
-    let (_, text) = told(&root, turns, &["--order", "2"]);
+    let text = told(&root, turns, "--order 2").stdout;
     assert!(
         text.contains("The error may change its sign between levels"),
         "{text}"
@@ -430,11 +342,12 @@ fn words_name_what_is_there() {
     let logarithm: Vec<f64> = (3..10)
         .map(|k| f64::powi(4.0, -k) * f64::from(k) * std::f64::consts::LN_2)
         .collect();
-    let (_, text) = told(
+    let text = told(
         &root,
         &table("e", 0.125, &logarithm),
-        &["--order", "2", "--tolerance", "0.05"],
-    );
+        "--order 2 --tolerance 0.05",
+    )
+    .stdout;
     assert!(
         text.contains("inconclusive") && text.contains("A logarithm may be at work"),
         "{text}"
@@ -449,7 +362,12 @@ fn no_error_is_too_small_or_too_large() {
             .map(|error| unit * error)
             .into();
         for (order, words) in [("2", "pass: 2.000"), ("1", "fail: 2.000")] {
-            let (_, text) = told(&root, &table("e", 0.1, &errors), &["--order", order]);
+            let text = told(
+                &root,
+                &table("e", 0.1, &errors),
+                &format!("--order {order}"),
+            )
+            .stdout;
             assert!(text.contains(words), "{unit}: {text}");
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{command, run, study, texts, workspace};
+use super::{command, run, run_words, study, texts, workspace};
 
 /// No control characters except line ends, and no line that GitHub Actions would obey.
 #[track_caller]
@@ -20,13 +20,13 @@ fn is_harmless(text: &str) {
 #[test]
 fn annotations_are_commands_and_nothing_else_is() {
     let root = workspace(false);
-    assert_eq!(run(&root, &["verify", "--bless"]).0, Some(0));
+    run(&root, "verify --bless").says(0, "");
     for (id, claim, exponent) in [("one", "c", 1.01), ("two", "::error title=forged::x", 0.5)] {
         let path = root.path().join(format!("studies/{id}.toml"));
         fs::write(path, study(id, claim, exponent)).unwrap();
     }
     let mut command = command(root.path(), &["verify"]);
-    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true"));
+    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true")).parts();
     assert_eq!(status, Some(1));
     let commands: Vec<&str> = out
         .lines()
@@ -47,10 +47,10 @@ fn annotations_are_commands_and_nothing_else_is() {
         commands.len() == 10 && commands[9].starts_with("::error title=and more::6 more: "),
         "{commands:?}"
     );
-    let (_, out, _) = run(&root, &["study", "studies/two.toml"]);
+    let (_, out, _) = run(&root, "study studies/two.toml").parts();
     assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
     is_harmless(&out);
-    is_harmless(&run(&root, &["list"]).1);
+    is_harmless(&run(&root, "list").stdout);
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
         (&"a".repeat(5000), "c", "study.id: found the text"),
     ] {
         fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
-        let (status, out, err) = run(&root, &["study", "a.toml"]);
+        let (status, out, err) = run(&root, "study a.toml").parts();
         assert!(
             status == Some(2) && out.is_empty() && err.contains(words),
             "{err}"
@@ -78,7 +78,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
     }
     // Written raw, TOML itself refuses them.
     fs::write(root.path().join("a.toml"), study("a", "c\x1b[31m", 1.0)).unwrap();
-    let (status, _, err) = run(&root, &["study", "a.toml"]);
+    let (status, _, err) = run(&root, "study a.toml").parts();
     assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
     is_harmless(&err);
 }
@@ -91,7 +91,7 @@ fn names_of_columns_and_files_are_no_commands() {
     let write = |name: &str, text: String| fs::write(root.path().join(name), text).unwrap();
     for name in ["a\x1b", "a\u{9b}b", "\x07"] {
         write("table.csv", table(name));
-        let (status, out, err) = run(&root, &["rates", "table.csv", "--order", "1"]);
+        let (status, out, err) = run(&root, "rates table.csv --order 1").parts();
         assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
         assert!(
             err.contains("table.csv:1:1: expected a name without control characters, found `"),
@@ -100,19 +100,14 @@ fn names_of_columns_and_files_are_no_commands() {
         is_harmless(&err);
     }
     write("table.csv", table("::error title=x::forged"));
-    let (status, out, _) = run(&root, &["rates", "table.csv", "--order", "1"]);
+    let (status, out, _) = run(&root, "rates table.csv --order 1").parts();
     assert_eq!(status, Some(0), "{out}");
     is_harmless(&out);
     let file = "a\n::error::x\x1b[31m.csv";
     write(file, "h\n".to_owned());
-    for arguments in [
-        &["rates", file][..],
-        &["study", file],
-        &["verify", file],
-        &["list", file],
-    ] {
-        let (status, out, err) = run(&root, arguments);
-        assert_eq!(status, Some(2), "{arguments:?}");
+    for name in ["rates", "study", "verify", "list"] {
+        let (status, out, err) = run_words(&root, &[name, file]).parts();
+        assert_eq!(status, Some(2), "{name}");
         is_harmless(&out);
         is_harmless(&err);
     }

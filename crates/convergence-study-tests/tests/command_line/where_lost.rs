@@ -7,7 +7,7 @@ use std::process::Command;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::run;
+use super::{run, run_words};
 
 /// Equations with a solution that has data at both faces.
 pub(super) const ROD: &str = r#"
@@ -64,8 +64,8 @@ fn project(program: &str, hidden_in: &[&str]) -> TempDir {
 }
 
 /// What `study --where` prints.
-fn located(program: &str, hidden_in: &[&str]) -> (Option<i32>, String, String) {
-    run(
+fn located(program: &str, hidden_in: &[&str]) -> convergence_study_tests::Ended {
+    run_words(
         &project(program, hidden_in),
         &["study", "study.toml", "--where"],
     )
@@ -77,7 +77,7 @@ fn the_face_whose_flat_variant_has_its_order_back_is_named() {
         return;
     }
     let hidden_in = ["flat_x_max", "flat_x", "flat_everywhere", "constant_x"];
-    let (status, out, err) = located(PROGRAM, &hidden_in);
+    let (status, out, err) = located(PROGRAM, &hidden_in).parts();
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
     let conclusion = "the order is lost at the face x_max: it comes back where the solution is flat there \
                       (2.00 ± 0.00), and not where it is flat at any other face; look at the condition flux at x_max";
@@ -87,7 +87,7 @@ fn the_face_whose_flat_variant_has_its_order_back_is_named() {
     assert!(block.lines().count() <= 15, "{block}");
     let root = project(PROGRAM, &hidden_in);
     let words = ["study", "study.toml", "--where", "--format", "json"];
-    let record: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let record: Value = serde_json::from_str(&run_words(&root, &words).stdout).unwrap();
     let place = &record["studies"][0]["where"];
     assert_eq!(place["named"], json!([{"part": "face", "name": "x_max"}]));
     let variants = place["variants"].as_array().unwrap();
@@ -106,7 +106,7 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
     }
     let root = project(PROGRAM, &["flat_x_max", "flat_x", "flat_everywhere"]);
     let words = ["study", "study.toml", "--where", "--out", "report"];
-    let (status, _, err) = run(&root, &words);
+    let (status, _, err) = run_words(&root, &words).parts();
     assert_eq!((status, err.as_str()), (Some(1), ""));
     let report = root.path().join("report");
     let figure = fs::read_to_string(report.join("figures/rod-where.svg")).unwrap();
@@ -126,7 +126,7 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
         "{page}"
     );
     // Without --where there is neither.
-    run(&root, &["study", "study.toml", "--out", "other"]);
+    run(&root, "study study.toml --out other");
     let page = fs::read_to_string(root.path().join("other/README.md")).unwrap();
     assert!(!page.contains("where.svg"), "{page}");
 }
@@ -144,7 +144,7 @@ fn a_variant_that_is_left_out_has_its_reason_in_json() {
     assert_ne!(fixed, ROD);
     fs::write(root.path().join("rod.toml"), fixed).unwrap();
     let words = ["study", "study.toml", "--where", "--format", "json"];
-    let record: Value = serde_json::from_str(&run(&root, &words).1).unwrap();
+    let record: Value = serde_json::from_str(&run_words(&root, &words).stdout).unwrap();
     let variants = record["studies"][0]["where"]["variants"]
         .as_array()
         .unwrap();
@@ -185,9 +185,7 @@ fn other_parts_are_named_by_their_variants_and_none_without_one() {
         ),
         (["-", "-"], "the order is lost in every variant: everywhere"),
     ] {
-        let (status, out, _) = located(PROGRAM, &hidden_in);
-        assert_eq!(status, Some(1), "{out}");
-        assert!(out.contains(words), "{words}: {out}");
+        located(PROGRAM, &hidden_in).says(1, words);
     }
 }
 
@@ -206,7 +204,7 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
     );
     fs::write(root.path().join("run.sh"), logged).unwrap();
     let words = ["study", "study.toml", "--where", "--out", "report"];
-    let (status, out, err) = run(&root, &words);
+    let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
     for part in [
         "does not notice",
@@ -231,7 +229,7 @@ fn a_variant_that_does_not_run_is_refused_with_its_last_words() {
     let failing = format!(
         "if [ \"$MANUFACTURE_VARIANT\" = flat_everywhere ]; then echo 'unknown variant' >&2; exit 3; fi\n{PROGRAM}"
     );
-    let (status, out, err) = located(&failing, &[]);
+    let (status, out, err) = located(&failing, &[]).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
     for part in [
         "the variant flat_everywhere does not run",
@@ -248,7 +246,7 @@ fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
     let without = study.replace("manufacture = \"rod.toml\"\n", "");
     fs::write(root.path().join("study.toml"), without).unwrap();
     for command in ["study", "verify"] {
-        let (status, out, err) = run(&root, &[command, "study.toml", "--where"]);
+        let (status, out, err) = run_words(&root, &[command, "study.toml", "--where"]).parts();
         assert_eq!((status, out.as_str()), (Some(2), ""));
         assert!(
             err.contains("rod: --where: found no `manufacture` in [program]"),
@@ -260,12 +258,9 @@ fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
         study.replace("rod.toml", "rood.toml"),
     )
     .unwrap();
-    let (status, _, err) = run(&root, &["study", "study.toml"]);
-    assert_eq!(status, Some(2));
-    assert!(
-        err.contains("program.manufacture") && err.contains("is no file"),
-        "{err}"
-    );
+    let ran = run(&root, "study study.toml");
+    ran.complains(2, "program.manufacture");
+    ran.complains(2, "is no file");
 }
 
 #[test]
@@ -274,7 +269,7 @@ fn a_study_that_passes_has_no_place() {
         return;
     }
     let right = PROGRAM.replace("part=0.3", "part=0");
-    let (status, out, err) = located(&right, &[]);
+    let (status, out, err) = located(&right, &[]).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     assert!(!out.contains("flat_x"), "{out}");
 }
@@ -296,7 +291,7 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     .unwrap();
     fs::write(root.path().join("solver.c"), include_str!("rod_solver.c")).unwrap();
     let words = ["manufacture", "rod.toml", "--variants", "--language", "c"];
-    let (status, out, err) = run(&root, &words);
+    let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     let build = "cc -std=c99 -Wall -Wextra -Werror -O2 -o solver solver.c rod.c -lm";
     let mut words = build.split(' ');
@@ -324,12 +319,12 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
         ),
     ] {
         fs::write(root.path().join("study.toml"), study(mistake)).unwrap();
-        let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+        let (status, out, err) = run(&root, "study study.toml --where").parts();
         assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
         assert!(out.contains(words), "{mistake}: {out}");
     }
     fs::write(root.path().join("study.toml"), study("-")).unwrap();
-    let (status, out, err) = run(&root, &["study", "study.toml", "--where"]);
+    let (status, out, err) = run(&root, "study study.toml --where").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }
 
@@ -357,9 +352,9 @@ fn the_page_can_be_followed() {
         "--language",
         "python",
     ];
-    let (status, out, err) = run(&root, &words);
+    let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    let (status, out, err) = run(&root, &["study", "rod-study.toml", "--where"]);
+    let (status, out, err) = run(&root, "study rod-study.toml --where").parts();
     assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
     assert!(out.contains(block("```text\n", 0)), "{out}");
     let [first, second, flux] = block("```python\n", 1).lines().collect::<Vec<_>>()[..] else {
@@ -373,6 +368,6 @@ fn the_page_can_be_followed() {
         );
     assert!(mended.contains(flux) && mended.contains(second), "{mended}");
     write("rod_solver.py", &mended);
-    let (status, out, err) = run(&root, &["study", "rod-study.toml", "--where"]);
+    let (status, out, err) = run(&root, "study rod-study.toml --where").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }

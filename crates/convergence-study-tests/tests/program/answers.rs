@@ -27,24 +27,18 @@ fn lines_with_the_names_of_the_study_are_an_answer() {
                  printf \" n = %d  max error =   %.8E\\n middle: %.12f\\n\", n, 1 / n^2, 2 + 1 / n^2;\n\
                  print \"done in 3 s\" }\n";
     let value = "[[expect]]\nvalue = \"middle\"\norder = 2.0\n";
-    let (status, out, err) = study(lines, "", &format!("{MAX}{value}")).study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains(
-            "max error 2.0000 (order 2); value middle 2.0000 (order 2); middle tends to 2.0000"
-        ),
-        "{out}"
+    study(lines, "", &format!("{MAX}{value}")).study("").says(
+        0,
+        "max error 2.0000 (order 2); value middle 2.0000 (order 2); middle tends to 2.0000",
     );
     // The step that it prints is its step.
     let own = lines.replace(
         "print \"done",
         "printf \"h = %.15f\\n\", 1 / n^2; print \"done",
     );
-    let (status, out, _) = study(&own, "", &format!("{MAX}{value}")).study(&[]);
-    assert!(
-        status == Some(1) && out.contains("2 of 2 rates too low: 1.0000"),
-        "{out}"
-    );
+    study(&own, "", &format!("{MAX}{value}"))
+        .study("")
+        .says(1, "2 of 2 rates too low: 1.0000");
 }
 
 #[test]
@@ -82,7 +76,9 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
             "h is 0.0; expected a finite number > 0",
         ),
     ] {
-        let (_, out, _) = study(&format!("BEGIN {{ {line} }}\n"), "", MAX).study(&[]);
+        let (_, out, _) = study(&format!("BEGIN {{ {line} }}\n"), "", MAX)
+            .study("")
+            .parts();
         assert!(out.contains(&words.replace("\\\"", "\"")), "{line}: {out}");
     }
     for line in [
@@ -93,24 +89,18 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
         "print \"{\\\"errors\\\": {\\\"max error\\\": \" 1 / n^2 \"}}\"; if (n == 64) print \"{\\\"status\\\": \\\"failed\\\"}\"",
         "print \"{\\\"errors\\\": {\\\"max error\\\": \" 1 / n^2 \"}\" (n < 64 ? \"}\" : \", \\\"failed\\\": true}\")",
     ] {
-        let (status, out, _) = study(&format!("BEGIN {{ {line} }}\n"), "", MAX).study(&[]);
-        assert!(
-            status == Some(1) && out.contains("4 of 5 cases completed; n = 64: awk: "),
-            "{line}: {out}"
-        );
+        study(&format!("BEGIN {{ {line} }}\n"), "", MAX)
+            .study("")
+            .says(1, "4 of 5 cases completed; n = 64: awk: ");
     }
     let steps = "BEGIN { for (k = 1; k < 4; k++) print \"{\\\"errors\\\": {\\\"max error\\\": \" k / n^2 \"}}\" }\n";
-    let (status, out, _) = study(steps, "", MAX).study(&[]);
-    assert!(
-        status == Some(0) && out.contains("each level printed 3 answers, of which the last counts"),
-        "{out}"
-    );
+    study(steps, "", MAX)
+        .study("")
+        .says(0, "each level printed 3 answers, of which the last counts");
     let two = format!("{MAX}[[expect]]\nerror = \"L2\"\norder = 2.0\n");
-    let (status, out, _) = study("BEGIN { print \"L2 = \" 1 / n^2 }\n", "", &two).study(&[]);
-    assert!(
-        status == Some(1) && out.contains("its answer has no error `max error`; it has L2"),
-        "{out}"
-    );
+    study("BEGIN { print \"L2 = \" 1 / n^2 }\n", "", &two)
+        .study("")
+        .says(1, "its answer has no error `max error`; it has L2");
 }
 
 #[test]
@@ -120,11 +110,10 @@ fn a_program_has_the_variables_of_its_study() {
     }
     let program = "BEGIN { print \"max error = \" ENVIRON[\"SCALE\"] / n^ENVIRON[\"ORDER\"] }\n";
     let env = "env = { SCALE = \"3\", ORDER = \"2\" }";
-    let (status, out, err) = study(program, env, MAX).study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains("4.688e-2"), "3/64: {out}");
-    let (status, out, _) = study(program, &env.replace("\"2\"", "\"1\""), MAX).study(&[]);
-    assert_eq!(status, Some(1), "{out}");
+    study(program, env, MAX).study("").says(0, "4.688e-2");
+    study(program, &env.replace("\"2\"", "\"1\""), MAX)
+        .study("")
+        .says(1, "");
     for (env, words) in [
         (
             "env = { SCALE = 3 }",
@@ -143,8 +132,7 @@ fn a_program_has_the_variables_of_its_study() {
             "unknown key `environment`; expected command, directory, env, manufacture, files, cache, time_limit, floor, scale",
         ),
     ] {
-        let (status, _, err) = study(program, env, MAX).study(&[]);
-        assert!(status == Some(2) && err.contains(words), "{err}");
+        study(program, env, MAX).study("").complains(2, words);
     }
 }
 
@@ -154,19 +142,15 @@ fn without_a_tolerance_it_is_that_of_rates() {
         return;
     }
     let program = "BEGIN { print \"max error = \" 1 / n^1.8 }\n";
-    let (status, out, err) = study(program, "", MAX).study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains("2 ± 0.25"), "{out}");
+    study(program, "", MAX).study("").says(0, "2 ± 0.25");
     let narrow = format!("{MAX}tolerance = 0.1\n");
-    assert_eq!(study(program, "", &narrow).study(&[]).0, Some(1));
-    let (status, _, err) = study(program, "", &format!("{MAX}tolerance = 0.5\n")).study(&[]);
-    assert!(
-        status == Some(2)
-            && err.contains(
-                "s.toml:14:13: expect[0].tolerance: found 0.5; expected a finite number > 0 and < 0.5"
-            ),
-        "{err}"
-    );
+    study(program, "", &narrow).study("").says(1, "");
+    study(program, "", &format!("{MAX}tolerance = 0.5\n"))
+        .study("")
+        .complains(
+            2,
+            "s.toml:14:13: expect[0].tolerance: found 0.5; expected a finite number > 0 and < 0.5",
+        );
 }
 
 #[test]
@@ -175,13 +159,9 @@ fn a_reason_that_all_cases_share_is_there_once() {
         return;
     }
     let place = study("BEGIN { exit 3 }\n", "", MAX);
-    let (status, out, _) = place.study(&[]);
-    assert_eq!(status, Some(1));
-    assert!(
-        out.contains(
-            "case                    reason\nall 5 without a result  awk ended with exit status 3\n"
-        ),
-        "{out}"
+    place.study("").says(
+        1,
+        "case                    reason\nall 5 without a result  awk ended with exit status 3\n",
     );
 }
 
@@ -192,17 +172,9 @@ fn a_floor_of_a_study_drops_levels_of_round_off_and_is_offered() {
     }
     let program = "BEGIN { printf \"max error = %.8e\\n\", 1 / n^8 + 1e-14 }\n";
     let expect = MAX.replace("2.0", "8.0");
-    let judged = |more: &str| study(program, more, &expect).study(&[]);
-    let (status, out, err) = judged("");
-    assert_eq!(status, Some(1), "{out}{err}");
-    assert!(
-        out.contains("round-off, if the solution is of size 1"),
-        "{out}"
-    );
-    let (status, out, err) = judged("floor = 2.2e-12");
-    assert_eq!(status, Some(0), "{out}{err}");
-    let (status, out, _) = judged("scale = 1e-6");
-    assert!(status == Some(1) && !out.contains("round-off, if"), "{out}");
-    let (status, _, err) = judged("floor = -1");
-    assert!(status == Some(2) && err.contains("floor"), "{err}");
+    let judged = |more: &str| study(program, more, &expect).study("");
+    judged("").says(1, "round-off, if the solution is of size 1");
+    judged("floor = 2.2e-12").says(0, "");
+    judged("scale = 1e-6").says_not(1, "round-off, if");
+    judged("floor = -1").complains(2, "floor");
 }

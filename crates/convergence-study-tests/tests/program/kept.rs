@@ -38,11 +38,6 @@ impl Place {
         self.folder.path().join("studies")
     }
 
-    fn verify(&self, arguments: &[&str]) -> (Option<i32>, String) {
-        let (status, out, err) = texts(&mut self.command(&[&["verify"], arguments].concat()));
-        (status, out + &err)
-    }
-
     /// The runs since the last call.
     fn runs(&self) -> Vec<String> {
         let file = self.studies().join("runs");
@@ -62,31 +57,26 @@ fn levels_are_taken_again_but_for_the_cheapest_and_never_blessed() {
         return;
     }
     let place = place("");
-    assert_eq!(place.verify(&["--bless"]).0, Some(0));
+    place.verify("--bless").says(0, "");
     assert_eq!(place.runs(), ALL);
-    let (status, text) = place.verify(&[]);
-    assert!(
-        status == Some(0) && text.starts_with("4 of 5 levels reused\n"),
-        "{text}"
-    );
+    place.verify("").begins(0, "4 of 5 levels reused\n");
     assert_eq!(place.runs(), ["4"]);
     // The reports are the same.
     let report = || fs::read(place.folder.path().join("reports/results.json")).unwrap();
     let reused = report();
-    let (status, text) = place.verify(&["--bless"]);
-    assert!(status == Some(0) && !text.contains("reused"), "{text}");
+    place.verify("--bless").says_not(0, "reused");
     assert_eq!(place.runs(), ALL);
     assert_eq!(reused, report());
     // A level that is new is run.
     let file = place.studies().join("s.toml");
     let study = fs::read_to_string(&file).unwrap();
     fs::write(&file, study.replace("64]", "64, 128]")).unwrap();
-    let (_, text) = place.verify(&[]);
+    let text = place.verify("").stdout;
     assert!(text.starts_with("4 of 6 levels reused\n"), "{text}");
     assert_eq!(place.runs(), ["4", "128"]);
     // The command `study` takes no answers.
     fs::copy(&file, place.studies().join("../s.toml")).unwrap();
-    let (_, out, _) = texts(&mut place.command(&["study", "studies/s.toml"]));
+    let out = texts(&mut place.command("study studies/s.toml")).stdout;
     assert!(!out.contains("reused"), "{out}");
     assert_eq!(place.runs().len(), 6);
 }
@@ -97,7 +87,7 @@ fn a_file_or_a_command_that_has_changed_runs_all_levels() {
         return;
     }
     let place = place("");
-    assert_eq!(place.verify(&["--bless"]).0, Some(0));
+    place.verify("--bless").says(0, "");
     place.runs();
     // Of a listed file, and of one that the command names.
     for (name, change) in [("factor", "1.0\n"), ("solver.sh", "# new\n")] {
@@ -109,17 +99,13 @@ fn a_file_or_a_command_that_has_changed_runs_all_levels() {
             change.to_owned() + &text
         };
         fs::write(path, text).unwrap();
-        let (status, text) = place.verify(&[]);
-        assert!(
-            status == Some(0) && !text.contains("reused"),
-            "{name}: {text}"
-        );
+        place.verify("").says_not(0, "reused");
         assert_eq!(place.runs(), ALL, "{name}");
     }
     let file = place.studies().join("s.toml");
     let study = fs::read_to_string(&file).unwrap();
     fs::write(&file, study.replace("\"{n}\"]", "\"{n}\", \"more\"]")).unwrap();
-    assert!(!place.verify(&[]).1.contains("reused"));
+    place.verify("").says_not(1, "reused");
     assert_eq!(place.runs(), ALL);
 }
 
@@ -130,26 +116,18 @@ fn a_change_that_no_file_shows_is_seen_at_the_cheapest_level() {
         return;
     }
     let place = place_of_unlisted("");
-    assert_eq!(place.verify(&["--bless"]).0, Some(0));
+    place.verify("--bless").says(0, "");
     fs::write(place.studies().join("factor"), "1.001\n").unwrap();
     // As often as it is run.
     for _ in 0..2 {
-        let (status, text) = place.verify(&[]);
-        assert_eq!(status, Some(1), "{text}");
-        assert!(
-            text.starts_with("4 of 5 levels reused\nfail")
-                && text
-                    .contains("L2 was 6.250e-2, is 6.256e-2: what changed is not in program.files"),
-            "{text}"
-        );
+        let ran = place.verify("");
+        ran.begins(1, "4 of 5 levels reused\nfail");
+        let moved = "L2 was 6.250e-2, is 6.256e-2: what changed is not in program.files";
+        ran.says(1, moved);
     }
     // A blessing runs all, and the answers are of this version again.
-    assert_eq!(place.verify(&["--bless"]).0, Some(0));
-    let (status, text) = place.verify(&[]);
-    assert!(
-        status == Some(0) && text.starts_with("4 of 5 levels reused\n"),
-        "{text}"
-    );
+    place.verify("--bless").says(0, "");
+    place.verify("").begins(0, "4 of 5 levels reused\n");
 }
 
 #[test]
@@ -158,7 +136,7 @@ fn without_the_answer_of_the_cheapest_level_all_are_run() {
         return;
     }
     let place = place("");
-    assert_eq!(place.verify(&["--bless"]).0, Some(0));
+    place.verify("--bless").says(0, "");
     place.runs();
     let answers = place.folder.path().join("reports/local/answers/s");
     for entry in fs::read_dir(&answers).unwrap() {
@@ -168,8 +146,7 @@ fn without_the_answer_of_the_cheapest_level_all_are_run() {
             fs::write(&path, "{").unwrap();
         }
     }
-    let (status, text) = place.verify(&["--jobs", "1"]);
-    assert!(status == Some(0) && !text.contains("reused"), "{text}");
+    place.verify("--jobs 1").says_not(0, "reused");
     assert_eq!(place.runs(), ALL);
 }
 
@@ -180,13 +157,9 @@ fn the_cheapest_level_may_scatter_by_the_guard() {
         return;
     }
     let place = place_of_unlisted("guard = 1e-4");
-    assert_eq!(place.verify(&["--bless"]).0, Some(0));
+    place.verify("--bless").says(0, "");
     fs::write(place.studies().join("factor"), "1.00001\n").unwrap();
-    let (status, text) = place.verify(&[]);
-    assert!(
-        status == Some(0) && text.starts_with("4 of 5 levels reused\n"),
-        "{text}"
-    );
+    place.verify("").begins(0, "4 of 5 levels reused\n");
     fs::write(place.studies().join("factor"), "1.0003\n").unwrap();
-    assert_eq!(place.verify(&[]).0, Some(1));
+    place.verify("").says(1, "");
 }

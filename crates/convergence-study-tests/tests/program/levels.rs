@@ -14,7 +14,7 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
         "[16, 32, 64, 128, 256]",
     ] {
         place.write_text(&text.replace("[4, 8, 16, 32, 64]", levels));
-        let (status, out, err) = place.study(&[]);
+        let (status, out, err) = place.study("").parts();
         assert_eq!(status, Some(1), "{out}{err}");
         let found = out
             .lines()
@@ -42,19 +42,19 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     }
     // Two of three levels have a result: no interval, but the rate between them.
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8, 16]"));
-    let (status, out, _) = place.study(&["--quiet"]);
+    let (status, out, _) = place.study("--quiet").parts();
     let message = "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: 1 of 3 levels has no result: n = 16";
     assert!(status == Some(1) && out.contains(message), "{out}");
     // A value, judged by differences.
     place.write_text(&text.replace("error = \"L2\"", "value = \"flux\""));
-    let (status, out, _) = place.study(&["--out", "report"]);
+    let (status, out, _) = place.study("--out report").parts();
     assert!(
         status == Some(1)
             && out.contains(", claimed 2 ± 0.05: 1 of 5 levels has no result: n = 16"),
         "{out}"
     );
     place.write_text(&text);
-    assert_eq!(place.study(&["--out", "report"]).0, Some(1));
+    place.study("--out report").says(1, "");
     let drawn =
         fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
     assert!(
@@ -66,29 +66,19 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
         .replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true")
         .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
     place.write_text(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
-    let (status, out, _) = place.study(&[]);
-    assert!(
-        status == Some(1)
-            && out.contains("L2 in h: no rate, claimed 2 ± 0.05: 3 of 15 levels have no result: h = 0.0625, dt = 0.1"),
-        "{out}"
+    place.study("").says(
+        1,
+        "L2 in h: no rate, claimed 2 ± 0.05: 3 of 15 levels have no result: h = 0.0625, dt = 0.1",
     );
 }
 
 #[test]
 fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over() {
     let place = Place::new("cells", "");
-    let (status, out, err) = place.study(&[]);
-    assert!(
-        status == Some(0) && out.contains("2.0000 ± 0.00005"),
-        "{out}{err}"
-    );
+    place.study("").says(0, "2.0000 ± 0.00005");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&text.replace("order = 2.0", "order = 1.0"));
-    let (status, out, _) = place.study(&[]);
-    assert!(
-        status == Some(1) && out.contains("too high"),
-        "the error is 1/n: over 1/n its order would be 1\n{out}"
-    );
+    place.study("").says(1, "too high");
 }
 
 #[test]
@@ -98,7 +88,7 @@ fn other_claims_than_an_order_are_judged() {
     let study = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
         place.write_text(&text.replace(from, to));
-        place.study(&[])
+        place.study("")
     };
     for (claim, status, says) in [
         ("order = \">= 1\"", 0, "pass"),
@@ -111,19 +101,12 @@ fn other_claims_than_an_order_are_judged() {
             "the constant is outside its interval (1.0000 to 1.0000, claimed 1.1 to 2)",
         ),
     ] {
-        let (found, out, err) = study("order = 2.0", claim);
-        assert!(
-            found == Some(status) && out.contains(says),
-            "{claim}\n{out}{err}"
-        );
+        study("order = 2.0", claim).says(status, says);
     }
     // The finest error is 2.4e-4, the coarsest 6.25e-2.
     for (bound, status) in [("0.07", 0), ("0.06", 1)] {
-        let (found, out, err) = study("order = 2.0\ntolerance = 0.05", &format!("exact = {bound}"));
-        assert!(
-            found == Some(status) && out.contains("largest 6.250e-2"),
-            "{bound}\n{out}{err}"
-        );
+        study("order = 2.0\ntolerance = 0.05", &format!("exact = {bound}"))
+            .says(status, "largest 6.250e-2");
     }
     for (claim, says) in [
         ("order = \"> 2\"", ">= 2"),
@@ -134,28 +117,21 @@ fn other_claims_than_an_order_are_judged() {
         ("factor = 2\nconstant = [1.0, 2.0]", "beside order"),
         ("exact = 1e-3", "exact alone"),
     ] {
-        let (found, out, err) = study("order = 2.0", claim);
-        assert!(
-            found == Some(2) && err.contains(says) && err.contains("s.toml:"),
-            "{claim}\n{out}{err}"
-        );
+        let ran = study("order = 2.0", claim);
+        ran.complains(2, says);
+        ran.complains(2, "s.toml:");
     }
-    let (found, _, err) = study(
+    let ran = study(
         "order = 2.0\ntolerance = 0.05",
         "exact = 0.07\nconstant = [1.0, 2.0]",
     );
-    assert!(
-        found == Some(2) && err.contains("constant beside exact") && err.contains("s.toml:"),
-        "{err}"
-    );
-    let (found, _, err) = study(
+    ran.complains(2, "constant beside exact");
+    ran.complains(2, "s.toml:");
+    study(
         "order = 2.0",
         "factor = 5\ntolerance = 0.1\n[[expect]]\nerror = \"H1\"\norder = 1.0",
-    );
-    assert!(
-        found == Some(2) && err.contains("one of the two in all of a study"),
-        "{err}"
-    );
+    )
+    .complains(2, "one of the two in all of a study");
 }
 
 #[test]
@@ -170,18 +146,14 @@ fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
         ("factor = \">= 3\"", 0, "pass"),
     ] {
         place.write_text(&text.replace("order = 2.0", claim));
-        let (found, out, err) = place.study(&[]);
-        assert!(
-            found == Some(status) && out.contains(says),
-            "{claim}\n{out}{err}"
-        );
+        place.study("").says(status, says);
     }
 }
 
 #[test]
 fn a_name_that_an_answer_has_twice_is_refused() {
     let place = Place::new("twice", "");
-    let (status, out, err) = place.study(&[]);
+    let (status, out, err) = place.study("").parts();
     assert!(
         status == Some(1) && (out.clone() + &err).contains("`L2` occurs twice"),
         "{out}{err}"
@@ -193,7 +165,7 @@ fn what_is_finite_beside_a_nan_is_kept() {
     let place = Place::new("half", "");
     let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
     place.write_text(&(text + "[[expect]]\nerror = \"H1\"\norder = 1.0\ntolerance = 0.05\n"));
-    let (status, out, err) = place.study(&[]);
+    let (status, out, err) = place.study("").parts();
     assert_eq!(status, Some(1), "{out}{err}");
     assert!(
         out.contains("4 of 5 cases completed; n = 16: ")
@@ -217,9 +189,8 @@ fn a_study_of_two_levels_has_the_rate_between_them() {
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
     let message =
         "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
-    let (status, out, _) = place.study(&["--quiet"]);
-    assert!(status == Some(1) && out.contains(message), "{out}");
-    let (status, out, _) = place.study(&[]);
+    place.study("--quiet").says(1, message);
+    let (status, out, _) = place.study("").parts();
     let rates = out
         .lines()
         .find(|line| line.starts_with("L2 ") && line.contains("2 ± 0.05"))
@@ -232,7 +203,7 @@ fn a_study_of_two_levels_has_the_rate_between_them() {
 
 #[test]
 fn steps_that_only_some_levels_answer_are_refused() {
-    let (status, out, err) = Place::new("own-step", "").study(&[]);
+    let (status, out, err) = Place::new("own-step", "").study("").parts();
     assert_eq!(status, Some(1), "{out}{err}");
     let message = "expected h in the answers of all levels or of none; found it in those of n = 16, not in those of n = 4; n = 8; n = 32; n = 64";
     assert!(out.contains(message) && !out.contains("Rates"), "{out}");
@@ -245,7 +216,7 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
     let second = "[[expect]]\nerror = \"L1\"\norder = 2.0\ntolerance = 0.05\n";
     let auto = text.replace("[4, 8, 16, 32, 64]", "\"auto\"") + second;
     place.write_text(&auto);
-    let (status, out, err) = place.study(&["--out", "report"]);
+    let (status, out, err) = place.study("--out report").parts();
     assert_eq!(status, Some(0), "{out}{err}");
     let summary = out
         .lines()
@@ -269,14 +240,14 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
     let listed = |levels: usize| {
         let counts: Vec<String> = (0..levels).map(|level| (8 << level).to_string()).collect();
         place.write_text(&auto.replace("\"auto\"", &format!("[{}]", counts.join(", "))));
-        place.study(&["--format", "json"])
+        place.study("--format json")
     };
-    assert_eq!((listed(levels).0, listed(levels - 1).0), (Some(0), Some(1)));
+    listed(levels).says(0, "");
+    listed(levels - 1).says(1, "");
     // A budget too small for another level, a claim that fails at two looks.
     place.write_text(&auto.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
-    let (status, out, _) = place.study(&["--quiet"]);
-    assert!(status == Some(1), "{out}");
-    let (_, out, _) = place.study(&[]);
+    place.study("--quiet").says(1, "");
+    let (_, out, _) = place.study("").parts();
     assert!(
         out.contains("undecided after 4 levels: the next would take about ")
             && out.contains("0.001 s"),
@@ -284,17 +255,11 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
     );
     let wrong = auto.replace("order = 2.0", "order = 1.0");
     place.write_text(&wrong);
-    let (status, out, _) = place.study(&[]);
-    assert!(
-        status == Some(1) && out.contains("decided after 5 levels"),
-        "{out}"
-    );
+    place.study("").says(1, "decided after 5 levels");
     place.write_text(&wrong.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
-    let (status, out, _) = place.study(&[]);
-    assert!(
-        status == Some(1) && out.contains("a failure at the last look only, after 4 levels: the"),
-        "{out}"
-    );
+    place
+        .study("")
+        .says(1, "a failure at the last look only, after 4 levels: the");
     for (written, message) in [
         (
             "\"auto\"\nbudget = 0",
@@ -318,10 +283,6 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         ),
     ] {
         place.write_text(&auto.replace("\"auto\"", written));
-        let (status, out, err) = place.study(&[]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(message),
-            "{err}"
-        );
+        place.study("").refuses(message);
     }
 }

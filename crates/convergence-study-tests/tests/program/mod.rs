@@ -61,10 +61,10 @@ impl Place {
         self.folder.path().to_str().unwrap()
     }
 
-    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, line: &str) -> Command {
         let mut command = Command::new(HARNESS);
         command
-            .args(arguments)
+            .args(line.split_whitespace())
             .current_dir(self.folder.path())
             .env_remove("CARGO_MANIFEST_DIR");
         command
@@ -74,12 +74,17 @@ impl Place {
     }
 
     /// Exit status, standard output and standard error of `study s.toml` with these arguments.
-    pub(crate) fn study(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
-        texts(&mut self.command(&[&["study", "s.toml"], arguments].concat()))
+    pub(crate) fn study(&self, more: &str) -> Ended {
+        texts(&mut self.command(&format!("study s.toml {more}")))
+    }
+
+    /// `verify` with these arguments.
+    pub(crate) fn verify(&self, more: &str) -> Ended {
+        texts(&mut self.command(&format!("verify {more}")))
     }
 
     pub(crate) fn start(&self) -> Child {
-        started(&mut self.command(&["study", "s.toml", "--jobs", "2"]))
+        started(&mut self.command("study s.toml --jobs 2"))
     }
 
     /// Command lines of the running processes of this test.
@@ -110,29 +115,22 @@ impl Place {
 }
 
 /// Exit status, standard output and standard error.
-pub(crate) fn texts(command: &mut Command) -> (Option<i32>, String, String) {
-    let Ended {
-        status,
-        stdout,
-        stderr,
-    } = output(command).into();
-    (status, stdout, stderr)
+pub(crate) fn texts(command: &mut Command) -> Ended {
+    output(command).into()
 }
 
 #[test]
 fn a_program_is_judged_by_its_errors() {
     let place = Place::new("ok", "");
-    let (status, out, err) = place.study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains("L2 2.0000 (order 2)"), "{out}");
+    place.study("").says(0, "L2 2.0000 (order 2)");
     place.write_text(
         &fs::read_to_string(place.folder.path().join("s.toml"))
             .unwrap()
             .replace("order = 2.0", "order = 1.0"),
     );
-    assert_eq!(place.study(&[]).0, Some(1));
+    place.study("").says(1, "");
     // The same bytes for any number of simultaneous processes, except for the seconds.
-    let record = |jobs| place.study(&["--format", "json", "--jobs", jobs]).1;
+    let record = |jobs| place.study(&format!("--format json --jobs {jobs}")).stdout;
     assert_eq!(record("1"), record("4"));
     // Work and step are in the record.
     let object: serde_json::Value = serde_json::from_str(&record("1")).unwrap();
@@ -152,7 +150,7 @@ fn a_value_is_judged_by_its_differences() {
         .unwrap()
         .replace("error = \"L2\"", "value = \"flux\"");
     place.write_text(&text);
-    let (status, out, err) = place.study(&[]);
+    let (status, out, err) = place.study("").parts();
     assert_eq!(status, Some(0), "{out}{err}");
     // 3 + 0.7 h^2.
     assert!(
@@ -172,8 +170,7 @@ fn a_value_is_judged_by_its_differences() {
         ),
     ] {
         place.write_text(&text.replace(old, new));
-        let (status, out, _) = place.study(&[]);
-        assert!(status == Some(1) && out.contains(told), "{out}");
+        place.study("").says(1, told);
     }
 }
 
@@ -185,26 +182,21 @@ fn a_grid_finds_both_orders() {
         .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]")
         .replace("64]", "64]\ndt = [0.1, 0.05, 0.025, 0.0125]\ngrid = true");
     place.write_text(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
-    let (status, out, err) = place.study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains("L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)"),
-        "{out}"
-    );
+    place
+        .study("")
+        .says(0, "L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)");
     // The same order in both, which the error in time does not have.
     place.write_text(&text);
-    let (status, out, _) = place.study(&[]);
-    assert!(
-        status == Some(1) && out.contains("L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low"),
-        "{out}"
-    );
+    place
+        .study("")
+        .says(1, "L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low");
     // Refined together, where nothing hides the error in time.
     place.write_text(
         &text
             .replace("\ngrid = true", "")
             .replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"),
     );
-    assert_eq!(place.study(&[]).0, Some(1));
+    place.study("").says(1, "");
     for (old, new, message) in [
         (
             "error = \"L2\"",
@@ -218,18 +210,15 @@ fn a_grid_finds_both_orders() {
         ),
     ] {
         place.write_text(&text.replace(old, new));
-        let (status, _, err) = place.study(&[]);
-        assert!(status == Some(2) && err.contains(message), "{err}");
+        place.study("").complains(2, message);
     }
 }
 
 #[test]
 fn a_program_without_placeholders_reads_the_case() {
-    let (status, out, err) = Place::new("stdin", "").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
+    Place::new("stdin", "").study("").says(0, "");
     // With placeholders, the program finds standard input at its end.
-    let (status, out, err) = Place::new("read", "").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
+    Place::new("read", "").study("").says(0, "");
 }
 
 #[test]
@@ -300,11 +289,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
     ] {
         assert!(text.contains(old), "{old}");
         place.write_text(&text.replace(old, new));
-        let (status, out, err) = place.study(&[]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(message),
-            "{new}: {err}"
-        );
+        place.study("").refuses(message);
     }
 }
 
@@ -326,11 +311,10 @@ pub(crate) fn project_of(place: Place) -> Place {
 fn a_value_that_only_some_answers_have_is_guarded_there() {
     let place = project("optional");
     let studies = place.folder.path().join("studies");
-    let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
+    let verify = |more: &str| place.verify(more);
     fs::write(studies.join("all"), "").unwrap();
-    let (status, out, err) = verify(&["--bless"]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert_eq!(verify(&[]).0, Some(0));
+    verify("--bless").says(0, "");
+    verify("").says(0, "");
     let baseline = fs::read_to_string(studies.join("baseline.json")).unwrap();
     for (name, is_guarded) in [
         ("value lift, n = 16", true),
@@ -345,16 +329,12 @@ fn a_value_that_only_some_answers_have_is_guarded_there() {
     }
     // A guarded number that no longer exists.
     fs::remove_file(studies.join("all")).unwrap();
-    let (status, out, _) = verify(&[]);
-    assert!(
-        status == Some(1) && out.contains("value lift, n = 16"),
-        "{out}"
-    );
+    verify("").says(1, "value lift, n = 16");
 }
 
 #[test]
 fn an_error_that_only_some_answers_have_fails() {
-    let (status, out, _) = Place::new("lacking", "").study(&[]);
+    let (status, out, _) = Place::new("lacking", "").study("").parts();
     assert_eq!(status, Some(1), "{out}");
     for missing in ["max", "H1"] {
         let words = format!("its answer has no error `{missing}`, which that of another level has");
@@ -366,9 +346,9 @@ fn an_error_that_only_some_answers_have_fails() {
 fn a_study_of_a_program_is_guarded() {
     let place = project("ok");
     let root = place.folder.path();
-    let run = |arguments: &[&str]| texts(&mut place.command(arguments));
-    assert_eq!(run(&["verify", "--bless"]).0, Some(0));
-    assert_eq!(run(&["verify"]).0, Some(0));
+    let run = |line: &str| texts(&mut place.command(line));
+    run("verify --bless").says(0, "");
+    run("verify").says(0, "");
     let baseline = fs::read_to_string(root.join("studies/baseline.json")).unwrap();
     assert!(
         baseline.contains("error H1, n = 64") && baseline.contains("\"settings\": \""),
@@ -380,8 +360,8 @@ fn a_study_of_a_program_is_guarded() {
             .iter()
             .all(|name| root.join(figures).join(name).is_file())
     );
-    assert!(run(&["list"]).1.contains("program"), "the kind is listed");
+    assert!(run("list").stdout.contains("program"), "the kind is listed");
     // Only the harness starts guards: one started by hand would end the group of its caller.
-    assert!(!run(&["--help"]).1.contains("guard"));
-    assert_eq!(run(&["guard", "mark"]).0, Some(2));
+    assert!(!run("--help").stdout.contains("guard"));
+    run("guard mark").says(2, "");
 }

@@ -16,7 +16,7 @@ const CHILDREN: [&str; 3] = ["fork", "leave", "daemon"];
 /// The one line about the case n = 16.
 #[track_caller]
 fn complaint(place: &Place) -> String {
-    let (status, out, err) = place.study(&["--jobs", "2"]);
+    let (status, out, err) = place.study("--jobs 2").parts();
     assert_eq!(status, Some(1), "{out}{err}");
     assert!(
         !out.contains(|c: char| c.is_control() && c != '\n'),
@@ -70,19 +70,17 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     let (head, tail) = text.split_once("command = [").unwrap();
     let (_, tail) = tail.split_once(']').unwrap();
     place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
-    let (status, out, _) = place.study(&[]);
-    assert!(
-        status == Some(1)
-            && out.contains("n = 4 and 4 more: ./nowhere cannot be started in the folder /")
-            && out.contains(": No such file"),
-        "{out}"
+    let ran = place.study("");
+    ran.says(
+        1,
+        "n = 4 and 4 more: ./nowhere cannot be started in the folder /",
     );
+    ran.says(1, ": No such file");
     // Children that outlive their program, inside or outside its group, harm neither this case nor
     // the others.
     for mode in CHILDREN {
         let place = Place::new(mode, "");
-        let (status, out, err) = place.study(&[]);
-        assert_eq!(status, Some(0), "{mode}: {out}{err}");
+        place.study("").says(0, "");
         assert_eq!(place.running(), [""; 0]);
     }
 }
@@ -105,11 +103,9 @@ fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
         );
     }
     let place = Place::new("hang", "");
-    let (status, out, _) = place.study(&["--time-limit", "3"]);
-    assert!(
-        status == Some(1) && out.contains("was stopped at its time limit of 3 s"),
-        "{out}"
-    );
+    place
+        .study("--time-limit 3")
+        .says(1, "was stopped at its time limit of 3 s");
     assert_eq!(place.running(), [""; 0]);
 }
 
@@ -119,7 +115,7 @@ fn a_program_that_kills_its_guard_fails_and_leaves_nothing() {
         return;
     }
     let place = Place::new("kill-guard", "");
-    let (status, out, err) = place.study(&["--jobs", "2"]);
+    let (status, out, err) = place.study("--jobs 2").parts();
     assert_eq!(status, Some(1), "{out}{err}");
     let message = "cannot be waited for: its guard has ended: signal: 9 (SIGKILL)";
     assert!(out.contains(message), "{out}");
@@ -191,9 +187,7 @@ fn an_interrupted_harness_leaves_nothing() {
         return;
     }
     let place = Place::new("hang", "");
-    let harness = started(&mut interruptible(
-        &place.command(&["study", "s.toml", "--jobs", "2"]),
-    ));
+    let harness = started(&mut interruptible(&place.command("study s.toml --jobs 2")));
     place.wait_for(|running| running > 0);
     signal(harness.id(), "-INT");
     assert_eq!(finished(harness).status.code(), Some(130));

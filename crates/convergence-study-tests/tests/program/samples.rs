@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{Place, SOLVER, project_of, texts};
+use super::{Place, SOLVER, project_of};
 
 /// A study of the solver with errors that scatter, in this mode, by 40 samples.
 fn place(mode: &str) -> Place {
@@ -20,7 +20,7 @@ fn place(mode: &str) -> Place {
 
 #[test]
 fn means_of_samples_are_judged_by_their_scatter() {
-    let (status, out, err) = place("ok").study(&[]);
+    let (status, out, err) = place("ok").study("").parts();
     assert_eq!(status, Some(0), "{out}{err}");
     for words in [
         "; each level is made of 40 samples, by the same seeds on all levels\n",
@@ -30,7 +30,11 @@ fn means_of_samples_are_judged_by_their_scatter() {
         assert!(out.contains(words), "{words}: {out}");
     }
     // The same bytes for any number of simultaneous processes.
-    let record = |jobs| place("ok").study(&["--format", "json", "--jobs", jobs]).1;
+    let record = |jobs| {
+        place("ok")
+            .study(&format!("--format json --jobs {jobs}"))
+            .stdout
+    };
     let [one, other] = ["1", "4"].map(record);
     let levels = |text: &str| {
         let object: serde_json::Value = serde_json::from_str(text).unwrap();
@@ -50,21 +54,15 @@ fn wrong_orders_of_samples_do_not_pass() {
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.contains(from));
         place.write_text(&text.replacen(from, to, 1));
-        let (status, out, _) = place.study(&[]);
-        assert!(
-            status == Some(1) && out.starts_with("s: fail"),
-            "{to}: {out}"
-        );
+        place.study("").begins(1, "s: fail");
     }
 }
 
 #[test]
 fn a_level_that_tells_nothing_says_how_many_samples_would() {
-    let (status, out, _) = place("wide").study(&[]);
-    assert_eq!(status, Some(1), "{out}");
-    assert!(
-        out.contains("tells nothing: two standard errors exceed its mean; more than "),
-        "{out}"
+    place("wide").study("").says(
+        1,
+        "tells nothing: two standard errors exceed its mean; more than ",
     );
 }
 
@@ -81,17 +79,16 @@ fn a_failed_sample_fails_its_level() {
             "n = 16: its samples answer different steps; expected one step of a level",
         ),
     ] {
-        let (status, out, _) = place(mode).study(&[]);
-        assert!(status == Some(1) && out.contains(words), "{mode}: {out}");
+        place(mode).study("").says(1, words);
     }
 }
 
 #[test]
 fn the_errors_of_levels_are_guarded() {
     let place = project_of(place("ok"));
-    let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
-    assert_eq!(verify(&["--bless"]).0, Some(0));
-    assert_eq!(verify(&[]).0, Some(0));
+    let verify = |more: &str| place.verify(more);
+    verify("--bless").says(0, "");
+    verify("").says(0, "");
     let studies = place.folder.path().join("studies");
     let baseline = fs::read_to_string(studies.join("baseline.json")).unwrap();
     let has = |name: &str| baseline.contains(&format!("\"{name}\""));
@@ -103,7 +100,7 @@ fn the_errors_of_levels_are_guarded() {
     let file = studies.join("s.toml");
     let text = fs::read_to_string(&file).unwrap();
     fs::write(&file, text.replace("samples = 40", "samples = 30")).unwrap();
-    let (status, out, err) = verify(&["--bless"]);
+    let (status, out, err) = verify("--bless").parts();
     assert!(
         status == Some(1) && (out + &err).contains("settings"),
         "{err}"
@@ -165,10 +162,6 @@ fn what_samples_do_not_have_is_refused() {
             text
         };
         place.write_text(&text);
-        let (status, out, err) = place.study(&[]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(message),
-            "{to}: {err}"
-        );
+        place.study("").refuses(message);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{Place, project_of, texts};
+use super::{Place, project_of};
 
 const ERRORS: &str = "h,L2,H1,drag\n0.4,1.6000e-1,4.0000e-1,3.16000000\n0.2,4.0000e-2,2.0000e-1,3.04000000\n\
                       0.1,1.0000e-2,1.0000e-1,3.01000000\n0.05,2.5000e-3,5.0000e-2,3.00250000\n";
@@ -25,61 +25,41 @@ const BOTH: &str = "[[expect]]\nerror = \"L2\"\norder = 2.0\n[[expect]]\nerror =
 
 #[test]
 fn a_table_is_judged_as_rates_does() {
-    let (status, out, err) = place(ERRORS, BOTH).study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains("L2 2.0000 (order 2); H1 1.0000 (order 1); drag")
-            && out.contains("step: `h`; errors: `L2`, `H1`; values: `drag`"),
-        "{out}"
-    );
+    let ran = place(ERRORS, BOTH).study("");
+    ran.says(0, "L2 2.0000 (order 2); H1 1.0000 (order 1); drag");
+    ran.says(0, "step: `h`; errors: `L2`, `H1`; values: `drag`");
     for (from, to) in [("order = 2.0", "order = 3.0"), (">= 1", ">= 1.5")] {
-        let (status, out, _) = place(ERRORS, &BOTH.replacen(from, to, 1)).study(&[]);
-        assert!(
-            status == Some(1) && out.starts_with("s: fail"),
-            "{to}: {out}"
-        );
+        place(ERRORS, &BOTH.replacen(from, to, 1))
+            .study("")
+            .begins(1, "s: fail");
     }
     // A failed level, and what looks like a failed run.
     let failed = ERRORS.replace("1.0000e-2", "nan");
-    let (status, out, _) = place(&failed, BOTH).study(&[]);
-    assert!(status == Some(1) && out.starts_with("s: fail"), "{out}");
+    place(&failed, BOTH).study("").begins(1, "s: fail");
     let doubted = format!("{ERRORS}\nTraceback (most recent call last):\n");
-    let (status, out, _) = place(&doubted, BOTH).study(&[]);
-    assert!(
-        status == Some(1) && out.starts_with("s: inconclusive"),
-        "{out}"
-    );
+    place(&doubted, BOTH).study("").begins(1, "s: inconclusive");
     // What cannot be read.
-    let (status, out, _) = place("no numbers\n", BOTH).study(&[]);
-    assert!(
-        status == Some(1) && out.contains("the table has not been read"),
-        "{out}"
-    );
+    place("no numbers\n", BOTH)
+        .study("")
+        .says(1, "the table has not been read");
 }
 
 #[test]
 fn settings_of_the_reader_and_several_tables_are_those_of_rates() {
     let counts = "n,L2\n4,1.6000e-1\n8,4.0000e-2\n16,1.0000e-2\n32,2.5000e-3\n";
     let claim = "[[expect]]\nerror = \"L2\"\norder = 2.0\n";
-    assert_eq!(
-        place(counts, &format!("dim = 1\n{claim}")).study(&[]).0,
-        Some(0)
-    );
-    let (status, out, _) = place(counts, claim).study(&[]);
-    assert!(status == Some(1) && out.contains("--dim"), "{out}");
+    place(counts, &format!("dim = 1\n{claim}"))
+        .study("")
+        .says(0, "");
+    place(counts, claim).study("").says(1, "--dim");
     let two = format!("Degree 1\n{ERRORS}\nDegree 2\n{ERRORS}");
-    let (status, out, err) = place(&two, claim).study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains("Degree 1: L2 2.00") && out.contains("Degree 2: L2 2.00"),
-        "{out}"
-    );
+    let ran = place(&two, claim).study("");
+    ran.says(0, "Degree 1: L2 2.00");
+    ran.says(0, "Degree 2: L2 2.00");
     let wrong = "[[expect]]\nerror = \"L3\"\norder = 2.0\n";
-    let (status, out, _) = place(ERRORS, wrong).study(&[]);
-    assert!(
-        status == Some(1) && out.contains("expected a column of errors: L2, H1"),
-        "{out}"
-    );
+    place(ERRORS, wrong)
+        .study("")
+        .says(1, "expected a column of errors: L2, H1");
 }
 
 #[test]
@@ -89,12 +69,9 @@ fn its_numbers_are_guarded_and_inputs_that_are_newer_are_inconclusive() {
     let write = |name: &str, text: &str| fs::write(studies.join(name), text).unwrap();
     write("errors.csv", ERRORS);
     write("solver.f90", "end program\n");
-    let verify = |arguments: &[&str]| {
-        let (status, out, err) = texts(&mut place.command(&[&["verify"], arguments].concat()));
-        (status, out + &err)
-    };
-    assert_eq!(verify(&["--bless"]).0, Some(0));
-    assert_eq!(verify(&[]).0, Some(0));
+    let verify = |more: &str| place.verify(more);
+    verify("--bless").says(0, "");
+    verify("").says(0, "");
     let baseline = fs::read_to_string(studies.join("baseline.json")).unwrap();
     for name in [
         "error L2, h = 0.05",
@@ -106,45 +83,28 @@ fn its_numbers_are_guarded_and_inputs_that_are_newer_are_inconclusive() {
     }
     // The source has changed, the table has not.
     write("solver.f90", "! another version\nend program\n");
-    let (status, text) = verify(&[]);
-    assert_eq!(status, Some(1), "{text}");
-    assert!(
-        text.starts_with("inconclusive in ")
-            && text.contains("sources are newer than the table: solver.f90 changed")
-            && !text.contains("\nfail: "),
-        "{text}"
-    );
+    let ran = verify("");
+    ran.begins(1, "inconclusive in ");
+    ran.says(1, "sources are newer than the table: solver.f90 changed");
+    ran.says_not(1, "\nfail: ");
     // It is no blessing by the way.
-    let (status, text) = verify(&["--bless"]);
-    assert!(
-        status == Some(1) && text.contains("not blessed: less would be guarded"),
-        "{text}"
-    );
+    verify("--bless").says(1, "not blessed: less would be guarded");
     // A new table that says the same.
     write("errors.csv", &ERRORS.replace("1.0000e-2", "1.00000e-2"));
-    let (status, text) = verify(&[]);
-    assert_eq!(status, Some(0), "{text}");
+    verify("").says(0, "");
     // A number that moves fails.
     write("errors.csv", &ERRORS.replace("2.5000e-3", "2.5010e-3"));
-    let (status, text) = verify(&[]);
-    assert!(
-        status == Some(1) && text.contains("error L2, h = 0.05 moved"),
-        "{text}"
-    );
+    verify("").says(1, "error L2, h = 0.05 moved");
     write("errors.csv", ERRORS);
-    assert_eq!(verify(&["--bless", "--loosened"]).0, Some(0));
-    assert_eq!(verify(&[]).0, Some(0));
+    verify("--bless --loosened").says(0, "");
+    verify("").says(0, "");
     // Hashes that somebody deletes are missed.
     let baseline = fs::read_to_string(studies.join("baseline.json")).unwrap();
     let lines = baseline
         .lines()
         .filter(|line| !line.contains("\"sources\""));
     write("baseline.json", &lines.collect::<Vec<_>>().join("\n"));
-    let (status, text) = verify(&[]);
-    assert!(
-        status == Some(1) && text.contains("was deleted from the baseline"),
-        "{text}"
-    );
+    verify("").says(1, "was deleted from the baseline");
 }
 
 #[test]
@@ -205,10 +165,6 @@ fn what_a_file_may_get_wrong_is_named() {
         let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
         assert!(text.contains(from), "{from}");
         place.write_text(&text.replacen(from, to, 1));
-        let (status, out, err) = place.study(&[]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(message),
-            "{to}: {err}"
-        );
+        place.study("").refuses(message);
     }
 }

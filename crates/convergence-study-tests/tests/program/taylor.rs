@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{Place, SOLVER, project_of, texts};
+use super::{Place, SOLVER, project_of};
 
 /// A test of the derivatives of the solver in this mode.
 ///
@@ -21,40 +21,29 @@ const BOTH: &str = r#""{eps}", "{seed}""#;
 
 #[test]
 fn right_derivatives_pass_with_their_size() {
-    let (status, out, err) = place("right", BOTH, "").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains("\ndJ·d is right to ") && out.contains(" in 3 directions\n"),
-        "{out}"
-    );
-    assert!(out.contains("45 of 45 cases completed"), "{out}");
-    let (status, out, err) = place("right", BOTH, "[taylor]\nsecond = true\n").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains(", d'Hd is right to "), "{out}");
+    let ran = place("right", BOTH, "").study("");
+    ran.says(0, "\ndJ·d is right to ");
+    ran.says(0, " in 3 directions\n");
+    ran.says(0, "45 of 45 cases completed");
+    place("right", BOTH, "[taylor]\nsecond = true\n")
+        .study("")
+        .says(0, ", d'Hd is right to ");
     // Without {seed} there is one direction.
-    let (status, out, err) = place("right", r#""{eps}""#, "").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains(" in 1 direction\n") && !out.contains("seed"),
-        "{out}"
-    );
+    let ran = place("right", r#""{eps}""#, "").study("");
+    ran.says(0, " in 1 direction\n");
+    ran.says_not(0, "seed");
 }
 
 #[test]
 fn wrong_derivatives_fail() {
     for mode in ["1e-3", "1e-5", "sign", "component", "elsewhere"] {
-        let (status, out, _) = place(mode, BOTH, "").study(&[]);
-        assert_eq!(status, Some(1), "{mode}: {out}");
-        assert!(
-            out.starts_with("s: fail, ")
-                && out.contains(" is wrong: the differences of J tend to "),
-            "{mode}: {out}"
-        );
+        let ran = place(mode, BOTH, "").study("");
+        ran.begins(1, "s: fail, ");
+        ran.says(1, " is wrong: the differences of J tend to ");
     }
     let place = place("hessian", BOTH, "[taylor]\nsecond = true\n");
-    let (status, out, _) = place.study(&[]);
-    assert!(status == Some(1) && out.contains("d'Hd = "), "{out}");
-    let (_, out, _) = self::place("corner", BOTH, "").study(&[]);
+    place.study("").says(1, "d'Hd = ");
+    let (_, out, _) = self::place("corner", BOTH, "").study("").parts();
     assert!(out.starts_with("s: fail, "), "{out}");
 }
 
@@ -66,7 +55,7 @@ fn what_tests_nothing_is_inconclusive() {
         ("stationary", "dJ·d is zero along this direction"),
         ("digits", "or ask for less with to=1e-"),
     ] {
-        let (status, out, _) = place(mode, BOTH, "").study(&[]);
+        let (status, out, _) = place(mode, BOTH, "").study("").parts();
         assert_eq!(status, Some(1), "{mode}: {out}");
         let is_said = out.starts_with("s: inconclusive, ") && out.contains(words);
         assert!(
@@ -78,28 +67,23 @@ fn what_tests_nothing_is_inconclusive() {
 
 #[test]
 fn a_direction_in_which_a_derivative_is_zero_is_replaced() {
-    let (status, out, err) = place("first-vanishes", BOTH, "").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(
-        out.contains(" in 3 directions; 1 direction drawn anew, in which a derivative is zero\n"),
-        "{out}"
+    let ran = place("first-vanishes", BOTH, "").study("");
+    ran.says(
+        0,
+        " in 3 directions; 1 direction drawn anew, in which a derivative is zero\n",
     );
-    assert!(
-        out.contains("60 of 60 cases completed") && !out.contains("seed = 1:"),
-        "{out}"
-    );
+    ran.says(0, "60 of 60 cases completed");
+    ran.says_not(0, "seed = 1:");
 }
 
 #[test]
 fn coarse_steps_outside_of_the_domain_are_left_out_and_crashes_fail() {
-    let (status, out, err) = place("outside", BOTH, "").study(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
-    assert!(out.contains("; J is not finite at 2 coarse steps"), "{out}");
-    let (status, out, _) = place("crash", BOTH, "").study(&[]);
-    assert!(
-        status == Some(1) && out.contains("no direction has a J at every step"),
-        "{out}"
-    );
+    place("outside", BOTH, "")
+        .study("")
+        .says(0, "; J is not finite at 2 coarse steps");
+    place("crash", BOTH, "")
+        .study("")
+        .says(1, "no direction has a J at every step");
 }
 
 #[test]
@@ -132,11 +116,7 @@ fn what_a_file_may_get_wrong_is_named() {
         ),
         (BOTH, "floor = 1", "program.floor: unknown key `floor`"),
     ] {
-        let (status, out, err) = place("right", command, more).study(&[]);
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(message),
-            "{command} {more}: {err}"
-        );
+        place("right", command, more).study("").refuses(message);
     }
 }
 
@@ -144,10 +124,9 @@ fn what_a_file_may_get_wrong_is_named() {
 fn the_answered_numbers_are_guarded_and_a_looser_claim_is_found() {
     let place = project_of(place("right", BOTH, "[taylor]\nto = 1e-7\n"));
     let file = place.folder.path().join("studies/s.toml");
-    let verify = |arguments: &[&str]| texts(&mut place.command(&[&["verify"], arguments].concat()));
-    assert_eq!(verify(&["--bless"]).0, Some(0));
-    let (status, out, err) = verify(&[]);
-    assert_eq!(status, Some(0), "{out}{err}");
+    let verify = |more: &str| place.verify(more);
+    verify("--bless").says(0, "");
+    verify("").says(0, "");
     // The page that is committed has no digits of round-off.
     let page = fs::read_to_string(place.folder.path().join("reports/README.md")).unwrap();
     assert!(
@@ -160,7 +139,7 @@ fn the_answered_numbers_are_guarded_and_a_looser_claim_is_found() {
     }
     let text = fs::read_to_string(&file).unwrap().replace("1e-7", "1e-5");
     fs::write(&file, text).unwrap();
-    let (status, out, err) = verify(&["--bless"]);
+    let (status, out, err) = verify("--bless").parts();
     assert!(
         status == Some(1) && (out.clone() + &err).contains("dJ·d right to"),
         "{out}{err}"

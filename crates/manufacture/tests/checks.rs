@@ -112,74 +112,56 @@ fn values_that_are_not_finite_are_singular() {
 
 #[test]
 fn terms_that_cannot_be_missed_are_noted() {
-    let u = "u = \"sin(x + 0.3)*exp(y)\"";
-    finds(
-        &plane(u, "", "a = \"d(u, x, x) + d(u, y, y)\""),
-        "source-zero",
-        "equations.a",
-        false,
-    );
-    finds(
-        &plane(u, "", "a = \"u + d(x, y)\""),
-        "term-absent",
-        "equations.a",
-        false,
-    );
-    finds(
-        &plane(u, "", "a = \"u + 0.001*d(u, x)\""),
-        "term-small",
-        "equations.a",
-        false,
-    );
-    finds(
-        &plane(u, "", "a = \"u + d(u, y) + x\""),
-        "terms-proportional",
-        "equations.a",
-        false,
-    );
-    finds(
-        &plane(u, "", "a = \"u*x + u*y + u*(x - 2*y)\""),
-        "terms-proportional",
-        "equations.a",
-        false,
-    );
-    does_not_find(&plane(u, "", "a = \"u + x*d(u, x)\""), "terms-proportional");
+    let file = |equation| {
+        plane(
+            "u = \"sin(x + 0.3)*exp(y)\"",
+            "",
+            &format!("a = \"{equation}\""),
+        )
+    };
+    for (equation, code) in [
+        ("d(u, x, x) + d(u, y, y)", "source-zero"),
+        ("u + d(x, y)", "term-absent"),
+        ("u + 0.001*d(u, x)", "term-small"),
+        ("u + d(u, y) + x", "terms-proportional"),
+        ("u*x + u*y + u*(x - 2*y)", "terms-proportional"),
+    ] {
+        finds(&file(equation), code, "equations.a", false);
+    }
+    does_not_find(&file("u + x*d(u, x)"), "terms-proportional");
 }
 
 #[test]
 fn slips_that_cannot_be_seen_are_noted() {
-    // The velocity of a rigid rotation: its gradient is skew, so v·∇v with the transpose has the
-    // opposite sign.
-    let rotation = "v = [\"-y\", \"x\"]";
-    does_not_find(
-        &plane(rotation, "", "a = \"dot(grad(v), v)\""),
-        "slip-invisible",
-    );
-    // A gradient field has a symmetric gradient.
-    let potential = "v = [\"y*cos(x*y)\", \"x*cos(x*y)\"]";
-    finds(
-        &plane(potential, "", "a = \"dot(grad(v), v)\""),
-        "slip-invisible",
-        "equations.a",
-        false,
-    );
-    // A constant coefficient has no derivative, so there is no slip.
-    let u = "u = \"sin(x)*y^3\"";
-    does_not_find(
-        &plane(u, "k = \"2\"", "a = \"div(k*grad(u))\""),
-        "slip-invisible",
-    );
-    does_not_find(
-        &plane(u, "k = \"2 + x\"", "a = \"div(k*grad(u))\""),
-        "slip-invisible",
-    );
-    // The coefficient varies across the gradient only.
-    finds(
-        &plane("u = \"sin(x)\"", "k = \"2 + y\"", "a = \"div(k*grad(u))\""),
-        "slip-invisible",
-        "equations.a",
-        false,
-    );
+    for (fields, define, equation, is_noted) in [
+        // The velocity of a rigid rotation: its gradient is skew, so v·∇v with the transpose has
+        // the opposite sign.
+        ("v = [\"-y\", \"x\"]", "", "dot(grad(v), v)", false),
+        // A gradient field has a symmetric gradient.
+        (
+            "v = [\"y*cos(x*y)\", \"x*cos(x*y)\"]",
+            "",
+            "dot(grad(v), v)",
+            true,
+        ),
+        // A constant coefficient has no derivative, so there is no slip.
+        ("u = \"sin(x)*y^3\"", "k = \"2\"", "div(k*grad(u))", false),
+        (
+            "u = \"sin(x)*y^3\"",
+            "k = \"2 + x\"",
+            "div(k*grad(u))",
+            false,
+        ),
+        // The coefficient varies across the gradient only.
+        ("u = \"sin(x)\"", "k = \"2 + y\"", "div(k*grad(u))", true),
+    ] {
+        let text = plane(fields, define, &format!("a = \"{equation}\""));
+        if is_noted {
+            finds(&text, "slip-invisible", "equations.a", false);
+        } else {
+            does_not_find(&text, "slip-invisible");
+        }
+    }
 }
 
 /// A gradient transposed inside a symmetric form changes nothing for any solution, nor does the
@@ -240,33 +222,16 @@ fn data_that_are_zero_are_noted() {
 
 #[test]
 fn polynomials_and_symmetries_are_noted() {
-    finds(
-        &plane("u = \"x^2*y\"", "", "a = \"u\""),
-        "polynomial",
-        "exact.u",
-        false,
-    );
-    does_not_find(&plane("u = \"x^2*sin(y)\"", "", "a = \"u\""), "polynomial");
-    finds(
-        &plane("u = \"cos(x - 0.65)*exp(y)\"", "", "a = \"u\""),
-        "symmetric",
-        "exact.u",
-        false,
-    );
-    finds(
-        &plane(
-            "u = \"cos(2*pi*x/0.9)*exp(y)*sin(2*pi*x/0.9)\"",
-            "",
-            "a = \"u\"",
-        ),
-        "symmetric",
-        "exact.u",
-        false,
-    );
-    does_not_find(
-        &plane("u = \"cos(x)*exp(y)\"", "", "a = \"u\""),
-        "symmetric",
-    );
+    let file = |exact| plane(&format!("u = \"{exact}\""), "", "a = \"u\"");
+    for (exact, code) in [
+        ("x^2*y", "polynomial"),
+        ("cos(x - 0.65)*exp(y)", "symmetric"),
+        ("cos(2*pi*x/0.9)*exp(y)*sin(2*pi*x/0.9)", "symmetric"),
+    ] {
+        finds(&file(exact), code, "exact.u", false);
+    }
+    does_not_find(&file("x^2*sin(y)"), "polynomial");
+    does_not_find(&file("cos(x)*exp(y)"), "symmetric");
 }
 
 #[test]
@@ -308,13 +273,10 @@ fn a_check_is_the_same_for_any_order_of_keys() {
     // The table is in the order of the file.
     other.shares.reverse();
     assert_eq!((other.shares.len(), other), (2, check(HEAT)));
-    for (_, language) in manufacture::Language::ALL {
-        assert_eq!(read(&reordered).emit(language), read(HEAT).emit(language));
-    }
 }
 
 #[test]
-fn renaming_a_coordinate_renames_the_output_and_nothing_else() {
+fn renaming_a_coordinate_changes_no_value() {
     let file = |x: &str| {
         plane(
             "u = \"sin(2*X)*exp(y)\"",
@@ -325,12 +287,6 @@ fn renaming_a_coordinate_renames_the_output_and_nothing_else() {
         .replace("\"x\", \"y\"", &format!("\"{x}\", \"y\""))
         .replace("x = [", &format!("{x} = ["))
     };
-    let emitted = |x: &str| {
-        let files = read(&file(x)).emit(manufacture::Language::C);
-        let lines = files[0].text.lines().filter(|line| !line.starts_with("//"));
-        lines.map(str::to_owned).collect::<Vec<_>>()
-    };
-    assert_eq!(emitted("x"), emitted("xi"));
     assert_eq!(check(&file("x")).shares.len(), 2);
     let values =
         |x: &str| crate::files::at(&file(x), &format!("{x},y\n0.7,0.4\n"))["sources"].clone();

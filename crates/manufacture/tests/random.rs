@@ -7,25 +7,21 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
+use convergence_judge::judge::random::SplitMix;
 use manufacture::{Comparison, Language, Manufacture, Sampling};
 
 use crate::files::{answered, read};
 use crate::mistakes;
 
-/// SplitMix64.
-pub(crate) struct Random(pub(crate) u64);
+pub(crate) struct Random(SplitMix);
 
 impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(SplitMix::new(seed))
     }
 
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
+        (self.0.next_u64() % count as u64) as usize
     }
 
     /// A number with two decimals, not zero.
@@ -290,7 +286,7 @@ fn no_right_source_is_called_wrong_and_no_slip_is_missed() {
     let seed = setting("MANUFACTURE_SEED", 1);
     let files = setting("MANUFACTURE_FILES", 12);
     for number in 0..files {
-        let mut random = Random(seed * 1_000_003 + number);
+        let mut random = Random::new(seed * 1_000_003 + number);
         let file = random.file();
         let manufacture = read(&file);
         let findings = manufacture.check_emitted(Language::C, folder.path(), &POINTS);
@@ -400,7 +396,7 @@ fn no_edit_is_named_that_was_not_made() {
     let seed = setting("MANUFACTURE_SEED", 1);
     let [mut named, mut unnamed] = [0, 0];
     for number in 0..files {
-        let mut random = Random(seed * 2_000_003 + number);
+        let mut random = Random::new(seed * 2_000_003 + number);
         let fixed = mistakes::FILES.get(random.below(2 * mistakes::FILES.len()));
         let text = fixed.map_or_else(|| random.file(), |text| (*text).to_owned());
         let Some(other) = mistaken(&mut random, &text) else {

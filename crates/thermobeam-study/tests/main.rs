@@ -7,7 +7,6 @@ mod charts;
 mod fuzz;
 mod input;
 mod kinds;
-mod manufactured;
 mod simulate;
 mod sweep;
 

@@ -115,6 +115,7 @@ mod tests {
     use crate::scene::Scene;
     use std::{f64::consts::PI, path::Path};
     use thermobeam::parameters::Beam;
+    use thermobeam::solve::Settings;
 
     /// What the paper prints, (5.1) and (5.3) to (5.5), as functions, and the files in `studies/`.
     #[test]
@@ -147,6 +148,16 @@ mod tests {
                     theta_a,
                 };
                 assert_eq!((scene.beam, scene.obstacles), (beam, Some(OBSTACLES)));
+                // They are the defaults, too.
+                let of_default = Beam {
+                    beta,
+                    theta_a,
+                    ..Beam::default()
+                };
+                assert_eq!((of_default, Obstacles::default()), (beam, OBSTACLES));
+                assert_eq!(scene.name, name);
+                let stepping = scene.one_step().expect("a one-step scheme");
+                assert_eq!(stepping.settings, Settings::default(), "{name}");
                 assert_eq!((scene.t_end, scene.steps()), (T_END, STEPS));
                 assert_eq!(scene.mesh.elements(), ELEMENTS);
                 let initial = &scene.initial;

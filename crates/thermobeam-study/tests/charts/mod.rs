@@ -16,38 +16,20 @@ use laws::{EXTREMES, elements, parse};
 use thermobeam_study::figures::*;
 
 #[test]
-fn every_figure_is_well_formed_and_free_of_nan() {
-    laws::every_figure_is_well_formed_and_free_of_nan(&figures::gallery());
+fn figures_of_beams_obey_the_laws_of_all_figures() {
+    let gallery = figures::gallery();
+    obey(&gallery);
+    laws::every_curve_belongs_to_an_entry_of_the_legend(&gallery);
 }
 
-#[test]
-fn every_text_is_large_enough_and_on_the_page() {
-    laws::every_text_is_large_enough_and_on_the_page(&figures::gallery());
-}
-
-#[test]
-fn every_figure_has_a_title_that_says_more_than_its_axes() {
-    laws::every_figure_has_a_title_that_says_more_than_its_axes(&figures::gallery());
-}
-
-#[test]
-fn no_two_texts_overlap() {
-    laws::no_two_texts_overlap(&figures::gallery());
-}
-
-#[test]
-fn every_curve_belongs_to_an_entry_of_the_legend() {
-    laws::every_curve_belongs_to_an_entry_of_the_legend(&figures::gallery());
-}
-
-#[test]
-fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most() {
-    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&figures::gallery());
-}
-
-#[test]
-fn no_two_entries_of_a_legend_look_alike() {
-    laws::no_two_entries_of_a_legend_look_alike(&figures::gallery());
+/// The laws of figures of any study.
+fn obey(figures: &[(&'static str, String)]) {
+    laws::every_figure_is_well_formed_and_free_of_nan(figures);
+    laws::every_text_is_large_enough_and_on_the_page(figures);
+    laws::every_figure_has_a_title_that_says_more_than_its_axes(figures);
+    laws::no_two_texts_overlap(figures);
+    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(figures);
+    laws::no_two_entries_of_a_legend_look_alike(figures);
 }
 
 #[test]
@@ -276,10 +258,5 @@ fn panels(svg: &str) -> Vec<String> {
 fn the_pictures_of_the_reports_obey_the_laws() {
     let figures = of_the_reports();
     assert!(figures.len() > 100, "{}", figures.len());
-    laws::every_figure_is_well_formed_and_free_of_nan(&figures);
-    laws::every_text_is_large_enough_and_on_the_page(&figures);
-    laws::every_figure_has_a_title_that_says_more_than_its_axes(&figures);
-    laws::no_two_texts_overlap(&figures);
-    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&figures);
-    laws::no_two_entries_of_a_legend_look_alike(&figures);
+    obey(&figures);
 }

@@ -5,14 +5,11 @@ mod scene;
 mod study_file;
 mod unreadable;
 
-/// Asserts that a message contains each of these pieces, in this order.
+/// Asserts that a message contains these pieces, with ` … ` between them, in this order.
 #[track_caller]
-fn says(message: &str, pieces: &[&str]) {
-    let mut rest = message;
-    for piece in pieces {
-        match rest.split_once(piece) {
-            Some((_, after)) => rest = after,
-            None => panic!("not said, or not in this order: {piece:?}\n{message}"),
-        }
-    }
+fn says(message: &str, pieces: &str) {
+    assert!(
+        convergence_study_tests::says(message, pieces),
+        "{pieces:?} is not said by\n{message}"
+    );
 }

@@ -1,31 +1,30 @@
 //! Levels that are added until there is a verdict.
 
-use std::path::{Path, PathBuf};
-
-use convergence_study::{CaseFailure, Check, FromFile, Kind, Outcome, Reason, Verdict, run_one};
+use convergence_study::{CaseFailure, Check, Kind, Outcome, Reason, Verdict, run_one};
 use thermobeam_study::exact::norm::Norms;
 use thermobeam_study::kinds::orders::Orders;
-use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};
+use thermobeam_study::kinds::orders::manufactured::{self, Prepared};
+use thermobeam_study::scene::Coefficients;
+
+use super::{parsed, read, text};
+
+type Convergence = Orders<manufactured::Convergence>;
 
 /// The study of Theorem 3.4 in h.
-fn file() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/theorem-3.4-space.toml")
-}
+const FILE: &str = "theorem-3.4-space.toml";
 
 /// Its outcome with these elements and this tolerance.
 fn outcome(elements: &str, tolerance: &str) -> Outcome {
-    let text = std::fs::read_to_string(file()).unwrap();
-    let listed = text
-        .lines()
-        .find(|line| line.starts_with("elements = "))
-        .unwrap();
+    let text = text(FILE);
+    let mut lines = text.lines();
+    let listed = lines.find(|line| line.starts_with("elements = ")).unwrap();
     assert!(text.contains("tolerance = 0.002"));
     let text = text
         .replace(listed, elements)
         // The constant is claimed of the finest mesh that the file lists.
         .replace("within = 1e-6", "within = 0.1")
         .replace("tolerance = 0.002", tolerance);
-    run_one(&Orders::<Convergence>::parse(&text, &file()).unwrap())
+    run_one(&parsed::<Convergence>(&text))
 }
 
 #[test]
@@ -33,32 +32,22 @@ fn levels_are_added_until_every_rate_is_decided() {
     let auto =
         |tolerance: &str| outcome("elements = \"auto\"", &format!("tolerance = {tolerance}"));
     let easy = auto("0.25");
+    let summary = easy.summary.to_string();
     assert_eq!(
         (easy.verdict, easy.levels.len()),
         (Verdict::Pass, 4),
-        "{}",
-        easy.summary
+        "{summary}"
     );
-    assert!(
-        easy.summary
-            .to_string()
-            .ends_with("; decided after 4 levels"),
-        "{}",
-        easy.summary
-    );
+    assert!(summary.ends_with("; decided after 4 levels"), "{summary}");
     let hard = auto("0.005");
-    let count = hard.levels.len();
+    let (count, summary) = (hard.levels.len(), hard.summary.to_string());
     assert!(
         (5..=8).contains(&count) && hard.verdict == Verdict::Pass,
-        "{}",
-        hard.summary
+        "{summary}"
     );
     assert!(
-        hard.summary
-            .to_string()
-            .contains(&format!("; decided after {count} levels; ")),
-        "{}",
-        hard.summary
+        summary.contains(&format!("; decided after {count} levels; ")),
+        "{summary}"
     );
     // The same levels, listed, have the same rates; with one level fewer the verdict is weaker.
     let listed = |count: u32| {
@@ -96,7 +85,7 @@ fn a_budget_ends_a_study_without_a_verdict() {
 
 #[test]
 fn no_level_is_added_to_one_that_failed() {
-    let mut study = Orders::<Convergence>::read(file()).unwrap();
+    let mut study: Convergence = read(FILE);
     study.refine.elements = vec![8, 16, 32, 64];
     study.refine.budget = Some(1e7);
     study
@@ -118,8 +107,7 @@ fn no_level_is_added_to_one_that_failed() {
 
 #[test]
 fn on_a_grid_the_squares_of_both_errors_must_add() {
-    let mut study =
-        Orders::<Convergence>::read(file().with_file_name("theorem-3.4-grid.toml")).unwrap();
+    let mut study: Convergence = read("theorem-3.4-grid.toml");
     study.refine.elements = vec![8, 16, 32, 64];
     study.refine.steps = vec![8, 16, 32, 64];
     let mut runs = study.run_here();
@@ -159,12 +147,9 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
     assert_eq!(between(0.5, 2.0), Reason::Agrees);
     assert_eq!(between(2.0, 4.0), Reason::ConstantOff);
     let least = |order: &str| {
-        let text = std::fs::read_to_string(file()).unwrap();
-        let text = text.replace(
-            "order = 1.0\ntolerance = 0.002",
-            &format!("order = {order}\ntolerance = 0.2"),
-        );
-        run_one(&Orders::<Convergence>::parse(&text, &file()).unwrap()).verdict
+        let claim = format!("order = {order}\ntolerance = 0.2");
+        let text = text(FILE).replace("order = 1.0\ntolerance = 0.002", &claim);
+        run_one(&parsed::<Convergence>(&text)).verdict
     };
     assert_eq!(
         (least("\">= 0.5\""), least("\">= 1.5\"")),
@@ -172,66 +157,28 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
     );
 }
 
-#[test]
-fn a_claim_that_is_no_order_is_refused() {
-    let refused = |from: &str, to: &str| {
-        let text = std::fs::read_to_string(file()).unwrap();
-        assert!(text.contains(from));
-        Orders::<Convergence>::parse(&text.replacen(from, to, 1), &file())
-            .expect_err("a refusal")
-            .to_string()
-    };
-    for to in [
-        "order = \"<= 1\"",
-        "order = \">= 0\"",
-        "order = \"1\"",
-        "order = -1",
-    ] {
-        let message = refused("order = 1.0", to);
-        assert!(
-            message.contains("order") && message.contains("number > 0"),
-            "{message}"
-        );
-    }
-    let message = refused("order = 1.0", "order = 1.0\nconstant = [2.0, 1.0]");
-    assert!(
-        message.contains("constant") && message.contains("the smaller first"),
-        "{message}"
-    );
-}
-
-/// The outcome of the study of Theorem 3.4 over this axis, with a viscosity that is wrong by ζ
-/// times the step: a mistake that keeps every first order.
-fn with_viscosity_off_by_the_step(axis: &str) -> Outcome {
-    let name = format!("theorem-3.4-{axis}.toml");
-    let study = Orders::<Convergence>::read(file().with_file_name(name)).unwrap();
+/// The study, with results of a solver whose coefficients are changed; the change also receives
+/// the number of elements or of steps.
+fn planted(study: &Convergence, change: impl Fn(&mut Coefficients, f64)) -> Outcome {
     let mut runs: Vec<_> = study.run_here();
     for run in &mut runs {
         let (elements, steps) = run.case.data;
         let mut solver = study.solver;
-        solver.beam.zeta *= 1.0 + 1.0 / elements.max(steps) as f64;
-        run.found = Prepared::new(&study, elements)
-            .unwrap()
-            .run(steps, solver, None);
+        change(&mut solver, elements.max(steps) as f64);
+        let mut prepared = Prepared::new(study, elements).unwrap();
+        run.found = prepared.run(steps, solver, None);
     }
     study.judge(&runs)
 }
 
+/// A viscosity that is wrong by ζ times the step: a mistake that keeps every first order.
 #[test]
 fn the_constant_sees_a_mistake_that_keeps_the_order() {
     for axis in ["space", "time"] {
-        let outcome = with_viscosity_off_by_the_step(axis);
-        let rate = outcome
-            .rates
-            .iter()
-            .find(|rate| rate.name == "theorem-3.4")
-            .unwrap();
-        assert_eq!(
-            rate.rate.verdict,
-            Verdict::Pass,
-            "{axis}: {}",
-            outcome.summary
-        );
+        let study = read(&format!("theorem-3.4-{axis}.toml"));
+        let outcome = planted(&study, |solver, n| solver.beam.zeta *= 1.0 + 1.0 / n);
+        let rate = outcome.rate("theorem-3.4").unwrap();
+        assert_eq!(rate.verdict, Verdict::Pass, "{axis}: {}", outcome.summary);
         let failed: Vec<_> = failed_claims(&outcome);
         assert_eq!(failed.len(), 1, "{axis}: {failed:?}");
         assert!(
@@ -245,36 +192,11 @@ fn the_constant_sees_a_mistake_that_keeps_the_order() {
 #[test]
 fn a_mistake_in_the_papers_coefficients_fails() {
     for axis in ["space", "time"] {
-        let name = format!("theorem-3.4-data-{axis}.toml");
-        let study = Orders::<Convergence>::read(file().with_file_name(name)).unwrap();
-        let mut runs: Vec<_> = study.run_here();
-        assert_eq!(study.judge(&runs).verdict, Verdict::Pass, "{axis}");
-        for run in &mut runs {
-            let (elements, steps) = run.case.data;
-            let mut solver = study.solver;
-            solver.beam.rho *= 1.01;
-            run.found = Prepared::new(&study, elements)
-                .unwrap()
-                .run(steps, solver, None);
+        let study = read(&format!("theorem-3.4-data-{axis}.toml"));
+        for (factor, passes) in [(1.0, true), (1.01, false)] {
+            let outcome = planted(&study, |solver, _| solver.beam.rho *= factor);
+            assert_eq!(outcome.verdict == Verdict::Pass, passes, "{axis}, {factor}");
         }
-        assert_ne!(study.judge(&runs).verdict, Verdict::Pass, "{axis}");
-    }
-}
-
-#[test]
-fn a_constant_is_refused_where_none_is_known() {
-    let text = std::fs::read_to_string(file()).unwrap();
-    for (from, to) in [
-        ("isolate = true", "isolate = false"),
-        ("isolate = true", "isolate = true\nmap = \"s^2\""),
-    ] {
-        let message = Orders::<Convergence>::parse(&text.replace(from, to), &file())
-            .unwrap_err()
-            .to_string();
-        assert!(
-            message.contains("constant: found a study whose constant is not known"),
-            "{message}"
-        );
     }
 }
 

@@ -1,27 +1,11 @@
-use super::planted::verdict_with;
-use super::typed::{Runs, leaves_one_out, passes_but_not_without_each_case};
-use convergence_study::{InCode, Kind as _, Verdict};
+use super::planted::{place, verdict_with};
+use super::typed::{leaves_one_out, passes_but_not_without_each_case};
+use convergence_study::{Kind as _, Verdict};
 use thermobeam_exact::equilibrium::Phase;
-use thermobeam_study::studies::equilibria::{self, AtRest, Nearest, study};
-
-type EndStates = InCode<equilibria::EndStates>;
+use thermobeam_study::studies::equilibria::{AtRest, Nearest, study};
 
 fn near(end: &mut AtRest) -> &mut Nearest {
     end.nearest.as_mut().expect("a steady state")
-}
-
-/// The verdict with the end of one case changed.
-fn verdict(
-    study: &EndStates,
-    sound: &Runs<EndStates>,
-    label: &str,
-    change: impl Fn(&mut AtRest),
-) -> Verdict {
-    let case = sound
-        .iter()
-        .position(|ran| ran.case.label == label)
-        .unwrap_or_else(|| panic!("no case {label}"));
-    verdict_with(study, sound, case, change)
 }
 
 #[test]
@@ -29,14 +13,12 @@ fn the_file_passes_but_not_without_each_case() {
     let study = study().kind;
     let sound = passes_but_not_without_each_case(&study);
     // Of an end that is straight no order is known.
-    let bent = sound
-        .iter()
-        .position(|ran| ran.case.label == "paper-2-beta-5, n = 160");
+    let bent = place(&sound, "paper-2-beta-5, n = 160");
     let items = [
         "ends for the order",
         "straight, so that the mesh causes no error",
     ];
-    leaves_one_out(&study, &sound, bent.expect("the case"), items, |end| {
+    leaves_one_out(&study, &sound, bent, items, |end| {
         let state = &mut near(end).state;
         (state.u_tip, state.phi_tip) = (0.0, 0.0);
     });
@@ -47,33 +29,44 @@ fn every_claim_about_end_states_can_fail() {
     let study = study().kind;
     let sound = study.run_here();
     type Defect = fn(&mut AtRest);
-    let planted: [(&str, Defect); 8] = [
-        ("paper-2-beta-5, n = 160", |end| near(end).errors[0] = 2e-6),
-        ("paper-2-beta-5, n = 160", |end| near(end).errors[1] = 2e-6),
-        ("paper-2-beta-5, n = 160", |end| end.tip[0] = 0.0141797),
-        ("paper-2-beta-5, n = 160", |end| {
-            let contact = &mut near(end).state.contact;
-            *contact = if *contact == Phase::Upper {
-                Phase::Lower
-            } else {
-                Phase::Upper
-            };
-        }),
-        ("paper-2-beta-5, n = 40", |end| near(end).errors[0] = 1e-5),
-        ("paper-1-beta-0, n = 160", |end| near(end).errors[0] = 2e-6),
-        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
-            near(end).errors[0] = 2e-13;
-        }),
-        ("paper-2-beta-5, 1 x p = 24, q = 1", |end| {
-            near(end).errors[1] = 2e-13;
-        }),
+    let defects: [(&str, &[Defect]); 4] = [
+        (
+            "paper-2-beta-5, n = 160",
+            &[
+                |end| near(end).errors[0] = 2e-6,
+                |end| near(end).errors[1] = 2e-6,
+                |end| end.tip[0] = 0.0141797,
+                |end| {
+                    let contact = &mut near(end).state.contact;
+                    *contact = if *contact == Phase::Upper {
+                        Phase::Lower
+                    } else {
+                        Phase::Upper
+                    };
+                },
+            ],
+        ),
+        (
+            "paper-2-beta-5, n = 40",
+            &[|end| near(end).errors[0] = 1e-5],
+        ),
+        (
+            "paper-1-beta-0, n = 160",
+            &[|end| near(end).errors[0] = 2e-6],
+        ),
+        (
+            "paper-2-beta-5, 1 x p = 24, q = 1",
+            &[
+                |end| near(end).errors[0] = 2e-13,
+                |end| near(end).errors[1] = 2e-13,
+            ],
+        ),
     ];
-    for (k, (label, defect)) in planted.into_iter().enumerate() {
-        assert_ne!(
-            verdict(&study, &sound, label, defect),
-            Verdict::Pass,
-            "defect {k}: {label}"
-        );
+    for (label, defects) in defects {
+        for (k, defect) in defects.iter().enumerate() {
+            let verdict = verdict_with(&study, &sound, place(&sound, label), defect);
+            assert_ne!(verdict, Verdict::Pass, "defect {k}: {label}");
+        }
     }
 }
 
@@ -90,12 +83,10 @@ fn no_number_may_be_nan() {
         |end| &mut near(end).errors[0],
         |end| &mut near(end).errors[1],
     ];
-    for ran in &sound {
+    for case in 0..sound.len() {
         for (k, number) in numbers.into_iter().enumerate() {
-            let found = verdict(&study, &sound, &ran.case.label, |end| {
-                *number(end) = f64::NAN;
-            });
-            assert_eq!(found, Verdict::Fail, "number {k} of {}", ran.case.label);
+            let found = verdict_with(&study, &sound, case, |end| *number(end) = f64::NAN);
+            assert_eq!(found, Verdict::Fail, "number {k} of case {case}");
         }
     }
 }

@@ -7,7 +7,7 @@ use thermobeam_study::studies::experiments::{
     digits::{self, TenDigits},
 };
 
-use super::planted::verdict_with;
+use super::planted::{place, verdict_with};
 use super::typed::{Runs, changed, passes_but_not_without_each_case};
 
 /// A change of what a run shows.
@@ -36,11 +36,6 @@ fn paper(change: fn(&mut PaperRun)) -> Plant {
 
 fn state(nearest: &mut Option<Nearest>) -> &mut Equilibrium {
     &mut nearest.as_mut().expect("a steady state").state
-}
-
-fn place(sound: &Runs<InCode<SectionFive>>, label: &str) -> usize {
-    let place = sound.iter().position(|ran| ran.case.label == label);
-    place.unwrap_or_else(|| panic!("no case {label}"))
 }
 
 /// Changes of the motion, of the end of a run, and of a run to rest.

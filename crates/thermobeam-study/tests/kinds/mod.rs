@@ -10,6 +10,7 @@ mod equilibrium;
 mod experiments;
 mod faults;
 mod frequencies;
+mod manufactured;
 mod planted;
 mod projection;
 mod refused;
@@ -28,6 +29,8 @@ mod written;
 
 use std::path::{Path, PathBuf};
 
+use convergence_study::FromFile;
+
 /// A file of the repository's `studies/`.
 fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -37,4 +40,16 @@ fn file(name: &str) -> PathBuf {
 
 fn text(name: &str) -> String {
     std::fs::read_to_string(file(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// A study of the repository.
+#[track_caller]
+fn read<K: FromFile>(name: &str) -> K {
+    parsed(&text(name))
+}
+
+/// A study of this text, in the folder of those of the repository.
+#[track_caller]
+fn parsed<K: FromFile>(text: &str) -> K {
+    K::parse(text, &file("changed.toml")).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -1,5 +1,6 @@
+use super::planted::{Change, verdict_of, verdict_with};
 use super::typed::{changed, passes_but_not_without_each_case, report};
-use super::{file, text};
+use super::{file, parsed, read, text};
 use convergence_study::{FromFile, Kind, NamedRate, Verdict, internal::study::Described, run_one};
 use thermobeam::motion::TipRange;
 use thermobeam::solve::Level;
@@ -14,35 +15,26 @@ const FILES: [&str; 3] = [
     "every-step.toml",
 ];
 
-fn parse(name: &str, change: impl Fn(String) -> String) -> SelfConvergence {
-    let name = file(name);
-    let text = std::fs::read_to_string(&name).expect("a file");
-    SelfConvergence::parse(&change(text), &name).unwrap_or_else(|error| panic!("{error}"))
-}
-
 /// A field of a level: its name, an index, and an accessor.
 type FieldAt = (&'static str, usize, fn(&mut Level) -> &mut Vec<f64>);
 
 #[test]
 fn quick_files_pass_but_not_without_each_case() {
     for name in FILES {
-        let study = parse(name, |text| text);
+        let study = read::<SelfConvergence>(name);
         let sound = passes_but_not_without_each_case(&study);
         for case in 0..sound.len() {
-            let short = changed::<SelfConvergence>(&sound, |index, found| {
-                if index == case {
-                    found.levels.pop();
-                }
-            });
+            let short = verdict_with(&study, &sound, case, |found| _ = found.levels.pop());
             assert_eq!(
-                study.judge(&short).verdict,
+                short,
                 Verdict::Fail,
                 "{name}: a sample of case {case} is missing"
             );
         }
         for kept in [1, 2] {
+            let without = study.judge(&sound[..sound.len() - kept]);
             assert_eq!(
-                study.judge(&sound[..sound.len() - kept]).verdict,
+                without.verdict,
                 Verdict::Fail,
                 "{name} without its references"
             );
@@ -53,18 +45,16 @@ fn quick_files_pass_but_not_without_each_case() {
 /// Ten samples see the even steps of twenty; each of twenty is compared.
 #[test]
 fn an_error_at_one_step_between_samples_is_no_pass() {
-    let study = parse("every-step.toml", |text| text);
+    let study = read::<SelfConvergence>("every-step.toml");
     let sound = study.run_here();
     for step in [1, 3, 19] {
-        let planted = changed::<SelfConvergence>(&sound, |index, found| {
-            if index == 5 {
-                let level = &mut found.levels[32 * step - 1];
-                level.u.iter_mut().for_each(|u| *u += 0.1);
-                level.w.iter_mut().for_each(|w| *w += 0.1);
-            }
+        let verdict = verdict_with(&study, &sound, 5, |found| {
+            let level = &mut found.levels[32 * step - 1];
+            level.u.iter_mut().for_each(|u| *u += 0.1);
+            level.w.iter_mut().for_each(|w| *w += 0.1);
         });
         // Alone on the finest level it is no rate: a failure, or not decided.
-        assert_ne!(study.judge(&planted).verdict, Verdict::Pass, "step {step}");
+        assert_ne!(verdict, Verdict::Pass, "step {step}");
     }
 }
 
@@ -77,13 +67,8 @@ fn every_file_can_be_read() {
         "reference-2-space",
         "reference-3-time",
     ] {
-        assert_eq!(
-            Described::<SelfConvergence>::read(file(&format!("{name}.toml")))
-                .expect(name)
-                .header
-                .id,
-            name
-        );
+        let study = Described::<SelfConvergence>::read(file(&format!("{name}.toml")));
+        assert_eq!(study.expect(name).header.id, name);
     }
 }
 
@@ -91,15 +76,8 @@ type Number = fn(&mut Traced) -> &mut f64;
 
 #[test]
 fn each_quantity_can_fail() {
-    let study = parse("reference-space.toml", |text| text);
+    let study = read::<SelfConvergence>("reference-space.toml");
     let sound = study.run_here();
-    let h = |case: usize| {
-        if case >= 5 {
-            0.0
-        } else {
-            0.1 * 0.5f64.powi(case as i32)
-        }
-    };
     let numbers: [(&str, Number); 3] = [
         ("tip", |found| found.levels[2].u.last_mut().expect("a node")),
         ("rotation", |found| {
@@ -108,35 +86,26 @@ fn each_quantity_can_fail() {
         ("energy", |found| &mut found.energies[0]),
     ];
     for (name, number) in numbers {
-        let verdict = |change: &dyn Fn(usize, f64) -> f64| {
-            let planted = changed::<SelfConvergence>(&sound, |case, found| {
-                let number = number(found);
-                *number = change(case, *number);
-            });
-            study.judge(&planted).verdict
-        };
-        assert_eq!(verdict(&|_, value| value), Verdict::Pass);
-        assert_eq!(
-            verdict(&|case, value| if case == 1 { f64::NAN } else { value }),
-            Verdict::Fail,
-            "{name}"
-        );
-        assert_eq!(
-            verdict(&|case, value| value + 100.0 * h(case)),
-            Verdict::Fail,
-            "{name}: first order"
-        );
-        assert_ne!(
-            verdict(&|case, value| value + if case == 4 { 0.1 } else { 0.0 }),
-            Verdict::Pass,
-            "{name}"
-        );
+        let verdict = |change: Change| verdict_of(&study, &sound, number, change);
+        assert_eq!(verdict(|_, value| value), Verdict::Pass);
+        let nan = verdict(|case, value| if case == 1 { f64::NAN } else { value });
+        let of_first_order = verdict(|case, value| {
+            let h = if case >= 5 {
+                0.0
+            } else {
+                0.1 * 0.5f64.powi(case as i32)
+            };
+            value + 100.0 * h
+        });
+        assert_eq!([nan, of_first_order], [Verdict::Fail; 2], "{name}");
+        let last = verdict(|case, value| value + if case == 4 { 0.1 } else { 0.0 });
+        assert_ne!(last, Verdict::Pass, "{name}");
     }
 }
 
 #[test]
 fn the_functions_themselves_can_fail() {
-    let study = parse("reference-space.toml", |text| text);
+    let study = read::<SelfConvergence>("reference-space.toml");
     let sound = study.run_here();
     let fields: [FieldAt; 5] = [
         ("u", 1, |level| &mut level.u),
@@ -147,21 +116,17 @@ fn the_functions_themselves_can_fail() {
     ];
     for (name, sample, field) in fields {
         for defect in [f64::NAN, 0.5] {
-            let mut planted = sound.clone();
-            let found = planted[4].found.as_mut().expect("a result");
-            field(&mut found.levels[sample])[7] += defect;
-            assert_ne!(
-                study.judge(&planted).verdict,
-                Verdict::Pass,
-                "{name} {defect}"
-            );
+            let verdict = verdict_with(&study, &sound, 4, |found| {
+                field(&mut found.levels[sample])[7] += defect;
+            });
+            assert_ne!(verdict, Verdict::Pass, "{name} {defect}");
         }
     }
 }
 
 #[test]
 fn a_tip_that_stays_free_is_no_study_of_contact() {
-    let study = parse("reference-time.toml", |text| text);
+    let study = read::<SelfConvergence>("reference-time.toml");
     let sound = study.run_here();
     for [low, high] in [[-0.009, 0.09], [f64::NAN; 2]] {
         let range = TipRange { low, high };
@@ -179,7 +144,7 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
     let scene = text("scenes/paper-1-beta-0.toml").replace("zeta = 0.1", "zeta = 0.1005");
     std::fs::write(folder.path().join("scenes/paper-1-beta-0.toml"), scene).expect("a file");
     for name in FILES {
-        let study = parse(name, |text| text);
+        let study = read::<SelfConvergence>(name);
         let off = SelfConvergence::parse(&text(name), &folder.path().join(name)).expect("a study");
         let mut planted = study.run_here();
         for ran in planted.iter_mut().rev().skip(2) {
@@ -197,46 +162,33 @@ fn a_wrong_coefficient_falls_with_no_order_against_the_reference() {
             // small defect.
             let hidden = name == "reference-space.toml" && quantity == "theorem-3.4, reference";
             let expected = hidden || quantity.ends_with("successive");
-            assert_eq!(
-                rate.verdict == Verdict::Pass,
-                expected,
-                "{name}: {quantity}: {}",
-                rate.reason
-            );
+            let found = rate.verdict == Verdict::Pass;
+            assert_eq!(found, expected, "{name}: {quantity}: {}", rate.reason);
         }
     }
 }
 
 #[test]
 fn a_reference_that_is_not_resolved_is_seen_by_the_other() {
-    let coarse = parse("reference-space.toml", |text| {
-        text.replace("degree = 24", "degree = 12")
-    });
-    let outcome = run_one(&coarse);
-    let check = outcome
-        .checks
-        .iter()
-        .find(|check| check.claim.to_string().contains("the same reference"))
-        .expect("the check");
-    assert_eq!(
-        (check.verdict, outcome.verdict),
-        (Verdict::Fail, Verdict::Fail),
-        "{}",
-        report(&outcome)
+    let coarse = parsed::<SelfConvergence>(
+        &text("reference-space.toml").replace("degree = 24", "degree = 12"),
     );
+    let outcome = run_one(&coarse);
+    let mut checks = outcome.checks.iter();
+    let same = checks.find(|check| check.claim.to_string().contains("the same reference"));
+    let found = [same.expect("the check").verdict, outcome.verdict];
+    assert_eq!(found, [Verdict::Fail; 2], "{}", report(&outcome));
 }
 
 #[test]
 fn an_order_that_the_scheme_has_not_fails() {
-    let outcome = run_one(&parse("reference-time.toml", |text| {
-        text.replace("order = 1.0", "order = 2.0")
-    }));
+    let outcome = run_one(&parsed::<SelfConvergence>(
+        &text("reference-time.toml").replace("order = 1.0", "order = 2.0"),
+    ));
     assert_eq!(outcome.verdict, Verdict::Fail);
+    let mut rates = outcome.rates.iter();
     assert!(
-        outcome
-            .rates
-            .iter()
-            .all(|named| named.rate.verdict == Verdict::Fail),
+        rates.all(|named| named.rate.verdict == Verdict::Fail),
         "{}",
         report(&outcome)
     );
@@ -244,7 +196,7 @@ fn an_order_that_the_scheme_has_not_fails() {
 
 #[test]
 fn what_is_shown_but_not_claimed_decides_nothing() {
-    let study = parse("reference-space.toml", |text| text);
+    let study = read::<SelfConvergence>("reference-space.toml");
     let sound = study.run_here();
     let planted = changed::<SelfConvergence>(&sound, |case, found| {
         found.tip_range.high += 0.1 * case as f64;
@@ -254,85 +206,12 @@ fn what_is_shown_but_not_claimed_decides_nothing() {
 
 #[test]
 fn the_legend_says_of_which_differences_nothing_is_claimed() {
-    let outcome = run_one(&parse("reference-space.toml", |text| text));
+    let outcome = run_one(&read::<SelfConvergence>("reference-space.toml"));
     let svg = &outcome.figures[0].svg;
-    assert!(
-        svg.contains("max u(1, t) (not claimed), order 2, "),
-        "{}",
-        outcome.figures[0].file
-    );
+    assert!(svg.contains("max u(1, t) (not claimed), order 2, "));
     assert!(svg.contains("u(1, t), order 2, "));
-    assert_eq!(
-        outcome
-            .rates
-            .iter()
-            .filter(|rate| rate.name.contains("not claimed"))
-            .count(),
-        0
-    );
-    assert!(
-        outcome.levels[0]
-            .errors
-            .iter()
-            .any(|error| error.name == "tip-max, reference")
-    );
-}
-
-#[test]
-fn a_file_that_makes_no_sense_is_refused() {
-    for (from, to, message) in [
-        ("[8, 16,", "[8, 20,", "a multiple of 8, the level before"),
-        (
-            "[8, 16, 32, 64, 128]",
-            "[8, 16, 32, 64]",
-            "as many as elements",
-        ),
-        ("[200, 800,", "[400, 800,", "or by its square"),
-        (
-            "degree = 18",
-            "degree = 24",
-            "two tables [[reference]] that differ in elements",
-        ),
-        ("growth = 1.5", "growth = 0.5", "growth"),
-        ("degree = 18", "degree = 24", "two with the same degree"),
-        (
-            "\ndt = 0.006",
-            "\ndt = 1e-20",
-            "reference[1].dt: found 1e-20, which is",
-        ),
-        (
-            "\nelements = 2\n",
-            "\nelements = 8000000\n",
-            "reference[1].elements: found 8000000, which would take",
-        ),
-        ("samples = 10", "samples = 7", "a multiple of samples = 7"),
-        (
-            "paper-1-beta-0",
-            "paper-1-beta-00",
-            "scene.file: found the text",
-        ),
-        (
-            "quantity = \"tip\"",
-            "quantity = \"tips\"",
-            "did you mean \"tip\"?",
-        ),
-        ("axis = \"both\"", "axis = \"space\"", "refine.axis"),
-        (
-            "axis = \"both\"\nelements = [8, 16, 32, 64, 128]",
-            "axis = \"time\"\nelements = 32",
-            "of 32 elements of degree 1",
-        ),
-        (
-            "quantity = \"rotation\"",
-            "quantity = \"tip\"",
-            "found \"tip\" a second time",
-        ),
-    ] {
-        let name = file("reference-space.toml");
-        let changed = text("reference-space.toml").replace(from, to);
-        let error = SelfConvergence::parse(&changed, &name)
-            .expect_err(to)
-            .to_string();
-        assert!(error.contains(message), "{error}");
-    }
+    let mut rates = outcome.rates.iter();
+    assert!(rates.all(|rate| !rate.name.contains("not claimed")));
+    let mut errors = outcome.levels[0].errors.iter();
+    assert!(errors.any(|error| error.name == "tip-max, reference"));
 }

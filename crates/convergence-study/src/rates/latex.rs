@@ -118,6 +118,48 @@ fn note(line: &str) -> String {
     format!("{} {}", symbol(mark), escaped(words))
 }
 
+/// Letters and signs of error names that LaTeX knows in mathematics alone.
+const SYMBOLS: [(char, &str); 38] = [
+    ('α', "alpha"),
+    ('β', "beta"),
+    ('γ', "gamma"),
+    ('δ', "delta"),
+    ('ε', "varepsilon"),
+    ('ζ', "zeta"),
+    ('η', "eta"),
+    ('θ', "theta"),
+    ('ι', "iota"),
+    ('κ', "kappa"),
+    ('λ', "lambda"),
+    ('μ', "mu"),
+    ('ν', "nu"),
+    ('ξ', "xi"),
+    ('π', "pi"),
+    ('ρ', "rho"),
+    ('σ', "sigma"),
+    ('τ', "tau"),
+    ('υ', "upsilon"),
+    ('φ', "varphi"),
+    ('χ', "chi"),
+    ('ψ', "psi"),
+    ('ω', "omega"),
+    ('Γ', "Gamma"),
+    ('Δ', "Delta"),
+    ('Θ', "Theta"),
+    ('Λ', "Lambda"),
+    ('Ξ', "Xi"),
+    ('Π', "Pi"),
+    ('Σ', "Sigma"),
+    ('Φ', "Phi"),
+    ('Ψ', "Psi"),
+    ('Ω', "Omega"),
+    ('‖', "|"),
+    ('∞', "infty"),
+    ('∇', "nabla"),
+    ('∂', "partial"),
+    ('∫', "int"),
+];
+
 /// A text in LaTeX, without commands of its own.
 fn escaped(text: &str) -> String {
     let plain = |c: char| match c {
@@ -125,7 +167,28 @@ fn escaped(text: &str) -> String {
         '~' => "\\textasciitilde{}".to_owned(),
         '^' => "\\textasciicircum{}".to_owned(),
         '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
-        c => c.to_string(),
+        c => {
+            let mut symbols = SYMBOLS.iter();
+            let known = symbols.find(|(own, _)| *own == c);
+            known.map_or_else(|| c.to_string(), |(_, name)| format!("$\\{name}$"))
+        }
     };
     visible(text).chars().map(plain).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_has_no_command_and_no_letter_that_latex_does_not_know() {
+        for (name, expected) in [
+            ("velocity_L2", r"velocity\_L2"),
+            ("H^1 & 50%", r"H\textasciicircum{}1 \& 50\%"),
+            (r"\input{a}", r"\textbackslash{}input\{a\}"),
+            ("‖∇δ‖_∞", r"$\|$$\nabla$$\delta$$\|$\_$\infty$"),
+        ] {
+            assert_eq!(escaped(name), expected, "{name}");
+        }
+    }
 }

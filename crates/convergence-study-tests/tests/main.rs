@@ -5,3 +5,8 @@ mod command_line;
 // Process groups exist only on Unix.
 #[cfg(unix)]
 mod program;
+
+/// Whether programs in awk, and scripts that start them, can be run here.
+fn awk_is_here() -> bool {
+    foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL])
+}

@@ -3,17 +3,12 @@
 use std::fs;
 
 use foreign_tools::Tool;
-use tempfile::TempDir;
 
-use super::{command, run, run_words, texts, workspace};
-
-fn read(root: &TempDir, name: &str) -> String {
-    fs::read_to_string(root.path().join(name)).unwrap()
-}
+use super::{command, read, run, run_words, texts, workspace};
 
 #[test]
 fn a_study_goes_into_the_studies_of_the_project() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let root = workspace(false);

@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use convergence_study_tests::finished;
 
-use super::{ORDER, command, run, study, texts, workspace};
+use super::{ORDER, command, read, run, study, texts, workspace};
 
 /// What the system says of a file that is not there.
 const NO_FILE: &str = if cfg!(windows) {
@@ -74,7 +74,7 @@ fn a_blessing_takes_what_moved_and_no_number_of_a_failing_study() {
         fs::write(file, study("one", "c", exponent)).unwrap();
     };
     let baseline = |path: &[&str]| {
-        let text = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+        let text = read(&root, "studies/baseline.json");
         let object: serde_json::Value = serde_json::from_str(&text).unwrap();
         path.iter().fold(object, |object, key| object[key].clone())
     };
@@ -131,7 +131,7 @@ fn blessings_at_once_are_all_kept() {
     for run in ids.iter().map(bless).collect::<Vec<_>>() {
         assert_eq!(finished(run).status.code(), Some(0));
     }
-    let text = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let text = read(&root, "studies/baseline.json");
     let baseline: serde_json::Value = serde_json::from_str(&text).unwrap();
     let missing: Vec<&String> = ids
         .iter()

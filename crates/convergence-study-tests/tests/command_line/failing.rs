@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use super::{command, run, study, texts, workspace};
+use super::{command, read, run, study, texts, workspace, write};
 
 #[test]
 fn a_changed_setting_fails_until_it_is_blessed_on_demand() {
@@ -19,7 +19,7 @@ fn a_changed_setting_fails_until_it_is_blessed_on_demand() {
     ran.says(1, &format!("claims changed\n  {change}"));
     ran.says(1, "\nif that is meant: powers verify --bless --loosened\n");
     ran.says(1, &format!("::error title=baseline::{change}"));
-    let baseline = || fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let baseline = || read(&root, "studies/baseline.json");
     let before = baseline();
     run(&root, "verify --bless").says(1, &format!("--bless --loosened\n  {change}"));
     assert_eq!(baseline(), before);
@@ -52,11 +52,11 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
     // Blessing the quick tier does not change the claim of a study that was not run.
     run(&root, "verify --bless --loosened").says(1, "");
     // Moved to another tier.
-    fs::write(
-        root.path().join("studies/one.toml"),
+    write(
+        &root,
+        "studies/one.toml",
         study("one", "c", 1.0).replace("\"quick\"", "\"full\""),
-    )
-    .unwrap();
+    );
     fs::write(&file, full(1.0).replace("\"full\"", "\"quick\"")).unwrap();
     run(&root, "verify").says(1, "  one: settings have changed: hash ");
 }
@@ -65,11 +65,7 @@ fn claims_of_the_full_tier_are_compared_in_the_quick_one() {
 #[test]
 fn the_failure_of_a_single_study_is_said_by_its_own_checks() {
     let root = workspace(true);
-    fs::write(
-        root.path().join("studies/three.toml"),
-        study("three", "c", 1.0),
-    )
-    .unwrap();
+    write(&root, "studies/three.toml", study("three", "c", 1.0));
     run(&root, "verify one three --bless").says(0, "");
     let (status, out, _) = run(&root, "verify").parts();
     let lines: Vec<&str> = out.lines().collect();
@@ -120,11 +116,7 @@ fn a_run_that_stops_at_a_failure_is_that_of_a_selection_and_the_slowest_are_list
 #[test]
 fn a_deleted_study_is_one_change_and_is_named() {
     let root = workspace(false);
-    fs::write(
-        root.path().join("studies/three.toml"),
-        study("three", "c", 1.0),
-    )
-    .unwrap();
+    write(&root, "studies/three.toml", study("three", "c", 1.0));
     run(&root, "verify --bless").says(0, "");
     fs::remove_file(root.path().join("studies/three.toml")).unwrap();
     let (status, out, _) = run(&root, "verify --quiet").parts();
@@ -143,7 +135,7 @@ fn a_deleted_study_is_one_change_and_is_named() {
             "{page}"
         );
     }
-    let page = fs::read_to_string(root.path().join("reports/index.html")).unwrap();
+    let page = read(&root, "reports/index.html");
     assert!(
         page.contains("<h2>Claims changed</h2>\n<ul>\n<li>three: study was deleted: it had 6 guarded numbers</li>\n</ul>"),
         "{page}"
@@ -155,7 +147,7 @@ fn a_deleted_study_is_one_change_and_is_named() {
         "loosened: three: study was deleted: it had 6 guarded numbers\n",
     );
     ran.says(0, "baseline: blessed");
-    let baseline = fs::read_to_string(root.path().join("studies/baseline.json")).unwrap();
+    let baseline = read(&root, "studies/baseline.json");
     let baseline: serde_json::Value = serde_json::from_str(&baseline).unwrap();
     assert!(
         baseline["studies"].get("one").is_some() && baseline["studies"].get("three").is_none(),

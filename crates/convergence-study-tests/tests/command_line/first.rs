@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use super::{command, run, texts, workspace};
+use super::{command, read, run, texts, workspace, write};
 
 #[test]
 fn a_first_run_counts_the_numbers_to_accept_and_lists_none() {
@@ -13,14 +13,14 @@ fn a_first_run_counts_the_numbers_to_accept_and_lists_none() {
     let last = "no baseline yet: 6 numbers to accept; `powers verify --bless` accepts them\n";
     assert!(out.ends_with(last) && out.contains("one    pass"), "{out}");
     assert!(!out.contains("fail") && !out.contains("is new"), "{out}");
-    let page = fs::read_to_string(root.path().join("reports/local/quick/README.md")).unwrap();
+    let page = read(&root, "reports/local/quick/README.md");
     assert!(
         page.contains("no baseline yet: 6 numbers to accept\n")
             && page.contains("`powers verify --bless` accepts them.")
             && !page.contains("is new"),
         "{page}"
     );
-    let junit = fs::read_to_string(root.path().join("reports/junit.xml")).unwrap();
+    let junit = read(&root, "reports/junit.xml");
     assert_eq!(junit.matches("<failure").count(), 1, "{junit}");
     assert!(junit.contains("no baseline yet: 6 numbers"), "{junit}");
     let (_, out, _) = run(&root, "verify --quiet").parts();
@@ -50,12 +50,8 @@ fn a_new_study_beside_accepted_ones_and_one_that_fails_are_no_first_run() {
         root.path().join("studies/two.toml"),
     )
     .unwrap();
-    let two = fs::read_to_string(root.path().join("studies/two.toml")).unwrap();
-    fs::write(
-        root.path().join("studies/two.toml"),
-        two.replace("\"one\"", "\"two\""),
-    )
-    .unwrap();
+    let two = read(&root, "studies/two.toml");
+    write(&root, "studies/two.toml", two.replace("\"one\"", "\"two\""));
     let ran = run(&root, "verify");
     ran.says(1, "; 6 numbers not yet in the baseline\n");
     ran.says(1, "if that is meant: powers verify --bless");

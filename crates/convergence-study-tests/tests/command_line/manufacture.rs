@@ -12,7 +12,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::where_lost::ROD;
-use super::{run, run_words};
+use super::{read, run, run_words, write};
 
 const PAGE: &str = include_str!("../../../manufacture/TEN-MINUTES.md");
 
@@ -28,10 +28,10 @@ fn blocks(language: &str) -> Vec<&'static str> {
 #[test]
 fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     let root = TempDir::new().unwrap();
-    let write = |name: &str, text: &str| fs::write(root.path().join(name), text).unwrap();
+    let write = |name: &str, text: &str| write(&root, name, text);
     let (status, _, err) = run(&root, "new manufacture heat").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""));
-    let file = fs::read_to_string(root.path().join("heat.toml")).unwrap();
+    let file = read(&root, "heat.toml");
     // The page is about the program `convergence-study`.
     assert_eq!(
         file.replace("powers", "convergence-study"),
@@ -51,7 +51,7 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     write("solver.py", solver);
     run(&root, "study heat.study.toml").says(0, "");
     // Moved to the other studies, it names the folder of its program.
-    let study = fs::read_to_string(root.path().join("heat.study.toml")).unwrap();
+    let study = read(&root, "heat.study.toml");
     assert!(study.contains("directory = \".\"\n"), "{study}");
     let moved = study.replace("directory = \".\"", "directory = \"..\"");
     fs::create_dir_all(root.path().join("studies")).unwrap();
@@ -83,7 +83,7 @@ fn exit_status_and_output_are_those_of_every_command() {
     run(&root, "new manufacture heat");
     let path = root.path().join("heat.toml");
     let sound = fs::read_to_string(&path).unwrap();
-    fs::write(root.path().join("points.csv"), "x,face\n0.5,\n1,x_max\n").unwrap();
+    write(&root, "points.csv", "x,face\n0.5,\n1,x_max\n");
     let at = [
         "manufacture",
         "heat.toml",
@@ -202,7 +202,7 @@ fn with_a_fixed_value() -> String {
 #[test]
 fn the_variants_are_listed_with_what_each_switches_off() {
     let root = TempDir::new().unwrap();
-    fs::write(root.path().join("rod.toml"), with_a_fixed_value()).unwrap();
+    write(&root, "rod.toml", with_a_fixed_value());
     let (status, out, err) = run(&root, "manufacture rod.toml --variants").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
     for line in [
@@ -241,7 +241,7 @@ u = { of = "u", is = "3" }
 #[test]
 fn a_module_without_any_variant_is_refused_and_nothing_is_written() {
     let root = TempDir::new().unwrap();
-    fs::write(root.path().join("held.toml"), HELD).unwrap();
+    write(&root, "held.toml", HELD);
     let words = ["manufacture", "held.toml", "--variants", "--language", "c"];
     let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""));

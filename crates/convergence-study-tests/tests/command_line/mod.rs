@@ -27,9 +27,9 @@ const ORDER: &str = "CONVERGENCE_STUDY_TESTS_ORDER";
 fn workspace(with_a_failure: bool) -> TempDir {
     let root = tempfile::tempdir().unwrap();
     fs::create_dir(root.path().join("studies")).unwrap();
-    fs::write(root.path().join("studies/one.toml"), study("one", "c", 1.0)).unwrap();
+    write(&root, "studies/one.toml", study("one", "c", 1.0));
     if with_a_failure {
-        fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
+        write(&root, "studies/two.toml", study("two", "c", 0.5));
     }
     root
 }
@@ -46,6 +46,16 @@ fn command(root: &Path, arguments: &[&str]) -> Command {
         .env_remove("GITHUB_ACTIONS")
         .env_remove("GITHUB_STEP_SUMMARY");
     command
+}
+
+#[track_caller]
+fn read(root: &TempDir, name: &str) -> String {
+    fs::read_to_string(root.path().join(name)).unwrap()
+}
+
+#[track_caller]
+fn write(root: &TempDir, name: &str, text: impl AsRef<[u8]>) {
+    fs::write(root.path().join(name), text).unwrap();
 }
 
 /// A command line of words without blanks.
@@ -68,15 +78,15 @@ fn verify_ends_with_0_1_or_2() {
     run(&root, "verify").says(1, "");
     run(&root, "verify --bless").says(0, "");
     run(&root, "verify").says(0, "pass: the study passes");
-    fs::write(root.path().join("studies/two.toml"), study("two", "c", 0.5)).unwrap();
+    write(&root, "studies/two.toml", study("two", "c", 0.5));
     run(&root, "verify").says(1, "");
-    fs::write(
-        root.path().join("studies/two.toml"),
+    write(
+        &root,
+        "studies/two.toml",
         study("two", "c", 1.0).replace("kind = \"power\"", ""),
-    )
-    .unwrap();
+    );
     run(&root, "verify").complains(2, "two.toml:2:1: study.kind: missing; expected \"power\"");
-    fs::write(root.path().join("studies/two.toml"), "[study]\n").unwrap();
+    write(&root, "studies/two.toml", "[study]\n");
     let (status, _, err) = run(&root, "verify").parts();
     assert!(
         status == Some(2) && err.starts_with("error: studies/two.toml:1:1: study.id: missing"),
@@ -200,7 +210,7 @@ fn study_writes_a_report_that_says_how_to_repeat_it() {
     );
     // A report of `verify` goes where `--out` says, and each of its studies can be run by its id.
     run(&root, "verify --out elsewhere").says(1, "");
-    let page = fs::read_to_string(root.path().join("elsewhere/local/quick/index.html")).unwrap();
+    let page = self::read(&root, "elsewhere/local/quick/index.html");
     assert!(
         page.contains("Again: <code>powers verify two</code> (tier quick")
             && !root.path().join("reports").exists(),
@@ -215,14 +225,14 @@ fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() 
     }
     let root = workspace(false);
     let study = |out: &str| run_words(&root, &["study", "studies/one.toml", "--out", out]);
-    fs::write(root.path().join("file"), "").unwrap();
+    write(&root, "file", "");
     let (status, out, err) = study("file").parts();
     assert!(
         status == Some(2) && out.is_empty() && err.starts_with("error: file: "),
         "{err}"
     );
     fs::create_dir(root.path().join("out")).unwrap();
-    fs::write(root.path().join("out/local"), "").unwrap();
+    write(&root, "out/local", "");
     let (status, out, err) = study("out").parts();
     assert!(
         status == Some(2) && err.contains("out: the reports cannot be written"),
@@ -236,7 +246,7 @@ fn a_report_that_cannot_be_written_is_found_before_the_run_or_takes_no_result() 
     let leaves_a_trace = "[study]\nid = \"two\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"program\"\n[program]\n\
                           command = [\"touch\", \"ran-{n}\"]\n[refine]\nn = [4, 8, 16]\n\
                           [[expect]]\nerror = \"L2\"\norder = 2.0\ntolerance = 0.1\n";
-    fs::write(root.path().join("studies/two.toml"), leaves_a_trace).unwrap();
+    write(&root, "studies/two.toml", leaves_a_trace);
     run(&root, "verify --out file").refuses("file: the reports cannot be written");
     let trace = root.path().join("studies/ran-4");
     assert!(!trace.exists(), "the study was run");
@@ -281,7 +291,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
         out,
         "wrote mine.toml, mine.py\nrun: powers study mine.toml\n"
     );
-    let text = fs::read_to_string(root.path().join("mine.toml")).unwrap();
+    let text = read(&root, "mine.toml");
     assert!(
         text.contains("powers study mine.toml")
             && !text.contains("NAME")
@@ -300,7 +310,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     // In a folder of a repository the program runs from the folder of the command: from its root.
     let (status, out, err) = run(&root, "new program other --out studies").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    let text = fs::read_to_string(root.path().join("studies/other.toml")).unwrap();
+    let text = read(&root, "studies/other.toml");
     assert!(
         text.contains("directory = \"..\"") && text.contains("\"studies/other.py\""),
         "{text}"
@@ -333,11 +343,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
     }
     if foreign_tools::is_here(foreign_tools::PYTHON) {
         run(&root, "study studies/other.toml").says(0, "");
-        fs::write(
-            root.path().join("studies/other.py"),
-            "print('max error: 1e-3')\n",
-        )
-        .unwrap();
+        write(&root, "studies/other.py", "print('max error: 1e-3')\n");
         let (_, out, _) = run(&root, "study studies/other.toml").parts();
         assert!(
             out.contains("expected a last line such as {\"errors\": {\"max\": 0.001}}"),
@@ -346,7 +352,7 @@ fn a_new_study_of_a_program_passes_as_it_is() {
         // In the check and in the table of cases: once each, although the last lines differ.
         let program =
             "import sys\nprint('level', sys.argv[1], 'max', 1 / int(sys.argv[1]), 'in 3')\n";
-        fs::write(root.path().join("studies/other.py"), program).unwrap();
+        write(&root, "studies/other.py", program);
         let (_, out, _) = run(&root, "study studies/other.toml").parts();
         assert_eq!(
             out.matches("expected a last line such as {\"errors\": {\"max\": 0.125}}")

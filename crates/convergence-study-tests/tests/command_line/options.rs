@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{command, run, run_words, study, texts, workspace};
+use super::{command, read, run, run_words, study, texts, workspace, write};
 
 const TABLE: &str = "h e\n0.4 1.600e-1\n0.2 4.000e-2\n0.1 1.000e-2\n0.05 2.500e-3\n";
 
@@ -11,7 +11,7 @@ const ESCAPE: char = '\u{1b}';
 #[test]
 fn colours_follow_the_option_then_the_environment() {
     let root = workspace(false);
-    fs::write(root.path().join("t"), TABLE).unwrap();
+    write(&root, "t", TABLE);
     let ended = |words: &[&str], option: &[&str], variables: &[(&str, &str)]| {
         let mut command = command(root.path(), words);
         for name in ["NO_COLOR", "FORCE_COLOR", "CLICOLOR_FORCE"] {
@@ -49,12 +49,12 @@ fn colours_follow_the_option_then_the_environment() {
 #[test]
 fn files_have_no_colours() {
     let root = workspace(false);
-    fs::write(root.path().join("t"), TABLE).unwrap();
+    write(&root, "t", TABLE);
     let arguments = [
         "rates", "t", "--order", "2", "-o", "out", "--color", "always",
     ];
     run_words(&root, &arguments).says(0, "");
-    let page = fs::read_to_string(root.path().join("out/rates.md")).unwrap();
+    let page = read(&root, "out/rates.md");
     assert!(
         page.contains("    e: pass: 2.000") && !page.contains([ESCAPE, '\u{fffd}']),
         "{page}"

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use super::{run, run_words, workspace};
+use super::{run, run_words, workspace, write};
 
 /// Errors of second and of first order, and a column without a claim that would fail.
 const RATES: &str = "h L2 H1 max\n0.4 1.6000000e-1 4.0000000e-1 3\n0.2 4.0000000e-2 2.0000000e-1 3\n\
@@ -13,7 +13,7 @@ const RATES: &str = "h L2 H1 max\n0.4 1.6000000e-1 4.0000000e-1 3\n0.2 4.0000000
 #[test]
 fn rates_come_in_words_and_as_an_object() {
     let root = workspace(false);
-    fs::write(root.path().join("t"), RATES).unwrap();
+    write(&root, "t", RATES);
     let claims = ["rates", "t", "--order", "L2=2", "--order", "H1=1"];
     let with = |more: &[&str]| run_words(&root, &[&claims, more].concat());
     let (status, out, err) = with(&[]).parts();
@@ -71,11 +71,11 @@ fn levels_set_aside_are_marked() {
     // The rates 0.3, 2, 2, 2, and a level at the floor.
     let errors = [0.16, 0.13, 0.0325, 0.008125, 0.00203125, 1e-4];
     let row = |(k, error): (usize, &f64)| format!("{} {error}\n", 0.4 / f64::powi(2.0, k as i32));
-    fs::write(
-        root.path().join("t"),
+    write(
+        &root,
+        "t",
         "h e\n".to_owned() + &errors.iter().enumerate().map(row).collect::<String>(),
-    )
-    .unwrap();
+    );
     let marks = |floor: &str| {
         let (_, out, _) =
             run_words(&root, &["rates", "t", "--order", "2", "--floor", floor]).parts();
@@ -103,7 +103,7 @@ fn levels_set_aside_are_marked() {
 #[test]
 fn rates_write_figure_markdown_and_junit() {
     let root = workspace(false);
-    fs::write(root.path().join("a&b|c"), RATES).unwrap();
+    write(&root, "a&b|c", RATES);
     let (status, _, err) = run(
         &root,
         "rates a&b|c --order L2=2 --order H1=2 --out out/rates",
@@ -148,14 +148,14 @@ fn rates_write_figure_markdown_and_junit() {
         page.contains("    0.2  4.0000e-2   2.000000  2.0000e-1   1.000000"),
         "{page}"
     );
-    fs::write(root.path().join("file"), "").unwrap();
+    write(&root, "file", "");
     run(&root, "rates a&b|c --order L2=2 --out file").says(2, "");
 }
 
 #[test]
 fn a_refusal_is_an_object_for_programs() {
     let root = workspace(false);
-    fs::write(root.path().join("t"), "n L2\n10 0.16\n20 0.04\n40 0.01\n").unwrap();
+    write(&root, "t", "n L2\n10 0.16\n20 0.04\n40 0.01\n");
     let (_, silent, words) = run(&root, "rates t --order 2").parts();
     let (status, out, err) = run(&root, "rates t --order 2 --format json").parts();
     assert_eq!((status, silent.as_str()), (Some(2), ""));

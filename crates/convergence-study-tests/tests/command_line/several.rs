@@ -7,18 +7,18 @@ use std::process::Stdio;
 use convergence_study_tests::{Ended, finished};
 use tempfile::TempDir;
 
-use super::{command, run, run_words};
+use super::{command, run, run_words, write};
 
 /// Tables of second and of first order, and a file with both.
 fn place() -> TempDir {
     let root = tempfile::tempdir().unwrap();
     let second = "h,\"L2 [Pa, mean]\"\n0.4,1.600e-1\n0.2,4.000e-2\n0.1,1.000e-2\n0.05,2.500e-3\n";
     let first = "h,H1\n0.4,4.000e-1\n0.2,2.000e-1\n0.1,1.000e-1\n0.05,5.000e-2\n";
-    fs::write(root.path().join("a.csv"), second).unwrap();
-    fs::write(root.path().join("b.csv"), first).unwrap();
+    write(&root, "a.csv", second);
+    write(&root, "b.csv", first);
     let second = second.replace("\"L2 [Pa, mean]\"", "L2");
     let both = format!("Degree 1\n{second}\nDegree 2\n{first}");
-    fs::write(root.path().join("both.txt"), both).unwrap();
+    write(&root, "both.txt", both);
     root
 }
 
@@ -180,7 +180,7 @@ fn an_order_that_is_none_is_refused_with_all_forms() {
 fn rows_come_as_latex_with_rates_between_them() {
     let root = tempfile::tempdir().unwrap();
     let table = "h,L2_u,H1\n0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n0.05,2.500e-3,5.000e-2\n";
-    fs::write(root.path().join("t.csv"), table).unwrap();
+    write(&root, "t.csv", table);
     let with = |more: &[&str]| {
         let arguments = ["rates", "t.csv", "--order", "L2_u=2", "--format", "latex"];
         run_words(&root, &[&arguments, more].concat()).stdout

@@ -1,13 +1,11 @@
 //! What `rates` says about how it reads tables, and about claims that do not hold.
 
-use std::fs;
-
 use serde_json::json;
 use tempfile::TempDir;
 
 use convergence_study_tests::Ended;
 
-use super::{run, run_words, workspace};
+use super::{read, run, run_words, workspace, write};
 
 /// A table of one column of errors with seven digits, over halved steps.
 fn table(name: &str, first: f64, errors: &[f64]) -> String {
@@ -21,7 +19,7 @@ fn table(name: &str, first: f64, errors: &[f64]) -> String {
 
 /// What `rates` says of a table, all of it with single blanks.
 fn told(root: &TempDir, table: &str, options: &str) -> Ended {
-    fs::write(root.path().join("TABLE"), table).unwrap();
+    write(root, "TABLE", table);
     let mut ended = run(root, &format!("rates TABLE {options}"));
     let all = ended.stdout + &ended.stderr;
     ended.stdout = all.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -32,7 +30,7 @@ fn told(root: &TempDir, table: &str, options: &str) -> Ended {
 fn rates_says_how_it_read_a_table() {
     let root = workspace(false);
     let text = "h,L2,dofs\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
-    fs::write(root.path().join("t"), text).unwrap();
+    write(&root, "t", text);
     let rates = |more: &[&str]| run_words(&root, &[&["rates", "t"], more].concat());
     let because = "a count that grows as the step falls";
     let reading = format!("step: `h`; errors: `L2`; left out: `dofs` ({because})");
@@ -54,9 +52,9 @@ fn rates_says_how_it_read_a_table() {
         )
     );
     let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]).parts();
-    let page = fs::read_to_string(root.path().join("out/notes/rates.md")).unwrap();
+    let page = read(&root, "out/notes/rates.md");
     assert!(page.contains(&reading), "{err}{page}");
-    let junit = fs::read_to_string(root.path().join("out/notes/junit.xml")).unwrap();
+    let junit = read(&root, "out/notes/junit.xml");
     assert!(
         junit.contains("tests=\"2\" skipped=\"1\"")
             && junit.contains(&format!("<skipped message=\"{because}\"/>")),
@@ -69,7 +67,7 @@ fn rates_says_how_it_read_a_table() {
         rates(&[&["--order", "2"], more].concat()).says(1, "");
     }
     // Lines outside are a doubt, with the command that says where the table is.
-    fs::write(root.path().join("t"), format!("{text}\n0.05\n")).unwrap();
+    write(&root, "t", format!("{text}\n0.05\n"));
     let ran = rates(&["--order", "2"]);
     ran.says(1, "doubt: outside the tables: line 6, `0.05`\n");
     ran.says(1, " rates t --order 2 --lines 1-4\n");
@@ -78,7 +76,7 @@ fn rates_says_how_it_read_a_table() {
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
         .collect();
-    fs::write(root.path().join("t"), utf_16).unwrap();
+    write(&root, "t", utf_16);
     assert!(
         rates(&[])
             .stderr
@@ -90,11 +88,7 @@ fn rates_says_how_it_read_a_table() {
 fn claims_that_contradict_each_other_are_refused() {
     let root = workspace(false);
     let rows = "0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n";
-    fs::write(
-        root.path().join("t"),
-        format!("h [m],L2 [Pa],H1 (Pa)\n{rows}"),
-    )
-    .unwrap();
+    write(&root, "t", format!("h [m],L2 [Pa],H1 (Pa)\n{rows}"));
     for (options, says) in [
         (
             &["--order", "2", "--order", "3"][..],

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{command, run, run_words, study, texts, workspace};
+use super::{command, run, run_words, study, texts, workspace, write};
 
 /// No control characters except line ends, and no line that GitHub Actions would obey.
 #[track_caller]
@@ -68,7 +68,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
         ("--bless", "c", "study.id: found the text"),
         (&"a".repeat(5000), "c", "study.id: found the text"),
     ] {
-        fs::write(root.path().join("a.toml"), study(id, claim, 1.0)).unwrap();
+        write(&root, "a.toml", study(id, claim, 1.0));
         let (status, out, err) = run(&root, "study a.toml").parts();
         assert!(
             status == Some(2) && out.is_empty() && err.contains(words),
@@ -77,7 +77,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
         is_harmless(&err);
     }
     // Written raw, TOML itself refuses them.
-    fs::write(root.path().join("a.toml"), study("a", "c\x1b[31m", 1.0)).unwrap();
+    write(&root, "a.toml", study("a", "c\x1b[31m", 1.0));
     let (status, _, err) = run(&root, "study a.toml").parts();
     assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
     is_harmless(&err);
@@ -88,7 +88,7 @@ fn names_of_columns_and_files_are_no_commands() {
     let root = workspace(false);
     let table =
         |name: &str| format!("h,{name}\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n");
-    let write = |name: &str, text: String| fs::write(root.path().join(name), text).unwrap();
+    let write = |name: &str, text: String| write(&root, name, text);
     for name in ["a\x1b", "a\u{9b}b", "\x07"] {
         write("table.csv", table(name));
         let (status, out, err) = run(&root, "rates table.csv --order 1").parts();

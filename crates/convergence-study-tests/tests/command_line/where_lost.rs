@@ -7,7 +7,7 @@ use std::process::Command;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::{run, run_words};
+use super::{read, run, run_words, write};
 
 /// Equations with a solution that has data at both faces.
 pub(super) const ROD: &str = r#"
@@ -58,7 +58,7 @@ fn project(program: &str, hidden_in: &[&str]) -> TempDir {
         ("run.sh", program),
         ("study.toml", &study),
     ] {
-        fs::write(root.path().join(name), text).unwrap();
+        write(&root, name, text);
     }
     root
 }
@@ -73,7 +73,7 @@ fn located(program: &str, hidden_in: &[&str]) -> convergence_study_tests::Ended 
 
 #[test]
 fn the_face_whose_flat_variant_has_its_order_back_is_named() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let hidden_in = ["flat_x_max", "flat_x", "flat_everywhere", "constant_x"];
@@ -101,7 +101,7 @@ fn the_face_whose_flat_variant_has_its_order_back_is_named() {
 
 #[test]
 fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let root = project(PROGRAM, &["flat_x_max", "flat_x", "flat_everywhere"]);
@@ -127,13 +127,13 @@ fn the_report_has_the_conclusion_and_a_figure_of_the_rates_by_variant() {
     );
     // Without --where there is neither.
     run(&root, "study study.toml --out other");
-    let page = fs::read_to_string(root.path().join("other/README.md")).unwrap();
+    let page = read(&root, "other/README.md");
     assert!(!page.contains("where.svg"), "{page}");
 }
 
 #[test]
 fn a_variant_that_is_left_out_has_its_reason_in_json() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let root = project(PROGRAM, &["-"]);
@@ -142,7 +142,7 @@ fn a_variant_that_is_left_out_has_its_reason_in_json() {
         "[boundary.x_min]\nu = { of = \"u\", is = \"1\" }",
     );
     assert_ne!(fixed, ROD);
-    fs::write(root.path().join("rod.toml"), fixed).unwrap();
+    write(&root, "rod.toml", fixed);
     let words = ["study", "study.toml", "--where", "--format", "json"];
     let record: Value = serde_json::from_str(&run_words(&root, &words).stdout).unwrap();
     let variants = record["studies"][0]["where"]["variants"]
@@ -159,7 +159,7 @@ fn a_variant_that_is_left_out_has_its_reason_in_json() {
 
 #[test]
 fn other_parts_are_named_by_their_variants_and_none_without_one() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     for (hidden_in, words) in [
@@ -191,7 +191,7 @@ fn other_parts_are_named_by_their_variants_and_none_without_one() {
 
 #[test]
 fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let ignoring = PROGRAM.replace("scale=1.${#MANUFACTURE_VARIANT}", "scale=1");
@@ -202,7 +202,7 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
         "echo \"$MANUFACTURE_VARIANT\" >> '{}'\n{ignoring}",
         log.display()
     );
-    fs::write(root.path().join("run.sh"), logged).unwrap();
+    write(&root, "run.sh", logged);
     let words = ["study", "study.toml", "--where", "--out", "report"];
     let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, out.as_str()), (Some(2), ""), "{err}");
@@ -223,7 +223,7 @@ fn a_program_that_ignores_the_variant_is_refused_and_nothing_is_written() {
 
 #[test]
 fn a_variant_that_does_not_run_is_refused_with_its_last_words() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let failing = format!(
@@ -242,9 +242,9 @@ fn a_variant_that_does_not_run_is_refused_with_its_last_words() {
 #[test]
 fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
     let root = project("exit 1", &[]);
-    let study = fs::read_to_string(root.path().join("study.toml")).unwrap();
+    let study = read(&root, "study.toml");
     let without = study.replace("manufacture = \"rod.toml\"\n", "");
-    fs::write(root.path().join("study.toml"), without).unwrap();
+    write(&root, "study.toml", without);
     for command in ["study", "verify"] {
         let (status, out, err) = run_words(&root, &[command, "study.toml", "--where"]).parts();
         assert_eq!((status, out.as_str()), (Some(2), ""));
@@ -253,11 +253,7 @@ fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
             "{err}"
         );
     }
-    fs::write(
-        root.path().join("study.toml"),
-        study.replace("rod.toml", "rood.toml"),
-    )
-    .unwrap();
+    write(&root, "study.toml", study.replace("rod.toml", "rood.toml"));
     let ran = run(&root, "study study.toml");
     ran.complains(2, "program.manufacture");
     ran.complains(2, "is no file");
@@ -265,7 +261,7 @@ fn a_study_without_a_manufactured_solution_is_refused_before_it_runs() {
 
 #[test]
 fn a_study_that_passes_has_no_place() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let right = PROGRAM.replace("part=0.3", "part=0");
@@ -284,12 +280,8 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     }
     let root = TempDir::new().unwrap();
     let file = PAGE.split("```toml\n").nth(1).unwrap();
-    fs::write(
-        root.path().join("rod.toml"),
-        file.split("```").next().unwrap(),
-    )
-    .unwrap();
-    fs::write(root.path().join("solver.c"), include_str!("rod_solver.c")).unwrap();
+    write(&root, "rod.toml", file.split("```").next().unwrap());
+    write(&root, "solver.c", include_str!("rod_solver.c"));
     let words = ["manufacture", "rod.toml", "--variants", "--language", "c"];
     let (status, out, err) = run_words(&root, &words).parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
@@ -318,12 +310,12 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
             "look at the time at which source and data are taken, and the time stepping",
         ),
     ] {
-        fs::write(root.path().join("study.toml"), study(mistake)).unwrap();
+        write(&root, "study.toml", study(mistake));
         let (status, out, err) = run(&root, "study study.toml --where").parts();
         assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
         assert!(out.contains(words), "{mistake}: {out}");
     }
-    fs::write(root.path().join("study.toml"), study("-")).unwrap();
+    write(&root, "study.toml", study("-"));
     let (status, out, err) = run(&root, "study study.toml --where").parts();
     assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
 }
@@ -340,7 +332,7 @@ fn the_page_can_be_followed() {
         block.split("```").next().unwrap()
     };
     let root = TempDir::new().unwrap();
-    let write = |name: &str, text: &str| fs::write(root.path().join(name), text).unwrap();
+    let write = |name: &str, text: &str| write(&root, name, text);
     write("rod.toml", block("```toml\n", 0));
     write("rod-study.toml", block("```toml\n", 1));
     let solver = block("```python\n", 0);

@@ -20,7 +20,7 @@ const MAX: &str = "[[expect]]\nerror = \"max error\"\norder = 2.0\n";
 
 #[test]
 fn lines_with_the_names_of_the_study_are_an_answer() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let lines = "BEGIN { for (k = 1; k < 9; k++) printf \"step %d: max error = %e\\n\", k, 1 / k;\n\
@@ -43,7 +43,7 @@ fn lines_with_the_names_of_the_study_are_an_answer() {
 
 #[test]
 fn an_object_wins_and_what_is_no_number_is_refused() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     for (line, words) in [
@@ -105,7 +105,7 @@ fn an_object_wins_and_what_is_no_number_is_refused() {
 
 #[test]
 fn a_program_has_the_variables_of_its_study() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let program = "BEGIN { print \"max error = \" ENVIRON[\"SCALE\"] / n^ENVIRON[\"ORDER\"] }\n";
@@ -138,7 +138,7 @@ fn a_program_has_the_variables_of_its_study() {
 
 #[test]
 fn without_a_tolerance_it_is_that_of_rates() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let program = "BEGIN { print \"max error = \" 1 / n^1.8 }\n";
@@ -155,7 +155,7 @@ fn without_a_tolerance_it_is_that_of_rates() {
 
 #[test]
 fn a_reason_that_all_cases_share_is_there_once() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let place = study("BEGIN { exit 3 }\n", "", MAX);
@@ -167,7 +167,7 @@ fn a_reason_that_all_cases_share_is_there_once() {
 
 #[test]
 fn a_floor_of_a_study_drops_levels_of_round_off_and_is_offered() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let program = "BEGIN { printf \"max error = %.8e\\n\", 1 / n^8 + 1e-14 }\n";

@@ -53,7 +53,7 @@ const ALL: [&str; 5] = ["4", "8", "16", "32", "64"];
 
 #[test]
 fn levels_are_taken_again_but_for_the_cheapest_and_never_blessed() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let place = place("");
@@ -83,7 +83,7 @@ fn levels_are_taken_again_but_for_the_cheapest_and_never_blessed() {
 
 #[test]
 fn a_file_or_a_command_that_has_changed_runs_all_levels() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let place = place("");
@@ -112,7 +112,7 @@ fn a_file_or_a_command_that_has_changed_runs_all_levels() {
 /// What no file says: a library, a variable, the machine.
 #[test]
 fn a_change_that_no_file_shows_is_seen_at_the_cheapest_level() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let place = place_of_unlisted("");
@@ -132,7 +132,7 @@ fn a_change_that_no_file_shows_is_seen_at_the_cheapest_level() {
 
 #[test]
 fn without_the_answer_of_the_cheapest_level_all_are_run() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let place = place("");
@@ -153,7 +153,7 @@ fn without_the_answer_of_the_cheapest_level_all_are_run() {
 /// A guard says how far a program scatters.
 #[test]
 fn the_cheapest_level_may_scatter_by_the_guard() {
-    if !foreign_tools::are_here(&[foreign_tools::AWK, foreign_tools::SHELL]) {
+    if !crate::awk_is_here() {
         return;
     }
     let place = place_of_unlisted("guard = 1e-4");

@@ -1,13 +1,11 @@
 //! Levels without a result or without their step; few levels.
 
-use std::fs;
-
 use super::Place;
 
 #[test]
 fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     let place = Place::new("abort", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     for levels in [
         "[4, 8, 16, 32, 64]",
         "[1, 2, 4, 8, 16]",
@@ -55,8 +53,7 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     );
     place.write_text(&text);
     place.study("--out report").says(1, "");
-    let drawn =
-        fs::read_to_string(place.folder.path().join("report/figures/s-errors.svg")).unwrap();
+    let drawn = place.read("report/figures/s-errors.svg");
     assert!(
         drawn.contains("n = 16: no result") && !drawn.contains("non-finite"),
         "{drawn}"
@@ -65,8 +62,7 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
     let grid = text
         .replace("64]", "64]\ndt = [0.1, 0.05, 0.025]\ngrid = true")
         .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]");
-    place.write_text(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
-    place.study("").says(
+    place.study_of(&grid.replace("order = 2.0", "order = 2.0\norder_dt = 1.0")).says(
         1,
         "L2 in h: no rate, claimed 2 ± 0.05: 3 of 15 levels have no result: h = 0.0625, dt = 0.1",
     );
@@ -76,19 +72,19 @@ fn a_level_without_a_result_fails_and_the_others_have_a_rate() {
 fn the_step_that_a_program_answers_is_the_one_that_its_errors_are_judged_over() {
     let place = Place::new("cells", "");
     place.study("").says(0, "2.0000 ± 0.00005");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
-    place.write_text(&text.replace("order = 2.0", "order = 1.0"));
-    place.study("").says(1, "too high");
+    let text = place.text();
+    place
+        .study_of(&text.replace("order = 2.0", "order = 1.0"))
+        .says(1, "too high");
 }
 
 #[test]
 fn other_claims_than_an_order_are_judged() {
     let place = Place::new("plain", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     let study = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
-        place.write_text(&text.replace(from, to));
-        place.study("")
+        place.study_of(&text.replace(from, to))
     };
     for (claim, status, says) in [
         ("order = \">= 1\"", 0, "pass"),
@@ -137,7 +133,7 @@ fn other_claims_than_an_order_are_judged() {
 #[test]
 fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
     let place = Place::new("degrees", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     let text = text.replace("[4, 8, 16, 32, 64]", "[1, 2, 3, 4, 5]");
     for (claim, status, says) in [
         ("factor = 5", 0, "pass"),
@@ -145,8 +141,9 @@ fn an_error_that_falls_by_a_factor_a_degree_has_that_factor() {
         ("factor = 3", 1, "too high"),
         ("factor = \">= 3\"", 0, "pass"),
     ] {
-        place.write_text(&text.replace("order = 2.0", claim));
-        place.study("").says(status, says);
+        place
+            .study_of(&text.replace("order = 2.0", claim))
+            .says(status, says);
     }
 }
 
@@ -163,7 +160,7 @@ fn a_name_that_an_answer_has_twice_is_refused() {
 #[test]
 fn what_is_finite_beside_a_nan_is_kept() {
     let place = Place::new("half", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     place.write_text(&(text + "[[expect]]\nerror = \"H1\"\norder = 1.0\ntolerance = 0.05\n"));
     let (status, out, err) = place.study("").parts();
     assert_eq!(status, Some(1), "{out}{err}");
@@ -185,7 +182,7 @@ fn what_is_finite_beside_a_nan_is_kept() {
 #[test]
 fn a_study_of_two_levels_has_the_rate_between_them() {
     let place = Place::new("ok", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     place.write_text(&text.replace("[4, 8, 16, 32, 64]", "[4, 8]"));
     let message =
         "L2: 2.000 between the finest levels that have one, claimed 2 ± 0.05: too few levels";
@@ -212,7 +209,7 @@ fn steps_that_only_some_levels_answer_are_refused() {
 #[test]
 fn levels_are_added_until_it_is_decided_within_the_budget() {
     let place = Place::new("late", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     let second = "[[expect]]\nerror = \"L1\"\norder = 2.0\ntolerance = 0.05\n";
     let auto = text.replace("[4, 8, 16, 32, 64]", "\"auto\"") + second;
     place.write_text(&auto);
@@ -254,11 +251,9 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
         "{out}"
     );
     let wrong = auto.replace("order = 2.0", "order = 1.0");
-    place.write_text(&wrong);
-    place.study("").says(1, "decided after 5 levels");
-    place.write_text(&wrong.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"));
+    place.study_of(&wrong).says(1, "decided after 5 levels");
     place
-        .study("")
+        .study_of(&wrong.replace("\"auto\"", "\"auto\"\nbudget = 1e-3"))
         .says(1, "a failure at the last look only, after 4 levels: the");
     for (written, message) in [
         (
@@ -282,7 +277,8 @@ fn levels_are_added_until_it_is_decided_within_the_budget() {
             "refine.n: found the text \"many\"; expected a list of increasing whole numbers >= 1, or \"auto\"",
         ),
     ] {
-        place.write_text(&auto.replace("\"auto\"", written));
-        place.study("").refuses(message);
+        place
+            .study_of(&auto.replace("\"auto\"", written))
+            .refuses(message);
     }
 }

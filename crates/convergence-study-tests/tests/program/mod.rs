@@ -57,6 +57,16 @@ impl Place {
         fs::write(self.folder.path().join("s.toml"), text).unwrap();
     }
 
+    /// A file of the folder.
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.folder.path().join(name)).unwrap()
+    }
+
+    /// The study file.
+    pub(crate) fn text(&self) -> String {
+        self.read("s.toml")
+    }
+
     fn token(&self) -> &str {
         self.folder.path().to_str().unwrap()
     }
@@ -76,6 +86,12 @@ impl Place {
     /// Exit status, standard output and standard error of `study s.toml` with these arguments.
     pub(crate) fn study(&self, more: &str) -> Ended {
         texts(&mut self.command(&format!("study s.toml {more}")))
+    }
+
+    /// `study` of a file with this text.
+    pub(crate) fn study_of(&self, text: &str) -> Ended {
+        self.write_text(text);
+        self.study("")
     }
 
     /// `verify` with these arguments.
@@ -123,12 +139,9 @@ pub(crate) fn texts(command: &mut Command) -> Ended {
 fn a_program_is_judged_by_its_errors() {
     let place = Place::new("ok", "");
     place.study("").says(0, "L2 2.0000 (order 2)");
-    place.write_text(
-        &fs::read_to_string(place.folder.path().join("s.toml"))
-            .unwrap()
-            .replace("order = 2.0", "order = 1.0"),
-    );
-    place.study("").says(1, "");
+    place
+        .study_of(&place.text().replace("order = 2.0", "order = 1.0"))
+        .says(1, "");
     // The same bytes for any number of simultaneous processes, except for the seconds.
     let record = |jobs| place.study(&format!("--format json --jobs {jobs}")).stdout;
     assert_eq!(record("1"), record("4"));
@@ -146,9 +159,7 @@ fn a_program_is_judged_by_its_errors() {
 #[test]
 fn a_value_is_judged_by_its_differences() {
     let place = Place::new("ok", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml"))
-        .unwrap()
-        .replace("error = \"L2\"", "value = \"flux\"");
+    let text = place.text().replace("error = \"L2\"", "value = \"flux\"");
     place.write_text(&text);
     let (status, out, err) = place.study("").parts();
     assert_eq!(status, Some(0), "{out}{err}");
@@ -169,34 +180,32 @@ fn a_value_is_judged_by_its_differences() {
             "none: 2 values; three are the fewest that tell an order",
         ),
     ] {
-        place.write_text(&text.replace(old, new));
-        place.study("").says(1, told);
+        place.study_of(&text.replace(old, new)).says(1, told);
     }
 }
 
 #[test]
 fn a_grid_finds_both_orders() {
     let place = Place::new("ok", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     let text = text
         .replace("\"{n}\"]", "\"{n}\", \"{dt}\"]")
         .replace("64]", "64]\ndt = [0.1, 0.05, 0.025, 0.0125]\ngrid = true");
-    place.write_text(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"));
     place
-        .study("")
+        .study_of(&text.replace("order = 2.0", "order = 2.0\norder_dt = 1.0"))
         .says(0, "L2 in h 2.0000 (order 2); L2 in dt 1.0000 (order 1)");
     // The same order in both, which the error in time does not have.
-    place.write_text(&text);
     place
-        .study("")
+        .study_of(&text)
         .says(1, "L2 in dt: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low");
     // Refined together, where nothing hides the error in time.
-    place.write_text(
-        &text
-            .replace("\ngrid = true", "")
-            .replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"),
-    );
-    place.study("").says(1, "");
+    place
+        .study_of(
+            &text
+                .replace("\ngrid = true", "")
+                .replace("[4, 8, 16, 32, 64]", "[4, 8, 16, 32]"),
+        )
+        .says(1, "");
     for (old, new, message) in [
         (
             "error = \"L2\"",
@@ -209,8 +218,9 @@ fn a_grid_finds_both_orders() {
             "refine.dt: found 4 values beside 5; expected lists of the same length",
         ),
     ] {
-        place.write_text(&text.replace(old, new));
-        place.study("").complains(2, message);
+        place
+            .study_of(&text.replace(old, new))
+            .complains(2, message);
     }
 }
 
@@ -224,7 +234,7 @@ fn a_program_without_placeholders_reads_the_case() {
 #[test]
 fn what_a_study_file_may_get_wrong_is_named() {
     let place = Place::new("ok", "time_limit = 9");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     for (old, new, message) in [
         (
             "\"{n}\"",
@@ -288,8 +298,7 @@ fn what_a_study_file_may_get_wrong_is_named() {
         ),
     ] {
         assert!(text.contains(old), "{old}");
-        place.write_text(&text.replace(old, new));
-        place.study("").refuses(message);
+        place.study_of(&text.replace(old, new)).refuses(message);
     }
 }
 

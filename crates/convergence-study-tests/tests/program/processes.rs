@@ -66,7 +66,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
     }
     // A missing program.
     let place = Place::new("ok", "");
-    let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+    let text = place.text();
     let (head, tail) = text.split_once("command = [").unwrap();
     let (_, tail) = tail.split_once(']').unwrap();
     place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));

@@ -53,8 +53,9 @@ fn wrong_orders_of_samples_do_not_pass() {
         let file = place.folder.path().join("s.toml");
         let text = fs::read_to_string(&file).unwrap();
         assert!(text.contains(from));
-        place.write_text(&text.replacen(from, to, 1));
-        place.study("").begins(1, "s: fail");
+        place
+            .study_of(&text.replacen(from, to, 1))
+            .begins(1, "s: fail");
     }
 }
 
@@ -161,7 +162,6 @@ fn what_samples_do_not_have_is_refused() {
         } else {
             text
         };
-        place.write_text(&text);
-        place.study("").refuses(message);
+        place.study_of(&text).refuses(message);
     }
 }

@@ -162,9 +162,8 @@ fn what_a_file_may_get_wrong_is_named() {
         ),
     ] {
         let place = place(ERRORS, BOTH);
-        let text = fs::read_to_string(place.folder.path().join("s.toml")).unwrap();
+        let text = place.text();
         assert!(text.contains(from), "{from}");
-        place.write_text(&text.replacen(from, to, 1));
-        place.study("").refuses(message);
+        place.study_of(&text.replacen(from, to, 1)).refuses(message);
     }
 }

@@ -128,12 +128,12 @@ fn the_answered_numbers_are_guarded_and_a_looser_claim_is_found() {
     verify("--bless").says(0, "");
     verify("").says(0, "");
     // The page that is committed has no digits of round-off.
-    let page = fs::read_to_string(place.folder.path().join("reports/README.md")).unwrap();
+    let page = place.read("reports/README.md");
     assert!(
         page.contains("(dJ·d is right to 1e-7 in 3 directions)"),
         "{page}"
     );
-    let baseline = fs::read_to_string(place.folder.path().join("studies/baseline.json")).unwrap();
+    let baseline = place.read("studies/baseline.json");
     for name in ["seed = 3: dJ·d", "seed = 3: J", "dJ·d right to"] {
         assert!(baseline.contains(name), "{baseline}");
     }

@@ -10,10 +10,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use convergence_calibration::studies as calibration;
-use convergence_study::{
-    CodeStudy, Project,
-    internal::cli::{command_line, ended},
-};
+use convergence_study::{CodeStudy, Project};
 use thermobeam_cli::{GROUPS, PAGES, project};
 use thermobeam_study::studies;
 
@@ -65,11 +62,12 @@ enum Dev {
 /// Runs the command line.
 pub fn run() -> ExitCode {
     let groups = [&GROUPS[..], &[("This project", &["bench"])]].concat();
-    let line = command_line::<Xtask>(&PROJECT, &groups, &PAGES);
-    ended(line.clone(), |program: Xtask| match program.command {
-        Command::Thermobeam(command) => command.run(&PROJECT, line),
-        Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
-        Command::Dev(Dev::References(arguments)) => references::run(&arguments),
-        Command::Dev(Dev::Tables(arguments)) => tables::run(&arguments),
+    PROJECT.run_program(&groups, &PAGES, |program: Xtask, line| {
+        match program.command {
+            Command::Thermobeam(command) => command.run(&PROJECT, line),
+            Command::Bench(arguments) => bench::run(&PROJECT, &arguments),
+            Command::Dev(Dev::References(arguments)) => references::run(&arguments),
+            Command::Dev(Dev::Tables(arguments)) => tables::run(&arguments),
+        }
     })
 }

@@ -5,17 +5,7 @@
 use std::path::PathBuf;
 
 use convergence_judge::text::lists::grouped;
-use convergence_study::{
-    Reason, Verdict,
-    internal::{
-        cli::{
-            exit::CommandOutcome,
-            schema::{MANUFACTURE, of_studies, other_files, page, text},
-        },
-        program,
-        store::atomic,
-    },
-};
+use convergence_study::{Project, Reason, Template, Verdict, atomic, command_line::CommandOutcome};
 use thermobeam_cli::project;
 
 /// Write the schemas and the reference pages of files anew
@@ -54,21 +44,24 @@ pub struct Reference {
 pub fn made() -> Vec<Reference> {
     let mut files = vec![];
     for (folder, project) in [
-        (HARNESS, program::PROJECT),
+        (HARNESS, Project::PROGRAMS),
         ("crates/thermobeam-study", project("thermobeam")),
     ] {
         let in_folder = |name: &str, text: String| Reference {
             path: format!("{folder}/{name}"),
             text,
         };
-        files.push(in_folder("schema.json", text(&of_studies(&project))));
-        files.push(in_folder("STUDIES.md", page(&project)));
-        let others = other_files(&project).into_iter();
-        // Both projects have the files of `manufacture`.
-        let others = others.filter(|(name, _)| *name != MANUFACTURE || folder == HARNESS);
-        files.extend(
-            others.map(|(name, schema)| in_folder(&format!("{name}.schema.json"), text(&schema))),
-        );
+        files.push(in_folder("STUDIES.md", project.reference_page()));
+        for (name, schema) in project.schemas() {
+            // Both projects have the files of `manufacture`.
+            if name != Template::MANUFACTURE.name || folder == HARNESS {
+                let file = match name {
+                    "study" => "schema.json".to_owned(),
+                    other => format!("{other}.schema.json"),
+                };
+                files.push(in_folder(&file, format!("{schema:#}\n")));
+            }
+        }
     }
     files
 }

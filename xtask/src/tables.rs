@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::{
     Choice, Verdict,
-    internal::{
-        cli::exit::{CommandOutcome, Unusable},
-        rates::{self, Claimed, Refusal, Request, Tables, claimed},
-    },
+    command_line::{CommandOutcome, Unusable},
+    internal::rates::{self, Claimed, Refusal, Request, Tables, claimed},
 };
 use serde::Deserialize;
 use serde_json::Value;

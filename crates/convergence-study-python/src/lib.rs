@@ -18,10 +18,7 @@ mod values;
 
 use std::ffi::OsString;
 
-use convergence_study::internal::{
-    cli,
-    program::{self, guard},
-};
+use convergence_study::{Project, internal::program::guard};
 use pyo3::prelude::*;
 
 /// The program `convergence-study`; returns its exit status.
@@ -41,7 +38,7 @@ fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -
         .into(),
     );
     let arguments = std::iter::once("convergence-study".into()).chain(arguments);
-    py.detach(|| cli::status_of(&program::PROJECT, arguments))
+    py.detach(|| Project::PROGRAMS.status_of(arguments))
 }
 
 #[pymodule]

@@ -1,7 +1,7 @@
 //! Tables of files and texts, judged by the command `rates`.
 
 use convergence_study::{
-    Claim, PROGRAMS as PROJECT,
+    Claim, Project,
     internal::{
         input::advice::Argument,
         rates::{Claimed, ClaimedOrder, Request, Tables, object},
@@ -66,7 +66,7 @@ pub(crate) fn rates(
         Argument::Order.name()
     };
     let call = Call::new(py, "rates", &first, (claim, order), &Argument::ALL)?;
-    let found = py.detach(|| object(PROJECT.command, tables, &request));
+    let found = py.detach(|| object(Project::PROGRAMS.command, tables, &request));
     let found = found.map_err(|refusal| refuse(refusal.words(&call)))?;
     Ok(found.to_string())
 }

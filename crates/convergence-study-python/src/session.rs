@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use convergence_study::{
-    Finished, Header, Project, Verdict,
+    Finished, Header, Project, Verdict, atomic,
     internal::{
         run,
-        store::{Baseline, GuardedChange, Movement, Record, atomic},
+        store::{Baseline, GuardedChange, Movement, Record},
         verify,
     },
 };

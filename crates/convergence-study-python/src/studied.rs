@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use convergence_study::{
-    Finished, NamedNumber, NamedRate, Verdict,
+    Finished, NamedNumber, NamedRate, Project, Verdict,
     internal::{
-        program,
         study::{STEPS, first_repeated, sampled::Sampled, until_decided::Next},
         where_lost::{self, Located, Search},
     },
@@ -208,7 +207,7 @@ impl Study {
 
     fn report(&self, folder: PathBuf) -> PyResult<()> {
         write_report(
-            &program::PROJECT,
+            &Project::PROGRAMS,
             std::slice::from_ref(&self.finished),
             &folder,
         )

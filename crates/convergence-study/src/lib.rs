@@ -27,22 +27,22 @@
 //!
 //! # A project that verifies itself
 //!
-//! A project names its kinds of study in a [`Project`] and calls [`run_command_line`]: its program
+//! A project names its kinds of study in a [`Project`] and calls [`Project::run_command_line`]: its program
 //! then has all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs,
 //! judges, compares with the baseline and writes the report. The smallest one has no kind of its
 //! own: its studies are programs in any language.
 //!
 #![cfg_attr(feature = "command-line", doc = "```no_run")]
 #![cfg_attr(not(feature = "command-line"), doc = "```ignore")]
-//! use convergence_study::{PROGRAM, Project, run_command_line};
+//! use convergence_study::{KindRow, Project};
 //!
 //! const PROJECT: Project = Project {
-//!     kinds: &[PROGRAM],
+//!     kinds: &[KindRow::PROGRAM],
 //!     ..Project::new("heat", "cargo xtask")
 //! };
 //!
 //! fn main() -> std::process::ExitCode {
-//!     run_command_line(&PROJECT)
+//!     PROJECT.run_command_line()
 //! }
 //! ```
 //!
@@ -137,9 +137,8 @@ pub use crate::{
         ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
         LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity,
         Ran, Recorded, Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject,
-        Table, Tier, Untested, boxed_study,
+        Table, Tier, Untested,
         grid::{Grid, GridColumn},
-        kind::completion_check,
         levels, levels_of_samples, measured,
         norms::norms,
         unnoticed,
@@ -163,7 +162,7 @@ pub use crate::{
             Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
         },
     },
-    study::{FromFile, KindRow, Order, described, read_study},
+    study::{FromFile, KindRow, Order},
 };
 
 /// What structs of files are made of: numbers of a range, names of a choice, lists of levels; and
@@ -179,16 +178,28 @@ pub mod file {
 #[cfg(feature = "reports")]
 #[doc(inline)]
 pub use crate::{
-    program::{PROJECT as PROGRAMS, ROW as PROGRAM, TABLE, TAYLOR},
     project::{FileSchema, Front, Project, Statement, Template, Term},
     verify::{
         Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,
     },
 };
 
+/// For projects whose programs have commands of their own, beside those of the harness.
 #[cfg(feature = "command-line")]
-#[doc(inline)]
-pub use crate::cli::run_command_line;
+pub mod command_line {
+    pub use crate::cli::{
+        Command,
+        exit::{CommandOutcome, Unusable},
+        flags::Flags,
+        help::HelpPage,
+    };
+}
+
+/// Files that are written whole, or not at all.
+#[cfg(feature = "reports")]
+pub mod atomic {
+    pub use crate::store::atomic::{begin_write, prepare_folder, write, write_with};
+}
 
 /// The programs of the README and of the book are tests.
 #[cfg(all(doctest, feature = "command-line"))]

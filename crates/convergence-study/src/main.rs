@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    convergence_study::run_command_line(&convergence_study::PROGRAMS)
+    convergence_study::Project::PROGRAMS.run_command_line()
 }

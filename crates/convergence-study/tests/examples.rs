@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use convergence_study::internal::cli::{COMMANDS, help::pages};
+use convergence_study::command_line::{self, HelpPage};
 use tempfile::TempDir;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_convergence-study");
@@ -76,13 +76,15 @@ fn every_example_of_every_help_text_ends_well() {
     if !foreign_tools::are_here(&[foreign_tools::SHELL]) {
         return;
     }
-    let named: Vec<&str> = pages().map(|page| page.command).collect();
+    let named: Vec<&str> = HelpPage::all().map(|page| page.command).collect();
     assert!(
-        COMMANDS.iter().all(|name| named.contains(name)),
+        command_line::Command::NAMES
+            .iter()
+            .all(|name| named.contains(name)),
         "{named:?}"
     );
     let root = place();
-    for name in COMMANDS {
+    for name in command_line::Command::NAMES {
         let (status, help) = shell(root.path(), &format!("convergence-study {name} --help"));
         assert_eq!(status, Some(0), "{help}");
         let lines = examples(&help);

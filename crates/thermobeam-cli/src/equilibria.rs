@@ -14,11 +14,7 @@ use thermobeam_study::scene::Scene;
 
 use convergence_study::{
     Verdict,
-    internal::cli::{
-        exit::{CommandOutcome, Unusable},
-        flags::Flags,
-        screen,
-    },
+    command_line::{CommandOutcome, Flags, Unusable},
 };
 
 /// List all steady states of a scene
@@ -43,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
             return Err(Unusable::file(&arguments.scene, &error));
         }
         Err(error) => {
-            screen::complain(&format!("{}: {error}", arguments.scene.display()));
+            Flags::complain(&format!("{}: {error}", arguments.scene.display()));
             return Ok(Verdict::Fail);
         }
     };

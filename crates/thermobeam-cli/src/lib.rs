@@ -1,6 +1,6 @@
 //! The commands of the beam, for the program `thermobeam` and for `cargo xtask` in a checkout.
 //!
-//! The harness's commands come from `convergence_study::internal::cli`, with the beam's kinds of
+//! The harness's commands come from `convergence_study`, with the beam's kinds of
 //! study registered in [`project()`]. This file adds the beam's own commands and dispatches.
 
 mod equilibria;
@@ -11,7 +11,7 @@ mod sweep;
 use clap::{Parser, Subcommand};
 use convergence_study::{
     Project,
-    internal::cli::{self, exit, help::HelpPage},
+    command_line::{self, CommandOutcome, HelpPage},
 };
 
 pub use project::project;
@@ -29,7 +29,7 @@ pub struct Thermobeam {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     #[command(flatten)]
-    Harness(cli::Command),
+    Harness(command_line::Command),
     Run(run::Arguments),
     Equilibria(equilibria::Arguments),
     Sweep(sweep::Arguments),
@@ -107,8 +107,8 @@ impl Command {
     /// Runs the command; `program` is the whole command line, for completions.
     ///
     /// # Errors
-    /// [`exit::Unusable`]: exit status 2.
-    pub fn run(&self, project: &Project, program: clap::Command) -> exit::CommandOutcome {
+    /// [`Unusable`](command_line::Unusable): exit status 2.
+    pub fn run(&self, project: &Project, program: clap::Command) -> CommandOutcome {
         match self {
             Self::Harness(command) => command.run(project, program),
             Self::Run(arguments) => run::run(arguments),

@@ -2,13 +2,11 @@
 
 use std::process::ExitCode;
 
-use convergence_study::internal::cli::{command_line, ended};
 use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
 fn main() -> ExitCode {
     let project = project("thermobeam");
-    let line = command_line::<Thermobeam>(&project, &GROUPS, &PAGES);
-    ended(line.clone(), |program: Thermobeam| {
+    project.run_program(&GROUPS, &PAGES, |program: Thermobeam, line| {
         program.command.run(&project, line)
     })
 }

@@ -1,9 +1,6 @@
 //! The beam as a project of the harness.
 
-use convergence_study::{
-    Front, Project, Statement, Template,
-    internal::{input::schema, program},
-};
+use convergence_study::{Front, Project, Statement, Template, file::schema};
 use thermobeam_study::kinds::{KINDS, TERMS};
 use thermobeam_study::scene::SceneFile;
 
@@ -29,7 +26,7 @@ pub const fn project(command: &'static str) -> Project {
             "the harness",
         ],
         terms: &TERMS,
-        tables: &[("scene", schema::of::<SceneFile>)],
+        tables: &[("scene", schema::<SceneFile>)],
         templates: &TEMPLATES,
         front: FRONT,
         seconds_per_cost: Some(NODE_STEP),
@@ -145,6 +142,6 @@ const TEMPLATES: [Template; 5] = [
         ignored: "",
         next: "run",
     },
-    program::TEMPLATE,
-    program::MANUFACTURE,
+    Template::PROGRAM,
+    Template::MANUFACTURE,
 ];

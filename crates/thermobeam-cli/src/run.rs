@@ -12,16 +12,8 @@ use std::time::Duration;
 use clap::Args;
 use convergence_judge::time_limit;
 use convergence_study::{
-    Verdict,
-    internal::{
-        cli::{
-            exit::{self, CommandOutcome, Unusable},
-            flags::Flags,
-            running::{self, seconds},
-            screen,
-        },
-        store::atomic,
-    },
+    Verdict, atomic,
+    command_line::{CommandOutcome, Flags, Unusable},
 };
 use serde::Serialize;
 use thermobeam_study::accuracy::OutOfReach;
@@ -46,7 +38,7 @@ pub struct Arguments {
     target_error: Option<f64>,
     /// Time limit of the run; the results so far are then shown, and the exit status is 1
     /// [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = Flags::seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     /// Run also what is expected to take minutes
     #[arg(long)]
@@ -84,7 +76,7 @@ impl Arguments {
             &self.flags.words(verdict, sentence, text),
         )?;
         if let Some(complaint) = complaint {
-            screen::complain(&format!("{}: {complaint}", self.scene.display()));
+            Flags::complain(&format!("{}: {complaint}", self.scene.display()));
         }
         Ok(verdict)
     }
@@ -109,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
     let unusable = |error: &dyn std::error::Error| Unusable::file(&arguments.scene, error);
     let Some(target) = arguments.target_error else {
         if !arguments.yes && arguments.time_limit.is_none() {
-            running::consent(
+            Flags::consent(
                 &arguments.scene.display().to_string(),
                 NODE_STEP * cost_of_run(&scene),
                 "--time-limit",
@@ -129,7 +121,7 @@ pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
         }
         Err(error @ OutOfReach::Target(_)) => Err(unusable(&error)),
         Err(error) => {
-            screen::complain(&format!("{}: {error}", arguments.scene.display()));
+            Flags::complain(&format!("{}: {error}", arguments.scene.display()));
             Ok(Verdict::Fail)
         }
     }
@@ -176,16 +168,13 @@ fn simulate(arguments: &Arguments, scene: &Scene, simulator: Simulator) -> io::R
     if let Some(folder) = &arguments.flags.out {
         atomic::prepare_folder(folder)?;
     }
-    let bar = running::counting(
-        &scene.name,
-        TICKS as usize,
-        "parts of the time",
-        arguments.flags.quiet,
-    );
+    let bar = arguments
+        .flags
+        .bar(&scene.name, TICKS as usize, "parts of the time");
     let (done, t_end) = (Arc::new(AtomicUsize::new(0)), scene.t_end);
     let steps_done = Arc::clone(&done);
     let shown = bar.clone();
-    exit::say(move || {
+    Flags::when_interrupted(move || {
         let percent = 100.0 * shown.position() as f64 / TICKS;
         format!(
             "{} steps were done, {percent} % of the time; nothing is kept of them",

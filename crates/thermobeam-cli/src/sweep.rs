@@ -11,14 +11,7 @@ use thermobeam_study::sweep::{self, Finished, Header, InOrder, ShareFile, Sweep,
 
 use convergence_study::{
     Verdict,
-    internal::{
-        cli::{
-            exit::{self, CommandOutcome, Unusable},
-            flags::Flags,
-            running::{self, seconds},
-        },
-        run,
-    },
+    command_line::{CommandOutcome, Flags, Unusable},
 };
 
 /// Run many scenes: a grid or a list of the numbers of one scene
@@ -36,7 +29,7 @@ pub struct Arguments {
     file: Option<PathBuf>,
     /// Time limit of each case; its line says where it stopped, and the others continue
     /// [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = Flags::seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     /// Run share k of n; --merge joins the shares
     #[arg(long, value_name = "k/n", default_value_t = SweepShare::ALL, hide_default_value = true)]
@@ -69,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
 fn to_stdout(arguments: &Arguments, sweep: &Sweep) -> io::Result<Verdict> {
     let share = arguments.partition;
     let cases: Vec<usize> = share.cases(sweep.cases).collect();
-    let bar = running::counting(&sweep.name, cases.len(), "cases", arguments.flags.quiet);
+    let bar = arguments.flags.bar(&sweep.name, cases.len(), "cases");
     let mut failed = 0;
     let header = Header::new(sweep, share).line();
     let written = writeln!(io::stdout(), "{header}")
@@ -92,9 +85,9 @@ fn to_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> CommandOutc
         mut failed,
     } = ShareFile::open(folder, sweep, arguments.partition)?;
     let (begun, cases) = (pending.len(), done + pending.len());
-    let bar = running::counting(&sweep.name, begun, "cases", arguments.flags.quiet);
+    let bar = arguments.flags.bar(&sweep.name, begun, "cases");
     let (counted, place) = (bar.clone(), folder.display().to_string());
-    exit::say(move || {
+    Flags::when_interrupted(move || {
         let done = done + counted.position() as usize;
         format!("{done} of {cases} cases are saved in {place}; the same command runs the others")
     });
@@ -161,7 +154,7 @@ fn write_lines(
     bar: &ProgressBar,
     failed: &mut usize,
 ) -> io::Result<()> {
-    let jobs = arguments.flags.jobs.unwrap_or_else(run::available).get();
+    let jobs = arguments.flags.threads().get();
     let state = Mutex::new((InOrder::new(output, cases.to_vec()), failed));
     sweep::run(sweep, cases, jobs, arguments.time_limit, |line| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use convergence_study::internal::cli::command_line;
 use convergence_study_tests::files::files_below;
 use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
@@ -16,8 +15,9 @@ const WIDEST: usize = 100;
 
 fn program() -> clap::Command {
     // As on a wide terminal, and in a file.
-    let mut program =
-        command_line::<Thermobeam>(&project("thermobeam"), &GROUPS, &PAGES).term_width(WIDEST);
+    let mut program = project("thermobeam")
+        .command_line::<Thermobeam>(&GROUPS, &PAGES)
+        .term_width(WIDEST);
     program.build();
     program
 }

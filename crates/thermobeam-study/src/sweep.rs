@@ -35,10 +35,7 @@ mod share;
 use std::path::Path;
 
 use crate::scene::{Scene, limits, stem};
-use convergence_study::{
-    InputError,
-    internal::{input, store::content_hash},
-};
+use convergence_study::{Document, HashedFile, InputError};
 
 pub use axis::Axis;
 pub use lines::{CaseLine, Header, InOrder, ShareFile, SweepError};
@@ -59,7 +56,7 @@ pub struct Sweep {
     pub axes: Vec<Axis>,
     /// A hash of the sweep file, the base scene and the version of the program: another version may
     /// compute other bits.
-    pub hash: u64,
+    pub hash: String,
     base: Base,
 }
 
@@ -90,6 +87,11 @@ impl Base {
     }
 }
 
+/// The same on every machine.
+fn hash_of(text: &str) -> String {
+    HashedFile::new("", text.as_bytes()).hash
+}
+
 impl Sweep {
     /// Reads a sweep file and the scene that it names.
     ///
@@ -99,12 +101,13 @@ impl Sweep {
     /// case is run.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
-        let text = input::read_text(path)?;
-        input::parse_beside(&text, path, |root, folder| {
+        let text = Document::text_of_file(path)?;
+        Document::parse(&text, &path.display().to_string(), |root| {
+            let folder = path.parent().unwrap_or(Path::new("."));
             let file = file::Described::read(root, folder)?;
             let base = Base {
                 file: file.scene.display().to_string(),
-                text: input::read_text(&file.scene)?,
+                text: Document::text_of_file(&file.scene)?,
                 set: file.common_values(),
             };
             Scene::parse(&base.text, &base.file)?;
@@ -115,7 +118,7 @@ impl Sweep {
             Ok(Self {
                 name: stem(&path.display().to_string()),
                 cases: file.cases,
-                hash: content_hash(hashed.as_bytes()),
+                hash: hash_of(&hashed),
                 axes: file.keys.into_iter().map(|key| key.axis).collect(),
                 base,
             })
@@ -136,7 +139,7 @@ impl Sweep {
         Self {
             name: name.to_owned(),
             cases: axes.iter().map(|axis| axis.values.len()).min().unwrap_or(0),
-            hash: content_hash(scene.as_bytes()),
+            hash: hash_of(scene),
             axes,
             base: Base {
                 file: name.to_owned(),

@@ -12,10 +12,10 @@ mod sweep;
 
 use std::path::Path;
 
-use convergence_study::{InputError, internal::study::StudyFile};
+use convergence_study::{InputError, KindRow, Study};
 use thermobeam_study::kinds::KINDS;
 
 /// Reads a study file of the repository.
-fn read_study(path: &Path) -> Result<StudyFile, InputError> {
-    StudyFile::read(&KINDS, path)
+fn read_study(path: &Path) -> Result<Box<dyn Study>, InputError> {
+    KindRow::read_any(&KINDS, path)
 }

@@ -8,16 +8,8 @@ mod step_time;
 use std::path::{Path, PathBuf};
 
 use convergence_study::{
-    CaseFailure, Project, Table, Verdict,
-    internal::{
-        cli::{
-            exit::{CommandOutcome, Unusable},
-            workspace,
-        },
-        run,
-        store::{Provenance, atomic, json},
-        study::Described,
-    },
+    CaseFailure, Described, Project, Table, Verdict, atomic,
+    command_line::{CommandOutcome, Unusable},
 };
 use serde::Serialize;
 use thermobeam_study::kinds::work_precision::method::{Trial, no_clock};
@@ -104,9 +96,9 @@ fn cpu_seconds() -> f64 {
 
 /// Runs the command.
 pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
-    let root = workspace::root()?;
+    let root = Project::root()?;
     // What the benchmark writes is no change of what it ran.
-    let here = Provenance::collect(&root, String::new(), run::available().get(), &[]).sentences();
+    let here = Project::provenance(&root);
     let mut problems = vec![];
     for (study, in_words) in PROBLEMS {
         problems.push(Problem::timed(&root, study, in_words)?);
@@ -118,7 +110,10 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     };
     let folder = out.join("bench");
     atomic::prepare_folder(&folder)?;
-    atomic::write(&folder.join("runs.json"), json(&problems)?)?;
+    atomic::write(
+        &folder.join("runs.json"),
+        serde_json::to_string_pretty(&problems)? + "\n",
+    )?;
     for Drawing { file, svg, .. } in problems.iter().flat_map(Problem::drawings) {
         atomic::write(&folder.join(file), svg)?;
     }

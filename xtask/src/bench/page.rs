@@ -1,6 +1,6 @@
 //! The page of the benchmark, with its figures.
 
-use convergence_study::{Project, Table, internal::report};
+use convergence_study::{Project, Table};
 use thermobeam_study::error::{ErrorMeasure, Errors};
 use thermobeam_study::kinds::work_precision::compared::{self, Costed, cheapest};
 use thermobeam_study::kinds::work_precision::method::METHODS;
@@ -103,5 +103,5 @@ pub(super) fn page(project: &Project, problems: &[Problem], steps: &[Table]) -> 
 }
 
 fn section(table: &Table) -> String {
-    format!("## {}\n\n{}\n", table.title, report::markdown(table))
+    format!("## {}\n\n{}\n", table.title, table.markdown())
 }

@@ -10,11 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use convergence_study::internal::{
-    cli::schema::{MANUFACTURE, of_studies, other_files},
-    program,
-    study::StudyFile,
-};
+use convergence_study::{KindRow, Project, Template};
 use manufacture::Manufacture;
 use serde_json::Value;
 use thermobeam_study::scene::Scene;
@@ -156,21 +152,21 @@ impl Differing {
 
 #[test]
 fn schema_and_readers_of_studies_allow_the_same_keys() {
-    let schema = of_studies(&PROJECT);
+    let schema = schema_of("study");
     let mut known = std::collections::BTreeMap::<String, BTreeSet<String>>::new();
     let mut differing = vec![];
     for path in toml_files("studies").chain(toml_files("studies/programs")) {
         let text = fs::read_to_string(&path).unwrap();
-        let file = StudyFile::parse(PROJECT.kinds, &text, &path).unwrap();
-        let kind = file.study.header().kind.clone();
+        let study = KindRow::parse_any(PROJECT.kinds, &text, &path).unwrap();
+        let kind = study.header().kind.clone();
         let answers = |text: &str| {
             Answers::new(
                 &schema,
                 text,
-                StudyFile::parse(PROJECT.kinds, text, &file.path),
+                KindRow::parse_any(PROJECT.kinds, text, &path),
             )
         };
-        let name = file.path.display().to_string();
+        let name = path.display().to_string();
         let known = known.entry(kind.clone()).or_default();
         let kinds = schema["allOf"].as_array().unwrap().iter();
         let mut kinds = kinds.filter(|rule| {
@@ -190,10 +186,10 @@ fn schema_and_readers_of_studies_allow_the_same_keys() {
     assert!(tried > 650, "{tried}");
 }
 
-/// The schema of files that are no studies.
+/// The schema of files of this name.
 fn schema_of(name: &str) -> Value {
-    let mut others = other_files(&PROJECT).into_iter();
-    others.find(|(own, _)| *own == name).unwrap().1
+    let mut schemas = PROJECT.schemas().into_iter();
+    schemas.find(|(own, _)| *own == name).unwrap().1
 }
 
 #[test]
@@ -232,7 +228,7 @@ fn manufacture_files() -> Vec<(String, String)> {
             )
         })
         .collect();
-    let template = program::MANUFACTURE.files[0].1;
+    let template = Template::MANUFACTURE.files[0].1;
     files.push(("the template".to_owned(), template.replace("NAME", "name")));
     for page in ["TEN-MINUTES.md", "NOTES.md"] {
         let path = repository().join("crates/manufacture").join(page);
@@ -265,7 +261,7 @@ fn is_a_name(change: &str) -> bool {
 
 #[test]
 fn schema_and_reader_of_manufacture_allow_the_same_keys() {
-    let schema = schema_of(MANUFACTURE);
+    let schema = schema_of(Template::MANUFACTURE.name);
     let mut known = BTreeSet::new();
     let mut differing = vec![];
     let files = manufacture_files();
@@ -345,7 +341,7 @@ fn the_command_makes_every_schema_and_page_and_git_ignores_them() {
 fn new_files_name_a_schema_of_the_site() {
     const SITE: &str = "https://thermobeam.github.io/thermobeam/";
     let made: Vec<String> = made().into_iter().map(|file| file.path).collect();
-    let templates = PROJECT.templates.iter().chain(program::PROJECT.templates);
+    let templates = PROJECT.templates.iter().chain(Project::PROGRAMS.templates);
     let mut named = BTreeSet::new();
     for template in templates {
         let (_, text) = template.files[0];

@@ -4,10 +4,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use convergence_study::{
-    Claim, Document, Header, InputError, KindRow, Project, Study, boxed_study, described,
-    file::Positive,
-    internal::{input::schema, program},
-    levels, run_command_line,
+    Claim, Described, Document, Header, InputError, KindRow, Project, Study, Template,
+    file::Positive, file::schema, levels,
 };
 
 /// The order claimed instead of 1.
@@ -17,17 +15,17 @@ const PROJECT: Project = Project {
     kinds: &[
         KindRow {
             name: "power",
-            schema: schema::of::<PowerFile>,
+            schema: schema::<PowerFile>,
             read,
             why: "",
             judged: "",
             failure: "",
         },
-        program::ROW,
-        program::TABLE,
-        program::TAYLOR,
+        KindRow::PROGRAM,
+        KindRow::TABLE,
+        KindRow::TAYLOR,
     ],
-    templates: &[program::TEMPLATE, program::MANUFACTURE],
+    templates: &[Template::PROGRAM, Template::MANUFACTURE],
     ..Project::new("powers", "powers")
 };
 
@@ -42,15 +40,15 @@ struct PowerFile {
 /// Errors h^exponent, claimed to be of first order, or of the order in `ORDER`, which is in no
 /// baseline.
 fn read(header: Header, root: &Document<'_>, _: &Path) -> Result<Box<dyn Study>, InputError> {
-    let exponent = described(root, |file: PowerFile| Ok(file.exponent.get()))?;
+    let exponent = root.described(|file: PowerFile| Ok(file.exponent.get()))?;
     let order = std::env::var(ORDER).map_or(1.0, |text| text.parse().unwrap());
     let study = levels([4, 8, 16, 32, 64], move |n| (n as f64).powf(-exponent));
-    Ok(boxed_study(
+    Ok(Described::boxed(
         header,
         study.claiming("error", Claim::new(order, 0.05)),
     ))
 }
 
 fn main() -> ExitCode {
-    run_command_line(&PROJECT)
+    PROJECT.run_command_line()
 }

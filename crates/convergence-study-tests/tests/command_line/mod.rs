@@ -13,7 +13,7 @@ mod visible;
 #[cfg(unix)]
 mod where_lost;
 
-use convergence_study::internal::cli;
+use convergence_study::command_line::Command as Harness;
 use convergence_study_tests::{Ended, finished, output};
 use std::fs;
 use std::path::Path;
@@ -378,13 +378,13 @@ fn every_command_is_in_the_help() {
     let (status, out, _) = run(&workspace(false), "--help").parts();
     assert_eq!(status, Some(0));
     assert!(
-        cli::COMMANDS
+        Harness::NAMES
             .iter()
             .all(|name| out.contains(&format!("\n  {name}"))),
         "{out}"
     );
     assert!(out.contains("Exit status: 0 "), "{out}");
-    for name in cli::COMMANDS {
+    for name in Harness::NAMES {
         let (status, out, _) = run(&workspace(false), &format!("{name} --help")).parts();
         let widest = out.lines().map(|line| line.chars().count()).max();
         assert!(status == Some(0) && widest <= Some(100), "{out}");

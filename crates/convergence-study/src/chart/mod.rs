@@ -51,9 +51,9 @@ use crate::judge::verdict::PowerLaw;
 pub(crate) use page::titled_by_verdict;
 #[cfg(feature = "command-line")]
 pub(crate) use page::without_title;
-pub(crate) use rows::rates_of;
 #[cfg(feature = "reports")]
-pub(crate) use rows::{Row, deviations};
+pub(crate) use rows::deviations;
+pub(crate) use rows::{Row, rates_of};
 
 /// Columns of numbers by their names: the rows that a report prints, or curves over time.
 #[derive(Debug, Clone, Default, PartialEq)]

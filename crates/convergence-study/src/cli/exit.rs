@@ -91,6 +91,6 @@ pub(crate) fn listen() {
 }
 
 /// Sets the report on the work done so far, printed on an interruption.
-pub fn say(said: impl Fn() -> String + Send + 'static) {
+pub(super) fn say(said: impl Fn() -> String + Send + 'static) {
     *SAID.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(said));
 }

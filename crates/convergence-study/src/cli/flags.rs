@@ -53,10 +53,15 @@ pub(super) fn at_least(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clo
 }
 
 impl Flags {
+    /// The number of threads: without one, all of the machine.
+    pub fn threads(&self) -> NonZeroUsize {
+        self.jobs.unwrap_or_else(run::available)
+    }
+
     /// Threads and time of a run; without a number, all threads of the machine.
-    pub fn effort(&self, time_limit: Option<Duration>) -> Effort {
+    pub(crate) fn effort(&self, time_limit: Option<Duration>) -> Effort {
         Effort {
-            jobs: self.jobs.unwrap_or_else(run::available),
+            jobs: self.threads(),
             time_limit,
             fail_fast: false,
         }
@@ -95,7 +100,7 @@ impl Flags {
     }
 
     /// Prints why a command has no result as a JSON object, for programs.
-    pub fn print_refusal(&self, refusal: &Value) -> io::Result<()> {
+    pub(crate) fn print_refusal(&self, refusal: &Value) -> io::Result<()> {
         if self.format != Format::Json {
             return Ok(());
         }

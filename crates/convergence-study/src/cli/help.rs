@@ -19,13 +19,15 @@ pub struct HelpPage {
     pub examples: &'static [(&'static str, &'static str)],
 }
 
-/// The pages of the harness's commands. Each example works as it is in the folder that a test of
-/// the program `convergence-study` fills.
-pub fn pages<'p>() -> impl Iterator<Item = &'p HelpPage> {
-    let pages = PAGES.iter();
-    #[cfg(feature = "completions")]
-    let pages = pages.chain([&COMPLETIONS]);
-    pages
+impl HelpPage {
+    /// Those of the harness's commands. Each example works as it is in the folder that a test of the
+    /// program `convergence-study` fills.
+    pub fn all<'p>() -> impl Iterator<Item = &'p Self> {
+        let pages = PAGES.iter();
+        #[cfg(feature = "completions")]
+        let pages = pages.chain([&COMPLETIONS]);
+        pages
+    }
 }
 
 /// That of a command that only an installed program has.
@@ -131,7 +133,7 @@ const PAGES: [HelpPage; 8] = [
 ///
 /// * `others`: the pages of the project's own commands.
 pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpPage]) -> Command {
-    for page in pages().chain(others) {
+    for page in HelpPage::all().chain(others) {
         command = command.mut_subcommand(page.command, |mut command| {
             for option in page.without {
                 command = command.mut_arg(option, |option| option.hide(true));

@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 use super::exit::{CommandOutcome, Unusable};
 use super::flags::{Flags, at_least};
 use super::new::words;
-use super::running::seconds;
 use super::screen::{self, Format};
 use crate::input::read_text;
 use crate::judge::verdict::Verdict;
@@ -57,7 +56,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FACE", requires = "against")]
     on: Option<String>,
     /// Time limit of the command
-    #[arg(long, value_name = "SECONDS", requires = "against", default_value = "600", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", requires = "against", default_value = "600", value_parser = Flags::seconds, allow_hyphen_values = true)]
     time_limit: Duration,
     /// The same seed draws the same points
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = at_least(0), allow_hyphen_values = true)]

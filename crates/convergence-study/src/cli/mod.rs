@@ -1,8 +1,8 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `report`,
 //! `schema`, `completions`, for any project.
 //!
-//! A project without commands of its own calls [`main()`]; one with commands puts [`Command`] among
-//! them with `#[command(flatten)]`, and calls [`command_line`] and [`ended`]. Results go to
+//! A project without commands of its own calls [`Project::run_command_line`]; one with commands puts
+//! [`Command`] among them with `#[command(flatten)]`, and calls [`Project::run_program`]. Results go to
 //! standard output, everything else to standard error. Exit status: [`exit::HELP`].
 
 #[cfg(feature = "completions")]
@@ -55,21 +55,21 @@ pub enum Command {
     Guard,
 }
 
-/// The names of [`Command`] in the order of `--help`, which does not list `guard`.
-pub const COMMANDS: &[&str] = &[
-    "new",
-    "manufacture",
-    "verify",
-    "study",
-    "list",
-    "rates",
-    "report",
-    "schema",
-    #[cfg(feature = "completions")]
-    "completions",
-];
-
 impl Command {
+    /// Their names in the order of `--help`, which does not list `guard`.
+    pub const NAMES: &'static [&'static str] = &[
+        "new",
+        "manufacture",
+        "verify",
+        "study",
+        "list",
+        "rates",
+        "report",
+        "schema",
+        #[cfg(feature = "completions")]
+        "completions",
+    ];
+
     /// Runs the command for a project; `whole` is the whole command line, for completions.
     ///
     /// # Errors
@@ -119,24 +119,62 @@ fn serve() -> exit::CommandOutcome {
     Ok(Verdict::Pass)
 }
 
-/// The command line of the program `P`, under the name that its users type, its commands in groups.
-///
-/// * `groups`: heading, and names of commands. `--help` does not list a command outside all groups.
-/// * `pages`: what the help of the commands that are not the harness's says.
-pub fn command_line<P: Parser>(
-    project: &Project,
-    groups: &[(&str, &[&str])],
-    pages: &[help::HelpPage],
-) -> clap::Command {
-    let command = P::command()
-        .name(project.command)
-        .bin_name(project.command)
-        .about(project.about);
-    grouped(
-        help::completed(new::with_templates(command, project), project, pages)
-            .version(env!("CARGO_PKG_VERSION")),
-        groups,
-    )
+impl Project {
+    /// The command line of the program `P`, under the name that its users type, its commands in
+    /// groups.
+    ///
+    /// * `groups`: heading, and names of commands. `--help` does not list a command outside all
+    ///   groups.
+    /// * `pages`: what the help of the commands that are not the harness's says.
+    pub fn command_line<P: Parser>(
+        &self,
+        groups: &[(&str, &[&str])],
+        pages: &[help::HelpPage],
+    ) -> clap::Command {
+        let command = P::command()
+            .name(self.command)
+            .bin_name(self.command)
+            .about(self.about);
+        grouped(
+            help::completed(new::with_templates(command, self), self, pages)
+                .version(env!("CARGO_PKG_VERSION")),
+            groups,
+        )
+    }
+
+    /// The `main` of a program with commands of its own: parses the arguments of the process, runs
+    /// the command, and turns the outcome into the exit status.
+    ///
+    /// * `groups`, `pages`: as for [`command_line`](Self::command_line).
+    /// * `run`: also receives the whole command line, which [`Command::run`] asks for.
+    pub fn run_program<P: Parser>(
+        &self,
+        groups: &[(&str, &[&str])],
+        pages: &[help::HelpPage],
+        run: impl FnOnce(P, clap::Command) -> exit::CommandOutcome,
+    ) -> ExitCode {
+        let line = self.command_line::<P>(groups, pages);
+        let status = status(line.clone(), env::args_os(), |program| run(program, line));
+        ExitCode::from(status)
+    }
+
+    /// The command line of a project that adds no commands of its own.
+    pub fn own_command_line(&self) -> clap::Command {
+        self.command_line::<CommandLine>(&[("Commands", Command::NAMES)], &[])
+    }
+
+    /// The whole `main` of a project that adds no commands of its own.
+    pub fn run_command_line(&self) -> ExitCode {
+        ExitCode::from(self.status_of(env::args_os()))
+    }
+
+    /// The same with these arguments, starting with the program; returns the exit status.
+    pub fn status_of(&self, arguments: impl Iterator<Item = OsString>) -> u8 {
+        let line = self.own_command_line();
+        status(line.clone(), arguments, |asked: CommandLine| {
+            asked.command.run(self, line)
+        })
+    }
 }
 
 /// The command line with its subcommands listed under headings, and the exit status explained.
@@ -169,15 +207,6 @@ fn grouped(command: clap::Command, groups: &[(&str, &[&str])]) -> clap::Command 
         exit::HELP
     );
     command.help_template(template)
-}
-
-/// Parses the arguments of the process, runs the command, and turns the outcome into the exit
-/// status.
-pub fn ended<P: Parser>(
-    line: clap::Command,
-    run: impl FnOnce(P) -> exit::CommandOutcome,
-) -> ExitCode {
-    ExitCode::from(status(line, env::args_os(), run))
 }
 
 fn status<P: Parser>(
@@ -215,22 +244,4 @@ fn with_commands(mut error: clap::Error, line: &clap::Command) -> clap::Error {
 struct CommandLine {
     #[command(subcommand)]
     command: Command,
-}
-
-/// The command line of a project that adds no commands of its own.
-pub fn program(project: &Project) -> clap::Command {
-    command_line::<CommandLine>(project, &[("Commands", COMMANDS)], &[])
-}
-
-/// The whole `main` of a project that adds no commands of its own.
-pub fn run_command_line(project: &Project) -> ExitCode {
-    ExitCode::from(status_of(project, env::args_os()))
-}
-
-/// The same with these arguments, starting with the program; returns the exit status.
-pub fn status_of(project: &Project, arguments: impl Iterator<Item = OsString>) -> u8 {
-    let line = program(project);
-    status(line.clone(), arguments, |asked: CommandLine| {
-        asked.command.run(project, line)
-    })
 }

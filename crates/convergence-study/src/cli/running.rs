@@ -7,6 +7,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::exit::Unusable;
+use super::flags::Flags;
 use super::{exit, screen};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
@@ -18,7 +19,7 @@ use crate::study::Study;
 pub(crate) struct Limits {
     /// Time limit of each case; the study of a case that exceeds it fails, and the others go on
     /// [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = Flags::seconds, allow_hyphen_values = true)]
     pub(super) time_limit: Option<Duration>,
     /// Run also studies that are expected to take minutes
     #[arg(long)]
@@ -30,22 +31,59 @@ pub(crate) struct Limits {
 /// take more on any mesh.
 const LONG: f64 = 60.0;
 
-/// Refuses work that is expected to take long.
-///
-/// * `what`: the file, or the study.
-/// * `seconds`: the expected time on one thread.
-/// * `limit`: the flag that limits the time.
-///
-/// # Errors
-/// More than a minute.
-pub fn consent(what: &str, seconds: f64, limit: &str) -> Result<(), Unusable> {
-    if seconds <= LONG {
-        return Ok(());
+impl Flags {
+    /// Refuses work that is expected to take long.
+    ///
+    /// * `what`: the file, or the study.
+    /// * `seconds`: the expected time on one thread.
+    /// * `limit`: the flag that limits the time.
+    ///
+    /// # Errors
+    /// More than a minute.
+    pub fn consent(what: &str, seconds: f64, limit: &str) -> Result<(), Unusable> {
+        if seconds <= LONG {
+            return Ok(());
+        }
+        let found = format!("found work for about {seconds:.1e} seconds on one thread");
+        Err(Unusable::because(&format!(
+            "{what}: {found}; expected at most {LONG}, or --yes, or {limit} SECONDS"
+        )))
     }
-    let found = format!("found work for about {seconds:.1e} seconds on one thread");
-    Err(Unusable::because(&format!(
-        "{what}: {found}; expected at most {LONG}, or --yes, or {limit} SECONDS"
-    )))
+
+    /// A time limit on the command line.
+    pub fn seconds(text: &str) -> Result<Duration, String> {
+        let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
+        seconds
+            .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+            .ok_or("expected a number > 0".to_owned())
+    }
+
+    /// A bar on standard error for `count` things, which `unit` names; hidden with `--quiet`, or if
+    /// standard error is not a terminal.
+    pub fn bar(&self, name: &str, count: usize, unit: &'static str) -> ProgressBar {
+        if self.quiet {
+            return ProgressBar::hidden();
+        }
+        let rate = move |state: &ProgressState, text: &mut dyn Write| {
+            // Writing to the bar's line cannot fail.
+            let _ = write!(text, "{:.0} {unit}/s", state.per_sec());
+        };
+        let style =
+            style("{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left").with_key("rate", rate);
+        ProgressBar::new(count as u64)
+            .with_style(style)
+            .with_prefix(name.to_owned())
+    }
+
+    /// Sets the report on the work done so far, printed if the process is interrupted.
+    pub fn when_interrupted(said: impl Fn() -> String + Send + 'static) {
+        exit::say(said);
+    }
+
+    /// Prints an error to standard error.
+    pub fn complain(message: &str) {
+        screen::complain(message);
+    }
 }
 
 impl Limits {
@@ -67,17 +105,9 @@ impl Limits {
         };
         studies.iter().try_for_each(|study| {
             let cost: f64 = study.plan().cases().iter().map(|case| case.cost).sum();
-            consent(&study.header().id, unit * cost, "--time-limit")
+            Flags::consent(&study.header().id, unit * cost, "--time-limit")
         })
     }
-}
-
-/// A time limit on the command line.
-pub fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
-    seconds
-        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or("expected a number > 0".to_owned())
 }
 
 /// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which
@@ -154,21 +184,4 @@ fn sentence(done: &[String], count: usize) -> String {
         format!(": {}", done.join(", "))
     };
     format!("{} of {count} studies had run{names}", done.len())
-}
-
-/// A bar on standard error for `count` things, which `unit` names; hidden with `quiet`, or if
-/// standard error is not a terminal.
-pub fn counting(name: &str, count: usize, unit: &'static str, quiet: bool) -> ProgressBar {
-    if quiet {
-        return ProgressBar::hidden();
-    }
-    let rate = move |state: &ProgressState, text: &mut dyn Write| {
-        // Writing to the bar's line cannot fail.
-        let _ = write!(text, "{:.0} {unit}/s", state.per_sec());
-    };
-    let style =
-        style("{prefix} {wide_bar} {percent:>3} %  {rate}, {eta} left").with_key("rate", rate);
-    ProgressBar::new(count as u64)
-        .with_style(style)
-        .with_prefix(name.to_owned())
 }

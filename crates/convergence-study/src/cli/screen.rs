@@ -79,7 +79,7 @@ pub(super) fn print_as_is(text: &str) -> io::Result<()> {
 }
 
 /// Prints an error to standard error.
-pub fn complain(message: &str) {
+pub(crate) fn complain(message: &str) {
     tell(&format!("error: {message}"));
 }
 

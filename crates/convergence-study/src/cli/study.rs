@@ -202,11 +202,11 @@ mod tests {
 
     use super::*;
     use crate::run::Spent;
-    use crate::study::{Header, boxed_study, levels};
+    use crate::study::{Described, Header, levels};
 
     #[test]
     fn the_seconds_of_a_study_are_those_that_passed() {
-        let study = boxed_study(
+        let study = Described::boxed(
             Header::new("s", "c"),
             levels([4, 8, 16], |n| 1.0 / n as f64),
         );

@@ -23,7 +23,7 @@ use crate::text::visible;
 ///
 /// # Errors
 /// If there is no such folder.
-pub fn root() -> Result<PathBuf, Unusable> {
+pub(crate) fn root() -> Result<PathBuf, Unusable> {
     let here = env::current_dir()?;
     let root = here
         .ancestors()
@@ -33,6 +33,17 @@ pub fn root() -> Result<PathBuf, Unusable> {
             "expected a folder studies/, here or above; found none (`study FILE` runs a file from anywhere)",
         )
     })
+}
+
+impl Project {
+    /// The folder of the project that the process runs in: the nearest one with `studies/`, here or
+    /// above.
+    ///
+    /// # Errors
+    /// If there is no such folder.
+    pub fn root() -> Result<PathBuf, Unusable> {
+        root()
+    }
 }
 
 /// All studies of the workspace, those of files and those in code, by id.

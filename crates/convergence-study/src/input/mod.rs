@@ -32,7 +32,7 @@ pub use ranges::{
 };
 
 /// A finite number > 0, in words.
-pub const POSITIVE: &str = "a finite number > 0";
+pub(crate) const POSITIVE: &str = "a finite number > 0";
 
 /// A place in a text file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -169,7 +169,7 @@ impl SourceText<'_> {
 }
 
 /// The whole text of a file.
-pub fn read_text(path: &Path) -> Result<String, InputError> {
+pub(crate) fn read_text(path: &Path) -> Result<String, InputError> {
     let name = path.display().to_string();
     let file = File::open(path).map_err(|error| unreadable(&name, &error))?;
     read_from(&name, file)
@@ -234,7 +234,7 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
 }
 
 /// Parses `text` and passes the document to `read`.
-pub fn parse<T>(
+pub(crate) fn parse<T>(
     text: &str,
     file: &str,
     read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
@@ -249,7 +249,7 @@ pub fn parse<T>(
 
 /// As [`parse`]; `read` also receives the folder of the file, to which the file names in it are
 /// relative.
-pub fn parse_beside<T>(
+pub(crate) fn parse_beside<T>(
     text: &str,
     file: &Path,
     read: impl FnOnce(&Document<'_>, &Path) -> Result<T, InputError>,
@@ -258,31 +258,53 @@ pub fn parse_beside<T>(
     parse(text, &file.display().to_string(), |root| read(root, folder))
 }
 
-/// As [`parse`], with the tables of `overlay` laid over those of `text`: its keys win, key by key.
-///
-/// Places in errors are those in `text`, a newline and `overlay`, one after the other.
-pub fn parse_overlaid<T>(
-    text: &str,
-    overlay: &str,
-    file: &str,
-    read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
-) -> Result<T, InputError> {
-    let whole = format!("{text}\n{overlay}");
-    let source = SourceText { file, text: &whole };
-    // Preceded by as much blank space as the text is long, values keep their places in the whole.
-    let shifted = " ".repeat(text.len() + 1) + overlay;
-    let mut root = table(source, text)?;
-    for (key, value) in table(source, &shifted)? {
-        let below = root.get_mut(&key).map(Spanned::get_mut);
-        match (below, value.get_ref()) {
-            (Some(DeValue::Table(below)), DeValue::Table(above)) => below.extend(above.clone()),
-            _ => drop(root.insert(key, value)),
-        }
+impl Document<'_> {
+    /// The whole text of a file.
+    ///
+    /// # Errors
+    /// It cannot be read, or is no UTF-8.
+    pub fn text_of_file(path: &Path) -> Result<String, InputError> {
+        read_text(path)
     }
-    read(&Document {
-        source,
-        table: &root,
-    })
+
+    /// Parses `text`, which errors call `file`, and passes the document to `read`.
+    ///
+    /// # Errors
+    /// The text is no TOML, or those of `read`.
+    pub fn parse<T>(
+        text: &str,
+        file: &str,
+        read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
+    ) -> Result<T, InputError> {
+        parse(text, file, read)
+    }
+
+    /// As [`parse`](Self::parse), with the tables of `overlay` laid over those of `text`: its keys win, key by key.
+    ///
+    /// Places in errors are those in `text`, a newline and `overlay`, one after the other.
+    pub fn parse_overlaid<T>(
+        text: &str,
+        overlay: &str,
+        file: &str,
+        read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
+    ) -> Result<T, InputError> {
+        let whole = format!("{text}\n{overlay}");
+        let source = SourceText { file, text: &whole };
+        // Preceded by as much blank space as the text is long, values keep their places in the whole.
+        let shifted = " ".repeat(text.len() + 1) + overlay;
+        let mut root = table(source, text)?;
+        for (key, value) in table(source, &shifted)? {
+            let below = root.get_mut(&key).map(Spanned::get_mut);
+            match (below, value.get_ref()) {
+                (Some(DeValue::Table(below)), DeValue::Table(above)) => below.extend(above.clone()),
+                _ => drop(root.insert(key, value)),
+            }
+        }
+        read(&Document {
+            source,
+            table: &root,
+        })
+    }
 }
 
 /// A piece of a file on one line, cut where a message would become unreadable.

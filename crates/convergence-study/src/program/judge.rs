@@ -11,7 +11,6 @@ use crate::judge::claims;
 use crate::judge::grid::SpaceTime;
 use crate::judge::verdict::Verdict;
 use crate::study::grid::{Grid, GridColumn};
-use crate::study::kind;
 use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::study::sampled::Sampled;
 use crate::study::until_decided::{self, Looks, Next};
@@ -62,7 +61,7 @@ fn judge_levels(study: &Program, ran: &[CaseRun], sampled: Option<&Sampled>) -> 
             mixed.clone(),
         )
         .about(Subject::of("step"));
-        return Outcome::new(mixed, vec![], vec![check, completion_check(ran)]);
+        return Outcome::new(mixed, vec![], vec![check, completion(ran)]);
     }
     let mut levels = levels(study, ran);
     if let Some(sampled) = sampled {
@@ -106,7 +105,7 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         squares_add: false,
     };
     let mut outcome = grid.judge();
-    outcome.extend(Outcome::new("", vec![], vec![completion_check(ran)]));
+    outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));
     let mut figures = grid.figures(&outcome.rates, |name| format!("error {name}"));
     figures.extend(work_precision(levels, ran));
     Outcome {
@@ -154,7 +153,7 @@ fn rates(study: &Program, ran: &[CaseRun]) -> Vec<NamedRate> {
 fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let rates = levels.judge();
     let mut checks = exact(study, ran);
-    checks.push(completion_check(ran));
+    checks.push(completion(ran));
     checks.extend(levels.equal_columns());
     checks.extend(levels.boundary(&rates));
     let values = values::judge(study, ran, &levels.refinements);
@@ -224,7 +223,7 @@ fn number(ran: &CaseRun, expected: &Expectation) -> f64 {
 }
 
 /// A case that answered less than required counts as failed.
-fn completion_check(ran: &[CaseRun]) -> Check {
+fn completion(ran: &[CaseRun]) -> Check {
     let names: BTreeSet<&str> = ran.iter().filter_map(CaseRun::ok).flat_map(names).collect();
     let whole = |Ran { case, found }: &CaseRun| {
         let answered = found.as_ref().map_err(Clone::clone);
@@ -238,7 +237,7 @@ fn completion_check(ran: &[CaseRun]) -> Check {
             found,
         }
     };
-    kind::completion_check(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+    Check::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
 }
 
 /// The names of the errors of an answer.

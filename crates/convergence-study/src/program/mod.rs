@@ -44,9 +44,7 @@ use crate::input::{Refusal, schema};
 use crate::judge::verdict::Floor;
 use crate::project::{Project, Template};
 use crate::study::until_decided::Next;
-use crate::study::{
-    Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study,
-};
+use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran};
 use command::Invocation;
 use expectation::Expectation;
 use file::ProgramFile;
@@ -56,14 +54,12 @@ use refine::Refine;
 
 pub(crate) use answer::Answer;
 pub(crate) use refine::RefinedCase;
-pub use table::ROW as TABLE;
-pub use taylor::ROW as TAYLOR;
 
 /// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
+const ROW: KindRow = KindRow {
     name: "program",
     schema: schema::of::<ProgramFile>,
-    read: read_study::<Program>,
+    read: Program::read_study,
     why: "The program solves a problem whose exact solution is known, or one of whose results tends to a limit; theory gives the order.",
     judged: "The program is run at each resolution and answers with its errors. The rate at which each error falls is estimated with \
              an interval of measured reliability, which is held against the order: it must lie within the tolerance, whole. Above is as wrong as \
@@ -76,7 +72,7 @@ pub const ROW: KindRow = KindRow {
 };
 
 /// The files that `new program NAME` writes: a study of a program, and the program.
-pub const TEMPLATE: Template = Template {
+pub(crate) const TEMPLATE: Template = Template {
     name: "program",
     about: "A convergence study of a program in any language",
     files: &[
@@ -88,7 +84,7 @@ pub const TEMPLATE: Template = Template {
 };
 
 /// The file that `new manufacture NAME` writes: equations and a chosen solution.
-pub const MANUFACTURE: Template = Template {
+const MANUFACTURE: Template = Template {
     name: "manufacture",
     about: "Equations and a chosen exact solution, for sources and data",
     files: &[(".toml", include_str!("begin/manufacture.toml"))],
@@ -96,13 +92,31 @@ pub const MANUFACTURE: Template = Template {
     next: "manufacture",
 };
 
-/// The project of the program `convergence-study`: studies of any program, in the folder that it
-/// runs in.
-pub const PROJECT: Project = Project {
-    kinds: &[ROW, TABLE, TAYLOR],
-    templates: &[TEMPLATE, MANUFACTURE],
-    ..Project::new("convergence-study", "convergence-study")
-};
+impl Project {
+    /// The project of the program `convergence-study`: studies of any program, in the folder that it
+    /// runs in.
+    pub const PROGRAMS: Self = Self {
+        kinds: &[KindRow::PROGRAM, KindRow::TABLE, KindRow::TAYLOR],
+        templates: &[TEMPLATE, MANUFACTURE],
+        ..Project::new("convergence-study", "convergence-study")
+    };
+}
+
+impl KindRow {
+    /// Programs in any language: the kind of `convergence-study` itself.
+    pub const PROGRAM: Self = ROW;
+    /// Tables of errors that exist.
+    pub const TABLE: Self = table::ROW;
+    /// Derivatives of programs, by Taylor's theorem.
+    pub const TAYLOR: Self = taylor::ROW;
+}
+
+impl Template {
+    /// A program and its study, in the language that the user chooses.
+    pub const PROGRAM: Self = TEMPLATE;
+    /// A file of `manufacture`.
+    pub const MANUFACTURE: Self = MANUFACTURE;
+}
 
 /// A study of a program, validated.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::input::{Refusal, named_file};
-use crate::store::content_hash;
+use crate::study::outcome::content_hash;
 use crate::study::{CaseFailure, HashedFile};
 use crate::text::visible::visible;
 

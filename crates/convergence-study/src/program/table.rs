@@ -10,16 +10,14 @@ use super::sources::SourceFile;
 use crate::input::advice::CommandLine;
 use crate::input::{Refusal, schema};
 use crate::rates::{self, Request, SourceTable, Tables};
-use crate::study::{
-    Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources, read_study,
-};
+use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources};
 use file::TableFile;
 
 /// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
+pub(super) const ROW: KindRow = KindRow {
     name: "table",
     schema: schema::of::<TableFile>,
-    read: read_study::<Table>,
+    read: Table::read_study,
     why: "The table holds errors of a program whose exact solution is known; theory gives the order.",
     judged: "The table is read and judged as `rates` does: every number is a step, an error, or set aside, and a doubt is inconclusive. \
              The baseline keeps the hashes of the table and of the files that it was made from: if they have changed and the table has not, \

@@ -12,15 +12,15 @@ use super::launch::{CaseParameter, Launch};
 use crate::input::{Refusal, schema};
 use crate::judge::taylor::{Along, Finding, Judged, Second};
 use crate::judge::verdict::FEWEST_LEVELS;
-use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, read_study};
+use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran};
 use crate::taylor::{MOST_DRAWN_ANEW, steps_from};
 use file::TaylorFile;
 
 /// The row of the table of kinds.
-pub const ROW: KindRow = KindRow {
+pub(super) const ROW: KindRow = KindRow {
     name: "taylor",
     schema: schema::of::<TaylorFile>,
-    read: read_study::<Taylor>,
+    read: Taylor::read_study,
     why: "By Taylor's theorem J(m + εd) differs from J(m) + ε dJ·d by a remainder of second order in ε, if dJ·d is the derivative of J.",
     judged: "The program is run at steps from `eps` down to the noise of J, in several directions. The differences of J, extrapolated to ε = 0, \
              give dJ·d with an error bar: the answered dJ·d must agree with it to `to`, and the remainder must fall with order 2 (3 with d2J). \

@@ -4,22 +4,25 @@ use super::templates::escaped_markdown;
 use crate::study::outcome::Table;
 use crate::text::columns::Columns;
 
-/// The lines of a table, without its title.
-pub fn markdown(Table { head, rows, .. }: &Table) -> String {
-    let cells = |row: &Vec<String>| row.iter().map(|cell| escaped_markdown(cell)).collect();
-    let head: Vec<String> = cells(head);
-    let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
-    let columns = Columns::of(&head, &rows);
-    let rule = |i| match columns.is_numeric(i) {
-        true => format!("{:->1$}", ":", columns.width(i).max(2)),
-        false => "-".repeat(columns.width(i).max(1)),
-    };
-    let mut lines = line(columns.pad(&head));
-    lines += &line((0..columns.count()).map(rule));
-    for row in &rows {
-        lines += &line(columns.pad(row));
+impl Table {
+    /// The lines of the table in Markdown, without its title.
+    pub fn markdown(&self) -> String {
+        let Table { head, rows, .. } = self;
+        let cells = |row: &Vec<String>| row.iter().map(|cell| escaped_markdown(cell)).collect();
+        let head: Vec<String> = cells(head);
+        let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
+        let columns = Columns::of(&head, &rows);
+        let rule = |i| match columns.is_numeric(i) {
+            true => format!("{:->1$}", ":", columns.width(i).max(2)),
+            false => "-".repeat(columns.width(i).max(1)),
+        };
+        let mut lines = line(columns.pad(&head));
+        lines += &line((0..columns.count()).map(rule));
+        for row in &rows {
+            lines += &line(columns.pad(row));
+        }
+        lines
     }
-    lines
 }
 
 fn line(cells: impl Iterator<Item = String>) -> String {

@@ -28,7 +28,6 @@ use templates::render;
 pub(crate) use failures::{text_of_diagnosis, text_of_failures};
 pub(crate) use junit::junit;
 pub(crate) use junit::{Suite, TestCase, junit_of};
-pub use markdown::markdown;
 pub(crate) use tables::tables;
 pub(crate) use words::{blessing, sentence};
 pub(crate) use words::{can_be_blessed, key_numbers, summary};

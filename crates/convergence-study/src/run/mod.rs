@@ -4,7 +4,6 @@
 //! put back into the order of the cases, so an [`Outcome`] has the same bits for any number of
 //! threads. The time varies from run to run and is kept separately in [`Spent`].
 
-mod caught;
 mod failures;
 mod json;
 mod levels;
@@ -25,11 +24,10 @@ use crate::study::erased::plan;
 use crate::study::kind::reasons;
 use crate::study::outcome::{self, NotFinite};
 use crate::study::{
-    Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested,
+    Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested, catch,
 };
 use queue::{Counter, Done, Job};
 
-pub use caught::catch;
 pub(crate) use convergence_judge::time_limit;
 pub(crate) use failures::items;
 pub(crate) use failures::{Item, NotPassed, not_passed};

@@ -128,7 +128,7 @@ fn fill_through(
 }
 
 /// For `map_err`: the same error, preceded by the name of the file.
-pub fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
+pub(crate) fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
     move |error| io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
 }
 

@@ -14,7 +14,7 @@ mod works;
 
 pub use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
-pub use provenance::Provenance;
+pub(crate) use provenance::Provenance;
 pub use record::Record;
 pub(crate) use record::{FIGURES, SCHEMA};
 pub(crate) use report_folder::README;
@@ -28,7 +28,6 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::judge::random::SplitMix;
 use crate::text::visible;
 
 /// The content of a file. Another schema has other keys, so its number is read first.
@@ -81,26 +80,13 @@ pub(crate) fn read_if_there<T: DeserializeOwned>(
 
 /// An object as JSON text with a line end, as in files; a number that is not finite becomes `null`,
 /// because JSON has none.
-pub fn json(object: &impl Serialize) -> io::Result<String> {
+pub(crate) fn json(object: &impl Serialize) -> io::Result<String> {
     Ok(serde_json::to_string_pretty(object)? + "\n")
 }
 
 /// Writes an object to a file, atomically.
 pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> io::Result<()> {
     atomic::write(path, json(object)?)
-}
-
-/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by
-/// splitmix64.
-///
-/// Not cryptographic. With FNV alone the low bits of similar texts would be correlated.
-pub fn content_hash(bytes: &[u8]) -> u64 {
-    const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
-    const PRIME: u64 = 0x0000_0100_0000_01B3;
-    let fnv = bytes.iter().fold(OFFSET, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(PRIME)
-    });
-    SplitMix::new(fnv).next_u64()
 }
 
 /// The text of a regular file.

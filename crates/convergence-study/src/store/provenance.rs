@@ -9,12 +9,13 @@ use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 
-use crate::run::Finished;
+use crate::project::Project;
+use crate::run::{Finished, available};
 use crate::store::{SCHEMA, read_if_there};
 
 /// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Provenance {
+pub(crate) struct Provenance {
     /// `SCHEMA`.
     pub schema: u32,
     /// Version of this crate.
@@ -45,7 +46,7 @@ pub struct Provenance {
 
 /// Time of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StudyTime {
+pub(crate) struct StudyTime {
     /// Its id.
     pub id: String,
     /// Sum over all cases, on all threads.
@@ -54,12 +55,26 @@ pub struct StudyTime {
     pub wall_seconds: f64,
 }
 
+impl Project {
+    /// The machine, the tools and the revision of what runs here, in sentences.
+    ///
+    /// * `root`: a folder of the working tree.
+    pub fn provenance(root: &Path) -> Vec<String> {
+        Provenance::collect(root, String::new(), available().get(), &[]).sentences()
+    }
+}
+
 impl Provenance {
     /// Collects machine, tools, revision and times.
     ///
     /// * `root`: a folder of the working tree.
     /// * `command`: the command that was run.
-    pub fn collect(root: &Path, command: String, jobs: usize, finished: &[Finished]) -> Self {
+    pub(crate) fn collect(
+        root: &Path,
+        command: String,
+        jobs: usize,
+        finished: &[Finished],
+    ) -> Self {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         Self {
             schema: SCHEMA,
@@ -96,12 +111,12 @@ impl Provenance {
     }
 
     /// Reads the origin of a run; `None` if there is no file.
-    pub fn read(path: &Path) -> io::Result<Option<Self>> {
+    pub(crate) fn read(path: &Path) -> io::Result<Option<Self>> {
         read_if_there(path, None, ["remove it: `verify` writes it anew"; 2])
     }
 
     /// Commit, date, machine and tools in a sentence each, as far as known.
-    pub fn sentences(&self) -> Vec<String> {
+    pub(crate) fn sentences(&self) -> Vec<String> {
         let changed = if self.git_modified == Some(true) {
             ", with changes that are not committed"
         } else {

@@ -66,11 +66,6 @@ pub trait Plan: Send + Sync {
     fn judge(&self) -> Outcome;
 }
 
-/// A typed study in the form that the runner takes.
-pub fn boxed_study<'k, K: Kind + 'k>(header: Header, kind: K) -> Box<dyn Study + 'k> {
-    Box::new(Described { header, kind })
-}
-
 /// The cases of a typed study, with a place for the result of each.
 pub(crate) fn plan<K: Kind>(kind: &K) -> Box<dyn Plan + '_> {
     let ran = kind
@@ -94,6 +89,16 @@ pub struct Described<K> {
     pub header: Header,
     /// What is run and judged.
     pub kind: K,
+}
+
+impl<K: Kind> Described<K> {
+    /// A study in the form that the runner takes.
+    pub fn boxed<'k>(header: Header, kind: K) -> Box<dyn Study + 'k>
+    where
+        K: 'k,
+    {
+        Box::new(Self { header, kind })
+    }
 }
 
 impl<K: Kind> Study for Described<K> {
@@ -132,7 +137,7 @@ impl<K: Kind> Study for Described<K> {
         };
         let study = self.kind.with_variant(variant)?;
         let with_levels = levels.and_then(|count| study.with_levels(count));
-        Some(boxed_study(header, with_levels.unwrap_or(study)))
+        Some(Described::boxed(header, with_levels.unwrap_or(study)))
     }
 }
 

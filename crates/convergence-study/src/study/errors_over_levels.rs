@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::header::Header;
-use super::kind::{Case, CaseFailure, Kind, Ran, completion_check};
+use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
 use super::over_levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::subject::Subject;
@@ -191,7 +191,7 @@ impl<F> ErrorsOverLevels<F> {
             .filter(|column| column.has_some_result())
             .map(|column| column.name.as_str())
             .collect();
-        let completion = completion_check(ran, |errors| {
+        let completion = Check::completion(ran, |errors| {
             let names = names
                 .iter()
                 .filter(|name| !error_of(errors, name).is_finite());

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use serde::de::{self, DeserializeOwned, Deserializer, IntoDeserializer, Unexpected, Visitor};
 use serde_json::Value;
 
-use super::erased::{Described, Study, boxed_study};
+use super::erased::{Described, Study};
 use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{
@@ -25,23 +25,15 @@ use crate::text::visible;
 /// Reads a study of one kind from the document of its file.
 pub(crate) type Reader = fn(Header, &Document<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
 
-/// What a study file describes: its tables beside `[study]` as a struct, and what is made of it.
-pub fn described<F: DeserializeOwned + JsonSchema, T>(
-    root: &Document<'_>,
-    build: impl FnOnce(F) -> Result<T, Refusal>,
-) -> Result<T, InputError> {
-    let file = root.read_keys(|key| key != STUDY)?;
-    build(file).map_err(|refusal| root.locate(refusal))
-}
-
-/// The reader of a kind.
-pub fn read_study<K: FromFile + 'static>(
-    header: Header,
-    root: &Document<'_>,
-    folder: &Path,
-) -> Result<Box<dyn Study>, InputError> {
-    let kind = described(root, |file| K::from_file(file, &header, folder))?;
-    Ok(boxed_study(header, kind))
+impl Document<'_> {
+    /// What a study file describes: its tables beside `[study]` as a struct, and what is made of it.
+    pub fn described<F: DeserializeOwned + JsonSchema, T>(
+        &self,
+        build: impl FnOnce(F) -> Result<T, Refusal>,
+    ) -> Result<T, InputError> {
+        let file = self.read_keys(|key| key != STUDY)?;
+        build(file).map_err(|refusal| self.locate(refusal))
+    }
 }
 
 /// A kind of study: its name, its reader, and what it means in words.
@@ -63,6 +55,26 @@ pub struct KindRow {
 }
 
 impl KindRow {
+    /// Reads a study file of any of these kinds.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line, field, the value found and the values allowed.
+    pub fn read_any(kinds: &[Self], path: &Path) -> Result<Box<dyn Study>, InputError> {
+        Ok(StudyFile::read(kinds, path)?.study)
+    }
+
+    /// The same of a text; messages name `path`, and other files are searched for next to it.
+    ///
+    /// # Errors
+    /// As [`KindRow::read_any`].
+    pub fn parse_any(
+        kinds: &[Self],
+        text: &str,
+        path: &Path,
+    ) -> Result<Box<dyn Study>, InputError> {
+        Ok(StudyFile::parse(kinds, text, path)?.study)
+    }
+
     /// The first kind whose numbers come from this source, which is named without the kind:
     /// `vibration` for `orders/vibration`.
     pub fn with_source<'k>(kinds: &'k [Self], source: &str) -> Option<&'k Self> {
@@ -74,7 +86,7 @@ impl KindRow {
 }
 
 /// A study file, read once.
-pub struct StudyFile {
+pub(crate) struct StudyFile {
     /// The file.
     pub path: PathBuf,
     /// The study.
@@ -83,7 +95,7 @@ pub struct StudyFile {
 
 impl StudyFile {
     /// Reads a study file of any of these kinds.
-    pub fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
+    pub(crate) fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
         Self::read_after(&[], kinds, path)
     }
 
@@ -91,7 +103,7 @@ impl StudyFile {
     ///
     /// # Errors
     /// As [`StudyFile::read`], and if two studies have the same id.
-    pub fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
+    pub(crate) fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
         let mut files: Vec<Self> = Vec::with_capacity(paths.len());
         for path in paths {
             files.push(Self::read_after(&files, kinds, path)?);
@@ -101,7 +113,7 @@ impl StudyFile {
 
     /// Reads a study from `text`; messages name `path`, and other files are searched for next to
     /// it.
-    pub fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
+    pub(crate) fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
         Self::parse_after(&[], kinds, text, path)
     }
 
@@ -168,7 +180,7 @@ fn row<'k>(
 ///
 /// use convergence_study::file::{Count, Refusal, schema, within};
 /// use convergence_study::{Case, CaseFailure, Claim, FromFile, Header, InputError, Kind, Order};
-/// use convergence_study::{KindRow, Outcome, Ran, completion_check, read_study};
+/// use convergence_study::{Check, KindRow, Outcome, Ran};
 /// use schemars::JsonSchema;
 /// use serde::Deserialize;
 ///
@@ -209,7 +221,7 @@ fn row<'k>(
 /// const ROW: KindRow = KindRow {
 ///     name: "sums",
 ///     schema: schema::<SumsFile>,
-///     read: read_study::<Sums>,
+///     read: Sums::read_study,
 ///     why: "The series converges.",
 ///     judged: "Every sum must be finite.",
 ///     failure: "The sum is wrong.",
@@ -238,7 +250,7 @@ fn row<'k>(
 ///     }
 ///
 ///     fn judge(&self, ran: &[Ran<usize, f64>]) -> Outcome {
-///         Outcome::new("", vec![], vec![completion_check(ran, |_| vec![])])
+///         Outcome::new("", vec![], vec![Check::completion(ran, |_| vec![])])
 ///     }
 /// }
 /// # let _ = ROW;
@@ -256,6 +268,22 @@ pub trait FromFile: Kind + Sized {
     /// # Errors
     /// Values that do not go together.
     fn from_file(file: Self::File, header: &Header, folder: &Path) -> Result<Self, Refusal>;
+
+    /// The reader of a kind, for its [`KindRow`].
+    ///
+    /// # Errors
+    /// As [`FromFile::parse`].
+    fn read_study(
+        header: Header,
+        root: &Document<'_>,
+        folder: &Path,
+    ) -> Result<Box<dyn Study>, InputError>
+    where
+        Self: 'static,
+    {
+        let kind = root.described(|file| Self::from_file(file, &header, folder))?;
+        Ok(Described::boxed(header, kind))
+    }
 
     /// Reads a study from `text`; messages name `file`, and other files are searched for next to
     /// it.
@@ -277,7 +305,7 @@ impl<K: FromFile> Described<K> {
     pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         input::parse_beside(text, file, |root, folder| {
             let header = Header::from_document(root)?;
-            let kind = described(root, |file| K::from_file(file, &header, folder))?;
+            let kind = root.described(|file| K::from_file(file, &header, folder))?;
             Ok(Self { header, kind })
         })
     }

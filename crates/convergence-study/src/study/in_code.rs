@@ -3,7 +3,7 @@
 use super::coverage::Coverage;
 use super::erased::{Described, Study};
 use super::header::{Header, Tier};
-use super::kind::{Case, CaseFailure, Kind, Ran, completion_check};
+use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::measured::Sheet;
 use super::outcome::{Check, Figure, LevelErrors, NamedRate, Outcome, Quantity};
 use super::over_levels::Levels;
@@ -138,7 +138,7 @@ impl<R: Runs> Kind for InCode<R> {
     }
 
     fn judge(&self, ran: &[Ran<R::Run, R::Shown>]) -> Outcome {
-        let completion = completion_check(ran, |_| vec![]);
+        let completion = Check::completion(ran, |_| vec![]);
         let shown = ran
             .iter()
             .filter_map(|ran| Some((&ran.case.data, ran.ok()?)));

@@ -138,7 +138,7 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///
 /// ```
 /// use convergence_study::{Case, CaseFailure, Check, Kind, Outcome, Quantity, Ran, Subject, Table};
-/// use convergence_study::{completion_check, run_one};
+/// use convergence_study::{run_one};
 ///
 /// /// Sums of the series 1 + 1/2 + 1/4 + ..., which tends to 2.
 /// struct Series;
@@ -159,7 +159,7 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///     }
 ///
 ///     fn judge(&self, ran: &[Ran<i32, f64>]) -> Outcome {
-///         let mut checks = vec![completion_check(ran, |_| vec![])];
+///         let mut checks = vec![Check::completion(ran, |_| vec![])];
 ///         let mut quantities = vec![];
 ///         let mut rows = vec![];
 ///         for (case, sum) in ran.iter().filter_map(|ran| Some((&ran.case, *ran.ok()?))) {
@@ -304,47 +304,49 @@ pub(crate) fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcom
 /// Most reasons that a check of completion lists.
 const MOST_REASONS: usize = 8;
 
-/// Fails unless every case has a result with finite numbers only.
-///
-/// * `not_finite`: names of the numbers of a result that are NaN or infinite.
-pub fn completion_check<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Check {
-    let failed: Vec<_> = ran
-        .iter()
-        .filter_map(|Ran { case, found }| Some((case, found.as_ref().err()?)))
-        .collect();
-    let reasons = reasons(
-        failed
+impl Check {
+    /// Fails unless every case has a result with finite numbers only.
+    ///
+    /// * `not_finite`: names of the numbers of a result that are NaN or infinite.
+    pub fn completion<D, F>(ran: &[Ran<D, F>], not_finite: impl Fn(&F) -> Vec<String>) -> Self {
+        let failed: Vec<_> = ran
             .iter()
-            .map(|(_, failure)| (*failure).clone())
-            .collect(),
-    );
-    let labels = failed.iter().map(|(case, _)| case.label.as_str());
-    let mut complaints = by_reason(labels.zip(reasons.iter().map(String::as_str)));
-    for (case, found) in ran
-        .iter()
-        .filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?)))
-    {
-        complaints.extend(
-            not_finite(found)
+            .filter_map(|Ran { case, found }| Some((case, found.as_ref().err()?)))
+            .collect();
+        let reasons = reasons(
+            failed
                 .iter()
-                .map(|name| format!("{}: {name} is not finite", case.label)),
+                .map(|(_, failure)| (*failure).clone())
+                .collect(),
         );
+        let labels = failed.iter().map(|(case, _)| case.label.as_str());
+        let mut complaints = by_reason(labels.zip(reasons.iter().map(String::as_str)));
+        for (case, found) in ran
+            .iter()
+            .filter_map(|Ran { case, found }| Some((case, found.as_ref().ok()?)))
+        {
+            complaints.extend(
+                not_finite(found)
+                    .iter()
+                    .map(|name| format!("{}: {name} is not finite", case.label)),
+            );
+        }
+        let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
+        let mut evidence = format!("{completed} of {} cases completed", ran.len());
+        for complaint in complaints.iter().take(MOST_REASONS) {
+            evidence += &format!("; {complaint}");
+        }
+        if complaints.len() > MOST_REASONS {
+            evidence += &format!("; and {} more", complaints.len() - MOST_REASONS);
+        }
+        Self::that(
+            complaints.is_empty() && !ran.is_empty(),
+            "every case completes, with finite numbers",
+            evidence,
+        )
+        .about(Subject::of("completion"))
+        .stated_by(Origin::Completion)
     }
-    let completed = ran.iter().filter(|ran| ran.found.is_ok()).count();
-    let mut evidence = format!("{completed} of {} cases completed", ran.len());
-    for complaint in complaints.iter().take(MOST_REASONS) {
-        evidence += &format!("; {complaint}");
-    }
-    if complaints.len() > MOST_REASONS {
-        evidence += &format!("; and {} more", complaints.len() - MOST_REASONS);
-    }
-    Check::that(
-        complaints.is_empty() && !ran.is_empty(),
-        "every case completes, with finite numbers",
-        evidence,
-    )
-    .about(Subject::of("completion"))
-    .stated_by(Origin::Completion)
 }
 
 #[cfg(test)]
@@ -377,7 +379,7 @@ mod tests {
                     vec!["error".to_owned()]
                 }
             };
-            completion_check(&ran, names).verdict
+            Check::completion(&ran, names).verdict
         };
         assert_eq!(verdict(vec![Ok(1.0)]), Verdict::Pass);
         assert_eq!(verdict(vec![Ok(f64::NAN)]), Verdict::Fail);

@@ -152,7 +152,7 @@ impl Measured {
     }
 
     /// Names of those that are NaN or infinite, for
-    /// [`completion_check`](super::kind::completion_check).
+    /// [`Check::completion`](super::Check::completion).
     pub fn not_finite(numbers: &[Self]) -> Vec<String> {
         let broken = numbers.iter().filter(|one| one.is_broken());
         broken.map(|one| one.name.clone()).collect()

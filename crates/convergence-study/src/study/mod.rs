@@ -5,6 +5,7 @@
 //! rates, tables, figures, and the numbers that the baseline guards. Only the runner uses threads,
 //! and only the report writes Markdown.
 
+mod caught;
 pub(crate) mod coverage;
 pub(crate) mod erased;
 mod errors_over_levels;
@@ -27,17 +28,18 @@ pub(crate) mod until_decided;
 pub(crate) mod variants;
 mod views;
 
+pub(crate) use caught::catch;
 pub use coverage::Coverage;
 pub(crate) use erased::Plan;
-pub use erased::{Described, Study, boxed_study};
+pub use erased::{Described, Study};
 
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, STEPS, first_repeated, levels};
 #[cfg(feature = "reports")]
 pub(crate) use file::{Constant, Lines, ORDER};
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, Order, StudyFile, described, read_study};
+pub use file::{FromFile, KindRow, Order};
 #[cfg(feature = "command-line")]
-pub(crate) use file::{STUDY, study_schema};
+pub(crate) use file::{STUDY, StudyFile, study_schema};
 pub use header::{Header, Tier};
 pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested};

@@ -15,6 +15,7 @@ use super::must::Must;
 use super::over_levels::summary;
 use super::subject::{Sort, Subject};
 use crate::judge::fit::Level;
+use crate::judge::random::SplitMix;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::{json, named::NamedNumber, prose::Prose};
 
@@ -83,6 +84,29 @@ pub struct HashedFile {
     pub name: String,
     /// The hash of its content.
     pub hash: String,
+}
+
+impl HashedFile {
+    /// * `name`: in the study.
+    pub fn new(name: impl Into<String>, content: &[u8]) -> Self {
+        Self {
+            name: name.into(),
+            hash: format!("{:016x}", content_hash(content)),
+        }
+    }
+}
+
+/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by
+/// splitmix64.
+///
+/// Not cryptographic. With FNV alone the low bits of similar texts would be correlated.
+pub(crate) fn content_hash(bytes: &[u8]) -> u64 {
+    const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
+    const PRIME: u64 = 0x0000_0100_0000_01B3;
+    let fnv = bytes.iter().fold(OFFSET, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(PRIME)
+    });
+    SplitMix::new(fnv).next_u64()
 }
 
 /// A table that exists, and the files that it was made from.

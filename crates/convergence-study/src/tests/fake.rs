@@ -4,9 +4,9 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use crate::{
-    Case, CaseFailure, Check, Figure, Finished, Header, Kind, LevelErrors, Must, NamedNumber,
-    NamedRate, Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict, VerifyRequest,
-    boxed_study, run,
+    Case, CaseFailure, Check, Described, Figure, Finished, Header, Kind, LevelErrors, Must,
+    NamedNumber, NamedRate, Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict,
+    VerifyRequest, run,
 };
 use convergence_judge::{judge::verdict, time_limit::Patience};
 
@@ -69,7 +69,7 @@ pub(crate) fn study(id: &str, does: Does) -> Box<dyn Study> {
 
 impl Fake {
     pub(crate) fn erased(self) -> Box<dyn Study> {
-        boxed_study(self.header.clone(), self)
+        Described::boxed(self.header.clone(), self)
     }
 }
 

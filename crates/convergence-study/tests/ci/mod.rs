@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::{PROGRAMS as PROJECT, internal::cli::program};
+use convergence_study::Project;
 use yaml_rust2::{Yaml, YamlLoader};
 
 fn text(name: &str) -> String {
@@ -70,7 +70,7 @@ fn command_lines(script: &str) -> Vec<Vec<String>> {
 
 #[track_caller]
 fn is_understood(words: &[String]) {
-    let line = program(&PROJECT);
+    let line = Project::PROGRAMS.own_command_line();
     // A comment after the command.
     let words = words.iter().take_while(|word| !word.starts_with('#'));
     if let Err(error) = line.try_get_matches_from(words.clone()) {

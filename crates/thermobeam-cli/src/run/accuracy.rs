@@ -1,7 +1,7 @@
 //! `run SCENE --target-error E`: a run with a wanted error.
 
 use convergence_judge::time_limit;
-use convergence_study::internal::cli::{exit, running};
+use convergence_study::command_line::Flags;
 use serde::Serialize;
 use thermobeam_study::accuracy::{OutOfReach, Reached, reach};
 use thermobeam_study::scene::Scene;
@@ -28,13 +28,12 @@ pub(super) fn search(
     scene: &Scene,
     target: f64,
 ) -> Result<Reached, OutOfReach> {
-    let bar = running::counting(
+    let bar = arguments.flags.bar(
         &format!("{}: its error", scene.name),
         TICKS as usize,
         "thousandths of the work allowed",
-        arguments.flags.quiet,
     );
-    exit::say(|| "no run with this error was found yet".to_owned());
+    Flags::when_interrupted(|| "no run with this error was found yet".to_owned());
     let mut show = |part: f64| bar.set_position((TICKS * part) as u64);
     let (found, _) = time_limit::within(arguments.time_limit, || {
         reach(scene, target, arguments.recording(), &mut show)

@@ -1,6 +1,6 @@
 //! The examples of the help texts of the beam's commands work as they stand.
 
-use convergence_study::internal::cli;
+use convergence_study::command_line::Command;
 use convergence_study_tests::ended;
 use thermobeam_cli::{GROUPS, PAGES};
 
@@ -22,7 +22,7 @@ fn every_example_of_the_commands_of_the_beam_ends_well() {
         let help = Folder::new().ended(&format!("{name} --help")).stdout;
         let lines = examples(&help);
         assert!((2..=4).contains(&lines.len()), "{name}: {help}");
-        if cli::COMMANDS.contains(name) {
+        if Command::NAMES.contains(name) {
             continue;
         }
         for line in lines {

@@ -1,4 +1,3 @@
-use convergence_study::internal::cli::schema::{of_studies, other_files, text};
 use convergence_study_tests::ended;
 use thermobeam_cli::project;
 
@@ -72,10 +71,10 @@ fn every_shell_gets_completions_that_know_the_commands() {
 #[test]
 fn the_schemas_are_printed() {
     let (folder, project) = (Folder::new(), project("thermobeam"));
-    let others = other_files(&project);
-    let made = |files: &str| match others.iter().find(|(name, _)| *name == files) {
-        Some((_, schema)) => text(schema),
-        None => text(&of_studies(&project)),
+    let schemas = project.schemas();
+    let made = |files: &str| {
+        let own = schemas.iter().find(|(name, _)| *name == files);
+        format!("{:#}\n", own.expect("a schema").1)
     };
     for (files, title) in [
         ("study", "study files of thermobeam"),

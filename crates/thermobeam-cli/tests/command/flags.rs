@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use convergence_study::internal::{cli::command_line, program};
+use convergence_study::Template;
 use convergence_study_tests::ended;
 use serde_json::Value;
 use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
@@ -46,7 +46,7 @@ pub(super) fn place(folder: &Folder) -> PathBuf {
         ("rates.csv", rates),
         ("scene.toml", &thrown("dt = 0.01")),
         ("sweep.toml", sweep),
-        ("heat.toml", program::MANUFACTURE.files[0].1),
+        ("heat.toml", Template::MANUFACTURE.files[0].1),
     ] {
         fs::write(root.join(name), text).expect("a file");
     }
@@ -61,7 +61,7 @@ pub(super) fn place(folder: &Folder) -> PathBuf {
 
 #[test]
 fn every_command_is_tried() {
-    let mut program = command_line::<Thermobeam>(&project("thermobeam"), &GROUPS, &PAGES);
+    let mut program = project("thermobeam").command_line::<Thermobeam>(&GROUPS, &PAGES);
     program.build();
     let tried = COMMANDS.map(|(line, ..)| name(line)).into_iter();
     let commands = program

@@ -14,10 +14,7 @@ pub mod work_precision;
 
 pub use tables::TERMS;
 
-use convergence_study::{
-    InputError, KindRow, Study,
-    internal::{program, study::StudyFile},
-};
+use convergence_study::{InputError, KindRow, Study};
 use orders::ErrorSource;
 use orders::any_order::AnyOrder;
 use orders::frequencies::Frequencies;
@@ -37,7 +34,7 @@ pub const KINDS: [KindRow; 10] = [
     Frequencies::ROW,
     SelfConvergence::ROW,
     work_precision::ROW,
-    program::ROW,
+    KindRow::PROGRAM,
 ];
 
 /// Reads a study file of any of the beam's kinds.
@@ -45,5 +42,5 @@ pub const KINDS: [KindRow; 10] = [
 /// # Errors
 /// [`InputError`] with file, line, field, the value found and the values allowed.
 pub fn read(path: &Path) -> Result<Box<dyn Study>, InputError> {
-    StudyFile::read(&KINDS, path).map(|file| file.study)
+    KindRow::read_any(&KINDS, path)
 }

@@ -3,12 +3,12 @@
 pub(crate) use std::path::Path;
 
 pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
-pub(crate) use convergence_study::file::{Choice, Count, Positive, Refusal, named_file, within};
-pub(crate) use convergence_study::internal::input::schema;
+pub(crate) use convergence_study::file::{
+    Choice, Count, Positive, Refusal, named_file, schema, within,
+};
 pub(crate) use convergence_study::{
     Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow,
-    Measured, NamedRate, Outcome, Quantity, Ran, Sheet, Subject, Table, Verdict, completion_check,
-    measured, read_study,
+    Measured, NamedRate, Outcome, Quantity, Ran, Sheet, Subject, Table, Verdict, measured,
 };
 
 pub(crate) use crate::scene::parts::{Known, Parts};
@@ -33,7 +33,7 @@ pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Opti
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
 }
 
-/// Names of the numbers that are NaN or infinite, for [`completion_check`]; `None` is neither.
+/// Names of the numbers that are NaN or infinite, for [`Check::completion`]; `None` is neither.
 pub(crate) fn not_finite<'n>(
     numbers: impl IntoIterator<Item = (&'n str, impl Into<Option<f64>>)>,
 ) -> Vec<String> {

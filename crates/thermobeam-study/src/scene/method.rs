@@ -1,7 +1,6 @@
 //! How a scene is stepped: the table `[time]`, and the degree of the elements for its method.
 
 use convergence_study::file::{Count, Number, Refusal};
-use convergence_study::internal::input::POSITIVE;
 use thermobeam::dg::DgStepping;
 use thermobeam::mesh::Mesh;
 use thermobeam::one_step::Stepping;
@@ -189,7 +188,7 @@ impl TimeTable {
         let t_end = self.t_end.get();
         let dt = self
             .dt
-            .ok_or_else(|| Refusal::missing("dt", POSITIVE))?
+            .ok_or_else(|| Refusal::missing("dt", "a finite number > 0"))?
             .get();
         let quotient = t_end / dt;
         if quotient > limits::STEPS as f64 {

@@ -61,7 +61,6 @@ use convergence_judge::text::number::counted;
 use convergence_study::{
     Document, InputError,
     file::{Refusal, within},
-    internal::input,
 };
 
 /// Initial data (1.2), functions of x; `None` is 0.
@@ -117,7 +116,7 @@ impl Scene {
     /// [`InputError`] with file, line, field, the value found and the values allowed.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let path = path.as_ref();
-        Self::parse(&input::read_text(path)?, &path.display().to_string())
+        Self::parse(&Document::text_of_file(path)?, &path.display().to_string())
     }
 
     /// Reads a scene from `text`; messages and the scene's name refer to `file_name`.
@@ -125,7 +124,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read`].
     pub fn parse(text: &str, file_name: &str) -> Result<Self, InputError> {
-        input::parse(text, file_name, |root| {
+        Document::parse(text, file_name, |root| {
             Self::from_document(root, stem(file_name))
         })
     }
@@ -136,7 +135,7 @@ impl Scene {
         overlay: &str,
         file_name: &str,
     ) -> Result<Self, InputError> {
-        input::parse_overlaid(text, overlay, file_name, |root| {
+        Document::parse_overlaid(text, overlay, file_name, |root| {
             Self::from_document(root, stem(file_name))
         })
     }

@@ -265,13 +265,13 @@ fn nine_digits(value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::scene::SceneFile;
-    use convergence_study::internal::input::schema;
+    use convergence_study::file::schema;
 
     /// A number that a scene can have and a sweep cannot vary would be missed; so would a whole
     /// number that the sweep gives a point.
     #[test]
     fn every_number_of_a_scene_can_be_varied_and_whole_ones_stay_whole() {
-        let schema = schema::of::<SceneFile>();
+        let schema = schema::<SceneFile>();
         let mut numbers = vec![];
         for (table, keys) in schema["properties"].as_object().unwrap() {
             for (name, key) in keys["properties"].as_object().unwrap() {

@@ -14,10 +14,16 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::{RESULTS, Sweep, SweepShare};
-use convergence_study::internal::store::atomic;
+use convergence_judge::text::visible;
+use convergence_study::atomic;
 
 /// The first line, in words.
 const HEADER: &str = "the first line of a sweep, with its hash, cases and share";
+
+/// For `map_err`: the same error, preceded by the name of the file.
+fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
+    move |error| io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
+}
 
 /// The reason why a folder or a file of results cannot be used.
 #[derive(Debug, Error)]
@@ -52,7 +58,7 @@ impl Header {
     /// The header of a share of a sweep.
     pub fn new(sweep: &Sweep, share: SweepShare) -> Self {
         Self {
-            hash: format!("{:016x}", sweep.hash),
+            hash: sweep.hash.clone(),
             cases: sweep.cases,
             share,
         }
@@ -113,7 +119,7 @@ impl LineReader {
     /// Opens the file of a folder and reads its first line.
     pub(super) fn open(folder: &Path) -> Result<(Self, Header), SweepError> {
         let path = folder.join(RESULTS);
-        let file = File::open(&path).map_err(atomic::naming(&path))?;
+        let file = File::open(&path).map_err(naming(&path))?;
         let mut lines = Self::new(path, file);
         match lines.header()? {
             Some(header) => Ok((lines, header)),
@@ -135,7 +141,7 @@ impl LineReader {
         self.line.clear();
         self.number += 1;
         let bytes = self.input.read_until(b'\n', &mut self.line);
-        let bytes = bytes.map_err(atomic::naming(&self.path))?;
+        let bytes = bytes.map_err(naming(&self.path))?;
         let is_whole = self.line.ends_with(b"\n");
         self.end += if is_whole { bytes as u64 } else { 0 };
         Ok(is_whole)
@@ -216,7 +222,7 @@ impl ShareFile {
         let _writing = atomic::begin_write();
         let mut options = OpenOptions::new();
         options.create(true).truncate(false).read(true).write(true);
-        let mut file = options.open(&path).map_err(atomic::naming(&path))?;
+        let mut file = options.open(&path).map_err(naming(&path))?;
         // A file system without locks cannot keep a second process out.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(SweepError::Refused {
@@ -245,10 +251,10 @@ impl ShareFile {
             None if header.line().as_bytes().starts_with(&lines.line) => {}
             None => return Err(lines.refuse(HEADER, "another text; choose another folder")),
         }
-        file.set_len(lines.end).map_err(atomic::naming(&path))?;
-        file.seek(SeekFrom::End(0)).map_err(atomic::naming(&path))?;
+        file.set_len(lines.end).map_err(naming(&path))?;
+        file.seek(SeekFrom::End(0)).map_err(naming(&path))?;
         if lines.end == 0 {
-            writeln!(file, "{}", header.line()).map_err(atomic::naming(&path))?;
+            writeln!(file, "{}", header.line()).map_err(naming(&path))?;
         }
         Ok(Self {
             pending: cases.collect(),

@@ -13,7 +13,7 @@ use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
 use convergence_judge::time_limit;
-use convergence_study::internal::run::catch;
+use convergence_study::CaseFailure;
 
 /// Cases that run together: one group of lanes.
 const LANES: usize = 4;
@@ -74,8 +74,8 @@ impl CaseLine {
 /// The scene of a case, or the line of its failure.
 fn scene(sweep: &Sweep, case: usize) -> Result<Scene, CaseLine> {
     // A panic is a failure of its case, so that the others are not lost.
-    let read = catch(|| sweep.scene(case));
-    let read = read.map_err(|reason| CaseLine::failed(sweep, case, reason))?;
+    let read = CaseFailure::caught(|| sweep.scene(case));
+    let read = read.map_err(|failure| CaseLine::failed(sweep, case, failure.reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
         let field = error
@@ -97,7 +97,8 @@ fn simulate(sweep: &Sweep, case: usize, scene: &Scene) -> CaseLine {
         ),
         Err(error) => CaseLine::failed(sweep, case, error.to_string()),
     };
-    catch(simulated).unwrap_or_else(|reason| CaseLine::failed(sweep, case, reason))
+    CaseFailure::caught(simulated)
+        .unwrap_or_else(|failure| CaseLine::failed(sweep, case, failure.reason))
 }
 
 /// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
@@ -142,7 +143,10 @@ fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<CaseGroup>, Vec<CaseLine>) {
 
 /// The lines of a group: its cases together, or one after the other if that fails.
 fn lines(sweep: &Sweep, group: &CaseGroup) -> Vec<CaseLine> {
-    if let Some(lines) = catch(|| lines_together(sweep, group)).ok().flatten() {
+    if let Some(lines) = CaseFailure::caught(|| lines_together(sweep, group))
+        .ok()
+        .flatten()
+    {
         return lines;
     }
     let cases = group.cases.iter().zip(&group.scenes);

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SweepError;
 use super::lines::{Header, LineReader};
-use convergence_study::internal::store::atomic;
+use convergence_study::atomic;
 
 /// The file of a folder: a line that names the sweep, and one for each case in their order.
 pub const RESULTS: &str = "results.jsonl";

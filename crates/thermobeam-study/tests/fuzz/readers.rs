@@ -214,7 +214,6 @@ impl Bench {
                 drop(
                     read_study(&path)
                         .map_err(|error| said(&error))?
-                        .study
                         .plan()
                         .cases(),
                 );

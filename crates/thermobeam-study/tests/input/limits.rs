@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use convergence_study::internal::study::StudyFile;
+use convergence_study::KindRow;
 use thermobeam_study::kinds::KINDS;
 use thermobeam_study::scene::Scene;
 use thermobeam_study::sweep::Sweep;
@@ -33,7 +33,7 @@ fn refusal(name: &str, changes: &str) -> String {
     }
     let file = folder.path().join(name);
     std::fs::write(&file, text).expect("a file");
-    StudyFile::read(&KINDS, &file)
+    KindRow::read_any(&KINDS, &file)
         .err()
         .unwrap_or_else(|| panic!("{name} with {changes} is not refused"))
         .to_string()

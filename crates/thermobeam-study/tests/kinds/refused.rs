@@ -1,6 +1,6 @@
 //! Study files with errors.
 
-use convergence_study::internal::study::StudyFile;
+use convergence_study::KindRow;
 use convergence_study_tests::says;
 use thermobeam_study::kinds::KINDS;
 
@@ -519,7 +519,7 @@ fn a_study_file_with_an_error_is_refused_with_the_field() {
         let sound = text(name);
         let changed = sound.replacen(from, to, 1);
         assert_ne!(changed, sound, "{name} has no {from}");
-        let read = StudyFile::parse(&KINDS, &changed, &file("changed.toml"));
+        let read = KindRow::parse_any(&KINDS, &changed, &file("changed.toml"));
         let message = read
             .err()
             .unwrap_or_else(|| panic!("{name} with {to} is read"));
@@ -530,7 +530,7 @@ fn a_study_file_with_an_error_is_refused_with_the_field() {
 #[test]
 fn a_study_of_solvers_without_a_part_is_refused() {
     let empty = "[study]\nid = \"a\"\nclaim = \"b\"\ntier = \"quick\"\nkind = \"solvers\"\n";
-    let message = StudyFile::parse(&KINDS, empty, "a.toml".as_ref())
+    let message = KindRow::parse_any(&KINDS, empty, "a.toml".as_ref())
         .err()
         .expect("no part");
     assert!(

@@ -1,7 +1,7 @@
 use super::planted::{Change, verdict_of, verdict_with};
 use super::typed::{changed, passes_but_not_without_each_case, report};
 use super::{file, parsed, read, text};
-use convergence_study::{FromFile, Kind, NamedRate, Verdict, internal::study::Described, run_one};
+use convergence_study::{Described, FromFile, Kind, NamedRate, Verdict, run_one};
 use thermobeam::motion::TipRange;
 use thermobeam::solve::Level;
 use thermobeam_study::kinds::orders::Orders;

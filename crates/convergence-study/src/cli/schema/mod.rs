@@ -16,7 +16,7 @@ use crate::study::KindRow;
 use crate::study::header::DEFAULT_KIND;
 use crate::study::{STUDY, study_schema};
 
-pub use page::page;
+use page::page;
 
 /// The dialect that editors of TOML read.
 const DIALECT: &str = "http://json-schema.org/draft-07/schema#";
@@ -25,7 +25,7 @@ const DIALECT: &str = "http://json-schema.org/draft-07/schema#";
 const STUDIES: &str = "study";
 
 /// The files of the command `manufacture`, which every project has.
-pub const MANUFACTURE: &str = "manufacture";
+const MANUFACTURE: &str = "manufacture";
 
 /// Print the JSON schema of study files, or of other files, for completion in editors
 ///
@@ -58,8 +58,21 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     Ok(Verdict::Pass)
 }
 
+impl Project {
+    /// The files that it reads, by name, with their JSON schemas: `study` first.
+    pub fn schemas(&self) -> Vec<(&'static str, Value)> {
+        let studies = (STUDIES, of_studies(self));
+        [studies].into_iter().chain(other_files(self)).collect()
+    }
+
+    /// The reference page of these files, in Markdown.
+    pub fn reference_page(&self) -> String {
+        page(self)
+    }
+}
+
 /// The files of a project that are no studies, by name, with their schemas.
-pub fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
+fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
     let own = project
         .tables
         .iter()
@@ -75,12 +88,12 @@ pub fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
 }
 
 /// A schema as a file.
-pub fn text(schema: &Value) -> String {
+fn text(schema: &Value) -> String {
     format!("{schema:#}\n")
 }
 
 /// The schema of the study files of a project.
-pub fn of_studies(project: &Project) -> Value {
+fn of_studies(project: &Project) -> Value {
     let mut study = study_schema();
     let names: Vec<&str> = project.kinds.iter().map(|row| row.name).collect();
     study["properties"]["kind"]["enum"] = json!(names);

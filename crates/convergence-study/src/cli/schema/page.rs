@@ -11,7 +11,7 @@ use crate::project::{Project, Term};
 use crate::study::KindRow;
 
 /// The reference page of the files of a project: each kind of study, then its other files.
-pub fn page(project: &Project) -> String {
+pub(super) fn page(project: &Project) -> String {
     let mut page = Page {
         text: format!(
             "# Files of {}\n\nEvery key of every table: what it may be, what holds without it, what it means. \

@@ -5,14 +5,13 @@ use super::{Read, Table};
 use crate::input::advice::CommandLine;
 use crate::judge::verdict::Verdict;
 use crate::rates::{self, Judgement};
-use crate::study::kind::completion_check;
 use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
 use crate::study::{Axis, Check, Figure, NamedRate, Outcome, Quantity, Ran, Subject};
 use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
 
 pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
-    let completion = completion_check(ran, |_| vec![]);
+    let completion = Check::completion(ran, |_| vec![]);
     let Some(read) = ran.first().and_then(Ran::ok) else {
         return Outcome::new("the table has not been read", vec![], vec![completion]);
     };

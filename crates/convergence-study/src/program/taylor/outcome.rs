@@ -4,13 +4,12 @@
 use super::{Direction, StepCase, Taylor, Values};
 use crate::chart::{self, Chart, Series};
 use crate::judge::taylor::Judged;
-use crate::study::kind::completion_check;
 use crate::study::over_levels::ERROR_TOLERANCE;
 use crate::study::{Check, Figure, Measured, Must, Outcome, Ran, Sheet, Subject, measured};
 use crate::text::number::{counted, decimals};
 
 pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
-    let completion = completion_check(ran, |_| vec![]);
+    let completion = Check::completion(ran, |_| vec![]);
     let all = study.directions(ran);
     if all.is_empty() {
         let words = "no direction has a J at every step, so nothing is judged";

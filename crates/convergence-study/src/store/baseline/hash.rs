@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Blessed, change};
-use crate::store::content_hash;
+use crate::study::outcome::content_hash;
 use crate::study::{Header, Must, Quantity};
 
 /// What the hash of a study says of its lines in the file.

@@ -117,8 +117,8 @@ impl FrequenciesTable {
 impl ErrorSource for Frequencies {
     const ROW: KindRow = KindRow {
         name: "orders/frequencies",
-        schema: schema::of::<FrequenciesFile>,
-        read: read_study::<Orders<Self>>,
+        schema: schema::<FrequenciesFile>,
+        read: <Orders<Self>>::read_study,
         why: "Elements of degree p overestimate the eigenfrequencies of the clamped-free beam by O(h^2p); the exact ones are roots of \
               a scalar equation.",
         judged: "The rate of each frequency from the first to the last, and that the discrete ones lie above. Frequencies \

@@ -199,7 +199,7 @@ impl<S: ErrorSource> Kind for Orders<S> {
             let title = "Rates shown, not claimed: not needed for a pass";
             outcome.tables.push(Table::of_rates(title, &not_claimed));
         }
-        let mut checks = vec![completion_check(runs, |found| self.0.not_finite(found))];
+        let mut checks = vec![Check::completion(runs, |found| self.0.not_finite(found))];
         checks.extend(measured.checks);
         outcome.extend(Outcome {
             tables: measured.tables,

@@ -157,7 +157,7 @@ impl<R: Runs> Kind for RunStudy<R> {
                 shown: shown.collect(),
             })
         };
-        let complete = completion_check(&numbers, |numbers| Measured::not_finite(numbers));
+        let complete = Check::completion(&numbers, |numbers| Measured::not_finite(numbers));
         let checks = [vec![complete], checks].concat();
         let own = self.sheet(numbers);
         let own_quantities = own.as_ref().map_or(vec![], Sheet::quantities);

@@ -53,8 +53,8 @@ pub use step::FixedPointStep;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "solvers",
-    schema: schema::of::<SolversFile>,
-    read: read_study::<Solvers>,
+    schema: schema::<SolversFile>,
+    read: Solvers::read_study,
     why: "Near a state, the paper's fixed point (4.2) multiplies its error in each iteration by a matrix that is known beforehand; \
           it diverges if the spectral radius is above 1. In contact that is about alpha, from dt, epsilon, zeta and the mesh. \
           Newton's method solves the same step wherever its operator is definite.",
@@ -207,7 +207,7 @@ impl Kind for Solvers {
         let comparison = self.comparison.iter().map(|_| Comparison::judge(ran));
         let map = self.map.iter().map(|map| map.judge(ran));
         let parts = contraction.chain(comparison).chain(map);
-        let completion = completion_check(ran, |found| Measured::not_finite(&found.numbers()));
+        let completion = Check::completion(ran, |found| Measured::not_finite(&found.numbers()));
         Outcome::of_parts(completion, parts)
     }
 }

@@ -110,7 +110,7 @@ pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> 
         .iter()
         .flat_map(|target| ratios(target, &costed(ran, target.measure)))
         .collect();
-    let mut checks = vec![completion_check(made, not_finite)];
+    let mut checks = vec![Check::completion(made, not_finite)];
     checks.extend(
         study
             .targets

@@ -55,8 +55,8 @@ use thermobeam::solve::Solver;
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "work-precision",
-    schema: schema::of::<file::WorkPrecisionFile>,
-    read: read_study::<WorkPrecision>,
+    schema: schema::<file::WorkPrecisionFile>,
+    read: WorkPrecision::read_study,
     why: "Every method pays for a smaller error with more work. At each error that two methods both reach, the ratio of their work \
           is measured. High orders pay little more for ten digits than for five.",
     judged: "Work is counted, not timed. The ratios must be at least those claimed, and every method that reaches a target must be \

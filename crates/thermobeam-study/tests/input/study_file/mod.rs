@@ -1,10 +1,7 @@
 mod refused;
 
 use super::says;
-use convergence_study::{
-    Axis, FromFile as _, Header, Tier,
-    internal::{input, study::Described},
-};
+use convergence_study::{Axis, Described, Document, FromFile as _, Header, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver, Stopping};
@@ -232,7 +229,7 @@ fn a_random_mesh_is_displaced_before_it_is_mapped() {
 #[test]
 fn the_header_of_any_kind_is_read_without_the_rest() {
     let text = [STUDY, "kind = \"runs/energy\"\n[anything]\nelse = 1"].concat();
-    let found = input::parse(&text, "s.toml", Header::from_document).expect("a header");
+    let found = Document::parse(&text, "s.toml", Header::from_document).expect("a header");
     assert_eq!(
         (found.id.as_str(), found.kind.as_str(), found.tier),
         ("a-1.2", "runs/energy", Tier::Quick)
@@ -243,7 +240,7 @@ fn the_header_of_any_kind_is_read_without_the_rest() {
         "5:8: study.kind: found \"runs/energy\"; expected \"orders/manufactured\"",
     );
     assert_eq!(
-        input::parse(STUDY, "s.toml", Header::from_document)
+        Document::parse(STUDY, "s.toml", Header::from_document)
             .expect("a header")
             .kind,
         "orders/manufactured"

@@ -1,6 +1,6 @@
 //! Study files that are refused, with place, value found and values allowed.
 
-use convergence_study::{Header, internal::input};
+use convergence_study::{Document, Header};
 use thermobeam_study::kinds::tables::Perturbation;
 
 use super::super::says;
@@ -48,7 +48,7 @@ fn a_wrong_header_is_named() {
         ),
     ] {
         says(
-            &input::parse(text, "s.toml", Header::from_document)
+            &Document::parse(text, "s.toml", Header::from_document)
                 .expect_err(text)
                 .to_string(),
             pieces,

@@ -179,8 +179,8 @@ impl AnyOrderFile {
 impl ErrorSource for AnyOrder {
     const ROW: KindRow = KindRow {
         name: "orders/any-order",
-        schema: schema::of::<AnyOrderFile>,
-        read: read_study::<Orders<Self>>,
+        schema: schema::<AnyOrderFile>,
+        read: <Orders<Self>>::read_study,
         why: "On a mesh of width h elements of degree p approximate a smooth solution to h^(p+1), its slopes to h^p; for fixed h the \
               error falls exponentially in p. dG(q) is of order 2q + 1 at the ends of steps, and inside them of the order of \
               polynomials of its degree: q + 2, but at most 2q + 1, for displacements, q + 1 for velocities (THEORY.md).",

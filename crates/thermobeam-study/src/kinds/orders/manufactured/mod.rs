@@ -112,8 +112,8 @@ pub struct Convergence {
 impl ErrorSource for Convergence {
     const ROW: KindRow = KindRow {
         name: "orders/manufactured",
-        schema: schema::of::<ManufacturedFile>,
-        read: read_study::<Orders<Self>>,
+        schema: schema::<ManufacturedFile>,
+        read: <Orders<Self>>::read_study,
         why: "An exact solution is chosen, and the loads are derived from it by putting it into the equations in their strong form; \
               the solver works with the weak form and knows nothing of it. So the error is known at every step. Theorem 3.4 bounds \
               it by c (h + dt).",

@@ -246,8 +246,8 @@ impl SelfConvergenceFile {
 impl ErrorSource for SelfConvergence {
     const ROW: KindRow = KindRow {
         name: "orders/self-convergence",
-        schema: schema::of::<SelfConvergenceFile>,
-        read: read_study::<Orders<Self>>,
+        schema: schema::<SelfConvergenceFile>,
+        read: <Orders<Self>>::read_study,
         why: "For the paper's own data there is no closed form: rates come from the differences of three levels (Richardson) and from \
               the distance to a run by another discretisation, elements of high degree and dG(q), contact included.",
         judged: "Each quantity's rate by the rule of every rate. Two references must agree to a hundredth of the finest error.",

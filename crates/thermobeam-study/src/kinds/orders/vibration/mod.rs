@@ -110,8 +110,8 @@ struct HeatTable {
 impl ErrorSource for Vibration {
     const ROW: KindRow = KindRow {
         name: "orders/vibration",
-        schema: schema::of::<VibrationFile>,
-        read: read_study::<Orders<Self>>,
+        schema: schema::<VibrationFile>,
+        read: <Orders<Self>>::read_study,
         why: "Without coupling, nonlinearity and obstacles the damped modes of the beam are exact solutions that no source term keeps \
               in place. Moved by the scheme's own recursion they leave the space error alone; the mesh's own modes, moved exactly, \
               leave the time error alone.",

@@ -30,13 +30,13 @@ pub mod random;
 
 use super::{RunStudy, Runs};
 use crate::kinds::prelude::*;
-use convergence_study::{Document, Study, boxed_study, described};
+use convergence_study::{Described, Document, Study};
 use one_by_one::listed;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/energy",
-    schema: schema::of::<EnergyFile>,
+    schema: schema::<EnergyFile>,
     read,
     why: "An exactly solved step obeys a balance: the change of the energy, the viscous and the thermal dissipation, that of the \
           Euler scheme and the gap of the contact energy add up to zero. All but the first are not negative, so the energy \
@@ -80,13 +80,13 @@ impl EnergyFile {
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Document<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    described(root, |file: EnergyFile| {
+    root.described(|file: EnergyFile| {
         Ok(match file.only_table()? {
-            "random" => boxed_study(
+            "random" => Described::boxed(
                 header,
                 RunStudy(random::RandomScenes::from_file(file, folder)?),
             ),
-            _ => boxed_study(
+            _ => Described::boxed(
                 header,
                 RunStudy(one_by_one::EnergyRuns::from_file(file, folder)?),
             ),

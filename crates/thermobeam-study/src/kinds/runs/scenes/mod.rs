@@ -63,8 +63,8 @@ pub use shown::{COUNTS, NUMBERS, Shown};
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
     name: "runs/scenes",
-    schema: schema::of::<ScenesFile>,
-    read: read_study::<RunStudy<Scenes>>,
+    schema: schema::<ScenesFile>,
+    read: <RunStudy<Scenes>>::read_study,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
           order those of a converged solution.",

@@ -4,6 +4,8 @@ use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
 use std::sync::Once;
 
+use super::kind::CaseFailure;
+
 thread_local! {
     static WATCHED: Cell<bool> = const { Cell::new(false) };
     static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
@@ -12,7 +14,7 @@ thread_local! {
 /// The result of `compute`, or the message of its panic, with file and line.
 ///
 /// Panics in here print nothing; panics elsewhere are reported as usual.
-pub fn catch<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
+pub(crate) fn catch<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let before = WATCHED.replace(true);
     // State that a panic leaves half done lives inside `compute` and goes with it: studies are
@@ -20,6 +22,16 @@ pub fn catch<T>(compute: impl FnOnce() -> T) -> Result<T, String> {
     let result = panic::catch_unwind(AssertUnwindSafe(compute));
     WATCHED.set(before);
     result.map_err(|_| LAST.take().unwrap_or_else(|| "panicked".to_owned()))
+}
+
+impl CaseFailure {
+    /// The result of `compute`; its panic as a failure, so that other cases go on.
+    ///
+    /// # Errors
+    /// The message of the panic, with file and line.
+    pub fn caught<T>(compute: impl FnOnce() -> T) -> Result<T, Self> {
+        catch(compute).map_err(Self::new)
+    }
 }
 
 /// Installs a hook before the current one that keeps the messages of watched panics.

@@ -1,6 +1,6 @@
 //! The levels that a study computes.
 
-use convergence_study::internal::study::until_decided::first_levels;
+use convergence_study::Budget;
 use pyo3::prelude::*;
 
 use crate::values::{numbers, refuse};
@@ -78,7 +78,7 @@ impl LevelChoice {
     /// * `order`: the highest that is claimed.
     pub(crate) fn counts(&self, order: f64) -> Vec<usize> {
         match self {
-            Self::Auto => first_levels(|n| n.powf(-order)).to_vec(),
+            Self::Auto => Budget::first_levels(|n| n.powf(-order)).to_vec(),
             Self::Counts(counts) => counts.clone(),
             Self::Steps(steps) => (1..=steps.len()).collect(),
         }

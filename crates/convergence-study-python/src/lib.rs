@@ -18,7 +18,7 @@ mod values;
 
 use std::ffi::OsString;
 
-use convergence_study::{Project, internal::program::guard};
+use convergence_study::Project;
 use pyo3::prelude::*;
 
 /// The program `convergence-study`; returns its exit status.
@@ -28,15 +28,7 @@ use pyo3::prelude::*;
 /// * `arguments`: the program's arguments, without its name.
 #[pyfunction]
 fn run_program(py: Python<'_>, executable: OsString, arguments: Vec<OsString>) -> u8 {
-    guard::enable_by(
-        [
-            executable,
-            "-m".into(),
-            "convergence_study".into(),
-            guard::COMMAND.into(),
-        ]
-        .into(),
-    );
+    Project::is_run_by([executable, "-m".into(), "convergence_study".into()].into());
     let arguments = std::iter::once("convergence-study".into()).chain(arguments);
     py.detach(|| Project::PROGRAMS.status_of(arguments))
 }

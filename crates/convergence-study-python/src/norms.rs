@@ -1,6 +1,6 @@
 //! Norms of errors of one level.
 
-use convergence_study::internal::study::norms::{INSIDE, all_norms, largest_inside};
+use convergence_study::LevelErrors;
 use pyo3::prelude::*;
 
 use crate::values::refuse;
@@ -15,10 +15,5 @@ pub(crate) fn norms(
     weights: Vec<f64>,
     boundary: Option<Vec<bool>>,
 ) -> PyResult<Vec<(&'static str, f64)>> {
-    let mut found = all_norms(&errors, &weights).map_err(refuse)?.to_vec();
-    if let Some(boundary) = boundary {
-        let inside = largest_inside(&errors, &boundary).map_err(refuse)?;
-        found.push((INSIDE, inside));
-    }
-    Ok(found)
+    LevelErrors::norms(&errors, &weights, boundary.as_deref()).map_err(refuse)
 }

@@ -3,15 +3,8 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Bound as ClaimBound, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _, Levels,
-    NamedNumber, Of,
-    internal::study::{
-        STEPS,
-        header::is_name,
-        sampled::{Sampled, SampledLevel},
-        until_decided::{self, Looks, Next},
-    },
-    levels,
+    Axis, Bound as ClaimBound, Budget, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _,
+    Levels, NamedNumber, Of, Sampled, SampledLevel, levels,
 };
 use pyo3::prelude::*;
 
@@ -109,7 +102,7 @@ impl Results {
         let names = self.errors.iter().flatten().map(|(name, _)| name.as_str());
         names
             .into_iter()
-            .find(|name| STEPS.contains(name))
+            .find(|name| Levels::STEPS.contains(name))
             .unwrap_or("h")
     }
 
@@ -191,12 +184,14 @@ impl Results {
         Sampled(sampled.collect()).judging(levels, &|name| self.options.of(name))
     }
 
-    /// Whether levels are added, and why not.
-    pub(crate) fn next(&self, seconds: &[f64]) -> Next {
+    /// Whether another level is computed.
+    pub(crate) fn goes_on(&self, seconds: &[f64]) -> bool {
         let levels = self.levels();
-        let rates = levels.judge();
-        let looks = Looks::of(&levels, &rates);
-        until_decided::next_by_time(&looks, seconds, self.options.budget)
+        self.budget(seconds).allows(&levels, &levels.judge())
+    }
+
+    fn budget(&self, seconds: &[f64]) -> Budget {
+        Budget::of_seconds(seconds, self.options.budget)
     }
 
     /// The study, run and judged.
@@ -212,13 +207,9 @@ impl Results {
             finished.outcome.summary = finished.outcome.summary.then(&words.into());
         }
         if let Some(seconds) = &self.seconds {
-            finished.outcome = until_decided::conclude(
-                finished.outcome,
-                self.next(seconds),
-                &self.levels(),
-                self.options.budget,
-                "s",
-            );
+            let levels = self.levels();
+            let budget = self.budget(seconds);
+            finished.outcome = budget.conclude(finished.outcome, &levels, &levels.judge());
         }
         // The levels that were requested are a setting; of those that were added time decides.
         finished.header.cases.clear();
@@ -273,5 +264,9 @@ fn id_of(name: &str) -> String {
         .skip_while(|c| !c.is_ascii_alphanumeric())
         .take(100)
         .collect();
-    if is_name(&id) { id } else { "study".to_owned() }
+    if Header::is_id(&id) {
+        id
+    } else {
+        "study".to_owned()
+    }
 }

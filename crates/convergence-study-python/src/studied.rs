@@ -5,11 +5,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use convergence_study::{
-    Finished, NamedNumber, NamedRate, Project, Verdict,
-    internal::{
-        study::{STEPS, first_repeated, sampled::Sampled, until_decided::Next},
-        where_lost::{self, Located, Search},
-    },
+    Finished, Levels, NamedNumber, NamedRate, Project, Sampled, Verdict,
+    variants::{Search, WhereLost},
     write_report,
 };
 use pyo3::exceptions::PyAssertionError;
@@ -67,11 +64,11 @@ impl Study {
         outcome.rates.iter().filter_map(judgement).collect()
     }
 
-    fn with_place(mut self, located: Located) -> Self {
+    fn with_place(mut self, located: WhereLost) -> Self {
         let Finished {
             header, outcome, ..
         } = &mut self.finished;
-        let figure = where_lost::figure(header, outcome, &located);
+        let figure = located.figure(header, outcome);
         outcome.figures.extend(figure);
         self.finished.located = Some(located);
         self
@@ -114,7 +111,7 @@ impl Study {
 
     /// Whether the assertion fails because errors have not the order that is claimed for them.
     fn _has_lost_order(&self) -> bool {
-        self.assert_passes().is_err() && !where_lost::lost(&self.finished.outcome).is_empty()
+        self.assert_passes().is_err() && Search::is_worthwhile(&self.finished.outcome)
     }
 
     /// The same study with the place where its order is lost.
@@ -266,7 +263,7 @@ impl Study {
             }
         }
         if let Some(located) = &self.finished.located {
-            text += &where_lost::text_of_located(located);
+            text += &located.text();
         }
         text
     }
@@ -333,7 +330,15 @@ fn found(level: &str, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
         Ok((name, value))
     };
     let errors: NamedErrors = by_name.iter().map(entry).collect::<PyResult<_>>()?;
-    match first_repeated(errors.iter().map(|(name, _)| name.as_str())) {
+    let is_repeated = |(k, (name, _)): &(usize, &(String, f64))| {
+        errors[..*k].iter().any(|(before, _)| before == name)
+    };
+    match errors
+        .iter()
+        .enumerate()
+        .find(is_repeated)
+        .map(|(_, (name, _))| name)
+    {
         // The keys 1 and "1", for example.
         Some(name) => Err(refuse(format!(
             "solve({level}): expected each name of an error once, found `{name}` twice"
@@ -457,7 +462,7 @@ pub(crate) fn study(
         results.errors.push(errors);
         let is_last = results.counts.len() == counts.len();
         let may_go_on = choice.is_auto() || results.options.is_variant;
-        if may_go_on && is_last && results.next(&seconds) == Next::Another {
+        if may_go_on && is_last && results.goes_on(&seconds) {
             counts.push(choice.finer(&counts));
         }
     }
@@ -471,7 +476,7 @@ pub(crate) fn study(
 fn with_step(step: f64, mut errors: NamedErrors) -> NamedErrors {
     if !errors
         .iter()
-        .any(|(name, _)| STEPS.contains(&name.as_str()))
+        .any(|(name, _)| Levels::STEPS.contains(&name.as_str()))
     {
         errors.insert(0, ("h".to_owned(), step));
     }
@@ -489,7 +494,7 @@ fn all_claims(claims: &Claims, first: &NamedErrors) -> Vec<NamedClaim> {
         Claims::ForAll(Some(claim)) => {
             let errors = first
                 .iter()
-                .filter(|(name, _)| !STEPS.contains(&name.as_str()));
+                .filter(|(name, _)| !Levels::STEPS.contains(&name.as_str()));
             errors
                 .map(|(name, _)| NamedClaim::new(name, claim))
                 .collect()

@@ -136,8 +136,8 @@ pub use crate::{
         About, Axis, Budget, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorColumn,
         ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
         LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity,
-        Ran, Recorded, Refinement, Reused, Runs, Sheet, Shown, Sort, Sources, Study, Subject,
-        Table, Tier, Untested,
+        Ran, Recorded, Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort, Sources, Study,
+        Subject, Table, Tier, Untested,
         grid::{Grid, GridColumn},
         levels, levels_of_samples, measured,
         norms::norms,
@@ -150,7 +150,10 @@ pub use convergence_judge::judge::taylor::{Derivative, Finding, Judged};
 
 /// Variants of a study's solution, by which `--where` names the part that has lost the order.
 pub mod variants {
+    pub use crate::run::WhereLost;
     pub use crate::study::variants::{LeftOutVariant, SolverPart, Variant, Variants};
+    #[cfg(feature = "tables")]
+    pub use crate::where_lost::Search;
 }
 
 #[cfg(feature = "files")]
@@ -180,7 +183,8 @@ pub mod file {
 pub use crate::{
     project::{FileSchema, Front, Project, Statement, Template, Term},
     verify::{
-        Blessing, Scope, Verification, VerificationError, VerifyRequest, verify, write_report,
+        Blessing, Scope, TestRun, Verification, VerificationError, VerifyRequest, verify,
+        write_report,
     },
 };
 

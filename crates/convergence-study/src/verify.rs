@@ -3,6 +3,7 @@
 
 mod rebuilt;
 mod reports;
+mod test_run;
 
 use std::fs::File;
 use std::io;
@@ -23,8 +24,9 @@ use crate::store::{
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 
-pub use rebuilt::{publish, write_report};
-pub(crate) use rebuilt::{rebuild, record};
+pub use rebuilt::write_report;
+pub(crate) use rebuilt::{publish, rebuild, record};
+pub use test_run::TestRun;
 
 pub(crate) use reports::Reports;
 #[cfg(feature = "command-line")]

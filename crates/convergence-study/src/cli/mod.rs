@@ -168,6 +168,14 @@ impl Project {
         ExitCode::from(self.status_of(env::args_os()))
     }
 
+    /// Says that this process is an interpreter, which this command makes run
+    /// [`status_of`](Self::status_of) with the arguments behind it: the harness starts itself again,
+    /// to end what programs leave behind. Call it first.
+    pub fn is_run_by(mut command: Vec<OsString>) {
+        command.push(guard::COMMAND.into());
+        guard::enable_by(command);
+    }
+
     /// The same with these arguments, starting with the program; returns the exit status.
     pub fn status_of(&self, arguments: impl Iterator<Item = OsString>) -> u8 {
         let line = self.own_command_line();

@@ -12,7 +12,6 @@ use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::visible;
 use crate::verify::{publish, record};
-use crate::where_lost::text_of_located;
 
 use super::exit::CommandOutcome;
 use super::flags::Flags;
@@ -192,7 +191,7 @@ fn text(finished: &Finished) -> String {
     let located = finished
         .located
         .as_ref()
-        .map(|located| format!("\n{}", text_of_located(located)));
+        .map(|located| format!("\n{}", located.text()));
     text + &located.unwrap_or_default() + &no_test_of(&finished.untested)
 }
 

@@ -24,7 +24,7 @@ use crate::text::visible;
 use crate::text::visible::visible;
 use crate::verify;
 use crate::verify::{Blessing, Scope, Verification, VerifyRequest};
-use crate::where_lost::{summary_of_located, text_of_located};
+use crate::where_lost::summary_of_located;
 use selection::{dry_run, files, scope};
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
@@ -261,7 +261,7 @@ fn located(studies: &[Finished], verbose: bool) -> String {
     let has_tables = verbose || texts.len() == 1;
     let texts = texts.into_iter().map(|(id, located)| {
         if has_tables {
-            format!("{id}\n{}", text_of_located(located))
+            format!("{id}\n{}", located.text())
         } else {
             format!("{id}: {}\n", located.conclusion)
         }

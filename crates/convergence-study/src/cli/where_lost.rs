@@ -10,7 +10,7 @@ use crate::input::read_text;
 use crate::run::{self, Effort, Finished};
 use crate::study::variants::Variants;
 use crate::study::{Outcome, Study};
-use crate::where_lost::{Request, Search, figure, lost};
+use crate::where_lost::{Request, Search, lost};
 
 /// A study whose order is lost.
 struct LostOrder<'s> {
@@ -69,7 +69,7 @@ pub(super) fn locate(
     for (lost_order, search) in lost_orders.iter().zip(searches) {
         let base = &mut finished[lost_order.place];
         let located = search.located();
-        let figure = figure(&base.header, &base.outcome, &located);
+        let figure = located.figure(&base.header, &base.outcome);
         base.outcome.figures.extend(figure);
         base.located = Some(located);
     }

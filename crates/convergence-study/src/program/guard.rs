@@ -44,7 +44,7 @@ use guarded::Guarded;
 use job::ProcessGroup;
 
 /// The name of the command that a guard is started by.
-pub const COMMAND: &str = "guard";
+pub(crate) const COMMAND: &str = "guard";
 
 /// Set in guards: a guard that ran studies instead would start guards without end.
 const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
@@ -60,7 +60,7 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
 /// Sets the command that starts a guard, if this executable is an interpreter: the program and its
 /// arguments. Of several calls, including those of `enable`, the first counts.
-pub fn enable_by(command: Vec<OsString>) {
+pub(crate) fn enable_by(command: Vec<OsString>) {
     let _ = GUARD.set(command);
 }
 

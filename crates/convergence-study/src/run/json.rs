@@ -3,7 +3,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{FailedCase, Finished, Item, Located, NotPassed};
+use super::{FailedCase, Finished, Item, NotPassed, WhereLost};
 use crate::judge::verdict::Verdict;
 use crate::study::outcome::NotFinite;
 use crate::study::{Header, Outcome, Untested};
@@ -19,7 +19,7 @@ struct Written<'f> {
     #[serde(skip_serializing_if = "<[Untested]>::is_empty")]
     untested: &'f [Untested],
     #[serde(rename = "where", skip_serializing_if = "Option::is_none")]
-    located: Option<&'f Located>,
+    located: Option<&'f WhereLost>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     not_passed: Vec<WrittenItem>,
 }

@@ -7,8 +7,8 @@
 mod failures;
 mod json;
 mod levels;
-mod located;
 mod queue;
+mod where_lost;
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -32,9 +32,9 @@ pub(crate) use convergence_judge::time_limit;
 pub(crate) use failures::items;
 pub(crate) use failures::{Item, NotPassed, not_passed};
 pub use levels::assert_order;
-pub use located::Located;
-pub(crate) use located::{Fate, VariantRate, VariantRates};
 pub use queue::Progress;
+pub use where_lost::WhereLost;
+pub(crate) use where_lost::{Fate, VariantRate, VariantRates};
 
 /// A study that has been run: one object of a record.
 #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
@@ -54,7 +54,7 @@ pub struct Finished {
     pub untested: Vec<Untested>,
     /// Where its order is lost; only `--where` searches for it.
     #[serde(rename = "where", default)]
-    pub located: Option<Located>,
+    pub located: Option<WhereLost>,
     /// The time taken, which differs from run to run.
     #[serde(skip)]
     pub spent: Spent,
@@ -187,7 +187,7 @@ fn run_kind<K: Kind>(header: &Header, kind: &K) -> Finished {
 }
 
 /// As many threads as the machine has processors.
-pub fn available() -> NonZeroUsize {
+pub(crate) fn available() -> NonZeroUsize {
     thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 

@@ -52,7 +52,7 @@ use crate::text::json;
 
 use change::meets;
 pub(crate) use change::without_baseline;
-pub use change::{GuardedChange, Movement};
+pub(crate) use change::{GuardedChange, Movement};
 use hash::{Lines, Names, hash, names};
 
 /// Version of the file format.
@@ -68,7 +68,7 @@ const TEST: &str = "test";
 /// The committed numbers and claims.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Baseline {
+pub(crate) struct Baseline {
     schema: u32,
     /// Sorted by id, so that a blessing changes only the lines that moved.
     studies: BTreeMap<String, Blessed>,
@@ -100,7 +100,7 @@ struct Blessed {
 /// A guarded number.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(from = "Line")]
-pub struct Guarded {
+pub(crate) struct Guarded {
     /// Its value; `null`, which agrees with nothing, is read as NaN.
     pub value: f64,
     /// The relative change tolerated.
@@ -168,7 +168,7 @@ impl Baseline {
     ///
     /// # Errors
     /// A file that exists but is not a baseline.
-    pub fn read(path: &Path) -> io::Result<Self> {
+    pub(crate) fn read(path: &Path) -> io::Result<Self> {
         let expected = [
             "restore it, or remove it and run `verify --bless`",
             EXPECTED,
@@ -177,7 +177,7 @@ impl Baseline {
     }
 
     /// Writes the file, as a whole or not at all.
-    pub fn write(&self, path: &Path) -> io::Result<()> {
+    pub(crate) fn write(&self, path: &Path) -> io::Result<()> {
         atomic::write(path, text::of(self)?)
     }
 
@@ -187,7 +187,11 @@ impl Baseline {
     ///   compared for all of them, numbers for those that were run. A study of the baseline that is
     ///   not among them was deleted, which is one change, including its numbers; `None` if only a
     ///   selection matters.
-    pub fn compare(&self, finished: &[Finished], known: Option<&[Header]>) -> Vec<GuardedChange> {
+    pub(crate) fn compare(
+        &self,
+        finished: &[Finished],
+        known: Option<&[Header]>,
+    ) -> Vec<GuardedChange> {
         let mut changes = Vec::new();
         for Finished {
             header, outcome, ..
@@ -338,7 +342,7 @@ impl Baseline {
     ///
     /// # Errors
     /// [`BlessingRefusal`]; the baseline then stays unchanged.
-    pub fn bless(
+    pub(crate) fn bless(
         &mut self,
         finished: &[Finished],
         known: Option<&[Header]>,
@@ -403,18 +407,19 @@ impl Baseline {
     }
 
     /// The ids of the studies that it guards, and the test that each belongs to, if any.
-    pub fn tests(&self) -> impl Iterator<Item = (&str, Option<&str>)> {
+    pub(crate) fn tests(&self) -> impl Iterator<Item = (&str, Option<&str>)> {
         let studies = self.studies.iter();
         studies.map(|(id, blessed)| (id.as_str(), blessed.test.as_deref()))
     }
 
+    #[cfg(test)]
     /// A guarded number of a study.
-    pub fn number(&self, id: &str, name: &str) -> Option<&Guarded> {
+    pub(crate) fn number(&self, id: &str, name: &str) -> Option<&Guarded> {
         self.studies.get(id)?.numbers.get(name)
     }
 
     /// Number of guarded numbers of a study.
-    pub fn guards(&self, id: &str) -> usize {
+    pub(crate) fn guards(&self, id: &str) -> usize {
         self.studies
             .get(id)
             .map_or(0, |blessed| blessed.numbers.len())

@@ -12,10 +12,10 @@ mod record;
 mod report_folder;
 mod works;
 
-pub use baseline::{Baseline, GuardedChange, Movement};
+pub(crate) use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
 pub(crate) use provenance::Provenance;
-pub use record::Record;
+pub(crate) use record::Record;
 pub(crate) use record::{FIGURES, SCHEMA};
 pub(crate) use report_folder::README;
 pub(crate) use report_folder::{ReportFolder, ReportSet, lock};

@@ -12,10 +12,10 @@ use crate::judge::verdict::Verdict;
 use crate::text::named::NamedNumber;
 
 /// Names under which a level reports its own step, if that is not 1/n.
-pub const STEPS: [&str; 2] = ["h", "dt"];
+pub(super) const STEPS: [&str; 2] = ["h", "dt"];
 
 /// The first name that a list has twice.
-pub fn first_repeated<'l>(mut names: impl Iterator<Item = &'l str>) -> Option<&'l str> {
+fn first_repeated<'l>(mut names: impl Iterator<Item = &'l str>) -> Option<&'l str> {
     let mut known = BTreeSet::new();
     names.find(|name| !known.insert(*name))
 }
@@ -85,7 +85,7 @@ pub struct ErrorsOverLevels<F> {
 /// * `counts`: what distinguishes the levels, such as the number of cells in one direction, in any
 ///   order.
 /// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The
-///   step is 1/count, unless `solve` returns it with the errors under one of the names [`STEPS`].
+///   step is 1/count, unless `solve` returns it with the errors under one of the names [`Levels::STEPS`](super::Levels::STEPS).
 ///
 /// ```
 /// // The midpoint rule for the integral of exp over (0, 1).

@@ -77,6 +77,11 @@ pub struct Header {
 }
 
 impl Header {
+    /// Whether a text can be the id of a study, for file names and command lines.
+    pub fn is_id(text: &str) -> bool {
+        is_name(text)
+    }
+
     /// The header of a study without a file: of the quick tier, of the kind `orders`.
     ///
     /// * `id`: as in a study file, lowercase letters, digits, `.` and `-`, because it becomes part
@@ -132,7 +137,7 @@ pub(super) fn is_kind(text: &str) -> bool {
 }
 
 /// Whether a text can be a study's id, for file names and command lines.
-pub fn is_name(text: &str) -> bool {
+pub(crate) fn is_name(text: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
     text.len() <= LONGEST_NAME
         && text.starts_with(plain)

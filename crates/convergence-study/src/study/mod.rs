@@ -33,7 +33,7 @@ pub use coverage::Coverage;
 pub(crate) use erased::Plan;
 pub use erased::{Described, Study};
 
-pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, STEPS, first_repeated, levels};
+pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, levels};
 #[cfg(feature = "reports")]
 pub(crate) use file::{Constant, Lines, ORDER};
 #[cfg(feature = "files")]
@@ -52,5 +52,6 @@ pub use outcome::{
 };
 pub(crate) use over_levels::Claim;
 pub use over_levels::{Axis, ErrorColumn, Levels, Refinement};
+pub use sampled::{Sampled, SampledLevel};
 pub use subject::{Sort, Subject};
 pub use until_decided::Budget;

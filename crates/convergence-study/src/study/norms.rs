@@ -1,11 +1,12 @@
 //! Norms of errors at points or in cells, as errors of one study.
 
+use super::outcome::LevelErrors;
 use crate::text::number::max_or_nan;
 
 /// The largest error.
 pub(crate) const MAX: &str = "max";
 /// The largest error of points that are not at the boundary.
-pub const INSIDE: &str = "max inside";
+pub(crate) const INSIDE: &str = "max inside";
 
 /// The norms L1, L2, `max` and `max inside` of errors: four errors of one study, which says whether
 /// the boundary has lost the order.
@@ -43,11 +44,29 @@ pub fn norms(errors: &[f64], weights: &[f64], boundary: &[bool]) -> [(&'static s
     [l1, l2, max, (INSIDE, inside)]
 }
 
+impl LevelErrors {
+    /// As [`norms`], for callers that refuse lists; without `boundary` the maximum inside is left out.
+    ///
+    /// # Errors
+    /// The list that does not fit, and why.
+    pub fn norms(
+        errors: &[f64],
+        weights: &[f64],
+        boundary: Option<&[bool]>,
+    ) -> Result<Vec<(&'static str, f64)>, String> {
+        let mut found = all_norms(errors, weights)?.to_vec();
+        if let Some(boundary) = boundary {
+            found.push((INSIDE, largest_inside(errors, boundary)?));
+        }
+        Ok(found)
+    }
+}
+
 /// L1, L2 and the maximum.
 ///
 /// # Errors
 /// The lists differ in length, or a weight is negative or not finite.
-pub fn all_norms(errors: &[f64], weights: &[f64]) -> Result<[(&'static str, f64); 3], String> {
+fn all_norms(errors: &[f64], weights: &[f64]) -> Result<[(&'static str, f64); 3], String> {
     same_length("weights", errors, weights.len())?;
     if errors.is_empty() {
         return Err("errors: expected at least one, found none".to_owned());
@@ -73,7 +92,7 @@ pub fn all_norms(errors: &[f64], weights: &[f64]) -> Result<[(&'static str, f64)
 ///
 /// # Errors
 /// The lists differ in length, or all points are at the boundary.
-pub fn largest_inside(errors: &[f64], boundary: &[bool]) -> Result<f64, String> {
+fn largest_inside(errors: &[f64], boundary: &[bool]) -> Result<f64, String> {
     same_length("boundary", errors, boundary.len())?;
     let inside = errors
         .iter()

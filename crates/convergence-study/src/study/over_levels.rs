@@ -211,6 +211,9 @@ pub struct Levels {
 }
 
 impl Levels {
+    /// The names under which a level reports its step beside its errors.
+    pub const STEPS: [&'static str; 2] = super::errors_over_levels::STEPS;
+
     /// * `refinements`: steps decreasing.
     pub fn new(
         axis: Axis,

@@ -36,6 +36,24 @@ impl Budget {
     /// The counts with which such a study begins, each level twice as fine as the one before.
     pub const FIRST_LEVELS: [usize; 4] = [8, 16, 32, 64];
 
+    /// That of a study whose levels take these seconds: the next one takes longer by the same factor
+    /// as the last one did, and by at least two. One level alone says nothing of the next.
+    pub fn of_seconds(seconds: &[f64], limit: f64) -> Self {
+        Self {
+            next: seconds_of_next(seconds).unwrap_or(0.0),
+            spent: seconds.iter().sum(),
+            limit,
+            unit: "s",
+        }
+    }
+
+    /// [`FIRST_LEVELS`](Self::FIRST_LEVELS), or coarser ones for errors that fall fast.
+    ///
+    /// * `error`: at a count, for the fastest of the errors claimed, in units of its constant.
+    pub fn first_levels(error: impl Fn(f64) -> f64) -> [usize; 4] {
+        first_levels(error)
+    }
+
     /// Whether the next level is computed: the rates are not decided, it can help, and it fits.
     ///
     /// * `rates`: of the levels so far.
@@ -110,7 +128,7 @@ const SMALLEST_FIRST: f64 = 1e-11;
 /// Levels at the first look: [`FIRST`], or coarser ones for errors that fall fast.
 ///
 /// * `error`: at a count, for the fastest of the errors claimed, in units of its constant.
-pub fn first_levels(error: impl Fn(f64) -> f64) -> [usize; 4] {
+pub(crate) fn first_levels(error: impl Fn(f64) -> f64) -> [usize; 4] {
     let begins_with = |first: usize| FIRST.map(|count| count * first / FIRST[0]);
     let mut usable = [8, 4].map(begins_with).into_iter();
     let usable = usable.find(|levels| error(levels[3] as f64) >= SMALLEST_FIRST);
@@ -123,7 +141,7 @@ pub(crate) const MOST_LEVELS: usize = 8;
 
 /// What a study that adds levels does next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Next {
+pub(crate) enum Next {
     /// It computes another level.
     Another,
     /// It ends: every rate has passed, or has failed at two looks.
@@ -140,7 +158,7 @@ pub enum Next {
 
 /// The rates of the levels so far, and what they were with one level fewer.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Looks<'r> {
+pub(crate) struct Looks<'r> {
     /// The rates of all levels so far.
     pub now: &'r [NamedRate],
     /// The same names without the finest level; empty at the first look.
@@ -152,7 +170,7 @@ pub struct Looks<'r> {
 impl<'r> Looks<'r> {
     /// * `now`: the rates of all levels so far, `levels` in number.
     /// * `judge`: the rates of that many of them, the coarsest first.
-    pub fn new(
+    pub(crate) fn new(
         now: &'r [NamedRate],
         levels: usize,
         judge: impl FnOnce(usize) -> Vec<NamedRate>,
@@ -171,7 +189,7 @@ impl<'r> Looks<'r> {
 
     /// The same of rates of these errors, which may be below the floor at the next level.
     #[must_use]
-    pub fn of_errors(self, levels: &Levels) -> Self {
+    pub(crate) fn of_errors(self, levels: &Levels) -> Self {
         let below_floor = levels.below_floor_next();
         Self {
             below_floor,
@@ -182,7 +200,7 @@ impl<'r> Looks<'r> {
     /// The two looks at errors over levels.
     ///
     /// * `now`: the rates of these levels.
-    pub fn of(levels: &Levels, now: &'r [NamedRate]) -> Self {
+    pub(crate) fn of(levels: &Levels, now: &'r [NamedRate]) -> Self {
         Self::new(now, levels.refinements.len(), |count| {
             levels.coarsest(count).judge()
         })
@@ -241,7 +259,7 @@ pub(crate) fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budg
 /// The same with time as cost.
 ///
 /// * `seconds`: time of each level; at least two.
-pub fn next_by_time(looks: &Looks<'_>, seconds: &[f64], budget: f64) -> Next {
+pub(crate) fn next_by_time(looks: &Looks<'_>, seconds: &[f64], budget: f64) -> Next {
     match seconds_of_next(seconds) {
         Some(cost) => next(looks, seconds.len(), cost, seconds.iter().sum(), budget),
         None => Next::Another,
@@ -265,7 +283,7 @@ pub(crate) fn fits(seconds: &[f64], budget: f64) -> bool {
 
 /// The outcome of a study that adds levels. It says how the study ended. It guards only the first
 /// levels, because another machine may afford others.
-pub fn conclude(
+pub(crate) fn conclude(
     mut outcome: Outcome,
     next: Next,
     levels: &Levels,

@@ -44,7 +44,7 @@ pub(crate) fn record(finished: &[Finished], command: &str) -> Record {
 /// Writes the report on them into a separate folder; missing folders are made.
 ///
 /// * `jobs`: number of threads that ran them.
-pub fn publish(
+pub(crate) fn publish(
     project: &Project,
     record: Record,
     jobs: usize,

@@ -3,16 +3,24 @@
 use super::words::order;
 use crate::chart::{Row, rates_of};
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::run::{Fate, Located};
+use crate::run::{Fate, WhereLost};
 use crate::study::{Figure, Header, Outcome};
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
 
 /// What the colours mean.
 const COLOURS: [&str; 3] = ["order reached", "undecided", "lost"];
 
-/// Rates of the first error that has lost its order: the study's own, then those of its variants;
-/// `None` if it claims nothing.
-pub fn figure(header: &Header, base: &Outcome, located: &Located) -> Option<Figure> {
+impl WhereLost {
+    /// Rates of the first error that has lost its order: the study's own, then those of its
+    /// variants; `None` if it claims nothing.
+    ///
+    /// * `base`: the study itself.
+    pub fn figure(&self, header: &Header, base: &Outcome) -> Option<Figure> {
+        figure(header, base, self)
+    }
+}
+
+fn figure(header: &Header, base: &Outcome, located: &WhereLost) -> Option<Figure> {
     let first = located.variants.iter().find_map(|row| row.rates.first())?;
     let error = &first.error;
     let rate = base.rate(error)?;

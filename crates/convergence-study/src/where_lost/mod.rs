@@ -14,19 +14,17 @@ mod figure;
 mod words;
 
 use crate::judge::verdict::Verdict;
-use crate::run::{Fate, Located, VariantRate, VariantRates};
+use crate::run::{Fate, VariantRate, VariantRates, WhereLost};
 use crate::study::Outcome;
 use crate::study::variants::{LeftOutVariant, SolverPart, Variants};
 use crate::text::number::plain_text;
 use decide::{Conclusion, Examined, completed, decide, explaining, may_explain_all, open_inside};
 use fate::{Sized, fate};
 
-pub use figure::figure;
 pub(crate) use words::summary_of_located;
-pub use words::text_of_located;
 
 /// The errors whose rates do not pass; values without an exact solution are not compared.
-pub fn lost(outcome: &Outcome) -> Vec<String> {
+pub(crate) fn lost(outcome: &Outcome) -> Vec<String> {
     let is_error = |name: &str| {
         let mut errors = outcome.levels.iter().flat_map(|level| &level.errors);
         errors.any(|error| error.name == name)
@@ -84,6 +82,26 @@ impl<'s> Search<'s> {
             levels,
             shown: variants.usable.iter().map(|_| None).collect(),
         }
+    }
+
+    /// Whether there is anything to search for: an error whose rate does not pass.
+    pub fn is_worthwhile(base: &Outcome) -> bool {
+        !lost(base).is_empty()
+    }
+
+    /// Where the order is lost, by all variants at once.
+    ///
+    /// * `ran`: the study with each of the usable variants, in their order.
+    pub fn of_all(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> WhereLost {
+        let mut search = Search::new(base, variants, None);
+        for (place, outcome) in ran.iter().enumerate() {
+            let request = Request {
+                place,
+                levels: None,
+            };
+            search.add(request, (*outcome).clone());
+        }
+        search.located()
     }
 
     /// What to run next; nothing if no variant can change the conclusion.
@@ -223,7 +241,7 @@ impl<'s> Search<'s> {
     }
 
     /// Where the order is lost.
-    pub fn located(&self) -> Located {
+    pub fn located(&self) -> WhereLost {
         let examined = self.examined();
         let conclusion = decide(&examined);
         let mut fates = completed(&examined).into_iter().map(|one| one.fate);
@@ -264,7 +282,7 @@ impl<'s> Search<'s> {
         }
         let mut errors = self.errors.iter();
         let tendency = errors.find_map(|error| self.base.rate(error)?.tendency);
-        Located {
+        WhereLost {
             named: conclusion.named(),
             conclusion: words::sentence(&conclusion, &rows, tendency, self.variants),
             variants: rows,
@@ -289,19 +307,4 @@ fn finer(outcome: &Outcome) -> Option<String> {
     });
     let doubled: Vec<String> = doubled.collect();
     (!doubled.is_empty()).then(|| doubled.join(", "))
-}
-
-/// Where the order of errors is lost, by all variants at once.
-///
-/// * `ran`: the study with each of the usable variants, in their order.
-pub fn located(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> Located {
-    let mut search = Search::new(base, variants, None);
-    for (place, outcome) in ran.iter().enumerate() {
-        let request = Request {
-            place,
-            levels: None,
-        };
-        search.add(request, (*outcome).clone());
-    }
-    search.located()
 }

@@ -2,7 +2,7 @@
 
 use super::decide::Conclusion;
 use crate::judge::verdict::{RateVerdict, Tendency};
-use crate::run::{Fate, Located, VariantRates};
+use crate::run::{Fate, VariantRates, WhereLost};
 use crate::study::variants::{SolverPart, Variants};
 use crate::text::columns::Columns;
 use crate::text::number::plain_text;
@@ -10,8 +10,14 @@ use crate::text::number::plain_text;
 /// Most rows of the table; more variants stand beside each other.
 const MOST_ROWS: usize = 10;
 
-/// The table of variants, and the conclusion.
-pub fn text_of_located(located: &Located) -> String {
+impl WhereLost {
+    /// The table of variants, and the conclusion.
+    pub fn text(&self) -> String {
+        text(self)
+    }
+}
+
+fn text(located: &WhereLost) -> String {
     let cells = |variant: &VariantRates| {
         let rate = variant.rates.first();
         vec![
@@ -53,7 +59,7 @@ pub(super) fn order(variant: &VariantRates) -> &'static str {
 }
 
 /// The parts that are named in several studies, the commonest first: a line; empty for one study.
-pub(crate) fn summary_of_located(places: &[&Located]) -> String {
+pub(crate) fn summary_of_located(places: &[&WhereLost]) -> String {
     if places.len() < 2 {
         return String::new();
     }
@@ -338,7 +344,7 @@ mod tests {
 
     #[test]
     fn the_parts_named_in_several_studies_are_counted() {
-        let located = |named: Vec<SolverPart>| Located {
+        let located = |named: Vec<SolverPart>| WhereLost {
             named,
             conclusion: String::new(),
             variants: vec![],
@@ -350,7 +356,7 @@ mod tests {
             located(vec![a()]),
             located(vec![]),
         ];
-        let all: Vec<&Located> = places.iter().collect();
+        let all: Vec<&WhereLost> = places.iter().collect();
         assert_eq!(
             summary_of_located(&all),
             "of 4 studies that have lost an order: in the terms with a in 2, at the face x_max in 1, \

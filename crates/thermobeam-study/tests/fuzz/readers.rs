@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::{Choice, Claim, Floor, RateTable, internal::store::Baseline};
+use convergence_study::{Choice, Claim, Floor, RateTable, TestRun};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;
@@ -229,7 +229,7 @@ impl Bench {
                     drop(column.judge(&Claim::new(1.0, 0.05), Floor::NONE));
                 });
             }
-            Reading::Baseline => drop(Baseline::read(&path).map_err(|error| said(&error))?),
+            Reading::Baseline => drop(TestRun::guarded(&path).map_err(|error| said(&error))?),
             Reading::Results => self.resumed(bytes)?,
             Reading::Panic => panic!("as it was asked to"),
         }

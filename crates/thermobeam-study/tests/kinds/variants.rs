@@ -1,7 +1,7 @@
 //! Variants of exact solutions: loads, initial data and errors follow; a coefficient that is wrong
 //! in the solver is named by them, and nothing else is.
 
-use convergence_study::internal::where_lost::located;
+use convergence_study::variants::Search;
 use convergence_study::variants::{SolverPart, Variants};
 use convergence_study::{FromFile, Kind, NamedRate, Outcome, Reason, Verdict, run_one};
 use thermobeam_study::kinds::orders::Orders;
@@ -93,8 +93,8 @@ fn a_wrong_coefficient_is_named_and_no_other_part() {
         assert_eq!(base.verdict, Verdict::Fail, "{name}, {control}");
         let variants = study.variants().unwrap();
         let ran = outcomes(&study, &variants);
-        let located = located(&base, &variants, &ran.iter().collect::<Vec<_>>());
-        let text = convergence_study::internal::where_lost::text_of_located(&located);
+        let located = Search::of_all(&base, &variants, &ran.iter().collect::<Vec<_>>());
+        let text = located.text();
         assert_eq!(located.named, named, "{name}, {control}: {text}");
     }
 }

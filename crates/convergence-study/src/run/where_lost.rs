@@ -7,7 +7,7 @@ use crate::study::variants::SolverPart;
 
 /// What the variants of a study's solution show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Located {
+pub struct WhereLost {
     /// The parts in which the order is lost; empty if nothing can be claimed.
     pub named: Vec<SolverPart>,
     /// The conclusion, in words.

@@ -1,0 +1,150 @@
+//! Studies that the tests of another framework run, such as pytest: compared with a baseline, accepted
+//! into it, reported.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::VerificationError;
+use super::rebuilt::publish;
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::run::{Finished, available};
+use crate::store::{Baseline, GuardedChange, Movement, Record, atomic};
+use crate::study::Header;
+
+/// What is to be done with the studies of a run of tests.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TestRun {
+    /// The file of the baseline; numbers are guarded if it exists or is to be created.
+    pub baseline: PathBuf,
+    /// Whether to accept the numbers.
+    pub bless: bool,
+    /// Whether to accept also what is loosened, changed in its settings, or gone.
+    pub loosened: bool,
+    /// The options that do both, which a refusal names.
+    pub options: &'static str,
+    /// The folder of the report.
+    pub report: Option<PathBuf>,
+    /// Guarded studies whose tests no longer exist.
+    pub gone: Vec<String>,
+}
+
+impl TestRun {
+    /// The studies that a baseline guards, each with the test that it belongs to, if it is known.
+    ///
+    /// # Errors
+    /// A file that is no baseline.
+    pub fn guarded(baseline: &Path) -> io::Result<Vec<(String, Option<String>)>> {
+        let numbers = Baseline::read(baseline)?;
+        let tests = numbers.tests();
+        let owned = |(id, test): (&str, Option<&str>)| (id.to_owned(), test.map(str::to_owned));
+        Ok(tests.map(owned).collect())
+    }
+
+    /// Compares the studies of the run with the baseline, accepts them on request, and writes the
+    /// report.
+    ///
+    /// * `firm`: those that may not be inconclusive, whose numbers the baseline guards.
+    /// * `all`: all of them.
+    /// * Returns lines to print, and whether everything agrees with the baseline.
+    ///
+    /// # Errors
+    /// A file that is no baseline, or a place that cannot be written.
+    pub fn finish(
+        &self,
+        project: &Project,
+        firm: &[Finished],
+        all: &[Finished],
+    ) -> Result<(Vec<String>, bool), VerificationError> {
+        let mut lines = vec![];
+        let mut is_well = true;
+        let mut changes = None;
+        if self.bless || self.baseline.is_file() {
+            let mut numbers = Baseline::read(&self.baseline)?;
+            if self.bless {
+                (lines, is_well) = self.accept(&mut numbers, firm)?;
+            }
+            let found = self.changes(&numbers, firm);
+            // The framework itself says which tests are gone.
+            let moved = found
+                .iter()
+                .filter(|change| !self.gone.contains(&change.study));
+            lines.extend(moved.map(|change| format!("baseline: {change}")));
+            is_well &= found.is_empty();
+            changes = Some(found);
+        }
+        if let Some(folder) = &self.report {
+            let own = Verdict::worst(all.iter().map(|study| study.outcome.verdict));
+            let verdict = if is_well { own } else { Verdict::Fail };
+            let record = Record::new(
+                "files",
+                project.command,
+                verdict,
+                changes.as_deref(),
+                all.to_vec(),
+            );
+            publish(project, record, available().get(), folder)?;
+            lines.push(format!("report: {}", folder.join("index.html").display()));
+        }
+        Ok((lines, is_well))
+    }
+
+    /// The guarded studies that this run says nothing about.
+    fn not_judged(&self, numbers: &Baseline, known: &[Header]) -> Vec<Header> {
+        let changes = numbers.compare(&[], Some(known));
+        let ids: BTreeSet<String> = changes
+            .into_iter()
+            .filter(is_deleted)
+            .map(|change| change.study)
+            .filter(|id| !self.gone.contains(id))
+            .collect();
+        ids.into_iter().map(|id| Header::new(id, "")).collect()
+    }
+
+    /// The differences between the baseline and the studies of this run.
+    fn changes(&self, numbers: &Baseline, studies: &[Finished]) -> Vec<GuardedChange> {
+        let known = headers(studies);
+        let mut changes = numbers.compare(studies, Some(&known));
+        let is_known = |id: &String| known.iter().any(|header| header.id == *id);
+        changes.retain(|change| is_known(&change.study) || self.gone.contains(&change.study));
+        changes
+    }
+
+    /// Accepts the studies into the baseline.
+    ///
+    /// * Returns the lines to print, and whether it is accepted.
+    fn accept(
+        &self,
+        numbers: &mut Baseline,
+        studies: &[Finished],
+    ) -> io::Result<(Vec<String>, bool)> {
+        let mut known = headers(studies);
+        known.extend(self.not_judged(numbers, &known));
+        let loosened = match numbers.bless(studies, Some(&known), self.loosened) {
+            Ok(loosened) => loosened,
+            Err(refusal) => {
+                let words = refusal.words(self.options);
+                return Ok((vec![format!("baseline: {words}")], false));
+            }
+        };
+        if let Some(folder) = self.baseline.parent() {
+            atomic::prepare_folder(folder)?;
+        }
+        numbers.write(&self.baseline)?;
+        let lines = loosened.iter().map(|change| format!("loosened: {change}"));
+        let blessed = format!("baseline: blessed, see {}", self.baseline.display());
+        Ok((lines.chain([blessed]).collect(), true))
+    }
+}
+
+fn headers(studies: &[Finished]) -> Vec<Header> {
+    studies.iter().map(|study| study.header.clone()).collect()
+}
+
+fn is_deleted(change: &GuardedChange) -> bool {
+    matches!(
+        change.movement,
+        Movement::VanishedStudy { .. } | Movement::Vanished { .. }
+    )
+}

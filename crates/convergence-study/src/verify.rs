@@ -42,7 +42,7 @@ pub(crate) use reports::is_report;
 /// | a selection | `reports/local/partial/` |
 ///
 /// Git ignores `reports/local/`: a run that does not pass leaves the committed report as it is. The
-/// files in `reports/` that git ignores and other programs read, such as `junit.xml` ([`NEWEST`]),
+/// files in `reports/` that git ignores and other programs read, such as `junit.xml`,
 /// are always those of the newest run: while it is under way, and after it has been killed, there
 /// are none.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@
 //! logarithmic axis, are left out and counted in a note under the plot.
 //!
 //! Plotters' `ChartBuilder` draws grid, ticks and their labels over a coordinate of our own
-//! ([`ruler`]). Titles, legends and labels are placed here: plotters would measure them through the
+//! (`ruler`). Titles, legends and labels are placed here: plotters would measure them through the
 //! document of a browser, which a page's worker has not. The page is drawn in tenths of a pixel,
 //! since plotters knows only whole units, and layer by layer, since it knows no groups.
 //!

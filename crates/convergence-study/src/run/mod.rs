@@ -168,7 +168,7 @@ fn with_cases(header: &Header, cases: &[Case<()>]) -> Header {
     }
 }
 
-/// The outcome of one study, run on all threads of the machine, as [`run`] does; its figures are
+/// The outcome of one study, run on all threads of the machine; its figures are
 /// called `study-<what>.svg`.
 ///
 /// # Panics

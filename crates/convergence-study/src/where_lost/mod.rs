@@ -72,7 +72,7 @@ pub struct Search<'s> {
 }
 
 impl<'s> Search<'s> {
-    /// * `base`: the study that has lost the order of the errors of [`lost`].
+    /// * `base`: the study whose errors have lost their order.
     /// * `levels`: the number of its levels, if that of a variant can differ.
     pub fn new(base: &'s Outcome, variants: &'s Variants, levels: Option<usize>) -> Self {
         Self {

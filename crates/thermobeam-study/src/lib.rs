@@ -4,7 +4,7 @@
 //! # From a file to a verdict
 //!
 //! ```text
-//! TOML ── kinds::read ──> Study ── convergence_study::internal::run ──> Finished ── report, record, baseline, JUnit
+//! TOML ── kinds::read ──> Study ── convergence_study ──> Finished ── report, record, baseline, JUnit
 //!                          cases            threads            Outcome
 //! ```
 //!

@@ -114,20 +114,28 @@ fn items(id: &str, outcome: &Outcome, moved: &[&GuardedChange]) -> Vec<(Subject,
     items
 }
 
+/// Whether cases of the study say something of themselves.
+fn is_described(header: &Header) -> bool {
+    header.cases.iter().any(|case| !case.settings.is_empty())
+}
+
 /// The cases of a study by their labels, with their settings: what they say of themselves, or the
 /// values of the study's file.
 fn cases(header: &Header) -> Vec<(&str, BTreeSet<Setting>)> {
+    let cases = header.cases.iter();
+    if is_described(header) {
+        return cases
+            .map(|case| (&*case.label, case.settings.iter().cloned().collect()))
+            .collect();
+    }
     let of_file: BTreeSet<Setting> = header.settings_of_file().into_iter().collect();
-    let mut cases = vec![];
-    for case in &header.cases {
-        let own: BTreeSet<Setting> = case.settings.iter().cloned().collect();
-        let settings = if own.is_empty() { &of_file } else { &own };
-        cases.push((case.label.as_str(), settings.clone()));
-    }
-    if cases.is_empty() {
-        cases.push(("", of_file));
-    }
-    cases
+    let labels = cases.map(|case| &*case.label);
+    // A study that somebody has read from a record lists no cases.
+    let none = header.cases.is_empty().then_some("");
+    labels
+        .chain(none)
+        .map(|label| (label, of_file.clone()))
+        .collect()
 }
 
 /// Whether a label has all the parts of another: `n = 4` and `p = 3, n = 4`.
@@ -139,8 +147,19 @@ fn has_parts(label: &str, parts: &str) -> bool {
 impl Evidence {
     fn of(finished: &[Finished], moved: &[&GuardedChange]) -> Self {
         let mut all = Self::default();
+        // What a file says cannot be compared with what cases say of themselves.
+        let are_described = finished.iter().any(|study| is_described(&study.header));
         for (study, finished) in finished.iter().enumerate() {
-            all.add(study, finished, moved);
+            if is_described(&finished.header) == are_described {
+                all.add(study, finished, moved);
+            }
+        }
+        // A case that says nothing of itself speaks neither for nor against a setting.
+        if are_described {
+            let speaks = |unit: &Unit| !unit.settings.is_empty();
+            all.failing.retain(speaks);
+            all.failing_together.retain(speaks);
+            all.passing.retain(speaks);
         }
         all
     }

@@ -151,6 +151,11 @@ fn the_values_of_a_file_are_settings_of_its_cases() {
     let fail = ["a", "b"].map(|id| study(id, "0.5", false));
     let pass = ["c", "d", "e", "f", "g"].map(|id| study(id, "0", true));
     assert_eq!(named([&fail[..], &pass[..]].concat()), ["heat.rate ≠ 0"]);
+    // They say nothing beside cases that speak for themselves.
+    let described = ["h", "i"].map(|id| alone(id, by("midpoint"), false));
+    let pass = passing(&by("dg"));
+    let all = [&fail[..], &described[..], &pass[..]].concat();
+    assert_eq!(named(all), ["method midpoint"]);
 }
 
 #[test]

@@ -101,6 +101,8 @@ pub struct Scene {
     pub mesh: Mesh,
     /// The nodes that the file lists, if it does: the meshes of a search have them too.
     pub listed: Vec<f64>,
+    /// Whether a function of the file places them.
+    pub is_mapped: bool,
     /// Degree p of the elements: 1 for one-step schemes.
     pub degree: usize,
     /// How it is stepped.
@@ -171,6 +173,7 @@ impl Scene {
             obstacles,
             initial,
             mesh,
+            is_mapped: file.mesh.map.is_some(),
             listed,
             degree,
             method,

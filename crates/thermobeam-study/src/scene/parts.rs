@@ -10,7 +10,6 @@ use thermobeam::{
 };
 
 use super::{Method, Scene, tables::Coefficients};
-use crate::run::family::is_uniform;
 
 /// Terms of the equations, mesh, method, and what the motion is held against.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -84,9 +83,10 @@ impl Parts {
 
     /// Of the run of a scene.
     pub(crate) fn of(scene: &Scene) -> Self {
+        // As the file says it, whatever is made of it.
         let mesh = match scene.listed.len() {
-            0 if is_uniform(scene.mesh.nodes()) => "uniform",
-            0 => "mapped",
+            0 if scene.is_mapped => "mapped",
+            0 => "uniform",
             _ => "listed",
         };
         let parts = Self {

@@ -133,13 +133,13 @@ pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
 pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
-        About, Axis, Budget, Case, CaseFailure, Check, CodeStudy, Coverage, Described, ErrorColumn,
+        About, Axis, Budget, Case, CaseFailure, Check, CodeStudy, Described, ErrorColumn,
         ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
         LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity,
         Ran, Recorded, Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort,
         Sources, Study, Subject, Table, Tier, Untested,
         grid::{Grid, GridColumn},
-        levels, levels_of_samples, measured,
+        left_out, levels, levels_of_samples, measured,
         norms::norms,
         unnoticed,
     },

@@ -4,7 +4,6 @@ use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{GuardedChange, Movement, without_baseline};
-use crate::study::coverage::incomplete;
 use crate::study::outcome::{NamedRate, Outcome};
 use crate::text::lists::{self, and_more};
 use crate::text::number::{
@@ -186,7 +185,7 @@ pub(crate) fn key_numbers(outcome: &Outcome) -> String {
         headline,
         rates,
         checks,
-        coverage,
+        left_out,
         ..
     } = outcome;
     let mut parts = if headline.is_empty() {
@@ -208,7 +207,7 @@ pub(crate) fn key_numbers(outcome: &Outcome) -> String {
             n => format!("all {n} checks pass"),
         });
     }
-    parts.extend(incomplete(coverage));
+    parts.extend(left_out.iter().cloned());
     parts.join("; ")
 }
 

@@ -1,6 +1,5 @@
 //! A study in code: a list of runs, and the numbers that they show.
 
-use super::coverage::Coverage;
 use super::erased::{Described, Study};
 use super::header::{Header, Tier};
 use super::kind::{Case, CaseFailure, Kind, Ran};
@@ -64,8 +63,9 @@ pub struct Findings {
     pub levels: Vec<LevelErrors>,
     /// What the baseline guards of errors and rates.
     pub quantities: Vec<Quantity>,
-    /// Items other than runs: how many were judged, and why not the others.
-    pub coverage: Vec<Coverage>,
+    /// Of items other than runs: how many were judged, and why not the others, by
+    /// [`left_out`](crate::left_out).
+    pub left_out: Vec<String>,
 }
 
 impl Findings {
@@ -162,7 +162,7 @@ impl<R: Runs> Kind for InCode<R> {
             rates,
             levels,
             quantities,
-            coverage,
+            left_out,
         } = self.runs.judge(&shown);
         let mut outcome = Outcome::of_sheets(completion, sheets, self.about.headline);
         if let Some(headline) = headline {
@@ -176,7 +176,7 @@ impl<R: Runs> Kind for InCode<R> {
             figures,
             rates,
             levels,
-            coverage,
+            left_out,
             ..outcome
         }
     }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::coverage::{Coverage, NO_RESULT};
+use super::left_out::{NO_RESULT, left_out};
 use super::outcome::{Check, Origin, Outcome, settle};
 #[cfg(feature = "files")]
 use super::settings;
@@ -292,12 +292,12 @@ pub struct Untested {
 /// * `ran`: one result for each case, in the order of [`Kind::cases`].
 pub(crate) fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcome {
     let mut outcome = kind.judge(ran);
-    let left_out = ran.iter().map(|ran| match ran.ok() {
+    let reasons = ran.iter().map(|ran| match ran.ok() {
         // A result counts as a failed case where part of it is missing.
         Some(result) if kind.failure(result).is_none() => None,
         _ => Some(NO_RESULT),
     });
-    outcome.coverage.push(Coverage::of("cases", left_out));
+    outcome.left_out.extend(left_out("cases", reasons));
     outcome
 }
 

@@ -6,7 +6,6 @@
 //! and only the report writes Markdown.
 
 mod caught;
-pub(crate) mod coverage;
 pub(crate) mod erased;
 mod errors_over_levels;
 #[cfg(feature = "files")]
@@ -15,6 +14,7 @@ pub(crate) mod grid;
 pub(crate) mod header;
 mod in_code;
 pub(crate) mod kind;
+pub(crate) mod left_out;
 mod levels_of_samples;
 mod measured;
 mod must;
@@ -29,7 +29,6 @@ pub(crate) mod variants;
 mod views;
 
 pub(crate) use caught::catch;
-pub use coverage::Coverage;
 pub(crate) use erased::Plan;
 pub use erased::{Described, Study};
 
@@ -43,6 +42,7 @@ pub(crate) use file::{STUDY, StudyFile, study_schema};
 pub use header::{Header, Tier};
 pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
+pub use left_out::left_out;
 pub use levels_of_samples::{LevelsOfSamples, levels_of_samples};
 pub use measured::{Measured, Recorded, Sheet, Shown, measured};
 pub use must::Must;

@@ -9,7 +9,6 @@ mod rate;
 mod settle;
 mod table;
 
-use super::coverage::{self, Coverage};
 use super::measured::Sheet;
 use super::must::Must;
 use super::over_levels::summary;
@@ -45,9 +44,10 @@ pub struct Outcome {
     pub rates: Vec<NamedRate>,
     /// Everything judged that is not a rate.
     pub checks: Vec<Check>,
-    /// How many items of each sort were judged, and why not the others; empty in older records.
+    /// Of items that were not all judged: how many were, and why not the others, by
+    /// [`left_out`](crate::left_out).
     #[serde(default)]
-    pub coverage: Vec<Coverage>,
+    pub left_out: Vec<String>,
     /// The numbers of a study in code, of which its checks, tables and guarded numbers are views.
     #[serde(skip)]
     pub sheets: Vec<Sheet>,
@@ -272,7 +272,7 @@ impl Outcome {
             levels: vec![],
             rates,
             checks,
-            coverage: vec![],
+            left_out: vec![],
             sheets: vec![],
             tables: vec![],
             figures: vec![],
@@ -320,7 +320,7 @@ impl Outcome {
         self.levels.extend(part.levels);
         self.rates.extend(part.rates);
         self.checks.extend(part.checks);
-        coverage::merge(&mut self.coverage, part.coverage);
+        self.left_out.extend(part.left_out);
         self.sheets.extend(part.sheets);
         self.tables.extend(part.tables);
         self.figures.extend(part.figures);

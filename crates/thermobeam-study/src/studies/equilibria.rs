@@ -13,7 +13,7 @@ use super::steady::{cost_to_rest, name_of, settle};
 use crate::error::reference::Traced;
 use crate::kinds::tables::{Discretisation, level_of_mesh};
 use convergence_judge::judge::richardson;
-use convergence_study::{Axis, Claim, Coverage, ErrorColumn, Floor, Levels, Subject};
+use convergence_study::{Axis, Claim, ErrorColumn, Floor, Levels, Subject, left_out};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::equilibrium::Equilibrium;
 
@@ -140,7 +140,9 @@ impl Runs for EndStates {
                 Sheet::new(title, "scene", ends),
                 Sheet::new("Each run", "run", runs),
             ],
-            coverage: vec![Coverage::of("ends for the order", straight)],
+            left_out: left_out("ends for the order", straight)
+                .into_iter()
+                .collect(),
             figures: vec![figure],
             ..Findings::default()
         };

@@ -7,7 +7,6 @@ use super::{Check, Figure, NamedRate, Outcome};
 use crate::chart;
 use crate::interval::Interval;
 use crate::judge::verdict::{RateVerdict, Verdict};
-use crate::study::coverage;
 use crate::study::subject::Subject;
 
 /// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
@@ -37,7 +36,7 @@ pub(crate) fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     } else if outcome.verdict != claimed {
         outcome.add_to_summary("but a rate or a check does not pass");
     }
-    for left_out in coverage::incomplete(&outcome.coverage) {
+    for left_out in outcome.left_out.clone() {
         outcome.add_to_summary(&left_out);
     }
     #[cfg(feature = "reports")]
@@ -86,18 +85,9 @@ fn defects(id: &str, outcome: &Outcome) -> Vec<String> {
             figure.file
         ));
     }
-    defects.extend(repetitions(
-        "the count of",
-        outcome.coverage.iter().map(|coverage| &coverage.items),
-    ));
     let numbers = outcome.sheets.iter().flat_map(|sheet| &sheet.measured);
     let names: Vec<String> = numbers.map(|one| one.in_case(&one.name)).collect();
     defects.extend(repetitions("the number", names.iter()));
-    for coverage in &outcome.coverage {
-        if !coverage.adds_up() {
-            defects.push(format!("the counts of `{}` do not add up", coverage.items));
-        }
-    }
     for table in &outcome.tables {
         if table.rows.iter().any(|row| row.len() != table.head.len()) {
             defects.push(format!(
@@ -140,7 +130,7 @@ fn repetitions<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<S
 mod tests {
     use super::*;
     use crate::judge::verdict;
-    use crate::study::coverage::Coverage;
+    use crate::study::left_out::left_out;
     use crate::study::outcome::{Quantity, Table};
 
     fn passing() -> Outcome {
@@ -222,9 +212,9 @@ mod tests {
     #[test]
     fn a_summary_says_how_many_items_were_not_judged() {
         let summary = |reasons: &[Option<&str>]| {
-            let coverage = vec![Coverage::of("points", reasons.iter().copied())];
+            let left_out = left_out("points", reasons.iter().copied());
             let outcome = Outcome {
-                coverage,
+                left_out: left_out.into_iter().collect(),
                 ..passing()
             };
             settle("id", outcome).summary.to_string()
@@ -271,15 +261,6 @@ mod tests {
                 ..passing()
             },
             "ragged",
-        );
-        let mut twice_judged = Coverage::of("points", [None, Some("short")]);
-        twice_judged.judged = 2;
-        refused(
-            Outcome {
-                coverage: vec![twice_judged],
-                ..passing()
-            },
-            "the counts of `points` do not add up",
         );
         let mut nan = passing();
         nan.rates[0].rate.fitted = Some(f64::NAN);

@@ -12,7 +12,7 @@ pub(crate) mod side_by_side;
 pub(crate) mod watch;
 
 use super::prelude::*;
-use convergence_study::Coverage;
+use convergence_study::left_out;
 use serde::de::DeserializeOwned;
 
 /// A list of runs, and what is claimed of them.
@@ -67,8 +67,8 @@ pub struct Findings {
     pub tables: Vec<Table>,
     /// Figures.
     pub figures: Vec<Figure>,
-    /// Items other than cases: how many were judged, and why not the others.
-    pub coverage: Vec<Coverage>,
+    /// Of items other than cases: how many were judged, and why not the others.
+    pub left_out: Vec<String>,
     /// Guarded numbers beside those of the runs.
     pub quantities: Vec<Quantity>,
 }
@@ -103,12 +103,12 @@ impl<'r, R: Runs> Results<'r, R> {
     ///
     /// * `items`: what that is, in the plural.
     /// * `reason`: why a run does not; `None` if it does.
-    pub fn coverage(
+    pub fn left_out(
         &self,
         items: &str,
         reason: impl Fn(&R::Run, &R::Shown) -> Option<&'static str>,
-    ) -> Coverage {
-        Coverage::of(items, self.all().map(|(run, shown)| reason(run, shown)))
+    ) -> Option<String> {
+        left_out(items, self.all().map(|(run, shown)| reason(run, shown)))
     }
 }
 
@@ -145,7 +145,7 @@ impl<R: Runs> Kind for RunStudy<R> {
             checks,
             tables,
             figures,
-            coverage,
+            left_out,
             quantities,
         } = if lacking > 0 || numbers.is_empty() {
             Findings::of_incomplete(lacking, numbers.len())
@@ -163,7 +163,7 @@ impl<R: Runs> Kind for RunStudy<R> {
         let own_quantities = own.as_ref().map_or(vec![], Sheet::quantities);
         let own_table = own.as_ref().and_then(Sheet::table).into_iter();
         Outcome {
-            coverage,
+            left_out,
             tables: own_table.chain(tables).collect(),
             figures,
             quantities: [own_quantities, quantities].concat(),

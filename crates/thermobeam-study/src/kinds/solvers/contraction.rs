@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use convergence_study::Coverage;
+use super::with_all;
+use convergence_study::left_out;
 
 use super::{
     SolverResult, SolverTask, numbers, results,
@@ -172,7 +173,7 @@ impl ContractionGrid {
         let sheet = Sheet::new(title, "dt, epsilon, zeta", numbers);
         Outcome {
             headline: summary.clone().into(),
-            coverage: vec![factors_judged(&points, all)],
+            left_out: factors_left_out(&points, all).into_iter().collect(),
             tables: sheet.table().into_iter().collect(),
             figures: vec![figure(&points)],
             quantities: sheet.quantities(),
@@ -319,13 +320,13 @@ fn known_factors(points: &[&Contraction]) -> String {
     })
 }
 
-/// The points whose factor is compared with the spectral radius.
-fn factors_judged(points: &[&Contraction], all: usize) -> Coverage {
+/// The points whose factor is not compared with the spectral radius.
+fn factors_left_out(points: &[&Contraction], all: usize) -> Option<String> {
     let unsettled = format!("fewer than {SETTLED} iterations");
     let reasons = points
         .iter()
         .map(|point| (!point.is_settled()).then_some(&unsettled[..]));
-    Coverage::with_total("factors", all, reasons)
+    left_out("factors", with_all(all, reasons))
 }
 
 impl Contraction {

@@ -1,5 +1,6 @@
 //! The maps: claims, the table of boundaries, and guarded numbers.
 
+use super::with_all;
 use super::{
     FixedPointStep, SolverResult, SolverTask,
     map::{Boundary, Map, MapPoint, MapRow, NewtonSteps},
@@ -8,7 +9,7 @@ use super::{
 use crate::kinds::prelude::*;
 use crate::kinds::runs::{checks::energy_and_balance, watch::Worst};
 use convergence_judge::text::number::{min_or_nan, plain_text};
-use convergence_study::Coverage;
+use convergence_study::left_out;
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
 /// A factor for which the map's iterations suffice, with a margin for the mean force, which is not
@@ -82,7 +83,7 @@ impl MapResults<'_> {
         quantities.push(Quantity::new(name, converged as f64, 1e-2).about(subject));
         Outcome {
             headline: format!("{boundary}, {residual}").into(),
-            coverage: self.coverage(),
+            left_out: self.left_out(),
             tables: lines.table().into_iter().collect(),
             figures: self.figures(),
             quantities,
@@ -104,7 +105,7 @@ impl MapResults<'_> {
     }
 
     /// The points and boundaries that each statement judges.
-    fn coverage(&self) -> Vec<Coverage> {
+    fn left_out(&self) -> Vec<String> {
         let count = self.count();
         let convergence = self.points().map(|point| {
             let between = prediction(&point.step).is_none();
@@ -115,15 +116,16 @@ impl MapResults<'_> {
             failed.then_some("no step by Newton's method")
         });
         let boundaries = self.lines.iter().map(|line| line.not_alone());
-        vec![
-            Coverage::with_total("points for convergence", count, convergence),
-            Coverage::with_total("points for the balance", count, balance),
-            Coverage::with_total(
+        let lines = self.map.lines.len();
+        let all = [
+            left_out("points for convergence", with_all(count, convergence)),
+            left_out("points for the balance", with_all(count, balance)),
+            left_out(
                 "boundaries for alpha = 1 alone",
-                self.map.lines.len(),
-                boundaries,
+                with_all(lines, boundaries),
             ),
-        ]
+        ];
+        all.into_iter().flatten().collect()
     }
 
     fn complete(&self) -> Check {

@@ -158,6 +158,16 @@ impl FromFile for Solvers {
     }
 }
 
+/// The reasons why items are not judged, with those of cases that have no result.
+fn with_all<'r>(
+    count: usize,
+    reasons: impl Iterator<Item = Option<&'r str>>,
+) -> Vec<Option<&'r str>> {
+    let mut reasons: Vec<_> = reasons.collect();
+    reasons.resize(count.max(reasons.len()), Some("without a result"));
+    reasons
+}
+
 /// At least one number > 0.
 fn numbers(path: &str, list: &[Positive]) -> Result<Vec<f64>, Refusal> {
     if list.is_empty() {

@@ -4,7 +4,7 @@ use super::{EPSILONS, LIMIT, RunOf, ShownImpact, figures, impact_time, peak_pene
 use crate::kinds::runs::checks::largest_difference;
 use crate::studies::prelude::*;
 use convergence_judge::text::number::{min_or_nan, rate_text};
-use convergence_study::{Axis, Claim, Coverage, ErrorColumn, Levels, NamedRate, Refinement};
+use convergence_study::{Axis, Claim, ErrorColumn, Levels, NamedRate, Refinement, left_out};
 
 /// Contraction above which a time step averages over the whole impact, so that the penetration is
 /// of order 1.
@@ -163,7 +163,7 @@ pub(super) fn judge(shown: &[(&(f64, RunOf), &ShownImpact)]) -> Findings {
             figures::tip(&compliances, limit),
             figures::contractions(&compliances),
         ],
-        coverage: coverage(&compliances),
+        left_out: not_judged(&compliances),
         ..Findings::default()
     }
 }
@@ -282,8 +282,8 @@ fn rate(
     Levels::new(Axis::Both, levels, [ErrorColumn::new(name, claim, errors)]).judge()
 }
 
-/// The compliances that each statement judges; the orders have ranges of their own.
-fn coverage(compliances: &[Compliance<'_>]) -> Vec<Coverage> {
+/// The compliances that each statement does not judge; the orders have ranges of their own.
+fn not_judged(compliances: &[Compliance<'_>]) -> Vec<String> {
     let mut unresolved = vec![];
     let mut stiff = vec![];
     let mut iterated = vec![];
@@ -295,10 +295,11 @@ fn coverage(compliances: &[Compliance<'_>]) -> Vec<Coverage> {
         iterated.push(is_near_one.then_some("α just below 1"));
         factors.push(compliance.factor_left_out());
     }
-    vec![
-        Coverage::of("compliances on a fixed grid for an order", unresolved),
-        Coverage::of("compliances at rest and in an impact for an order", stiff),
-        Coverage::of("compliances for the end of convergence", iterated),
-        Coverage::of("compliances for the factor α", factors),
-    ]
+    let all = [
+        left_out("compliances on a fixed grid for an order", unresolved),
+        left_out("compliances at rest and in an impact for an order", stiff),
+        left_out("compliances for the end of convergence", iterated),
+        left_out("compliances for the factor α", factors),
+    ];
+    all.into_iter().flatten().collect()
 }

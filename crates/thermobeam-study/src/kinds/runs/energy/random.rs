@@ -29,8 +29,8 @@ use crate::{
     scene::limits,
 };
 use convergence_study::{
-    Coverage,
     chart::{self, Cells, Chart},
+    left_out,
 };
 use thermobeam::{
     kirchhoff::BUCKLING,
@@ -176,7 +176,7 @@ impl Runs for RandomScenes {
             ),
             headline: format!("{headline}; largest residual {largest}"),
             checks,
-            coverage: vec![total.coverage()],
+            left_out: total.left_out().into_iter().collect(),
             tables: vec![counts, self.table(&listed)],
             figures: vec![residuals(&total.scenes, closes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
@@ -281,7 +281,7 @@ fn is_definite(beam: &Beam, dt: f64) -> bool {
 impl Batch {
     /// The scenes that are judged to their last step; the others are judged up to the step that
     /// fails.
-    fn coverage(&self) -> Coverage {
+    fn left_out(&self) -> Option<String> {
         let [answers, indefinite, others] = self.ended();
         let mut reasons = vec![None; answers];
         reasons.extend(vec![
@@ -289,7 +289,7 @@ impl Batch {
             indefinite
         ]);
         reasons.extend(vec![Some("ended by another failure"); others]);
-        Coverage::of("scenes to their last step", reasons)
+        left_out("scenes to their last step", reasons)
     }
 
     /// The sum of both.

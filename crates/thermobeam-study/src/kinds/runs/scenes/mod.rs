@@ -233,16 +233,19 @@ impl Runs for Scenes {
             summary: headline.clone(),
             headline,
             checks,
-            coverage: vec![
-                results.coverage("scenes against an answer", |place, _| {
+            left_out: [
+                results.left_out("scenes against an answer", |place, _| {
                     let unknown = self.scenes[*place].answer.numbers.is_empty();
                     unknown.then_some("with bounds or an end only")
                 }),
-                results.coverage("scenes in lanes", |_, shown| {
+                results.left_out("scenes in lanes", |_, shown| {
                     let alone = shown.alike_in_lanes.is_none();
                     alone.then_some("without a scheme that runs in lanes")
                 }),
-            ],
+            ]
+            .into_iter()
+            .flatten()
+            .collect(),
             ..Findings::default()
         }
     }

@@ -269,9 +269,12 @@ impl Runs for EnergyRuns {
             ),
             headline,
             checks,
-            coverage: vec![results.coverage("runs for the balance", |_, found| {
-                (found.steps == 0).then_some("without a step")
-            })],
+            left_out: results
+                .left_out("runs for the balance", |_, found| {
+                    (found.steps == 0).then_some("without a step")
+                })
+                .into_iter()
+                .collect(),
             tables: self.balance(&drawn).into_iter().collect(),
             figures: self.figure(&drawn).into_iter().collect(),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],

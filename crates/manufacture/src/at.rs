@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
-use crate::language::names::did_you_mean;
+use crate::language::names::unknown;
 use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 
@@ -19,9 +19,7 @@ struct PointTable {
 fn places(variables: &[&str], head: &[&str]) -> Result<Vec<usize>, String> {
     let known: Vec<&str> = variables.iter().copied().chain(["face"]).collect();
     if let Some(name) = head.iter().find(|name| !known.contains(name)) {
-        let near = did_you_mean(name, known.iter().copied());
-        let known = known.join(" ");
-        return Err(format!("unknown column `{name}`{near}; expected {known}"));
+        return Err(unknown("column", name, &known));
     }
     let mut places = vec![];
     for variable in variables {
@@ -69,12 +67,14 @@ fn read(model: &Model, text: &str, file: &str) -> Result<PointTable, InputError>
             point.push(value);
         }
         let name = face.map_or("", |place| cells[place]);
-        let mut known = model.problem.faces.iter();
-        if !name.is_empty() && !known.any(|face| face.name == name) {
-            let known = model.problem.faces.iter().map(|face| face.name.as_str());
-            let near = did_you_mean(name, known);
-            let problem = format!("unknown face `{name}`{near}");
-            return Err(InputError::at_line(file, line + 1, problem));
+        let known = model.problem.faces.iter().map(|face| face.name.as_str());
+        let known: Vec<&str> = known.collect();
+        if !name.is_empty() && !known.contains(&name) {
+            return Err(InputError::at_line(
+                file,
+                line + 1,
+                unknown("face", name, &known),
+            ));
         }
         table.points.push(point);
         table.faces.push(name.to_owned());

@@ -28,7 +28,7 @@ use serde::Serialize;
 
 use crate::Sampling;
 use crate::derive::{Part, Role};
-use crate::language::names::did_you_mean;
+use crate::language::names::unknown;
 use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 use crate::sample::Sampler;
@@ -129,9 +129,7 @@ pub(crate) fn questions(
                     .iter()
                     .map(|face| face.name.as_str())
                     .collect();
-                let near = did_you_mean(name, known.iter().copied());
-                let known = known.join(" ");
-                let text = format!("unknown face `{name}`{near}; expected one of {known}");
+                let text = unknown("face", name, &known);
                 return Err(InputError::whole(&problem.file, text));
             }
         },

@@ -6,7 +6,7 @@ use super::space::{Basis, Space};
 use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::Algebra;
 use crate::language::MAX_DEPTH;
-use crate::language::names::{CONSTANTS, Callee, Operator, Piecewise, did_you_mean};
+use crate::language::names::{CONSTANTS, Callee, Operator, Piecewise, unknown};
 use crate::language::tree::{Binary, Relation, Tree, TreeKind, callee_name};
 use crate::problem::{Expression, InputError, Problem, TensorValue};
 
@@ -161,10 +161,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             .chain(parameters)
             .chain(problem.definitions.keys().map(String::as_str))
             .collect();
-        let near = did_you_mean(name, known.iter().copied());
-        let known = known.join(" ");
-        let problem = format!("unknown name `{name}`{near}; expected one of {known}");
-        refused(within, tree, problem)
+        refused(within, tree, unknown("name", name, &known))
     }
 
     fn defined(

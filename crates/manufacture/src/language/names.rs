@@ -158,6 +158,17 @@ pub(crate) fn name_in<T: PartialEq>(table: &[(&'static str, T)], value: &T) -> &
     entry.map_or("", |entry| entry.0)
 }
 
+/// What is wrong with a name that is none of those known.
+///
+/// * `what`: `key`, `face`, `parameter`.
+pub fn unknown(what: &str, name: &str, known: &[&str]) -> String {
+    let near = did_you_mean(name, known.iter().copied());
+    format!(
+        "unknown {what} `{name}`{near}; expected one of {}",
+        known.join(" ")
+    )
+}
+
 /// The part of a message about an unknown name that suggests a known one; empty without a
 /// suggestion.
 pub fn did_you_mean<'c>(name: &str, known: impl IntoIterator<Item = &'c str>) -> String {

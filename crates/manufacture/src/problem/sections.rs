@@ -10,7 +10,7 @@ use super::{
     Location, Parameter, Problem, Surface, System, TensorValue, constant,
 };
 use crate::language::is_of_name;
-use crate::language::names::{did_you_mean, reserved};
+use crate::language::names::{did_you_mean, reserved, unknown};
 
 impl Problem {
     /// Reads the text of a file.
@@ -74,9 +74,7 @@ impl Problem {
             .collect();
         for Located { span, value: name } in &table.parameters {
             if !known.contains(&name.as_str()) {
-                let near = did_you_mean(name, known.iter().copied());
-                let known = known.join(" ");
-                let problem = format!("unknown parameter `{name}`{near}; expected one of {known}");
+                let problem = unknown("parameter", name, &known);
                 return Err(reader.location("variants.parameters", span).error(problem));
             }
             self.switchable.push(name.clone());
@@ -292,9 +290,7 @@ fn known_only<T>(
     {
         None => Ok(()),
         Some((name, entry)) => {
-            let near = did_you_mean(name, known.iter().copied());
-            let known = known.join(" ");
-            let problem = format!("unknown key `{name}`{near}; expected one of {known}");
+            let problem = unknown("key", name, known);
             Err(reader
                 .location(format!("{table}.{name}"), &entry.span)
                 .error(problem))

@@ -168,7 +168,7 @@ const REFUSED: [(&str, &str); 89] = [
     ("manufacture heat.toml --at missing", NO_FILE),
     (
         "manufacture heat.toml --at rates.csv",
-        "unknown column `h`; expected x face",
+        "unknown column `h`; expected one of x face",
     ),
     (
         "manufacture heat.toml --against no-such-program",

@@ -371,7 +371,7 @@ fn a_step_by_dg_is_in_contact_if_the_free_end_touches_an_obstacle_in_all_of_it()
 }
 
 #[test]
-fn a_curve_has_each_of_its_times_once_for_any_steps() {
+fn the_first_experiment_by_dg_has_its_events_and_a_curve_each_time_once() {
     let run = run(
         &located("t_end = 1.0", "0.01*x*(x-2)"),
         Recording::Curve(100),
@@ -386,4 +386,12 @@ fn a_curve_has_each_of_its_times_once_for_any_steps() {
         "{extremes:?}"
     );
     assert_eq!(run.contact.as_ref().unwrap().events.len(), 3);
+    let phases = run.contact_phases();
+    let (start, end) = phases[0];
+    assert!((start - 0.203_413_276).abs() < 1e-7 && (end - 0.648_169_461).abs() < 1e-7);
+    assert_eq!(phases[1].1, 1.0);
+    // E falls in every step and its balance closes to round-off.
+    let energy = run.energy;
+    assert!(energy.largest_increase < 0.0);
+    assert!(energy.largest_balance_residual < 1e-12 * energy.initial);
 }

@@ -219,6 +219,7 @@ fn only_the_named_parameters_are_set_to_zero() {
         .iter()
         .filter(|variant| matches!(variant.switch, Switch::Parameter(_)));
     assert_eq!(zero.count(), 1);
+    assert_eq!(variants.base.part(Part::Initial).len(), 1);
     let wrong = text.replace("[\"b\"]", "[\"d\"]");
     let error = Problem::parse(&wrong, "heat.toml").unwrap_err().to_string();
     assert!(error.contains("unknown parameter `d`"), "{error}");

@@ -1,5 +1,5 @@
-//! What the other crates of this workspace use besides the published names, and what tests look
-//! at. **No promise of stability**: any version may change any item.
+//! Tables of errors, for the Python package and for the page in a browser, which word refusals in
+//! their own way. **No promise of stability**: any version may change any item.
 
 #[cfg(feature = "files")]
 pub mod input {

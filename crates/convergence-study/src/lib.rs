@@ -209,6 +209,7 @@ pub mod atomic {
 #[cfg(all(doctest, feature = "command-line"))]
 #[doc = include_str!("../README.md")]
 #[doc = include_str!("../book/src/rust.md")]
+#[doc = include_str!("../book/src/solver.md")]
 #[doc = include_str!("../book/src/gradients.md")]
 #[doc = include_str!("../book/src/kinds.md")]
 #[doc = include_str!("../book/src/scatter.md")]

@@ -49,7 +49,7 @@ use std::ops::Range;
 use crate::judge::verdict::PowerLaw;
 #[cfg(feature = "reports")]
 pub(crate) use page::titled_by_verdict;
-#[cfg(feature = "command-line")]
+#[cfg(any(feature = "command-line", test))]
 pub(crate) use page::without_title;
 #[cfg(feature = "reports")]
 pub(crate) use rows::deviations;

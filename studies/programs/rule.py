@@ -57,7 +57,7 @@ def interval(x, y, q):
 
 def scattered(x, y, changes):
     """Step 5: the number of finest levels that scatter, and their interval."""
-    for n in range(len(x), 5, -1):
+    for n in range(min(len(x), 30), 5, -1):
         last = changes[-(n - 2):]
         xs, ys = units(x[-n:], y[-n:])
         if sum(a * b < 0 for a, b in zip(last, last[1:])) < 2 / 5 * (n - 3):

@@ -68,7 +68,7 @@ impl<'a> Reading<'a> {
         };
         let end = range.end;
         let rates = Rates::of(&sequence[..end]);
-        let scattered = Scattered::of(&sequence[..end], &rates);
+        let scattered = Scattered::of(&sequence[..end]);
         let range = scattered.map_or(range, |scattered| end - scattered.count..end);
         let start = if range.len() < FEWEST_LEVELS {
             end.saturating_sub(FEWEST_LEVELS)

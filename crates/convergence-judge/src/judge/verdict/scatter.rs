@@ -9,6 +9,8 @@ use crate::judge::fit::{FACTOR, Level, RateInterval, RegressionLine, RegressionL
 
 /// Fewest levels of which scatter is told from a trend.
 const FEWEST: usize = 6;
+/// Most: the time that is taken grows with the square of the number.
+const MOST: usize = 30;
 /// Least share of the pairs of consecutive changes of the rate that have opposite signs. Of
 /// independent numbers most have; of pollution, plateaus and lower orders none.
 const TURNS: f64 = 0.4;
@@ -34,8 +36,9 @@ impl Scattered {
     /// The most finest levels that scatter about one power.
     ///
     /// * `levels`: above the floor, coarsest first.
-    /// * `rates`: between them.
-    pub(super) fn of(levels: &[Level], rates: &Rates) -> Option<Self> {
+    pub(super) fn of(levels: &[Level]) -> Option<Self> {
+        let levels = &levels[levels.len().saturating_sub(MOST)..];
+        let rates = Rates::of(levels);
         let counts = (FEWEST..=levels.len()).rev();
         let mut turning = counts.filter(|&count| {
             let pairs = (count - 3) as f64;
@@ -101,7 +104,7 @@ mod tests {
     }
 
     fn count_of(levels: &[Level]) -> Option<usize> {
-        Scattered::of(levels, &Rates::of(levels)).map(|scattered| scattered.count)
+        Scattered::of(levels).map(|scattered| scattered.count)
     }
 
     /// The numbers of another program.
@@ -142,6 +145,16 @@ mod tests {
         assert_eq!(count_of(&bend), None, "a bend far above the scatter");
         let grows = levels(8, |h, s| h * h * (0.002 / h * s).exp());
         assert_eq!(count_of(&grows), None, "scatter of two sizes");
+    }
+
+    #[test]
+    fn of_many_levels_the_finest_thirty_count() {
+        let level = |k: usize| Level {
+            step: 0.9_f64.powi(k as i32),
+            error: (0.02 * SCATTER[k % 8]).exp() * 0.9_f64.powi(2 * k as i32),
+        };
+        let many: Vec<Level> = (0..1000).map(level).collect();
+        assert_eq!(count_of(&many), Some(MOST));
     }
 
     #[test]

@@ -68,7 +68,7 @@ impl<'a> Reading<'a> {
         };
         let end = range.end;
         let rates = Rates::of(&sequence[..end]);
-        let scattered = Scattered::of(&sequence[..end]);
+        let scattered = Scattered::of(&sequence[..end], &rates);
         let range = scattered.map_or(range, |scattered| end - scattered.count..end);
         let start = if range.len() < FEWEST_LEVELS {
             end.saturating_sub(FEWEST_LEVELS)
@@ -276,7 +276,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Steps 7 to 9: the trend of the rates, and the interval against the band.
+    /// Steps 6 to 8: the trend of the rates, and the interval against the band.
     fn compare(&self, interval: Interval, order: f64, tolerance: f64) -> Reason {
         let rates = &self.rates;
         if !self.is_scattered && rates.departs(tolerance) && !rates.approaches(order, tolerance) {

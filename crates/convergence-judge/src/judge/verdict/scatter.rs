@@ -1,13 +1,13 @@
 //! Errors that scatter about one power of the step: each level tells as much as any other, and all
 //! of them count.
 //!
-//! [The rule](crate::judge::verdict), step 6, states what is computed here, and what each constant
+//! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant
 //! buys.
 
 use super::trend::Rates;
 use crate::judge::fit::{FACTOR, Level, RateInterval, RegressionLine, RegressionLines};
 
-/// Fewest levels of which scatter is told from a trend.
+/// Fewest levels on which scatter can be distinguished from a trend.
 const FEWEST: usize = 6;
 /// Most: the time that is taken grows with the square of the number.
 const MOST: usize = 30;
@@ -36,10 +36,9 @@ impl Scattered {
     /// The most finest levels that scatter about one power.
     ///
     /// * `levels`: above the floor, coarsest first.
-    pub(super) fn of(levels: &[Level]) -> Option<Self> {
-        let levels = &levels[levels.len().saturating_sub(MOST)..];
-        let rates = Rates::of(levels);
-        let counts = (FEWEST..=levels.len()).rev();
+    /// * `rates`: between them.
+    pub(super) fn of(levels: &[Level], rates: &Rates) -> Option<Self> {
+        let counts = (FEWEST..=levels.len().min(MOST)).rev();
         let mut turning = counts.filter(|&count| {
             let pairs = (count - 3) as f64;
             rates.turns_of_finest(count) as f64 >= TURNS * pairs
@@ -58,21 +57,23 @@ impl Scattered {
 fn rate_of(levels: &[Level]) -> Option<RateInterval> {
     let lines = RegressionLines::of(levels)?;
     let straight = lines.straight;
+    if straight.variance.sqrt() > LARGEST || !is_of_one_size(levels)? {
+        return None;
+    }
     let polluted = lines.polluted();
     let bends = |line: &RegressionLine| {
         straight.sum_of_squares() - line.sum_of_squares() > BEND * line.variance
     };
-    let is_scattered = straight.variance.sqrt() <= LARGEST
-        && is_of_one_size(levels)?
-        && !polluted.iter().any(bends);
+    if polluted.iter().any(bends) {
+        return None;
+    }
     let half = polluted
         .iter()
         .map(|line| (line.rate - straight.rate).abs())
         .fold(FACTOR * straight.half_width(), f64::max);
-    let rate = straight.with_half_width(half).filter(|_| is_scattered)?;
     Some(RateInterval {
         residual: lines.residual_of_finest(),
-        ..rate
+        ..straight.with_half_width(half)?
     })
 }
 
@@ -104,7 +105,7 @@ mod tests {
     }
 
     fn count_of(levels: &[Level]) -> Option<usize> {
-        Scattered::of(levels).map(|scattered| scattered.count)
+        Scattered::of(levels, &Rates::of(levels)).map(|scattered| scattered.count)
     }
 
     /// The numbers of another program.

@@ -89,6 +89,11 @@ impl Rates {
 
     /// Changes of the rate between one refinement and the next; zero if rounding explains it.
     fn changes(&self) -> Vec<f64> {
+        self.changes_from(0)
+    }
+
+    /// The same of the rates from the first one on.
+    fn changes_from(&self, first: usize) -> Vec<f64> {
         let change = |(k, pair): (usize, &[f64])| {
             let change = pair[1] - pair[0];
             if change.abs() <= self.round_off(k..k + 2) {
@@ -97,7 +102,8 @@ impl Rates {
                 change
             }
         };
-        self.values.windows(2).enumerate().map(change).collect()
+        let pairs = self.values.windows(2).enumerate();
+        pairs.skip(first).map(change).collect()
     }
 
     /// How far the rates scatter: the largest cancelling part of two consecutive changes of opposite
@@ -118,9 +124,9 @@ impl Rates {
     /// How many pairs of consecutive changes of the rates of the finest levels, this many, have
     /// opposite signs.
     pub(super) fn turns_of_finest(&self, levels: usize) -> usize {
-        let changes = self.changes();
-        let finest = &changes[changes.len().saturating_sub(levels - 2)..];
-        let turns = finest.windows(2).filter(|pair| pair[0] * pair[1] < 0.0);
+        let rates = levels - 1;
+        let changes = self.changes_from(self.values.len().saturating_sub(rates));
+        let turns = changes.windows(2).filter(|pair| pair[0] * pair[1] < 0.0);
         turns.count()
     }
 

@@ -179,7 +179,7 @@ impl Results {
             .zip(&self.samples)
             .map(|(ran, samples)| SampledLevel {
                 label: ran.case.label.clone(),
-                samples: named(samples),
+                samples: Ok(named(samples)),
             });
         Sampled(sampled.collect()).judging(levels, &|name| self.options.of(name))
     }
@@ -229,7 +229,7 @@ impl Options {
     pub(crate) fn made_of(&self, samples: &[NamedErrors]) -> PyResult<NamedErrors> {
         let level = SampledLevel {
             label: String::new(),
-            samples: named(samples),
+            samples: Ok(named(samples)),
         };
         let made = Sampled(vec![level]).errors(&|name| self.of(name));
         let made: Result<Vec<_>, _> = made.into_iter().collect();

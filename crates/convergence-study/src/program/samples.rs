@@ -7,36 +7,33 @@ use crate::study::sampled::{Sampled, SampledLevel};
 use crate::study::{Case, CaseFailure, Ran};
 use crate::text::number::counted;
 
-/// One answer for each level, whose errors are made of its samples; and the samples of the levels
-/// that have one. A level of which a sample has failed has none.
+/// One answer for each level, whose errors are made of its samples; and these samples. A level of
+/// which a sample has failed has none.
 ///
 /// * `count`: how many samples a level has, which follow each other.
 pub(super) fn levels(study: &Program, ran: &[CaseRun], count: usize) -> (Vec<CaseRun>, Sampled) {
     let answers: Vec<Result<Vec<&Answer>, CaseFailure>> = ran.chunks(count).map(whole).collect();
     let resolutions = study.refine.resolutions();
-    let whole = resolutions.iter().zip(&answers);
-    let sampled = whole.filter_map(|(data, answers)| {
-        let samples = answers.as_ref().ok()?.iter();
-        Some(SampledLevel {
-            label: data.label.clone(),
-            samples: samples.map(|one| one.errors.clone()).collect(),
-        })
+    let levels = resolutions.iter().zip(&answers);
+    let levels = levels.map(|(data, answers)| SampledLevel {
+        label: data.label.clone(),
+        samples: match answers {
+            Ok(answers) => Ok(answers.iter().map(|one| one.errors.clone()).collect()),
+            Err(failure) => Err(failure.clone()),
+        },
     });
-    let sampled = Sampled(sampled.collect());
-    let mut made = sampled.errors(&|name| study.of(name)).into_iter();
-    let levels = resolutions
-        .into_iter()
-        .zip(answers)
-        .map(|(data, answers)| Ran {
-            found: answers.and_then(|answers| {
-                let errors = made.next().unwrap_or_else(|| Ok(vec![]))?;
-                Ok(Answer {
-                    errors,
-                    ..of_all(&answers)
-                })
-            }),
-            case: Case::new(data.label.clone(), data.cost(), data),
-        });
+    let sampled = Sampled(levels.collect());
+    let made = sampled.errors(&|name| study.of(name));
+    let levels = resolutions.into_iter().zip(answers).zip(made);
+    let levels = levels.map(|((data, answers), errors)| Ran {
+        found: answers.and_then(|answers| {
+            Ok(Answer {
+                errors: errors?,
+                ..of_all(&answers)
+            })
+        }),
+        case: Case::new(data.label.clone(), data.cost(), data),
+    });
     (levels.collect(), sampled)
 }
 

@@ -115,31 +115,24 @@ where
             return Outcome::new("too few samples", vec![], vec![check]);
         }
         let of = |name: &str| self.of(name);
-        let mut sampled = Sampled(vec![]);
         let counts = self.levels.counts.iter();
+        let levels = counts.zip(ran.chunks(self.samples));
+        let levels = levels.map(|(&count, ran)| SampledLevel {
+            label: self.levels.label(count),
+            samples: ran.iter().map(|ran| ran.found.clone()).collect(),
+        });
+        let sampled = Sampled(levels.collect());
         let mut levels: Vec<Ran<usize, Vec<NamedNumber>>> = vec![];
-        for (&count, ran) in counts.zip(ran.chunks(self.samples)) {
-            let label = self.levels.label(count);
-            let samples = ran.iter().map(|ran| ran.found.clone()).collect();
-            levels.push(Ran {
-                case: Case::new(label.clone(), count as f64, count),
-                found: match samples {
-                    Ok(samples) => {
-                        sampled.0.push(SampledLevel { label, samples });
-                        Ok(vec![])
-                    }
-                    Err(failure) => Err(failure),
-                },
-            });
-        }
-        let whole = levels.iter_mut().filter(|level| level.found.is_ok());
         let mut mixed = vec![];
-        for (level, made) in whole.zip(sampled.errors(&of)) {
-            if let Err(failure) = &made {
-                let evidence = format!("{}: {}", level.case.label, failure.reason);
+        let made = sampled.0.iter().zip(sampled.errors(&of));
+        for (&count, (level, found)) in self.levels.counts.iter().zip(made) {
+            let label = level.label.clone();
+            if let (Ok(_), Err(failure)) = (&level.samples, &found) {
+                let evidence = format!("{label}: {}", failure.reason);
                 mixed.push(Check::that(false, "a level has one step", evidence));
             }
-            level.found = made;
+            let case = Case::new(label, count as f64, count);
+            levels.push(Ran { case, found });
         }
         let judged = sampled.judging(self.levels.levels(&levels), &of);
         let mut outcome = self.levels.outcome_of(&judged, ran);

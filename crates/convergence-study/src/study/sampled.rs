@@ -13,11 +13,11 @@ use crate::text::named::NamedNumber;
 pub struct SampledLevel {
     /// The label of its [refinement](super::over_levels::Refinement).
     pub label: String,
-    /// The errors by name, one list for each seed.
-    pub samples: Vec<Vec<NamedNumber>>,
+    /// The errors by name, one list for each seed; why it has none, where a sample failed.
+    pub samples: Result<Vec<Vec<NamedNumber>>, CaseFailure>,
 }
 
-/// The levels that have all their samples, in any order.
+/// The levels, in any order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled(pub Vec<SampledLevel>);
 
@@ -25,9 +25,9 @@ pub struct Sampled(pub Vec<SampledLevel>);
 type OfName<'o> = &'o dyn Fn(&str) -> Option<Of>;
 
 impl SampledLevel {
-    /// The numbers of a name; NaN where a seed has none.
+    /// The numbers of a name, if it has all samples; NaN where a seed has none.
     fn numbers(&self, name: &str) -> Vec<f64> {
-        let samples = self.samples.iter();
+        let samples = self.samples.iter().flatten();
         let number = |errors: &Vec<NamedNumber>| NamedNumber::find(errors, name);
         samples
             .map(|errors| number(errors).unwrap_or(f64::NAN))
@@ -55,12 +55,12 @@ impl Sampled {
     /// The errors of each level by name, with its step, if it reports one.
     ///
     /// # Errors
-    /// [`CaseFailure`] of a level whose samples report different steps.
+    /// [`CaseFailure`] of a level whose samples have failed or report different steps.
     pub fn errors(&self, of: OfName<'_>) -> Vec<Result<Vec<NamedNumber>, CaseFailure>> {
         let all = self
             .0
             .iter()
-            .flat_map(|level| level.samples.iter().flatten());
+            .flat_map(|level| level.samples.iter().flatten().flatten());
         let names = distinct(all.map(|error| error.name.as_str()));
         let ways: Vec<(&str, Of)> = names
             .into_iter()
@@ -92,6 +92,9 @@ impl Sampled {
 
 /// * `ways`: how samples make the error of each name.
 fn errors_of(level: &SampledLevel, ways: &[(&str, Of)]) -> Result<Vec<NamedNumber>, CaseFailure> {
+    if let Err(failure) = &level.samples {
+        return Err(failure.clone());
+    }
     let mut errors = vec![];
     for &(name, of) in ways {
         let numbers = level.numbers(name);
